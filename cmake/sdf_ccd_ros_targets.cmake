@@ -1,0 +1,26 @@
+# The ROS layer: the nodelet's library, the node that loads it, launch files.
+file(GLOB SDF_CCD_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
+list(FILTER SDF_CCD_ROS_SOURCES EXCLUDE REGEX "_node\\.cpp$")
+file(GLOB SDF_CCD_NODE_SOURCES CONFIGURE_DEPENDS src/ros/*_node.cpp)
+
+if(SDF_CCD_ROS_SOURCES)
+  add_library(sdf_ccd_ros SHARED ${SDF_CCD_ROS_SOURCES})
+  add_dependencies(sdf_ccd_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+  target_include_directories(sdf_ccd_ros PUBLIC src)
+  target_include_directories(sdf_ccd_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+  target_link_libraries(sdf_ccd_ros sdf_ccd_core ${catkin_LIBRARIES})
+  install(TARGETS sdf_ccd_ros LIBRARY DESTINATION ${SDF_CCD_LIB_DIR})
+endif()
+
+foreach(source ${SDF_CCD_NODE_SOURCES})
+  get_filename_component(node ${source} NAME_WE)
+  string(REGEX REPLACE "_node$" "" node ${node})
+  add_executable(sdf_ccd_${node} ${source})
+  set_target_properties(sdf_ccd_${node} PROPERTIES OUTPUT_NAME ${node})
+  target_include_directories(sdf_ccd_${node} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(sdf_ccd_${node} ${catkin_LIBRARIES})
+  install(TARGETS sdf_ccd_${node} RUNTIME DESTINATION ${SDF_CCD_BIN_DIR})
+endforeach()
+
+install(FILES nodelet_plugins.xml package.xml DESTINATION ${SDF_CCD_SHARE_DIR})
+install(DIRECTORY launch DESTINATION ${SDF_CCD_SHARE_DIR})

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "sdf_ccd/contact/wrench.h"
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/motion/chords.h"
+#include "sdf_ccd/query/shell_query.h"
+#include "sdf_ccd/shell/point_shell.h"
+
+namespace sdf_ccd {
+
+enum class StiffnessPer { kArea, kPoint };
+enum class NormalSource { kField, kShell };
+enum class Quadrature { kExact, kMidpoint };
+
+/// The contact model (paper §4).
+struct ContactOptions {
+  StiffnessPer stiffness_per = StiffnessPer::kArea;
+  double stiffness = 1e8;  ///< k: per area [N/m³] (elastic foundation) or per point [N/m] (the paper)
+  double damping = 0.0;    ///< k_D: per area [N·s/m³] or per point [N·s/m]; 0 leaves the damping term out
+  NormalSource normal = NormalSource::kField;
+  Quadrature quadrature = Quadrature::kExact;
+  int midpoint_intervals = 20;  ///< of the midpoint rule, per contact interval (paper §4: 20)
+};
+
+/// Throws std::invalid_argument, with the value, for a stiffness or damping that is negative or not finite, or a
+/// count below 1.
+void validate(const ContactOptions& options);
+
+/// Another part of the body that carries the field. Where it is the deeper one, the contact is its own, so that a
+/// point inside two overlapping parts counts once.
+struct SiblingField {
+  const DistanceField* field;
+  Isometry3d X_GF;    ///< from this field's frame F to the sibling's G
+  bool wins_tie;      ///< takes the contact if both are equally deep
+};
+
+/// One shell against one field, after shellIntervals() with σ = 0.
+struct ContactInput {
+  const DistanceField& field;
+  const PointShell& shell;
+  const ChordPath& path;                       ///< X_FP
+  const std::vector<Isometry3d>& X_CF;         ///< F in an unaccelerated frame C: at start and end of every chord
+  const std::vector<SiblingField>& siblings;
+};
+
+/// Where a hit is deepest.
+struct HitDepth {
+  double depth = 0.0;       ///< [m], positive inside
+  double time = 0.0;        ///< [s]
+  Vector3d p_C;             ///< contact point [m], frame C
+  Vector3d normal_C;        ///< unit, out of the field's body
+};
+
+/// Impulses over all hits.
+struct ContactImpulse {
+  Wrench on_shell_body;         ///< I [N·s] and M about C's origin [N·m·s] on P; on F it is the opposite (Eq. 6, 7)
+  std::vector<HitDepth> depths; ///< one per hit
+};
+
+/// Integrates penalty force F = −k d N (N out of the field's body, d < 0 inside) and damping force −k_D v_rel over
+/// the hits (paper Eq. 3–11; signs as in design §3.6). Divide by the cycle's length for the average (Eq. 8, 9).
+/// The exact rule is three-point Gauss on each cell's piece, with N linear along the piece (design §3.9); the
+/// midpoint rule is the paper's. Reuses the memory of `result`.
+/// @param with_impulse  false leaves the integrals out and finds depths only.
+void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,
+                      bool with_impulse, ContactImpulse& result);
+
+}  // namespace sdf_ccd

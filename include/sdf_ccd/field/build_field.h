@@ -1,0 +1,17 @@
+#pragma once
+
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// Samples the signed distance to a mesh (paper §3, Table 1): exact closest points, signs from the winding number.
+///
+/// Uses all threads of the caller's TBB arena; the result does not depend on their number.
+/// @param mesh  frame F, oriented (see orientOutward()); where it is open the sign is the winding number's.
+/// @throws std::invalid_argument for a mesh or options that are not valid.
+/// @throws std::length_error if the field would exceed options.max_bytes.
+DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress = {});
+
+}  // namespace sdf_ccd

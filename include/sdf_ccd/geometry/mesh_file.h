@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// Reads a mesh through assimp: STL (binary also when it begins with `solid`; ASCII), DAE, OBJ, OFF, PLY and
+/// whatever else assimp knows. Lines and points are ignored; vertices at the same place are welded.
+///
+/// DAE lies where rviz draws it: `<unit meter="…">` is applied, the file's up-axis is not.
+/// @param bytes  the whole file's content.
+/// @param name   the file's name; its ending chooses the format, and it appears in errors.
+/// @return triangles [m], in the file's frame; every triangle with finite corners.
+/// @throws std::runtime_error naming the file and the reason: unreadable, truncated, no triangle, not finite.
+TriangleMesh parseMesh(const std::string& bytes, const std::string& name);
+
+/// The same from a file on disk.
+TriangleMesh loadMesh(const std::string& path);
+
+}  // namespace sdf_ccd

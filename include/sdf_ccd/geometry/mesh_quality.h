@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// What is known of a mesh before a field is made of it.
+struct MeshQuality {
+  int triangles = 0;
+  int degenerate_triangles = 0;   ///< without area
+  int components = 0;             ///< connected over shared edges
+  int boundary_edges = 0;         ///< used by one triangle
+  int non_manifold_edges = 0;     ///< used by more than two
+  int misoriented_edges = 0;      ///< neighbours that disagree about the outside
+  int inverted_components = 0;    ///< closed components that were inside out (turned round by orientOutward())
+  double volume = 0.0;            ///< signed, of the oriented mesh [m³]
+  double area = 0.0;              ///< [m²]
+  AlignedBox3d box;               ///< [m]
+  bool sign_trusted = false;      ///< closed after orientation: inside and outside are beyond doubt
+};
+
+struct OrientedMesh {
+  TriangleMesh mesh;
+  MeshQuality quality;
+};
+
+/// Turns triangles so that neighbours agree and every closed component encloses positive volume, except cavities:
+/// components that lie inside another one and already point inwards. Duplicate triangles are dropped.
+/// The quality report describes what was found on the way.
+/// @throws std::invalid_argument if the mesh is not valid (see validate()).
+OrientedMesh orientOutward(const TriangleMesh& mesh);
+
+/// One line for people: "300 triangles, closed, volume 1.2e-3 m³, sign trusted".
+std::string summary(const MeshQuality& quality);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <variant>
+
+#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+struct Sphere {
+  double radius;  ///< [m], about the origin
+};
+
+struct Box {
+  Vector3d half_size;  ///< [m], about the origin
+};
+
+struct Cylinder {
+  double radius;       ///< [m]
+  double half_length;  ///< [m], along z, about the origin
+};
+
+/// All points with normal·p ≤ offset: the ground is {(0,0,1), 0}.
+struct HalfSpace {
+  Vector3d normal;  ///< unit, points out of the solid
+  double offset;    ///< [m]
+};
+
+/// A convex solid with an exact signed distance.
+using Primitive = std::variant<Sphere, Box, Cylinder, HalfSpace>;
+
+/// Throws std::invalid_argument, with the value, unless all sizes are finite and positive and normals are unit.
+void validate(const Primitive& primitive);
+
+/// Exact signed distance [m], negative inside. Convex in p (the solid is convex), so it is convex along any line.
+double signedDistance(const Primitive& primitive, const Vector3d& p);
+
+/// Gradient of the signed distance: unit, pointing out. Where the closest point is not unique (a sphere's centre),
+/// one of the valid directions.
+Vector3d distanceGradient(const Primitive& primitive, const Vector3d& p);
+
+/// Box around the solid; infinite for a half-space.
+AlignedBox3d boundingBox(const Primitive& primitive);
+
+/// Closed mesh with vertices on the surface, nowhere farther than `max_deviation` [m] from it.
+/// @throws std::invalid_argument for a half-space, which is unbounded.
+TriangleMesh tessellate(const Primitive& primitive, double max_deviation);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "sdf_ccd/geometry/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// An indexed triangle mesh; counter-clockwise triangles seen from outside.
+struct TriangleMesh {
+  std::vector<Vector3d> vertices;   ///< [m]
+  std::vector<Vector3i> triangles;  ///< indices into `vertices`
+};
+
+/// Throws std::invalid_argument, naming the first bad element, if the mesh has no triangle, a vertex that is not
+/// finite, an index out of range, or an extent above 1e6 m or below 1e-9 m.
+void validate(const TriangleMesh& mesh);
+
+/// Box around the vertices that triangles use; empty for an empty mesh.
+AlignedBox3d boundingBox(const TriangleMesh& mesh);
+
+/// Vector normal of a triangle: twice its area long, pointing outside [m²]. Zero for a degenerate triangle.
+Vector3d areaNormal(const TriangleMesh& mesh, int triangle);
+
+/// Total area [m²].
+double surfaceArea(const TriangleMesh& mesh);
+
+/// Signed volume by the divergence theorem [m³], about the box's centre: the solid's volume if the mesh is closed.
+double signedVolume(const TriangleMesh& mesh);
+
+/// The mesh scaled along the axes. A mirroring scale (negative determinant) turns the triangles round, so that
+/// the outside stays outside.
+/// @throws std::invalid_argument if a factor is zero or not finite.
+TriangleMesh scaled(TriangleMesh mesh, const Vector3d& scale);
+
+/// The mesh moved from its frame G to frame B.
+TriangleMesh transformed(TriangleMesh mesh, const Isometry3d& X_BG);
+
+/// Both meshes in one, without welding.
+TriangleMesh merged(TriangleMesh first, const TriangleMesh& second);
+
+/// Vertices at exactly the same place made one, unused vertices and triangles with two equal corners dropped.
+TriangleMesh welded(const TriangleMesh& mesh);
+
+}  // namespace sdf_ccd

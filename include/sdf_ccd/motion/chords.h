@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "sdf_ccd/motion/screw_motion.h"
+
+namespace sdf_ccd {
+
+/// A piece of a relative motion along which every point is taken to run straight (paper Eq. 1).
+struct Chord {
+  double t_start;  ///< [s]
+  double t_end;    ///< [s]
+  Isometry3d X_FP_start;
+  Isometry3d X_FP_end;
+  int knot;        ///< which interval between recorded poses it is a piece of
+};
+
+/// A relative motion as chords.
+struct ChordPath {
+  std::vector<Chord> chords;  ///< consecutive in time
+  double error = 0.0;         ///< no point of the ball is farther than this from its true place at the same time [m]
+};
+
+/// Recorded poses of P in F at increasing times.
+struct RelativePath {
+  std::vector<double> times;      ///< [s]
+  std::vector<Isometry3d> X_FP;
+};
+
+struct ChordOptions {
+  double tolerance = 1e-4;  ///< chord error aimed at [m]
+  int max_chords = 1000;    ///< per recorded interval; what tolerance is left then is in ChordPath::error
+};
+
+/// Cuts the constant-twist motion between recorded poses into chords: n = ⌈√(a / 8 tol)⌉ per interval, where a
+/// bounds the points' acceleration (an arc of radius r through θ deviates by rθ²/8 from its chord).
+/// Reuses the memory of `path`.
+/// @throws std::invalid_argument unless there are two poses or more, at increasing finite times.
+void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const ChordOptions& options, ChordPath& path);
+
+}  // namespace sdf_ccd

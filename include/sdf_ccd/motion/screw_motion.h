@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "sdf_ccd/geometry/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// A ball in frame P that holds the points of interest.
+struct BoundingBall {
+  Vector3d center = Vector3d::Zero();  ///< [m], frame P
+  double radius = 0.0;                 ///< [m]
+};
+
+/// Motion of frame P relative to frame F with a constant twist, from one pose to the next, over s in [0, 1].
+///
+/// Of all interpolations it is the one that is exact for a single revolute or prismatic joint between the bodies,
+/// and the same whichever body is taken to rest. A point of P runs on an arc: p_F(s) = X_FP(0) exp(s ξ) p_P.
+class ScrewMotion {
+ public:
+  /// @throws std::invalid_argument if a pose is not finite or its rotation is not orthonormal to 1e-6.
+  ScrewMotion(const Isometry3d& X_FP_start, const Isometry3d& X_FP_end);
+
+  const Isometry3d& start() const { return start_; }
+  const Isometry3d& end() const { return end_; }
+
+  /// X_FP at s; exact at both ends.
+  Isometry3d pose(double s) const;
+
+  /// Velocity of point p_P in frame F, per unit of s [m].
+  Vector3d velocity(double s, const Vector3d& p_P) const;
+
+  /// Rotation over the whole motion [rad], in [0, π].
+  double angle() const { return omega_.norm(); }
+
+  /// No point of the ball moves farther than this [m].
+  double maxTravel(const BoundingBall& ball) const;
+
+  /// No point of the ball is accelerated more than this, per unit of s squared [m]. Along a constant twist the
+  /// acceleration |ω × (ω × p + v)| is the same at all times.
+  double maxAcceleration(const BoundingBall& ball) const;
+
+ private:
+  Isometry3d start_, end_;
+  Vector3d omega_;     // angular part of the twist, frame P [rad]
+  Vector3d velocity_;  // linear part of the twist at P's origin, frame P [m]
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/query/interval.h"
+
+namespace sdf_ccd {
+
+/// A point's straight path, frame F [m]; t = 0 at the start and 1 at the end.
+struct Segment {
+  Vector3d start;
+  Vector3d end;
+};
+
+struct SegmentOptions {
+  double sigma = 0.0;       ///< isovalue [m]; 0 is the surface
+  bool first_only = false;  ///< stop after the first interval
+};
+
+/// Times during which a moving point is on or inside the isosurface φ = σ.
+///
+/// Source: Xu & Barbič 2014, §3.1, Eq. (2); skips: §3.2. Differs: in each cell the cubic's roots are isolated and
+/// bracketed, so two crossings in one cell are found (the paper's sign test loses them).
+/// @param field    φ [m], frame F.
+/// @param segment  finite.
+/// @param options  |sigma| ≤ field.band().
+/// @param intervals  replaced by disjoint, increasing intervals within [0, 1]; empty if there is none. A point that
+///                 only touches gives an interval of no length; a segment that starts inside one from 0.
+/// @throws std::invalid_argument if an input is not finite or sigma lies outside the band.
+/// Guarantee: every root of the interpolated field, to 1e-9 of the path. Outside the grid nothing is inside.
+void segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options,
+                      Intervals& intervals);
+
+/// The same, returned.
+Intervals segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options = {});
+
+/// False only if the true distance exceeds `radius` at every place of the segment (paper §3.3, Figure 3):
+/// conservative. Steps from ball to ball by field.lowerBound(). Also for segments outside the field's box.
+bool mayTouch(const DistanceField& field, const Segment& segment, double radius);
+
+/// Parameters in (enter, exit), increasing, where the segment passes from one cell of the field to the next:
+/// between them the interpolated field is a cubic of the parameter (a quadrature that is exact for it, design §3.9).
+/// For a primitive: where the distance may have a kink, or a few evenly spaced for curved ones.
+void smoothPieces(const DistanceField& field, const Segment& segment, const Interval& interval,
+                  std::vector<double>& breaks);
+
+}  // namespace sdf_ccd

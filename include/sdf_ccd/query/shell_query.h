@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/motion/chords.h"
+#include "sdf_ccd/query/interval.h"
+#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/shell/sphere_tree.h"
+
+namespace sdf_ccd {
+
+/// One interval of one shell point on one chord.
+struct ShellHit {
+  int point;          ///< of the shell
+  int chord;          ///< of the path
+  Interval interval;  ///< within the chord, [0, 1]
+};
+
+struct ShellQueryOptions {
+  double sigma = 0.0;  ///< isovalue [m]
+  bool any = false;    ///< stop after the first hit
+};
+
+struct ShellQueryResult {
+  std::vector<ShellHit> hits;  ///< by chord, then by point as the tree meets them, then by time
+  long nodes_visited = 0;
+  long points_tested = 0;
+};
+
+/// All intervals in which points of a shell are on or inside the isosurface φ = σ while they run along a path.
+///
+/// Source: Xu & Barbič 2014, §3.3. A node of the sphere tree is skipped if its centre's segment stays farther than
+/// radius + σ + the field's error from the surface; the result equals that of testing every point.
+/// Reuses the memory of `result`.
+/// @param shell, tree  frame P; the tree was built over the shell.
+/// @param path         X_FP, as chords.
+void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
+                    const ChordPath& path, const ShellQueryOptions& options, ShellQueryResult& result);
+
+/// A number that the distance of every shell point to the field's surface is not below [m], at one pose; within
+/// `slack` [m] of the best that the field's bounds allow.
+double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,
+                 double slack);
+
+}  // namespace sdf_ccd

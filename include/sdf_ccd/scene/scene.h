@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/motion/screw_motion.h"
+#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/scene/scene_plan.h"
+#include "sdf_ccd/shell/sample_surface.h"
+#include "sdf_ccd/shell/sphere_tree.h"
+
+namespace sdf_ccd {
+
+/// One collision element with its field.
+struct BodyPart {
+  Isometry3d X_BG;
+  DistanceField field;
+};
+
+/// A body that is ready to be checked.
+struct Body {
+  std::string name;
+  std::string frame;
+  Isometry3d X_frame_B;
+  bool is_world = false;
+  std::string failure;          ///< why it cannot be checked; empty if it can
+  std::vector<BodyPart> parts;  ///< empty if no pair needs its field
+  PointShell shell;             ///< frame B; empty if no pair needs it. Points inside a sibling part are left out
+  SphereTree tree;
+  BoundingBall ball;            ///< holds the shell's points
+};
+
+struct SceneOptions {
+  FieldOptions field;
+  ShellOptions shell;
+  std::string cache_directory;  ///< empty: nothing is read or written
+};
+
+/// What was built for one body; a row of the plan's table.
+struct BodyReport {
+  std::string name;
+  std::string geometry;      ///< "mesh (300 triangles, closed)", "box", …
+  std::string field;         ///< "cached", "built 1.2 s", "exact", "left out: …"
+  std::size_t field_bytes = 0;
+  std::size_t cells = 0;     ///< stored cells
+  double field_error = 0.0;  ///< [m]
+  std::size_t shell_points = 0;
+  std::size_t shell_bytes = 0;
+  double covering_radius = 0.0;  ///< [m]
+  std::size_t pairs = 0;
+  std::vector<std::string> warnings;
+};
+
+struct Scene {
+  std::vector<Body> bodies;
+  std::vector<PlannedPair> pairs;
+  std::vector<LeftOut> left_out;
+  std::vector<BodyReport> reports;
+};
+
+/// Builds, or takes from the cache, what the plan needs. A body whose field or shell cannot be built keeps its place
+/// with Body::failure set; the others are not touched by it.
+/// @param progress  called with the body's name and the share of all bodies done.
+Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options,
+                 const std::function<void(const std::string&, double)>& progress = {});
+
+/// The plan as one table for the log: body, geometry, field, shell, cells, bytes, pairs; below it what was left out.
+std::string planTable(const Scene& scene);
+
+}  // namespace sdf_ccd

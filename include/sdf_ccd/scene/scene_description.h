@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// One collision element: a primitive, or a mesh as loaded and scaled.
+struct GeometryDescription {
+  std::variant<Primitive, std::shared_ptr<const TriangleMesh>> shape;
+  Isometry3d X_BG = Isometry3d::Identity();  ///< its frame G in the body's frame B
+  std::string source;                        ///< for people: "box" or the mesh's URI
+  bool watertight_voxels = false;            ///< boundary of whole voxels: no shell, only a field
+};
+
+/// A rigid body: a robot's link or an object of the world.
+struct BodyDescription {
+  std::string name;
+  std::string frame;  ///< the tf frame that carries it
+  Isometry3d X_frame_B = Isometry3d::Identity();  ///< its frame B in that frame
+  std::vector<GeometryDescription> geometry;
+  std::string failure;  ///< why the body cannot be checked; empty if it can
+  bool is_world = false;  ///< an object of the world, not a link
+};
+
+/// A pair that is left out, by the bodies' names.
+struct DisabledPair {
+  std::string body_a;
+  std::string body_b;
+  std::string reason;  ///< "SRDF: Adjacent", "rigidly joined", …
+};
+
+struct SceneDescription {
+  std::vector<BodyDescription> bodies;  ///< names are unique
+  std::vector<DisabledPair> disabled;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/scene/scene_description.h"
+
+namespace sdf_ccd {
+
+/// Which tests a pair needs: A's shell against B's field, and the other way round.
+struct PlannedPair {
+  int body_a;
+  int body_b;
+  bool a_shell_b_field;
+  bool b_shell_a_field;
+};
+
+struct LeftOut {
+  std::string what;    ///< "pair a – b", "shell of map", "field of ground"
+  std::string reason;
+};
+
+/// What a scene needs, decided before anything is built (design §4).
+struct ScenePlan {
+  std::vector<PlannedPair> pairs;
+  std::vector<bool> needs_field;  ///< per body
+  std::vector<bool> needs_shell;  ///< per body
+  std::vector<LeftOut> left_out;
+};
+
+/// Leaves out pairs that are disabled, both of the world, or in the same frame; fields and shells that no pair uses;
+/// shells of half-spaces and voxel maps. A pair with a body that cannot be checked stays, and is NOT_CHECKED.
+/// @throws std::invalid_argument if two bodies share a name, or a disabled pair names no body of the scene
+/// twice-identically.
+ScenePlan planScene(const SceneDescription& description);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/shell/point_shell.h"
+
+namespace sdf_ccd {
+
+struct ShellOptions {
+  double spacing = 0.01;         ///< no place of the surface farther than this from a point [m]
+  double vertex_spacing = 0.0;   ///< mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all
+  std::uint64_t seed = 1;        ///< equal seeds give equal shells
+  std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
+};
+
+/// Point shell of a mesh: its vertices (paper §5) and a Poisson-disk sampling that fills the surface between them
+/// until no gap exceeds options.spacing. Vertex normals are weighted by angle; a vertex of a sharp edge keeps its
+/// averaged normal. Areas sum to the mesh's area.
+/// @throws std::invalid_argument if the mesh or the options are not valid.
+PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
+
+/// Point shell of a primitive: points exactly on its surface, with its exact normals away from edges.
+/// @throws std::invalid_argument for a half-space, which has no bounded surface.
+PointShell sampleSurface(const Primitive& primitive, const ShellOptions& options);
+
+}  // namespace sdf_ccd

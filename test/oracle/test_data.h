@@ -1,0 +1,19 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace sdf_ccd::test {
+
+/// Path of real data that a plain clone does not have.
+inline std::string dataPath(const std::string& name) { return std::string(SDF_CCD_TEST_DATA) + "/" + name; }
+
+inline bool exists(const std::string& path) { return std::ifstream(path).good(); }
+
+}  // namespace sdf_ccd::test
+
+/// Skips the test, naming the file, where real data is absent.
+#define SDF_CCD_NEEDS_DATA(name) \
+  if (!sdf_ccd::test::exists(sdf_ccd::test::dataPath(name))) GTEST_SKIP() << "needs shared/data/" << (name)
