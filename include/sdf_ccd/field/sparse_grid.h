@@ -1,3 +1,141 @@
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-namespace sdf_ccd { class SparseGrid; }
+#include <vector>
+
+#include "sdf_ccd/geometry/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// A run of values that somebody else owns.
+template <class T>
+struct View {
+  const T* data = nullptr;
+  std::size_t size = 0;
+
+  const T& operator[](std::size_t i) const { return data[i]; }
+};
+
+/// Place and size of a grid. Cells are cubes; 8×8×8 of them make a brick.
+struct GridShape {
+  static constexpr int kBrick = 8;          ///< cells along a brick's side
+  static constexpr int kSide = kBrick + 1;  ///< samples along a brick's side
+  static constexpr int kSamples = kSide * kSide * kSide;
+
+  Vector3d origin = Vector3d::Zero();  ///< first corner of the first cell [m], frame F
+  double cell = 0.0;                   ///< [m]
+  Vector3i bricks = Vector3i::Zero();  ///< per axis
+  double band = 0.0;                   ///< [m]
+  AlignedBox3d surface_box;            ///< of the mesh [m]
+
+  Vector3i cells() const { return kBrick * bricks; }
+  std::size_t brickCount() const { return std::size_t(bricks.x()) * bricks.y() * bricks.z(); }
+  std::size_t cornerCount() const { return std::size_t(bricks.x() + 1) * (bricks.y() + 1) * (bricks.z() + 1); }
+  std::size_t brickIndex(const Vector3i& b) const {
+    return (std::size_t(b.z()) * bricks.y() + b.y()) * bricks.x() + b.x();
+  }
+  std::size_t cornerIndex(const Vector3i& b) const {
+    return (std::size_t(b.z()) * (bricks.y() + 1) + b.y()) * (bricks.x() + 1) + b.x();
+  }
+  AlignedBox3d box() const { return {origin, origin + cell * cells().cast<double>()}; }
+};
+
+/// The values a grid is made of.
+struct GridData {
+  std::vector<float> corners;       ///< distance at every brick's corners, x fastest [m]
+  std::vector<std::int32_t> slots;  ///< per brick: where its samples lie, or kFar
+  std::vector<float> samples;       ///< kSamples per slot, x fastest [m]
+};
+
+/// Smallest and largest distance in a block of cells [m].
+struct DistanceRange {
+  float min;
+  float max;
+};
+
+/// Samples of a signed distance, dense in bricks near the surface, one per brick corner elsewhere.
+///
+/// Memory order: x fastest, then y, then z. The min/max hierarchy (paper §3.2) is an octree over the bricks; where a
+/// brick has no samples its range bounds the true distance.
+class SparseGrid {
+ public:
+  static constexpr std::int32_t kFar = -1;
+
+  /// @throws std::invalid_argument if sizes do not fit each other.
+  SparseGrid(const GridShape& shape, GridData data);
+
+  /// The same on memory that `owner` keeps alive (a mapped file).
+  SparseGrid(const GridShape& shape, View<float> corners, View<std::int32_t> slots, View<float> samples,
+             std::shared_ptr<const void> owner);
+
+  const GridShape& shape() const { return shape_; }
+  View<float> corners() const { return corners_; }
+  View<std::int32_t> slots() const { return slots_; }
+  View<float> samples() const { return samples_; }
+
+  /// Bound on |interpolated − true distance| in a brick with samples [m]: for exact samples of a 1-Lipschitz function
+  /// Jensen's inequality on the trilinear weights gives √(Σ u(1−u)) h ≤ √3/2 h (design §3.3), plus rounding.
+  double errorBound() const { return error_bound_; }
+
+  std::size_t bytes() const;
+  std::size_t storedCells() const { return samples_.size / GridShape::kSamples * 512; }
+
+  /// Corner values of a cell in a brick with samples: bit 0 of the index is x, bit 1 y, bit 2 z.
+  std::array<double, 8> cellCorners(std::int32_t slot, const Vector3i& cell_in_brick) const {
+    const float* s = samples_.data + std::size_t(slot) * GridShape::kSamples +
+                     (cell_in_brick.z() * GridShape::kSide + cell_in_brick.y()) * GridShape::kSide + cell_in_brick.x();
+    constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
+    return {s[0], s[1], s[kY], s[kY + 1], s[kZ], s[kZ + 1], s[kZ + kY], s[kZ + kY + 1]};
+  }
+
+  /// Distances at a brick's corners, ordered like cellCorners().
+  std::array<double, 8> brickCorners(const Vector3i& brick) const;
+
+  std::int32_t slot(const Vector3i& brick) const { return slots_[shape_.brickIndex(brick)]; }
+
+  /// Levels of the hierarchy; level 0 has a node per brick, each further level one per 2×2×2 of the last.
+  int levels() const { return static_cast<int>(levels_.size()); }
+  DistanceRange range(int level, const Vector3i& node) const {
+    const Level& l = levels_[level];
+    return l.ranges[(std::size_t(node.z()) * l.size.y() + node.y()) * l.size.x() + node.x()];
+  }
+
+ private:
+  struct Level {
+    Vector3i size;
+    std::vector<DistanceRange> ranges;
+  };
+
+  void checkSizes() const;
+  void buildLevels();
+  DistanceRange brickRange(const Vector3i& brick) const;
+
+  GridShape shape_;
+  View<float> corners_;
+  View<std::int32_t> slots_;
+  View<float> samples_;
+  std::shared_ptr<const void> owner_;
+  double error_bound_ = 0.0;
+  std::vector<Level> levels_;
+};
+
+/// Trilinear interpolation at (u, v, w) in [0, 1]³ of eight corner values ordered like cellCorners().
+inline double trilinear(const std::array<double, 8>& c, const Vector3d& u) {
+  const double x0 = c[0] + u.x() * (c[1] - c[0]), x1 = c[2] + u.x() * (c[3] - c[2]);
+  const double x2 = c[4] + u.x() * (c[5] - c[4]), x3 = c[6] + u.x() * (c[7] - c[6]);
+  const double y0 = x0 + u.y() * (x1 - x0), y1 = x2 + u.y() * (x3 - x2);
+  return y0 + u.z() * (y1 - y0);
+}
+
+/// Its gradient per unit of (u, v, w).
+Vector3d trilinearGradient(const std::array<double, 8>& corners, const Vector3d& u);
+
+/// Bound on |trilinear − f| for exact corner values of a 1-Lipschitz f on a cube of side h [m] (design §3.3).
+inline double lipschitzError(const Vector3d& u, double h) {
+  return h * std::sqrt((u.array() * (1.0 - u.array())).max(0.0).sum());
+}
+
+}  // namespace sdf_ccd

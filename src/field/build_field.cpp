@@ -1,0 +1,203 @@
+#include "sdf_ccd/field/build_field.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+#include <tbb/parallel_for.h>
+
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kSqrt3 = 1.7320508075688772;
+
+/// True if every edge is run along as often one way as the other: then the winding number is an integer wherever it
+/// is defined, and the sign can change only across a triangle.
+bool isClosed(const TriangleMesh& mesh) {
+  std::unordered_map<std::uint64_t, int> balance;
+  balance.reserve(mesh.triangles.size() * 2);
+  for (const Vector3i& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const auto a = std::uint64_t(t[k]), b = std::uint64_t(t[(k + 1) % 3]);
+      balance[std::min(a, b) << 32 | std::max(a, b)] += a < b ? 1 : -1;
+    }
+  }
+  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+double cellSize(const FieldOptions& options, const AlignedBox3d& surface_box) {
+  if (options.cell_size) return *options.cell_size;
+  if (options.max_error) return *options.max_error * 2.0 / kSqrt3;
+  return surface_box.sizes().maxCoeff() / *options.cells;
+}
+
+GridShape shapeFor(const TriangleMesh& mesh, const FieldOptions& options) {
+  GridShape shape;
+  shape.surface_box = boundingBox(mesh);
+  shape.cell = cellSize(options, shape.surface_box);
+  shape.band = std::max(options.band, 2.0 * shape.cell);
+  // Padded so that no value within the band, nor its interpolation, reaches the grid's boundary.
+  const double padding = shape.band + 2.0 * shape.cell;
+  const Vector3d extent = shape.surface_box.sizes().array() + 2.0 * padding;
+  const Vector3d bricks = (extent / (GridShape::kBrick * shape.cell)).array().ceil();
+  if (bricks.maxCoeff() > 4096.0) {
+    throw std::length_error("field: " + std::to_string(shape.cell) + " m cells need " +
+                            std::to_string(bricks.maxCoeff() * GridShape::kBrick) + " along one side, at most 32768");
+  }
+  shape.bricks = bricks.cast<int>();
+  shape.origin = shape.surface_box.center() - 0.5 * shape.cell * shape.cells().cast<double>();
+  return shape;
+}
+
+/// Signed distances at grid points, with what one sample says of its neighbours put to use.
+class Sampler {
+ public:
+  Sampler(const TriangleMesh& mesh, const GridShape& shape) : tree_(mesh), shape_(shape), closed_(isClosed(mesh)) {}
+
+  double distance(const Vector3d& p, double at_most) const { return tree_.closestPoint(p, at_most).distance; }
+
+  double signedDistance(const Vector3d& p) const {
+    const double d = distance(p, TriangleTree::kInfinity);
+    return inside(p) ? -d : d;
+  }
+
+  /// All samples of a brick.
+  void fill(const Vector3i& brick, float* samples) const {
+    constexpr int kSide = GridShape::kSide;
+    const double h = shape_.cell;
+    double row_start = 0.0, layer_start = 0.0;
+    for (int z = 0; z < kSide; ++z) {
+      for (int y = 0; y < kSide; ++y) {
+        double last = y > 0 ? row_start : layer_start;
+        for (int x = 0; x < kSide; ++x, ++samples) {
+          const Vector3i i = GridShape::kBrick * brick + Vector3i(x, y, z);
+          const Vector3d p = shape_.origin + h * i.cast<double>();
+          const bool first = x == 0 && y == 0 && z == 0;
+          last = first ? signedDistance(p) : next(p, last);
+          *samples = static_cast<float>(last);
+          if (x == 0) row_start = last;
+          if (x == 0 && y == 0) layer_start = last;
+        }
+      }
+    }
+  }
+
+ private:
+  bool inside(const Vector3d& p) const { return tree_.windingNumber(p) > 0.5; }
+
+  /// The sample one cell away from a sample of value `last`: the distance differs by h at most, and where the two
+  /// balls without surface meet, the sign is the same (if the sign cannot change elsewhere: closed meshes).
+  double next(const Vector3d& p, double last) const {
+    const double d = distance(p, (std::abs(last) + shape_.cell) * (1.0 + 1e-9));
+    if (closed_ && d + std::abs(last) > shape_.cell * (1.0 + 1e-9)) return last < 0.0 ? -d : d;
+    return inside(p) ? -d : d;
+  }
+
+  TriangleTree tree_;
+  GridShape shape_;
+  bool closed_;
+};
+
+/// Share done, reported by whichever thread gets there.
+class ProgressCounter {
+ public:
+  ProgressCounter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
+  void add() {
+    const std::size_t done = ++done_;
+    if (!progress_) return;
+    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (lock && done > reported_) progress_(double(reported_ = done) / double(total_));
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_{0};
+  std::size_t reported_ = 0;
+  std::mutex mutex_;
+};
+
+/// Bricks that need samples: the distance at the centre, or a sign that changes between the corners, says that
+/// |φ| ≤ band (and its interpolation error) may be met inside.
+bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vector<float>& corners,
+                  const Vector3i& brick) {
+  const double side = GridShape::kBrick * shape.cell;
+  double nearest = TriangleTree::kInfinity;
+  int negative = 0;
+  for (int k = 0; k < 8; ++k) {
+    const float c = corners[shape.cornerIndex(brick + Vector3i(k & 1, (k >> 1) & 1, k >> 2))];
+    nearest = std::min(nearest, std::abs(double(c)));
+    negative += c < 0.0F;
+  }
+  if (negative % 8 != 0) return true;
+  const double needed = shape.band + shape.cell;
+  if (nearest > needed + kSqrt3 * side) return false;
+  const Vector3d center = shape.origin + side * (brick.cast<double>().array() + 0.5).matrix();
+  const double reach = needed + 0.5 * kSqrt3 * side;
+  return sampler.distance(center, reach) < reach;
+}
+
+}  // namespace
+
+DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress) {
+  validate(mesh);
+  validate(options);
+  const GridShape shape = shapeFor(mesh, options);
+  const std::size_t bricks = shape.brickCount();
+  const std::size_t coarse_bytes = shape.cornerCount() * sizeof(float) + bricks * sizeof(std::int32_t);
+  const auto refuse = [&](std::size_t bytes) {
+    throw std::length_error(
+        "field: " + std::to_string(bytes >> 20) + " MB with cells of " + std::to_string(shape.cell) +
+        " m, more than the " + std::to_string(options.max_bytes >> 20) + " MB allowed; cells of " +
+        std::to_string(shape.cell * std::sqrt(double(bytes) / double(options.max_bytes))) + " m would fit");
+  };
+  if (coarse_bytes > options.max_bytes) refuse(coarse_bytes);
+
+  const Sampler sampler(mesh, shape);
+  GridData data;
+  data.corners.resize(shape.cornerCount());
+  const Vector3i corner_counts = shape.bricks.array() + 1;
+  tbb::parallel_for(0, corner_counts.z(), [&](int z) {
+    for (int y = 0; y < corner_counts.y(); ++y)
+      for (int x = 0; x < corner_counts.x(); ++x) {
+        const Vector3d p = shape.origin + GridShape::kBrick * shape.cell * Vector3d(x, y, z);
+        data.corners[shape.cornerIndex({x, y, z})] = static_cast<float>(sampler.signedDistance(p));
+      }
+  });
+
+  data.slots.assign(bricks, SparseGrid::kFar);
+  tbb::parallel_for(0, shape.bricks.z(), [&](int z) {
+    for (int y = 0; y < shape.bricks.y(); ++y)
+      for (int x = 0; x < shape.bricks.x(); ++x) {
+        const Vector3i b(x, y, z);
+        if (needsSamples(sampler, shape, data.corners, b)) data.slots[shape.brickIndex(b)] = 0;
+      }
+  });
+  std::vector<Vector3i> sampled;
+  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
+    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
+      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
+        std::int32_t& slot = data.slots[shape.brickIndex(b)];
+        if (slot == SparseGrid::kFar) continue;
+        slot = static_cast<std::int32_t>(sampled.size());
+        sampled.push_back(b);
+      }
+  const std::size_t bytes = coarse_bytes + sampled.size() * GridShape::kSamples * sizeof(float);
+  if (bytes > options.max_bytes) refuse(bytes);
+
+  data.samples.resize(sampled.size() * GridShape::kSamples);
+  ProgressCounter counter(progress, sampled.size());
+  tbb::parallel_for(std::size_t{0}, sampled.size(), [&](std::size_t i) {
+    sampler.fill(sampled[i], data.samples.data() + i * GridShape::kSamples);
+    counter.add();
+  });
+  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
+}
+
+}  // namespace sdf_ccd

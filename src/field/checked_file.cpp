@@ -1,0 +1,198 @@
+#include "sdf_ccd/field/checked_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr char kMagic[8] = {'S', 'D', 'F', '_', 'C', 'C', 'D', '\n'};
+constexpr std::uint32_t kByteOrder = 0x01020304;
+constexpr std::size_t kAlignment = 64;
+constexpr std::size_t kMaxSections = 64;
+
+struct Header {
+  char magic[8];
+  char kind[16];
+  std::uint32_t version;
+  std::uint32_t byte_order;
+  std::uint64_t file_bytes;
+  std::uint64_t section_count;
+  std::uint64_t checksum;  ///< XXH64 of the section table and the sections
+};
+static_assert(sizeof(Header) == 56, "the file's layout must not depend on the compiler");
+
+struct SectionEntry {
+  std::uint64_t offset;
+  std::uint64_t bytes;
+};
+
+std::size_t aligned(std::size_t offset) {
+  return (offset + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  throw std::runtime_error(path + ": " + what);
+}
+
+/// A file that is removed again unless it is committed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& path) : path_(path), temporary_(path + ".XXXXXX") {
+    descriptor_ = mkstemp(&temporary_[0]);
+    if (descriptor_ < 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
+    fchmod(descriptor_, 0644);
+  }
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (!committed_) unlink(temporary_.c_str());
+  }
+  void write(const void* data, std::size_t bytes) {
+    const char* from = static_cast<const char*>(data);
+    while (bytes > 0) {
+      const ssize_t n = ::write(descriptor_, from, bytes);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
+      from += n;
+      bytes -= static_cast<std::size_t>(n);
+    }
+  }
+  void commit() {
+    if (fsync(descriptor_) != 0 || std::rename(temporary_.c_str(), path_.c_str()) != 0) {
+      fail(path_, std::string("cannot write: ") + std::strerror(errno));
+    }
+    committed_ = true;
+  }
+
+ private:
+  std::string path_, temporary_;
+  int descriptor_ = -1;
+  bool committed_ = false;
+};
+
+}  // namespace
+
+void writeCheckedFile(const std::string& path, const std::string& kind, std::uint32_t version,
+                      const std::vector<FileSection>& sections) {
+  if (kind.size() >= sizeof(Header::kind) || sections.size() > kMaxSections) {
+    throw std::invalid_argument("checked file: kind \"" + kind + "\" or section count out of range");
+  }
+  std::vector<SectionEntry> table;
+  std::size_t offset = aligned(sizeof(Header) + sections.size() * sizeof(SectionEntry));
+  for (const FileSection& section : sections) {
+    table.push_back({offset, section.bytes});
+    offset = aligned(offset + section.bytes);
+  }
+  Header header{};
+  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  std::memcpy(header.kind, kind.data(), kind.size());
+  header.version = version;
+  header.byte_order = kByteOrder;
+  header.file_bytes = offset;
+  header.section_count = sections.size();
+
+  // Checksummed as it is written: table, sections and the zeros between them.
+  static constexpr char kZeros[kAlignment] = {};
+  XXH64_state_t* state = XXH64_createState();
+  XXH64_reset(state, 0);
+  const auto eachPiece = [&](auto&& piece) {
+    std::size_t at = sizeof(Header);
+    const auto emit = [&](const void* data, std::size_t bytes) {
+      if (bytes > 0) piece(data, bytes);
+      at += bytes;
+    };
+    emit(table.data(), table.size() * sizeof(SectionEntry));
+    for (const FileSection& section : sections) {
+      emit(kZeros, aligned(at) - at);
+      emit(section.data, section.bytes);
+    }
+    emit(kZeros, aligned(at) - at);
+  };
+  eachPiece([&](const void* data, std::size_t bytes) { XXH64_update(state, data, bytes); });
+  header.checksum = XXH64_digest(state);
+  XXH64_freeState(state);
+
+  TemporaryFile file(path);
+  file.write(&header, sizeof header);
+  eachPiece([&](const void* data, std::size_t bytes) { file.write(data, bytes); });
+  file.commit();
+}
+
+std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, const std::string& kind,
+                                                     std::uint32_t version) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, std::strerror(errno));
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+    close(descriptor);
+    fail(path, "not a regular file");
+  }
+  const auto bytes = static_cast<std::size_t>(status.st_size);
+  if (bytes < sizeof(Header)) {
+    close(descriptor);
+    fail(path, "truncated: " + std::to_string(bytes) + " bytes are less than a header");
+  }
+  void* mapping = mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  close(descriptor);
+  if (mapping == MAP_FAILED) fail(path, std::string("cannot map: ") + std::strerror(errno));
+  std::shared_ptr<CheckedFile> file(new CheckedFile(path, mapping, bytes));
+  file->verify(kind, version);
+  return file;
+}
+
+void CheckedFile::verify(const std::string& kind, std::uint32_t version) {
+  const auto* start = static_cast<const char*>(mapping_);
+  Header header;
+  std::memcpy(&header, start, sizeof header);
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) fail(path_, "not a file of sdf_ccd");
+  header.kind[sizeof header.kind - 1] = '\0';
+  if (kind != header.kind) fail(path_, "holds a " + std::string(header.kind) + ", not a " + kind);
+  if (header.byte_order != kByteOrder) fail(path_, "written in another byte order");
+  if (header.version != version) {
+    fail(path_, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(version));
+  }
+  if (header.file_bytes != bytes_) {
+    fail(path_, "truncated: " + std::to_string(bytes_) + " of " + std::to_string(header.file_bytes) + " bytes");
+  }
+  if (header.section_count > kMaxSections || sizeof(Header) + header.section_count * sizeof(SectionEntry) > bytes_ ||
+      XXH64(start + sizeof(Header), bytes_ - sizeof(Header), 0) != header.checksum) {
+    fail(path_, "damaged: the checksum does not fit");
+  }
+  for (std::size_t i = 0; i < header.section_count; ++i) {
+    SectionEntry entry;
+    std::memcpy(&entry, start + sizeof(Header) + i * sizeof entry, sizeof entry);
+    if (entry.offset > bytes_ || entry.bytes > bytes_ - entry.offset || entry.offset % kAlignment != 0) {
+      fail(path_, "damaged: section " + std::to_string(i) + " lies outside the file");
+    }
+    sections_.push_back({start + entry.offset, entry.bytes});
+  }
+}
+
+std::size_t CheckedFile::checkedCount(std::size_t i, std::size_t value_size) const {
+  if (i >= sections_.size()) fail(path_, "damaged: section " + std::to_string(i) + " is missing");
+  if (sections_[i].bytes % value_size != 0) fail(path_, "damaged: section " + std::to_string(i) + " ends in a value");
+  return sections_[i].bytes / value_size;
+}
+
+CheckedFile::~CheckedFile() {
+  munmap(mapping_, bytes_);
+}
+
+bool isCheckedFile(const std::string& path, const std::string& kind) {
+  Header header{};
+  std::ifstream in(path, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(&header), sizeof header)) return false;
+  header.kind[sizeof header.kind - 1] = '\0';
+  return std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 && kind == header.kind;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,72 @@
+#include "sdf_ccd/field/field_file.h"
+
+#include <stdexcept>
+
+#include "sdf_ccd/field/checked_file.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr char kKind[] = "field";
+constexpr std::uint32_t kVersion = 1;
+
+struct ShapeRecord {
+  double origin[3];
+  double cell;
+  double band;
+  double surface_min[3];
+  double surface_max[3];
+  std::int32_t bricks[3];
+  std::int32_t brick_cells;  ///< cells along a brick's side, so that another layout is never misread
+};
+static_assert(sizeof(ShapeRecord) == 104, "the file's layout must not depend on the compiler");
+
+}  // namespace
+
+void saveField(const DistanceField& field, const std::string& path) {
+  const SparseGrid* grid = field.grid();
+  if (!grid) throw std::invalid_argument(path + ": the field of a primitive is exact and needs no file");
+  const GridShape& shape = grid->shape();
+  ShapeRecord record{};
+  record.cell = shape.cell;
+  record.band = shape.band;
+  record.brick_cells = GridShape::kBrick;
+  for (int k = 0; k < 3; ++k) {
+    record.origin[k] = shape.origin[k];
+    record.surface_min[k] = shape.surface_box.min()[k];
+    record.surface_max[k] = shape.surface_box.max()[k];
+    record.bricks[k] = shape.bricks[k];
+  }
+  writeCheckedFile(path, kKind, kVersion,
+                   {{&record, sizeof record},
+                    {grid->corners().data, grid->corners().size * sizeof(float)},
+                    {grid->slots().data, grid->slots().size * sizeof(std::int32_t)},
+                    {grid->samples().data, grid->samples().size * sizeof(float)}});
+}
+
+DistanceField loadField(const std::string& path) {
+  const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kKind, kVersion);
+  std::size_t records = 0;
+  const auto* record = file->section<ShapeRecord>(0, records);
+  if (records != 1 || record->brick_cells != GridShape::kBrick) {
+    throw std::runtime_error(path + ": damaged: no shape of this layout");
+  }
+  GridShape shape;
+  shape.cell = record->cell;
+  shape.band = record->band;
+  shape.origin = Vector3d(record->origin);
+  shape.surface_box = {Vector3d(record->surface_min), Vector3d(record->surface_max)};
+  shape.bricks = Vector3i(record->bricks);
+  View<float> corners, samples;
+  View<std::int32_t> slots;
+  corners.data = file->section<float>(1, corners.size);
+  slots.data = file->section<std::int32_t>(2, slots.size);
+  samples.data = file->section<float>(3, samples.size);
+  try {
+    return DistanceField(std::make_shared<const SparseGrid>(shape, corners, slots, samples, file));
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path + ": damaged: " + error.what());
+  }
+}
+
+}  // namespace sdf_ccd
