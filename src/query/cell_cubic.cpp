@@ -1,0 +1,85 @@
+#include "cell_cubic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bracketed_root.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Extrema of the cubic within (0, 1), increasing.
+struct Extrema {
+  std::array<double, 2> u;
+  int count = 0;
+};
+
+Extrema extrema(const CellCubic& f) {
+  // Roots of 3 c3 u² + 2 c2 u + c1, by the form that does not cancel.
+  const double a = 3.0 * f.c[3], half_b = f.c[2], c = f.c[1];
+  Extrema found;
+  const auto add = [&](double u) {
+    if (u > 0.0 && u < 1.0) found.u[found.count++] = u;
+  };
+  const double discriminant = half_b * half_b - a * c;
+  if (discriminant < 0.0) return found;
+  const double q = -(half_b + std::copysign(std::sqrt(discriminant), half_b));
+  if (q != 0.0) add(c / q);
+  if (a != 0.0) add(q / a);
+  if (found.count == 2 && found.u[0] > found.u[1]) std::swap(found.u[0], found.u[1]);
+  return found;
+}
+
+}  // namespace
+
+CellCubic cellCubic(const std::array<double, 8>& k, const Vector3d& from, const Vector3d& to, double sigma) {
+  const Vector3d d = to - from;
+  // The line put into A(x, y) + z B(x, y), each bilinear.
+  const double xy0 = from.x() * from.y(), xy1 = from.x() * d.y() + from.y() * d.x(), xy2 = d.x() * d.y();
+  const double ax = k[1] - k[0], ay = k[2] - k[0], axy = (k[3] - k[2]) - ax;
+  const double a0 = k[0] + ax * from.x() + ay * from.y() + axy * xy0;
+  const double a1 = ax * d.x() + ay * d.y() + axy * xy1, a2 = axy * xy2;
+  const double bz = k[4] - k[0], bx = (k[5] - k[4]) - ax, by = (k[6] - k[4]) - ay;
+  const double bxy = ((k[7] - k[6]) - (k[5] - k[4])) - axy;
+  const double b0 = bz + bx * from.x() + by * from.y() + bxy * xy0;
+  const double b1 = bx * d.x() + by * d.y() + bxy * xy1, b2 = bxy * xy2;
+  const double z = from.z();
+  return {{a0 + z * b0 - sigma, a1 + z * b1 + d.z() * b0, a2 + z * b2 + d.z() * b1, d.z() * b2}};
+}
+
+CellIntervals nonPositive(const CellCubic& f) {
+  CellIntervals result;
+  const double touch = 4.0 * std::numeric_limits<double>::epsilon() *
+                       (std::abs(f.c[0]) + std::abs(f.c[1]) + std::abs(f.c[2]) + std::abs(f.c[3]));
+  const Extrema turns = extrema(f);
+  std::array<double, 4> u{0.0, 0.0, 0.0, 0.0};
+  int count = 1;
+  for (int i = 0; i < turns.count; ++i) u[count++] = turns.u[i];
+  u[count++] = 1.0;
+
+  bool inside = false;
+  double enter = 0.0;
+  double value = f(0.0);
+  if (value <= 0.0) inside = true;
+  const auto root = [&](double lo, double hi, bool rising) {
+    return bracketedRoot([&](double t) { return ValueSlope{f(t), f.slope(t)}; }, lo, hi, rising);
+  };
+  for (int i = 1; i < count; ++i) {
+    const double next = f(u[i]);
+    if (inside && next > 0.0) {
+      result.interval[result.count++] = {enter, value == 0.0 ? u[i - 1] : root(u[i - 1], u[i], true)};
+      inside = false;
+    } else if (!inside && next <= 0.0) {
+      enter = next == 0.0 ? u[i] : root(u[i - 1], u[i], false);
+      inside = true;
+    } else if (!inside && next <= touch && i + 1 < count && f(u[i + 1]) > next) {
+      result.interval[result.count++] = {u[i], u[i]};
+    }
+    value = next;
+  }
+  if (inside) result.interval[result.count++] = {enter, 1.0};
+  return result;
+}
+
+}  // namespace sdf_ccd

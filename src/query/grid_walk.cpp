@@ -1,0 +1,63 @@
+#include "grid_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdf_ccd {
+
+GridWalk::GridWalk(const GridShape& shape, const Segment& segment)
+    : size_(shape.cells()),
+      start_((segment.start - shape.origin) / shape.cell),
+      step_((segment.end - segment.start) / shape.cell) {
+  for (int k = 0; k < 3; ++k) {
+    const double n = size_[k];
+    if (step_[k] == 0.0) {
+      if (start_[k] < 0.0 || start_[k] > n) return;
+      continue;
+    }
+    const double at_low = -start_[k] / step_[k], at_high = (n - start_[k]) / step_[k];
+    t_ = std::max(t_, std::min(at_low, at_high));
+    t_end_ = std::min(t_end_, std::max(at_low, at_high));
+  }
+  if (t_ > t_end_) return;
+  for (int k = 0; k < 3; ++k) {
+    cell_[k] = static_cast<int>(std::clamp(std::floor(start_[k] + t_ * step_[k]), 0.0, double(size_[k] - 1)));
+  }
+  inside_ = true;
+}
+
+double GridWalk::exit(const Vector3i& low, const Vector3i& high) {
+  low_ = low;
+  high_ = high;
+  axis_ = -1;
+  t_exit_ = t_end_;
+  for (int k = 0; k < 3; ++k) {
+    if (step_[k] == 0.0) continue;
+    const double plane = step_[k] > 0.0 ? high[k] : low[k];
+    const double t = (plane - start_[k]) / step_[k];
+    if (t < t_exit_) {
+      t_exit_ = t;
+      axis_ = k;
+    }
+  }
+  t_exit_ = std::max(t_exit_, t_);
+  return t_exit_;
+}
+
+void GridWalk::advance() {
+  t_ = t_exit_;
+  if (axis_ < 0) {
+    inside_ = false;
+    return;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (k == axis_ || step_[k] == 0.0) continue;
+    const int at =
+        static_cast<int>(std::clamp(std::floor(start_[k] + t_ * step_[k]), double(low_[k]), double(high_[k] - 1)));
+    cell_[k] = step_[k] > 0.0 ? std::max(cell_[k], at) : std::min(cell_[k], at);
+  }
+  cell_[axis_] = step_[axis_] > 0.0 ? high_[axis_] : low_[axis_] - 1;
+  inside_ = cell_[axis_] >= 0 && cell_[axis_] < size_[axis_];
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/query/segment_query.h"
+
+namespace sdf_ccd {
+
+/// Follows a segment through the cells of a grid, block by block.
+///
+/// The parameter comes from the plane that is crossed, never from a sum of steps, and the crossed plane's cell index
+/// is set, not computed: so no cell is met twice and none is left out, however the segment runs along faces.
+class GridWalk {
+ public:
+  GridWalk(const GridShape& shape, const Segment& segment);
+
+  /// False once the segment has ended or left the grid (or if it never meets it).
+  bool inside() const { return inside_; }
+
+  const Vector3i& cell() const { return cell_; }
+
+  /// Parameter at which the current block was entered.
+  double t() const { return t_; }
+
+  /// Parameter at which the block of cells [low, high) around the current cell is left, at most the segment's end;
+  /// remembers through which face.
+  double exit(const Vector3i& low, const Vector3i& high);
+
+  /// Steps through the face that exit() found.
+  void advance();
+
+  /// The segment's place at t, in cells from `origin_cell`'s first corner.
+  Vector3d local(double t, const Vector3i& origin_cell) const {
+    return start_ + t * step_ - origin_cell.cast<double>();
+  }
+
+ private:
+  Vector3i size_;
+  Vector3d start_, step_;  // in cells
+  Vector3i cell_ = Vector3i::Zero();
+  double t_ = 0.0, t_end_ = 1.0;
+  bool inside_ = false;
+  // what exit() found
+  Vector3i low_ = Vector3i::Zero(), high_ = Vector3i::Zero();
+  double t_exit_ = 0.0;
+  int axis_ = -1;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/query/segment_query.h"
+
+/// The segment query on each kind of field that a DistanceField can hold.
+namespace sdf_ccd {
+
+/// Spans that follow each other nearer than this on the path are one: two cells agree on their common face only to
+/// rounding.
+constexpr double kJoin = 1e-12;
+
+/// Appends a span, joined to the last one where they meet.
+inline void appendSpan(Intervals& intervals, double enter, double exit) {
+  if (!intervals.empty() && enter <= intervals.back().exit + kJoin) {
+    if (exit > intervals.back().exit) intervals.back().exit = exit;
+  } else {
+    intervals.push_back({enter, exit});
+  }
+}
+
+void gridIntervals(const SparseGrid& grid, const Segment& segment, const SegmentOptions& options, Intervals& intervals);
+void gridPieces(const SparseGrid& grid, const Segment& segment, const Interval& interval, std::vector<double>& breaks);
+
+void primitiveIntervals(const Primitive& primitive, const Segment& segment, const SegmentOptions& options,
+                        Intervals& intervals);
+void primitivePieces(const Primitive& primitive, const Segment& segment, const Interval& interval,
+                     std::vector<double>& breaks);
+
+}  // namespace sdf_ccd
