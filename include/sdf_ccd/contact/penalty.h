@@ -41,29 +41,35 @@ struct ContactInput {
   const DistanceField& field;
   const PointShell& shell;
   const ChordPath& path;                       ///< X_FP
-  const std::vector<Isometry3d>& X_CF;         ///< F in an unaccelerated frame C: at start and end of every chord
+  const std::vector<Isometry3d>& X_CF;         ///< F in an unaccelerated frame C: at the first chord's start and at
+                                               ///< every chord's end, so one more than there are chords
   const std::vector<SiblingField>& siblings;
 };
 
 /// Where a hit is deepest.
 struct HitDepth {
-  double depth = 0.0;       ///< [m], positive inside
+  bool siblings = false;    ///< the contact is a sibling's all along: the rest is not set
+  double depth = 0.0;       ///< [m], positive inside; of a place on the path, so never more than the deepest
   double time = 0.0;        ///< [s]
-  Vector3d p_C;             ///< contact point [m], frame C
-  Vector3d normal_C;        ///< unit, out of the field's body
+  Vector3d p_C = Vector3d::Zero();       ///< contact point [m], frame C
+  Vector3d normal_C = Vector3d::Zero();  ///< unit, out of the field's body
 };
 
 /// Impulses over all hits.
 struct ContactImpulse {
   Wrench on_shell_body;         ///< I [N·s] and M about C's origin [N·m·s] on P; on F it is the opposite (Eq. 6, 7)
   std::vector<HitDepth> depths; ///< one per hit
+  std::vector<double> breaks;   ///< memory that is reused from hit to hit
 };
 
 /// Integrates penalty force F = −k d N (N out of the field's body, d < 0 inside) and damping force −k_D v_rel over
 /// the hits (paper Eq. 3–11; signs as in design §3.6). Divide by the cycle's length for the average (Eq. 8, 9).
-/// The exact rule is three-point Gauss on each cell's piece, with N linear along the piece (design §3.9); the
-/// midpoint rule is the paper's. Reuses the memory of `result`.
+/// The exact rule is three-point Gauss on each cell's piece, with N linear along the piece (design §3.9): exact for
+/// an interpolated field and an F that does not rotate in C. The midpoint rule is the paper's.
+/// Where the field knows no gradient (far inside), the shell point's inward normal stands for it.
+/// Reuses the memory of `result`.
 /// @param with_impulse  false leaves the integrals out and finds depths only.
+/// @throws std::invalid_argument if X_CF has not one pose more than the path has chords.
 void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,
                       bool with_impulse, ContactImpulse& result);
 

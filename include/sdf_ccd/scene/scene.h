@@ -29,14 +29,18 @@ struct Body {
   bool is_world = false;
   std::string failure;          ///< why it cannot be checked; empty if it can
   std::vector<BodyPart> parts;  ///< empty if no pair needs its field
-  PointShell shell;             ///< frame B; empty if no pair needs it. Points inside a sibling part are left out
+  PointShell shell;             ///< frame B; empty if no pair needs it. Points deep inside a sibling part are left out
   SphereTree tree;
   BoundingBall ball;            ///< holds the shell's points
 };
 
+/// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing + the field's own error +
+/// motion_margin), so that they hold the margin at which a pair ceases to be CLEAR; at most to 32 cells, beyond which
+/// the bounds that every field has anywhere are fine enough.
 struct SceneOptions {
   FieldOptions field;
   ShellOptions shell;
+  double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
   std::string cache_directory;  ///< empty: nothing is read or written
 };
 
@@ -44,8 +48,8 @@ struct SceneOptions {
 struct BodyReport {
   std::string name;
   std::string geometry;      ///< "mesh (300 triangles, closed)", "box", …
-  std::string field;         ///< "cached", "built 1.2 s", "exact", "left out: …"
-  std::size_t field_bytes = 0;
+  std::string field;         ///< "cached", "built 1.2 s", "exact", "shared", "left out"
+  std::size_t field_bytes = 0;  ///< a mesh that several bodies have counts for the first
   std::size_t cells = 0;     ///< stored cells
   double field_error = 0.0;  ///< [m]
   std::size_t shell_points = 0;
@@ -62,13 +66,19 @@ struct Scene {
   std::vector<BodyReport> reports;
 };
 
-/// Builds, or takes from the cache, what the plan needs. A body whose field or shell cannot be built keeps its place
-/// with Body::failure set; the others are not touched by it.
+/// Builds, or takes from the cache, what the plan needs; meshes of equal content once. A body whose field or shell
+/// cannot be built keeps its place with Body::failure set; the others are not touched by it.
+///
+/// Shell points deeper inside a sibling part than the covering radius are left out. The radius stays true for the
+/// union: a place q of its surface is outside the sibling, so (distances being 1-Lipschitz) the point nearest to q is
+/// no deeper in it than the radius, and kept. Kept points inside a sibling stand for no area. Siblings that are meshes
+/// count only where the plan has their field built and their sign is trusted.
 /// @param progress  called with the body's name and the share of all bodies done.
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options,
                  const std::function<void(const std::string&, double)>& progress = {});
 
-/// The plan as one table for the log: body, geometry, field, shell, cells, bytes, pairs; below it what was left out.
+/// The plan as one table for the log: body, geometry, field, shell, cells, bytes, pairs; below it what
+/// failed, what to know, and what was left out, by reason.
 std::string planTable(const Scene& scene);
 
 }  // namespace sdf_ccd

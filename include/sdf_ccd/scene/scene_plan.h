@@ -28,10 +28,12 @@ struct ScenePlan {
   std::vector<LeftOut> left_out;
 };
 
-/// Leaves out pairs that are disabled, both of the world, or in the same frame; fields and shells that no pair uses;
-/// shells of half-spaces and voxel maps. A pair with a body that cannot be checked stays, and is NOT_CHECKED.
-/// @throws std::invalid_argument if two bodies share a name, or a disabled pair names no body of the scene
-/// twice-identically.
+/// Leaves out pairs that are disabled, both of the world, in the same frame, or of a body without geometry; fields
+/// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (they cannot
+/// be covered with points), and pairs of two such bodies. All others are tested in both roles.
+/// A pair with a body that cannot be checked stays, asks for nothing to be built, and is NOT_CHECKED.
+/// A disabled pair may name bodies that the scene does not have (an SRDF's links without collision geometry).
+/// @throws std::invalid_argument if two bodies share a name, or a disabled pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description);
 
 }  // namespace sdf_ccd

@@ -1,0 +1,209 @@
+#include "sdf_ccd/contact/penalty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "chord_frame.h"
+#include "deepest.h"
+#include "sdf_ccd/query/segment_query.h"
+
+namespace sdf_ccd {
+namespace {
+
+struct Node {
+  double s;
+  double weight;
+};
+
+// Three-point Gauss on [0, 1]: exact up to degree 5, which d (cubic) times N and r (linear) is (design §3.9).
+const std::array<Node, 3> kGauss = {
+    {{0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}}};
+
+// Two parts at the same place: their values differ by the rounding of their poses [m].
+constexpr double kTie = 1e-9;
+
+class Integrator {
+ public:
+  Integrator(const ContactInput& input, const ContactOptions& options, bool with_impulse, ContactImpulse& result)
+      : input_(input), options_(options), with_impulse_(with_impulse), result_(result) {}
+
+  void add(const ShellHit& hit) {
+    if (hit.chord != chord_) {
+      chord_ = hit.chord;
+      frame_ = ChordFrame(input_.X_CF[chord_], input_.X_CF[chord_ + 1]);
+    }
+    const Chord& chord = input_.path.chords[chord_];
+    const ChordPoint point(chord, input_.shell.points[hit.point], input_.shell.normals[hit.point]);
+    const double share = options_.stiffness_per == StiffnessPer::kArea ? input_.shell.areas[hit.point] : 1.0;
+    stiffness_ = share * options_.stiffness;
+    damping_ = share * options_.damping;
+
+    std::vector<double>& breaks = result_.breaks;
+    breaks.clear();
+    if (options_.quadrature == Quadrature::kExact) {
+      smoothPieces(input_.field, {point.start, point.position(1.0)}, hit.interval, breaks);
+    } else {
+      for (int i = 1; i < options_.midpoint_intervals; ++i) {
+        const double share_of_interval = static_cast<double>(i) / options_.midpoint_intervals;
+        breaks.push_back(hit.interval.enter + share_of_interval * (hit.interval.exit - hit.interval.enter));
+      }
+    }
+    breaks.insert(breaks.begin(), hit.interval.enter);
+    breaks.push_back(hit.interval.exit);
+    if (!input_.siblings.empty()) splitWhereOwnerChanges(point);
+
+    deepest_ = {};
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) addPiece(point, breaks[i], breaks[i + 1]);
+    deepest_.refine([&](double s) { return input_.field.sample(point.position(s)).value; });
+    result_.depths.push_back(depthOf(point, chord));
+  }
+
+ private:
+  Vector3d fieldNormal(const ChordPoint& point, double s, const Vector3d& gradient) const {
+    const double norm = gradient.norm();
+    return norm > 1e-9 ? Vector3d(gradient / norm) : point.inward(s);
+  }
+
+  Vector3d normal(const ChordPoint& point, double s, const Vector3d& gradient) const {
+    return options_.normal == NormalSource::kShell ? point.inward(s) : fieldNormal(point, s, gradient);
+  }
+
+  /// Whether a sibling of the field is deeper at p_F, so that the contact is not this field's.
+  bool siblingOwns(const Vector3d& p_F) const {
+    std::optional<double> own;
+    for (const SiblingField& sibling : input_.siblings) {
+      const Vector3d p_G = sibling.X_GF * p_F;
+      const AlignedBox3d& box = sibling.field->surfaceBox();
+      // Beyond its error outside the surface's box, the sibling's value is positive.
+      if (box.exteriorDistance(p_G) > sibling.field->errorBound()) continue;
+      if (!own) own = input_.field.sample(p_F).value;
+      const double ahead = *own - sibling.field->sample(p_G).value;
+      if (ahead > kTie || (ahead >= -kTie && sibling.wins_tie)) return true;
+    }
+    return false;
+  }
+
+  /// Adds breaks where a sibling becomes deeper or ceases to be, so that every piece has one owner.
+  void splitWhereOwnerChanges(const ChordPoint& point) {
+    std::vector<double>& breaks = result_.breaks;
+    const auto owned = [&](double s) { return siblingOwns(point.position(s)); };
+    const std::size_t count = breaks.size();
+    bool before = owned(breaks[0]);
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const double middle = 0.5 * (breaks[i] + breaks[i + 1]);
+      for (const auto& [from, to] : {std::pair{breaks[i], middle}, std::pair{middle, breaks[i + 1]}}) {
+        const bool after = owned(to);
+        if (after != before) {
+          double low = from, high = to;
+          for (int step = 0; step < 40; ++step) {
+            const double half = 0.5 * (low + high);
+            (owned(half) == before ? low : high) = half;
+          }
+          breaks.push_back(high);
+        }
+        before = after;
+      }
+    }
+    std::sort(breaks.begin(), breaks.end());
+  }
+
+  void addPiece(const ChordPoint& point, double from, double to) {
+    const double length = to - from;
+    if (!input_.siblings.empty() && siblingOwns(point.position(0.5 * (from + to)))) {
+      deepest_.startRun();
+      return;
+    }
+    // The gradient jumps from cell to cell: the ends are taken just inside this piece.
+    const double first = from + 1e-9 * length, last = to - 1e-9 * length;
+    const FieldSample at_first = input_.field.sample(point.position(first));
+    deepest_.offer(first, at_first.value);
+    if (options_.quadrature == Quadrature::kMidpoint) {
+      const double s = from + 0.5 * length;
+      const FieldSample sample = input_.field.sample(point.position(s));
+      deepest_.offer(s, sample.value);
+      addNode(point, {s, length}, sample.value, normal(point, s, sample.gradient));
+      const FieldSample at_last = input_.field.sample(point.position(last));
+      deepest_.offer(last, at_last.value);
+      return;
+    }
+    const FieldSample at_last = input_.field.sample(point.position(last));
+    const bool known = at_first.gradient.norm() > 1e-9 && at_last.gradient.norm() > 1e-9;
+    const bool linear = known || options_.normal == NormalSource::kShell;
+    const Vector3d N_first = normal(point, first, at_first.gradient);
+    const Vector3d N_last = normal(point, last, at_last.gradient);
+    for (const Node& gauss : kGauss) {
+      const Node node{from + gauss.s * length, gauss.weight * length};
+      const FieldSample sample = input_.field.sample(point.position(node.s));
+      deepest_.offer(node.s, sample.value);
+      addNode(point, node, sample.value,
+              linear ? Vector3d((1.0 - gauss.s) * N_first + gauss.s * N_last) : normal(point, node.s, sample.gradient));
+    }
+    deepest_.offer(last, at_last.value);
+  }
+
+  void addNode(const ChordPoint& point, const Node& node, double value, const Vector3d& N_F) {
+    if (!with_impulse_) return;
+    Vector3d F_F = -stiffness_ * std::min(value, 0.0) * N_F;  // Eq. 3, N as in design §3.6
+    if (damping_ != 0.0) F_F -= damping_ * point.velocity();  // Eq. 10 with the sign that opposes the motion
+    const Matrix3d R_CF = frame_.rotation(node.s);
+    const Vector3d impulse = node.weight * point.duration * (R_CF * F_F);  // Eq. 4
+    const Vector3d r_C = frame_.origin(node.s) + R_CF * point.position(node.s);
+    result_.on_shell_body += {impulse, r_C.cross(impulse)};  // Eq. 5, 11
+  }
+
+  HitDepth depthOf(const ChordPoint& point, const Chord& chord) const {
+    HitDepth depth;
+    depth.siblings = !deepest_.found();
+    if (depth.siblings) return depth;
+    const double s = deepest_.s();
+    const Vector3d p_F = point.position(s);
+    const Matrix3d R_CF = frame_.rotation(s);
+    depth.depth = std::max(-deepest_.value(), 0.0);
+    depth.time = chord.t_start + s * point.duration;
+    depth.p_C = frame_.origin(s) + R_CF * p_F;
+    depth.normal_C = R_CF * fieldNormal(point, s, input_.field.sample(p_F).gradient);
+    return depth;
+  }
+
+  const ContactInput& input_;
+  const ContactOptions& options_;
+  const bool with_impulse_;
+  ContactImpulse& result_;
+  int chord_ = -1;
+  ChordFrame frame_;
+  double stiffness_ = 0.0;  // of this point [N/m]
+  double damping_ = 0.0;    // of this point [N·s/m]
+  Deepest deepest_;
+};
+
+}  // namespace
+
+void validate(const ContactOptions& options) {
+  const auto require = [](double value, const char* name) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+      throw std::invalid_argument("contact: " + std::string(name) + " must be finite and not negative, got " +
+                                  std::to_string(value));
+  };
+  require(options.stiffness, "stiffness");
+  require(options.damping, "damping");
+  if (options.midpoint_intervals < 1)
+    throw std::invalid_argument("contact: midpoint_intervals must be 1 or more, got " +
+                                std::to_string(options.midpoint_intervals));
+}
+
+void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,
+                      bool with_impulse, ContactImpulse& result) {
+  if (input.X_CF.size() != input.path.chords.size() + 1)
+    throw std::invalid_argument("contact: " + std::to_string(input.path.chords.size()) +
+                                " chords need one pose more, got " + std::to_string(input.X_CF.size()));
+  result.on_shell_body = {};
+  result.depths.clear();
+  Integrator integrator(input, options, with_impulse, result);
+  for (const ShellHit& hit : hits) integrator.add(hit);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "body_shell.h"
+#include "mesh_pool.h"
+#include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/scene/scene.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string nameOf(const Primitive& primitive) {
+  static const char* const kNames[] = {"sphere", "box", "cylinder", "half-space"};
+  return kNames[primitive.index()];
+}
+
+std::string nameOf(const PooledMesh& mesh) {
+  const std::string count = std::to_string(mesh.mesh.triangles.size()) + " triangles";
+  if (mesh.voxels) return "voxels (" + count + ")";
+  return "mesh (" + count + (mesh.quality.sign_trusted ? ", closed)" : ", open)");
+}
+
+/// Builds one body after the other from the shared pool of meshes.
+class BodyBuilder {
+ public:
+  BodyBuilder(const BodyDescription& description, const SceneOptions& options, MeshPool& pool, BodyReport& report)
+      : description_(description), options_(options), pool_(pool), report_(report) {
+    for (const GeometryDescription& geometry : description.geometry) {
+      const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+      if (mesh && !*mesh) throw std::invalid_argument(geometry.source + ": no mesh");
+      meshes_.push_back(mesh ? &pool.find(**mesh, geometry.watertight_voxels) : nullptr);
+      const std::string name = meshes_.back() ? nameOf(*meshes_.back()) : nameOf(primitiveOf(geometry));
+      report.geometry += (report.geometry.empty() ? "" : ", ") + name;
+      if (mesh && !geometry.watertight_voxels && !meshes_.back()->quality.sign_trusted)
+        report.warnings.push_back(geometry.source +
+                                  ": inside and outside are not certain: " + summary(meshes_.back()->quality));
+    }
+    if (description.geometry.size() > 3) report.geometry = std::to_string(description.geometry.size()) + " parts";
+  }
+
+  std::vector<BodyPart> makeParts(const Progress& progress) {
+    std::vector<BodyPart> parts;
+    bool exact = true, built = false, cached = false;
+    const auto start = Clock::now();
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      const GeometryDescription& geometry = description_.geometry[i];
+      if (!meshes_[i]) {
+        parts.push_back({geometry.X_BG, DistanceField(primitiveOf(geometry))});
+        report_.field_bytes += parts.back().field.bytes();
+        continue;
+      }
+      const MeshPool::Made made = pool_.makeField(*meshes_[i], [&](double share) {
+        if (progress) progress((double(i) + share) / double(meshes_.size()));
+      });
+      parts.push_back({geometry.X_BG, *meshes_[i]->field});
+      const DistanceField& field = parts.back().field;
+      exact = false;
+      built |= made.now && !made.from_cache;
+      cached |= made.from_cache;
+      if (made.now) report_.field_bytes += field.bytes();
+      report_.cells += field.grid()->storedCells();
+      report_.field_error = std::max(report_.field_error, field.errorBound());
+      if (!made.warning.empty()) report_.warnings.push_back(made.warning);
+    }
+    char text[32];
+    std::snprintf(text, sizeof(text), "built %.1f s", std::chrono::duration<double>(Clock::now() - start).count());
+    report_.field = exact ? "exact" : built ? text : cached ? "cached" : "shared";
+    return parts;
+  }
+
+  PointShell makeShell(const std::vector<BodyPart>& parts) {
+    std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings have them in any case
+    primitives.reserve(meshes_.size());
+    std::vector<ShellPart> shells;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      const GeometryDescription& geometry = description_.geometry[i];
+      if (!meshes_[i]) {
+        const Primitive& primitive = primitiveOf(geometry);
+        primitives.emplace_back(primitive);
+        shells.push_back({geometry.X_BG, sampleSurface(primitive, options_.shell), &primitives.back()});
+      } else {
+        pool_.makeShell(*meshes_[i]);
+        const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
+        shells.push_back({geometry.X_BG, *meshes_[i]->shell, known ? &*meshes_[i]->field : nullptr});
+      }
+    }
+    return unionShell(shells);
+  }
+
+ private:
+  static const Primitive& primitiveOf(const GeometryDescription& geometry) {
+    return std::get<Primitive>(geometry.shape);
+  }
+
+  const BodyDescription& description_;
+  const SceneOptions& options_;
+  MeshPool& pool_;
+  BodyReport& report_;
+  std::vector<PooledMesh*> meshes_;  // per geometry; null for a primitive
+};
+
+void build(const BodyDescription& description, bool needs_field, bool needs_shell, const SceneOptions& options,
+           MeshPool& pool, const Progress& progress, Body& body, BodyReport& report) {
+  BodyBuilder builder(description, options, pool, report);
+  if (needs_field) body.parts = builder.makeParts(progress);
+  if (!needs_shell) return;
+  body.shell = builder.makeShell(body.parts);
+  body.tree = buildSphereTree(body.shell);
+  body.ball = boundingBall(body.shell);
+  report.shell_points = body.shell.size();
+  report.shell_bytes =
+      body.shell.size() * (2 * sizeof(Vector3d) + sizeof(double)) + body.tree.nodes.size() * sizeof(SphereTree::Node);
+  report.covering_radius = body.shell.covering_radius;
+}
+
+}  // namespace
+
+Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options,
+                 const std::function<void(const std::string&, double)>& progress) {
+  Scene scene;
+  scene.pairs = plan.pairs;
+  scene.left_out = plan.left_out;
+  MeshPool pool(options);
+  const std::size_t count = description.bodies.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const BodyDescription& described = description.bodies[i];
+    Body body;
+    body.name = described.name;
+    body.frame = described.frame;
+    body.X_frame_B = described.X_frame_B;
+    body.is_world = described.is_world;
+    body.failure = described.failure;
+    BodyReport report;
+    report.name = described.name;
+    report.field = "left out";
+    report.pairs = std::count_if(plan.pairs.begin(), plan.pairs.end(), [&](const PlannedPair& pair) {
+      return pair.body_a == static_cast<int>(i) || pair.body_b == static_cast<int>(i);
+    });
+    const auto report_progress = [&](double share) {
+      if (progress) progress(described.name, (double(i) + share) / double(count));
+    };
+    report_progress(0.0);
+    if (body.failure.empty() && (plan.needs_field[i] || plan.needs_shell[i])) {
+      try {
+        build(described, plan.needs_field[i], plan.needs_shell[i], options, pool, report_progress, body, report);
+      } catch (const std::exception& error) {
+        body.failure = error.what();
+        body.parts.clear();
+        body.shell = {};
+        body.tree = {};
+      }
+    }
+    if (!body.failure.empty()) report.field = "failed";
+    scene.bodies.push_back(std::move(body));
+    scene.reports.push_back(std::move(report));
+  }
+  if (progress && count > 0) progress(description.bodies.back().name, 1.0);
+  return scene;
+}
+
+}  // namespace sdf_ccd

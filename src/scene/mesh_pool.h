@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "sdf_ccd/field/field_cache.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/scene/scene.h"
+
+namespace sdf_ccd {
+
+/// A mesh of the scene and what was made of it.
+struct PooledMesh {
+  TriangleMesh mesh;  ///< oriented, but for voxels, which are right as they come
+  bool voxels = false;
+  MeshQuality quality;  ///< empty for voxels
+  std::optional<DistanceField> field;
+  std::optional<PointShell> shell;
+};
+
+/// Makes fields and shells of meshes, each once however many bodies have it (fingers, a second arm).
+class MeshPool {
+ public:
+  explicit MeshPool(const SceneOptions& options) : options_(options), cache_(options.cache_directory) {}
+
+  /// The mesh of this content. The reference stays valid.
+  PooledMesh& find(const TriangleMesh& mesh, bool voxels);
+
+  struct Made {
+    bool now = false;  ///< false: it was there already, for another body
+    bool from_cache = false;
+    std::string warning;
+  };
+  Made makeField(PooledMesh& mesh, const Progress& progress);
+  void makeShell(PooledMesh& mesh);
+
+ private:
+  FieldOptions fieldOptions(const TriangleMesh& mesh) const;
+
+  const SceneOptions& options_;
+  FieldCache cache_;
+  struct Entry {
+    TriangleMesh original;
+    PooledMesh pooled;
+  };
+  std::unordered_multimap<std::size_t, std::unique_ptr<Entry>> entries_;  // by the content's hash
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "sdf_ccd/scene/scene.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Row = std::vector<std::string>;
+
+constexpr std::size_t kNamed = 4;  // examples named per reason
+
+/// Characters, not bytes, of UTF-8.
+std::size_t width(const std::string& text) {
+  return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+}
+
+std::string number(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return text;
+}
+
+/// Columns as wide as their widest entry; the first `left` columns flush left, numbers flush right.
+std::string aligned(const std::vector<Row>& rows, std::size_t left) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const Row& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string padding(widths[c] - width(row[c]), ' ');
+      line += (c == 0 ? "" : "  ") + (c < left ? row[c] + padding : padding + row[c]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+/// One line per kind and reason, with a few examples: "not tested, SRDF: Never: 212 pairs (a – b, c – d, …)".
+std::string leftOutLines(const std::vector<LeftOut>& left_out) {
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
+  for (const LeftOut& item : left_out) {
+    const std::size_t space = item.what.find(' ');
+    const std::string kind = item.what.substr(0, space);
+    const std::size_t name = item.what.compare(space, 4, " of ") == 0 ? space + 4 : space + 1;
+    groups[{kind, item.reason}].push_back(item.what.substr(std::min(name, item.what.size())));
+  }
+  std::string text;
+  for (const auto& [group, names] : groups) {
+    text += "  " + std::to_string(names.size()) + " " + group.first + (names.size() == 1 ? "" : "s") + ", " +
+            group.second + ": ";
+    for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
+    text += names.size() > kNamed ? ", …\n" : "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string planTable(const Scene& scene) {
+  std::vector<Row> rows = {
+      {"body", "geometry", "field", "cells", "MB", "error mm", "shell points", "covering mm", "pairs"}};
+  double megabytes = 0.0;
+  std::size_t cells = 0, points = 0;
+  for (const BodyReport& report : scene.reports) {
+    const double mb = 1e-6 * double(report.field_bytes + report.shell_bytes);
+    megabytes += mb;
+    cells += report.cells;
+    points += report.shell_points;
+    const bool has_shell = report.shell_points > 0;
+    rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), number(mb, 1),
+                    number(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : "left out",
+                    has_shell ? number(1e3 * report.covering_radius, 1) : "", std::to_string(report.pairs)});
+  }
+  rows.push_back({"total", "", "", std::to_string(cells), number(megabytes, 1), "", std::to_string(points), "",
+                  std::to_string(scene.pairs.size())});
+  std::string text = aligned(rows, 3);
+
+  std::string failures, warnings;
+  for (const Body& body : scene.bodies)
+    if (!body.failure.empty()) failures += "  " + body.name + ": " + body.failure + "\n";
+  for (const BodyReport& report : scene.reports)
+    for (const std::string& warning : report.warnings) warnings += "  " + report.name + ": " + warning + "\n";
+  if (!failures.empty()) text += "not checked:\n" + failures;
+  if (!warnings.empty()) text += "to know:\n" + warnings;
+  if (!scene.left_out.empty()) text += "left out:\n" + leftOutLines(scene.left_out);
+  return text;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,96 @@
+#include "sdf_ccd/scene/scene_plan.h"
+
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace sdf_ccd {
+namespace {
+
+using Names = std::pair<std::string, std::string>;
+
+Names ordered(const std::string& a, const std::string& b) {
+  return a < b ? Names{a, b} : Names{b, a};
+}
+
+/// Why no shell can cover the body's surface; empty if one can.
+std::string whyNoShell(const BodyDescription& body) {
+  for (const GeometryDescription& geometry : body.geometry) {
+    if (geometry.watertight_voxels) return "a voxel map is only a field";
+    const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+    if (primitive && std::holds_alternative<HalfSpace>(*primitive)) return "a half-space has no bounded surface";
+  }
+  return {};
+}
+
+std::map<Names, std::string> disabledPairs(const SceneDescription& description) {
+  std::set<std::string> names;
+  for (const BodyDescription& body : description.bodies) {
+    if (!names.insert(body.name).second)
+      throw std::invalid_argument("scene: two bodies are named \"" + body.name + "\"");
+  }
+  std::map<Names, std::string> reasons;
+  for (const DisabledPair& pair : description.disabled) {
+    if (pair.body_a == pair.body_b)
+      throw std::invalid_argument("scene: a disabled pair names \"" + pair.body_a + "\" twice");
+    reasons.emplace(ordered(pair.body_a, pair.body_b), pair.reason);
+  }
+  return reasons;
+}
+
+/// Why the pair is not tested; empty if it is.
+std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
+                       const std::map<Names, std::string>& disabled) {
+  const auto found = disabled.find(ordered(a.name, b.name));
+  if (found != disabled.end()) return found->second;
+  if (a.is_world && b.is_world) return "both of the world";
+  if (a.frame == b.frame) return "in the same frame";
+  if (!a.failure.empty() || !b.failure.empty()) return {};
+  if (a.geometry.empty() || b.geometry.empty()) return "without collision geometry";
+  if (!whyNoShell(a).empty() && !whyNoShell(b).empty()) return "neither can be covered with points";
+  return {};
+}
+
+}  // namespace
+
+ScenePlan planScene(const SceneDescription& description) {
+  const std::map<Names, std::string> disabled = disabledPairs(description);
+  const int count = static_cast<int>(description.bodies.size());
+  ScenePlan plan;
+  plan.needs_field.assign(count, false);
+  plan.needs_shell.assign(count, false);
+  std::vector<bool> has_pair(count, false);
+
+  for (int i = 0; i < count; ++i) {
+    for (int k = i + 1; k < count; ++k) {
+      const BodyDescription& a = description.bodies[i];
+      const BodyDescription& b = description.bodies[k];
+      const std::string reason = whyLeftOut(a, b, disabled);
+      if (!reason.empty()) {
+        plan.left_out.push_back({"pair " + a.name + " – " + b.name, reason});
+        continue;
+      }
+      const bool checkable = a.failure.empty() && b.failure.empty();
+      const bool a_shell = checkable && whyNoShell(a).empty();
+      const bool b_shell = checkable && whyNoShell(b).empty();
+      plan.pairs.push_back({i, k, a_shell, b_shell});
+      has_pair[i] = has_pair[k] = true;
+      if (a_shell) plan.needs_shell[i] = plan.needs_field[k] = true;
+      if (b_shell) plan.needs_shell[k] = plan.needs_field[i] = true;
+    }
+  }
+
+  for (int i = 0; i < count; ++i) {
+    const BodyDescription& body = description.bodies[i];
+    if (!body.failure.empty() || body.geometry.empty()) continue;
+    const std::string no_shell = whyNoShell(body);
+    const std::string idle = has_pair[i] ? "the others of its pairs cannot be checked" : "no pair needs it";
+    if (!plan.needs_field[i])
+      plan.left_out.push_back({"field of " + body.name, plan.needs_shell[i] ? "only ever a shell" : idle});
+    if (!plan.needs_shell[i]) plan.left_out.push_back({"shell of " + body.name, no_shell.empty() ? idle : no_shell});
+  }
+  return plan;
+}
+
+}  // namespace sdf_ccd
