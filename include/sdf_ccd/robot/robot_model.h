@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <urdf_model/model.h>
@@ -16,7 +17,8 @@ using JointPositions = std::map<std::string, double>;  ///< by joint name [rad o
 /// The tree of links and joints of a URDF.
 class RobotModel {
  public:
-  /// @throws std::runtime_error, with the parser's reason, if the text is no URDF.
+  /// @throws std::runtime_error, with the parser's reason, if the text is no URDF; also for a joint whose axis is zero
+  /// or that mimics a missing joint or itself.
   explicit RobotModel(const std::string& urdf_xml);
 
   const urdf::ModelInterface& urdf() const { return *urdf_; }
@@ -25,8 +27,11 @@ class RobotModel {
   /// Links in depth-first order, the root first.
   const std::vector<std::string>& links() const { return links_; }
 
-  /// Pose of every link in the root's frame, in the order of links(). Joints that are not named are at zero (or at
-  /// the nearest limit); mimic joints follow. @throws std::invalid_argument for a joint that does not exist.
+  /// Pose of every link in the root's frame, in the order of links().
+  ///
+  /// Joints that are not named are at zero (or at the nearest limit), planar and floating ones always. Mimic joints
+  /// follow their leader, also if they are named. A named position is taken as it is, also beyond the joint's limits.
+  /// @throws std::invalid_argument for a joint that does not exist or a position that is not finite.
   std::vector<Isometry3d> forwardKinematics(const JointPositions& positions) const;
 
   /// True if only fixed joints lie between the links.
@@ -38,14 +43,30 @@ class RobotModel {
   /// Bounds of the distance between two links' origins over all joint positions [m]: no less and no more than this.
   struct Reach {
     double nearest;
-    double farthest;  ///< infinite for floating or unlimited prismatic joints
+    double farthest;  ///< infinite for floating, planar or unlimited prismatic joints
   };
+
+  /// Every revolute joint may turn all the way round: real ones overshoot their limits. Prismatic joints keep theirs.
+  /// Exact if at most one joint between the links moves; with more, the triangle inequality over the distances
+  /// between their axes.
+  /// @throws std::invalid_argument for a link that does not exist.
   Reach reach(const std::string& link_a, const std::string& link_b) const;
+
+  /// The same between a point of link A and one of link B, each in its link's frame [m].
+  Reach reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b, const Vector3d& p_B) const;
 
  private:
   std::shared_ptr<urdf::ModelInterface> urdf_;
   std::string root_;
   std::vector<std::string> links_;
+  std::map<std::string, int> index_;  ///< of a link in links_
+  std::vector<int> parent_;           ///< per link: its parent's index; -1 for the root
+
+  int indexOf(const std::string& link) const;
+  const urdf::Joint& jointAbove(int link) const;
+  double position(const urdf::Joint& joint, const JointPositions& positions) const;
+  std::vector<std::pair<int, bool>> path(int from, int to) const;  ///< (link below the joint, whether it goes down)
+  int movableJointsBetween(const std::string& link_a, const std::string& link_b) const;
 };
 
 }  // namespace sdf_ccd

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sdf_ccd/robot/robot_model.h"
@@ -9,12 +10,17 @@
 
 namespace sdf_ccd {
 
-/// What is used of an SRDF file.
+/// What is used of an SRDF file. Names are not compared with any robot here.
 struct Srdf {
-  std::vector<DisabledPair> disabled;                       ///< reason: "SRDF: " and the file's
-  std::map<std::string, JointPositions> states;             ///< "group/state"
+  std::vector<DisabledPair> disabled;            ///< reason: "SRDF: " and the file's
+  std::map<std::string, JointPositions> states;  ///< "group/state"; "state" where the file names no group
+  std::vector<std::string> disabled_by_default;  ///< links that are checked against those of `enabled` alone
+  std::vector<std::pair<std::string, std::string>> enabled;  ///< overrides disabled_by_default, and adjacency
 };
 
+/// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions` and `group_state`. As in MoveIt, a
+/// pair that is both disabled and enabled is disabled. Joints with several values in a state (planar, floating) are
+/// left out of it.
 /// @throws std::runtime_error, with line and reason, if the text is no SRDF.
 Srdf parseSrdf(const std::string& xml);
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "sdf_ccd/scene/scene_description.h"
+
+namespace sdf_ccd {
+
+/// A ball around a body's geometry, in its frame.
+struct ExtentBall {
+  Vector3d center;
+  double radius;  ///< [m]; infinite for a half-space
+};
+
+/// `geometry` must not be empty.
+ExtentBall extentBall(const std::vector<GeometryDescription>& geometry);
+
+/// No place of the geometry is nearer to p (in the body's frame) than this [m]; may be negative inside.
+double distanceBelow(const std::vector<GeometryDescription>& geometry, const Vector3d& p);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,107 @@
+#include "joint_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "urdf_geometry.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Vector3d unitAxis(const urdf::Joint& joint) {
+  return toEigen(joint.axis).normalized();
+}
+
+}  // namespace
+
+Isometry3d jointMotion(const urdf::Joint& joint, double position) {
+  Isometry3d X = Isometry3d::Identity();
+  if (joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS) {
+    X.linear() = Eigen::AngleAxisd(position, unitAxis(joint)).toRotationMatrix();
+  } else if (joint.type == urdf::Joint::PRISMATIC) {
+    X.translation() = position * unitAxis(joint);
+  }
+  return X;
+}
+
+Range positionRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
+  Range range(-kInfinity, kInfinity);
+  if (joint.type != urdf::Joint::CONTINUOUS && joint.limits) {
+    range = std::minmax({joint.limits->lower, joint.limits->upper});
+  }
+  if (joint.mimic) {
+    const Range leader = positionRange(model, *model.joints_.at(joint.mimic->joint_name));
+    const double factor = joint.mimic->multiplier;
+    const auto follow = [&](double q) { return (factor == 0.0 ? 0.0 : factor * q) + joint.mimic->offset; };
+    range = std::minmax({range.first, range.second, follow(leader.first), follow(leader.second)});
+  }
+  return range;
+}
+
+void ChainReach::addFixed(const Isometry3d& X) {
+  piece_.offset = X.linear().transpose() * (piece_.offset + X.translation());
+  piece_.slide = X.linear().transpose() * piece_.slide;
+}
+
+void ChainReach::addJoint(const urdf::Joint& joint, const Range& range, bool forward) {
+  switch (joint.type) {
+    case urdf::Joint::FIXED:
+      break;
+    case urdf::Joint::REVOLUTE:
+    case urdf::Joint::CONTINUOUS:
+      turns_.push_back({unitAxis(joint), piece_});
+      piece_ = {Vector3d::Zero(), Vector3d::Zero(), 0.0, 0.0};
+      break;
+    case urdf::Joint::PRISMATIC:
+      if (!std::isfinite(range.first) || !std::isfinite(range.second)) {
+        unlimited_ = true;
+      } else if (piece_.slide.isZero(0.0)) {
+        piece_.slide = (forward ? 1.0 : -1.0) * unitAxis(joint);
+        piece_.low = range.first;
+        piece_.high = range.second;
+      } else {
+        further_slides_.push_back(std::max(std::abs(range.first), std::abs(range.second)));
+      }
+      break;
+    default:  // floating, planar
+      unlimited_ = true;
+  }
+}
+
+Range ChainReach::lengthOf(const Piece& piece) {
+  const auto lengthAt = [&](double q) { return (piece.offset + q * piece.slide).norm(); };
+  const double nearest = std::max(piece.low, std::min(-piece.offset.dot(piece.slide), piece.high));
+  return {lengthAt(nearest), std::max(lengthAt(piece.low), lengthAt(piece.high))};
+}
+
+Range ChainReach::distanceTo(const Vector3d& end) const {
+  if (unlimited_) return {0.0, kInfinity};
+  Piece last = piece_;
+  last.offset += end;
+
+  const bool slides = !last.slide.isZero(0.0) || (!turns_.empty() && !turns_[0].before.slide.isZero(0.0));
+  if (turns_.size() == 1 && further_slides_.empty() && !slides) {
+    // |v + R w|, R about the axis: the parts along it are fixed, those across it add up to anything in between.
+    const Vector3d& axis = turns_[0].axis;
+    const Vector3d& v = turns_[0].before.offset;
+    const Vector3d& w = last.offset;
+    const double along = axis.dot(v + w);
+    const double across_v = axis.cross(v).norm();
+    const double across_w = axis.cross(w).norm();
+    return {std::hypot(along, across_v - across_w), std::hypot(along, across_v + across_w)};
+  }
+
+  std::vector<Range> lengths = {lengthOf(last)};
+  for (const Turn& turn : turns_) lengths.push_back(lengthOf(turn.before));
+  for (const double length : further_slides_) lengths.emplace_back(0.0, length);
+  double farthest = 0.0;
+  for (const Range& length : lengths) farthest += length.second;
+  double nearest = 0.0;  // the longest piece, if all others point back along it
+  for (const Range& length : lengths) nearest = std::max(nearest, length.first - (farthest - length.second));
+  return {nearest, farthest};
+}
+
+}  // namespace sdf_ccd

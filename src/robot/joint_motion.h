@@ -1,0 +1,56 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <urdf_model/model.h>
+
+#include "sdf_ccd/geometry/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// Pose of a joint's child link in the joint's frame, at a position [rad or m]. Planar and floating: identity.
+Isometry3d jointMotion(const urdf::Joint& joint, double position);
+
+/// Least and greatest position [rad or m]. A mimic joint has its leader's range carried over as well as its own.
+using Range = std::pair<double, double>;
+Range positionRange(const urdf::ModelInterface& model, const urdf::Joint& joint);
+
+/// Bounds the distance between the two ends of a chain of joints, over all joint positions.
+///
+/// The chain is cut where something turns. A piece between two cuts has a length that is fixed, or ranges over a
+/// straight line where a joint slides; the distance of the ends is then bounded by the triangle inequality.
+class ChainReach {
+ public:
+  /// @param start  the first end, in the frame that the first element is added to [m].
+  explicit ChainReach(const Vector3d& start) : piece_{-start, Vector3d::Zero(), 0.0, 0.0} {}
+
+  void addFixed(const Isometry3d& X);
+  /// @param forward  false if the chain passes from the joint's child to its parent.
+  void addJoint(const urdf::Joint& joint, const Range& range, bool forward);
+
+  /// (nearest, farthest) [m] to the other end, a point in the last frame.
+  Range distanceTo(const Vector3d& end) const;
+
+ private:
+  /// Vectors from the last cut to the frame's origin: offset + q slide, q in [low, high], in the frame's axes.
+  struct Piece {
+    Vector3d offset;
+    Vector3d slide;
+    double low;
+    double high;
+  };
+  struct Turn {
+    Vector3d axis;  ///< unit
+    Piece before;   ///< the piece that ends in this cut, in the joint's axes
+  };
+
+  static Range lengthOf(const Piece& piece);
+
+  Piece piece_;
+  std::vector<Turn> turns_;
+  std::vector<double> further_slides_;  ///< of pieces with more than one sliding joint: their greatest lengths [m]
+  bool unlimited_ = false;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,85 @@
+#include "parse_urdf.h"
+
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+namespace sdf_ccd {
+namespace {
+
+/// Collects this thread's console_bridge messages while it lives; those of other threads (tf2 logs there too) pass.
+class MessageCollector : public console_bridge::OutputHandler {
+ public:
+  MessageCollector() : previous_(console_bridge::getOutputHandler()), thread_(std::this_thread::get_id()) {
+    console_bridge::useOutputHandler(this);
+  }
+  ~MessageCollector() override { console_bridge::useOutputHandler(previous_); }
+  MessageCollector(const MessageCollector&) = delete;
+  MessageCollector& operator=(const MessageCollector&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char* file, int line) override {
+    if (std::this_thread::get_id() != thread_) {
+      if (previous_) previous_->log(text, level, file, line);
+    } else if (level == console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
+      errors_ += (errors_.empty() ? "" : "; ") + text;
+    }
+  }
+
+  const std::string& errors() const { return errors_; }
+
+ private:
+  console_bridge::OutputHandler* previous_;
+  std::thread::id thread_;
+  std::string errors_;
+};
+
+std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml) {
+  static std::mutex handler_mutex;  // one output handler for the whole process
+  const std::lock_guard<std::mutex> lock(handler_mutex);
+  MessageCollector collector;
+  std::shared_ptr<urdf::ModelInterface> model;
+  try {
+    model = urdf::parseURDF(xml);
+  } catch (const std::exception& error) {
+    throw std::runtime_error("the URDF cannot be parsed: " + collector.errors() + error.what());
+  }
+  if (!model || !model->getRoot()) {
+    const std::string reason = collector.errors().empty() ? "it is no XML document" : collector.errors();
+    throw std::runtime_error("the URDF cannot be parsed: " + reason);
+  }
+  return model;
+}
+
+/// urdfdom accepts these, but no joint position follows from them.
+void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
+  const bool has_axis = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
+                        joint.type == urdf::Joint::PRISMATIC;
+  if (has_axis && joint.axis.x == 0.0 && joint.axis.y == 0.0 && joint.axis.z == 0.0) {
+    throw std::runtime_error("joint " + joint.name + ": its axis is 0 0 0");
+  }
+  if (joint.type == urdf::Joint::UNKNOWN) throw std::runtime_error("joint " + joint.name + ": unknown type");
+  std::set<std::string> seen = {joint.name};
+  for (const urdf::Joint* follower = &joint; follower->mimic;) {
+    const std::string& leader = follower->mimic->joint_name;
+    const auto found = model.joints_.find(leader);
+    if (found == model.joints_.end()) {
+      throw std::runtime_error("joint " + follower->name + " mimics " + leader + ", which does not exist");
+    }
+    if (!seen.insert(leader).second) throw std::runtime_error("joint " + joint.name + " mimics itself");
+    follower = found->second.get();
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml) {
+  const auto model = parse(xml);
+  for (const auto& joint : model->joints_) checkJoint(*model, *joint.second);
+  return model;
+}
+
+}  // namespace sdf_ccd

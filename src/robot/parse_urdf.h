@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <urdf_model/model.h>
+
+namespace sdf_ccd {
+
+/// urdfdom's parser, with its messages in the exception instead of on the console.
+/// @throws std::runtime_error if the text is no URDF, or holds a joint that no kinematics can be made of.
+std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,114 @@
+#include "sdf_ccd/robot/resource.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+namespace sdf_ccd {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& uri, const std::string& reason) {
+  throw std::runtime_error(uri + ": " + reason);
+}
+
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// The entry of `directory` that differs from `name` only by case; the first in alphabetical order if there are more.
+std::string entryIgnoringCase(const fs::path& directory, const std::string& name) {
+  std::string found;
+  const std::string wanted = lowerCase(name);
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    const std::string entry = it->path().filename().string();
+    if (lowerCase(entry) == wanted && (found.empty() || entry < found)) found = entry;
+  }
+  return found;
+}
+
+/// The path with every component as it is spelled on disk.
+fs::path spelledAsOnDisk(const fs::path& path, const std::string& uri, std::string& warning) {
+  std::error_code error;
+  fs::path found = path.root_path();
+  for (const fs::path& component : path.relative_path()) {
+    if (component.empty()) fail(uri, "is a directory");
+    if (fs::exists(found / component, error)) {
+      found /= component;
+      continue;
+    }
+    const std::string entry = entryIgnoringCase(found, component.string());
+    if (entry.empty()) fail(uri, "no such file (" + (found / component).string() + " does not exist)");
+    if (!warning.empty()) warning += ", ";
+    warning += "found " + entry + ", the URI says " + component.string();
+    found /= entry;
+  }
+  if (!warning.empty()) warning = uri + ": " + warning;
+  return found;
+}
+
+std::string readFile(const fs::path& path, const std::string& uri) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) fail(uri, path.string() + " is a directory");
+  if (!fs::is_regular_file(status)) fail(uri, path.string() + " is not a regular file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) fail(uri, path.string() + " cannot be opened");
+  std::string bytes(fs::file_size(path, error), '\0');
+  stream.read(&bytes[0], static_cast<std::streamsize>(bytes.size()));
+  if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) fail(uri, path.string() + " cannot be read");
+  return bytes;
+}
+
+/// `package://name/path`, also with a third slash before the name.
+fs::path packagePath(const std::string& uri, const PackageFinder& packages) {
+  std::size_t begin = std::string("package://").size();
+  while (begin < uri.size() && uri[begin] == '/') ++begin;
+  const std::size_t slash = uri.find('/', begin);
+  if (slash == std::string::npos || slash + 1 == uri.size()) fail(uri, "names no file in a package");
+  const std::string package = uri.substr(begin, slash - begin);
+  const fs::path inside = uri.substr(slash + 1);
+  for (const fs::path& component : inside) {
+    if (component == "..") fail(uri, "'..' leads out of a package and is not followed");
+  }
+  const std::string directory = packages ? packages(package) : std::string();
+  if (directory.empty()) fail(uri, "no such package: " + package);
+  return fs::path(directory) / inside.relative_path();
+}
+
+fs::path localPath(const std::string& uri, const PackageFinder& packages, const std::string& base_directory) {
+  if (uri.empty()) throw std::runtime_error("an empty URI names no file");
+  if (startsWith(uri, "package://")) return packagePath(uri, packages);
+  if (startsWith(uri, "file://")) {
+    const fs::path path = uri.substr(std::string("file://").size());
+    if (!path.is_absolute()) fail(uri, "a file:// URI needs an absolute path");
+    return path;
+  }
+  const std::size_t scheme = uri.find("://");
+  if (scheme != std::string::npos) fail(uri, "scheme " + uri.substr(0, scheme) + ":// is not supported");
+  return fs::path(base_directory) / uri;  // an absolute path replaces the base
+}
+
+}  // namespace
+
+Resource loadLocalResource(const std::string& uri, const PackageFinder& packages, const std::string& base_directory) {
+  Resource resource;
+  const fs::path wanted = localPath(uri, packages, base_directory);
+  const fs::path path = spelledAsOnDisk(fs::absolute(wanted), uri, resource.warning);
+  resource.bytes = readFile(path, uri);
+  resource.name = path.string();
+  return resource;
+}
+
+}  // namespace sdf_ccd

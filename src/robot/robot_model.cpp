@@ -1,0 +1,116 @@
+#include "sdf_ccd/robot/robot_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "joint_motion.h"
+#include "parse_urdf.h"
+#include "urdf_geometry.h"
+
+namespace sdf_ccd {
+
+RobotModel::RobotModel(const std::string& urdf_xml) : urdf_(parseUrdf(urdf_xml)), root_(urdf_->getRoot()->name) {
+  std::vector<std::pair<const urdf::Link*, int>> open = {{urdf_->getRoot().get(), -1}};
+  while (!open.empty()) {
+    const auto [link, parent] = open.back();
+    open.pop_back();
+    const int index = static_cast<int>(links_.size());
+    links_.push_back(link->name);
+    index_[link->name] = index;
+    parent_.push_back(parent);
+    for (auto child = link->child_links.rbegin(); child != link->child_links.rend(); ++child) {
+      open.emplace_back(child->get(), index);
+    }
+  }
+}
+
+int RobotModel::indexOf(const std::string& link) const {
+  const auto found = index_.find(link);
+  if (found == index_.end()) throw std::invalid_argument("robot " + urdf_->name_ + " has no link " + link);
+  return found->second;
+}
+
+const urdf::Joint& RobotModel::jointAbove(int link) const {
+  return *urdf_->links_.at(links_[link])->parent_joint;
+}
+
+double RobotModel::position(const urdf::Joint& joint, const JointPositions& positions) const {
+  if (joint.mimic) {
+    const urdf::Joint& leader = *urdf_->joints_.at(joint.mimic->joint_name);
+    return joint.mimic->multiplier * position(leader, positions) + joint.mimic->offset;
+  }
+  const auto found = positions.find(joint.name);
+  if (found != positions.end()) return found->second;
+  const bool limited = joint.limits && (joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC);
+  return limited ? std::max(joint.limits->lower, std::min(0.0, joint.limits->upper)) : 0.0;
+}
+
+std::vector<Isometry3d> RobotModel::forwardKinematics(const JointPositions& positions) const {
+  for (const auto& [name, value] : positions) {
+    if (!urdf_->joints_.count(name)) throw std::invalid_argument("robot " + urdf_->name_ + " has no joint " + name);
+    if (!std::isfinite(value)) {
+      throw std::invalid_argument("joint " + name + ": position " + std::to_string(value) + " is not finite");
+    }
+  }
+  std::vector<Isometry3d> X_RL(links_.size(), Isometry3d::Identity());
+  for (std::size_t i = 1; i < links_.size(); ++i) {
+    const urdf::Joint& joint = jointAbove(static_cast<int>(i));
+    X_RL[i] = X_RL[parent_[i]] * toEigen(joint.parent_to_joint_origin_transform) *
+              jointMotion(joint, position(joint, positions));
+  }
+  return X_RL;
+}
+
+std::vector<std::pair<int, bool>> RobotModel::path(int from, int to) const {
+  // Depth-first order: a parent's index is less than its children's, so the greater one is never the common ancestor.
+  std::vector<std::pair<int, bool>> up;
+  std::vector<std::pair<int, bool>> down;
+  while (from != to) {
+    if (from > to) {
+      up.emplace_back(from, false);
+      from = parent_[from];
+    } else {
+      down.emplace_back(to, true);
+      to = parent_[to];
+    }
+  }
+  up.insert(up.end(), down.rbegin(), down.rend());
+  return up;
+}
+
+int RobotModel::movableJointsBetween(const std::string& link_a, const std::string& link_b) const {
+  int count = 0;
+  for (const auto& step : path(indexOf(link_a), indexOf(link_b))) {
+    if (jointAbove(step.first).type != urdf::Joint::FIXED) ++count;
+  }
+  return count;
+}
+
+bool RobotModel::rigidlyJoined(const std::string& link_a, const std::string& link_b) const {
+  return movableJointsBetween(link_a, link_b) == 0;
+}
+
+bool RobotModel::adjacent(const std::string& link_a, const std::string& link_b) const {
+  return movableJointsBetween(link_a, link_b) == 1;
+}
+
+RobotModel::Reach RobotModel::reach(const std::string& link_a, const std::string& link_b) const {
+  return reach(link_a, Vector3d::Zero(), link_b, Vector3d::Zero());
+}
+
+RobotModel::Reach RobotModel::reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b,
+                                    const Vector3d& p_B) const {
+  ChainReach chain(p_A);
+  for (const auto& [link, down] : path(indexOf(link_a), indexOf(link_b))) {
+    const urdf::Joint& joint = jointAbove(link);
+    const Isometry3d X_PJ = toEigen(joint.parent_to_joint_origin_transform);
+    if (down) chain.addFixed(X_PJ);
+    chain.addJoint(joint, positionRange(*urdf_, joint), down);
+    if (!down) chain.addFixed(X_PJ.inverse());
+  }
+  const auto [nearest, farthest] = chain.distanceTo(p_B);
+  return {nearest, farthest};
+}
+
+}  // namespace sdf_ccd
