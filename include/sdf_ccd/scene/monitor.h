@@ -14,7 +14,7 @@ namespace sdf_ccd {
 struct CycleMotion {
   std::vector<double> times;                   ///< [s] from t₀, increasing; first 0, last the cycle's length
   std::vector<std::vector<Isometry3d>> X_WB;   ///< per body, per time
-  std::vector<std::string> missing;            ///< per body: why its poses are not known; empty if they are
+  std::vector<std::string> missing;            ///< per body: why its poses are not known; empty if they are, or all are
   std::vector<double> motion_error;            ///< per body: distance of the true motion from X_WB's [m]; may be empty
 };
 
@@ -38,7 +38,7 @@ struct PairResult {
   int body_a = -1;
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;             ///< why it was not checked
+  std::string reason;             ///< why it was not checked; empty if it was
   bool skipped = false;           ///< clear by the clearance left from an earlier cycle
   ErrorBound error;
   double clearance = 0.0;         ///< a lower bound of the distance at t₁ [m]; negative if not known
@@ -67,8 +67,19 @@ struct MonitorOptions {
 
 /// Runs cycles over all pairs of a scene and remembers how far apart they were.
 ///
-/// After the first cycles no memory is allocated unless contacts grow. Pairs run in parallel on the caller's TBB
-/// arena; results do not depend on the number of threads. Not thread-safe: one cycle at a time.
+/// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is deeper than what the
+/// bound says of points, else UNCERTAIN. Both bodies' shells are tested where both exist, and their impulses halved, so
+/// that what both see counts once. Where the bound exceeds a field's band, the field's lower bounds decide about CLEAR.
+/// Wrenches are integrated in the world's axes about A's origin at t₁.
+///
+/// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
+/// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
+///
+/// Limit: a body without a shell (half-space, voxel map) that lies wholly inside the other from the start, without
+/// touching its surface, is not seen.
+///
+/// After the first cycles no memory is allocated unless contacts or the number of chords grow. Pairs run in parallel on
+/// the caller's TBB arena; results do not depend on the number of threads. Not thread-safe: one cycle at a time.
 class Monitor {
  public:
   /// @throws std::invalid_argument if the options are not valid.

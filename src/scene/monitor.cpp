@@ -1,0 +1,135 @@
+#include "sdf_ccd/scene/monitor.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "pair_checker.h"
+
+namespace sdf_ccd {
+namespace {
+
+std::vector<PairContact::Siblings> siblingsOf(const Scene& scene) {
+  std::vector<PairContact::Siblings> siblings(scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const std::vector<BodyPart>& parts = scene.bodies[b].parts;
+    siblings[b].resize(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        if (k != i) siblings[b][i].push_back({&parts[k].field, parts[k].X_BG.inverse() * parts[i].X_BG, k < i});
+  }
+  return siblings;
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("cycle motion: " + what);
+}
+
+void validate(const CycleMotion& motion, const Scene& scene) {
+  const std::size_t bodies = scene.bodies.size();
+  if (motion.times.size() < 2) refuse(std::to_string(motion.times.size()) + " times, two or more are needed");
+  if (motion.times.front() != 0.0) refuse("starts at " + std::to_string(motion.times.front()) + " s, not 0");
+  for (std::size_t k = 1; k < motion.times.size(); ++k) {
+    const double last = motion.times[k - 1], time = motion.times[k];
+    if (!(last < time) || !std::isfinite(time))
+      refuse("time " + std::to_string(last) + " s is followed by " + std::to_string(time));
+  }
+  const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
+  if (motion.X_WB.size() != bodies || !fits(motion.missing.size()) || !fits(motion.motion_error.size()))
+    refuse("made for " + std::to_string(motion.X_WB.size()) + " bodies, the scene has " + std::to_string(bodies));
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const std::string& name = scene.bodies[b].name;
+    const bool known = scene.bodies[b].failure.empty() && (motion.missing.empty() || motion.missing[b].empty());
+    if (known && motion.X_WB[b].size() != motion.times.size())
+      refuse(name + " has " + std::to_string(motion.X_WB[b].size()) + " poses at " +
+             std::to_string(motion.times.size()) + " times");
+    if (motion.motion_error.empty()) continue;
+    const double error = motion.motion_error[b];
+    if (!(error >= 0.0) || !std::isfinite(error)) refuse("motion error of " + name + " is " + std::to_string(error));
+  }
+}
+
+/// Worse verdicts are larger.
+int severity(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kClear:
+      return 0;
+    case Verdict::kNotChecked:
+      return 1;
+    case Verdict::kUncertain:
+      return 2;
+    case Verdict::kContact:
+      return 3;
+  }
+  return 1;
+}
+
+}  // namespace
+
+struct Monitor::Impl {
+  std::shared_ptr<const Scene> scene;
+  MonitorOptions options;
+  std::vector<PairContact::Siblings> siblings;
+  std::vector<PairChecker> checkers;
+  CycleResult result;
+
+  void summarise() {
+    result.verdict = Verdict::kClear;
+    result.error_bound = 0.0;
+    result.checked = result.skipped = result.not_checked = 0;
+    for (const PairResult& pair : result.pairs) {
+      if (severity(pair.verdict) > severity(result.verdict)) result.verdict = pair.verdict;
+      if (pair.verdict == Verdict::kNotChecked) {
+        ++result.not_checked;
+        continue;
+      }
+      ++(pair.skipped ? result.skipped : result.checked);
+      result.error_bound = std::max(result.error_bound, pair.error.total());
+    }
+  }
+};
+
+Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options) : impl_(new Impl) {
+  validate(options.contact);
+  if (!(options.chords.tolerance > 0.0) || !std::isfinite(options.chords.tolerance))
+    throw std::invalid_argument("monitor: chord tolerance " + std::to_string(options.chords.tolerance) + " m");
+  if (options.chords.max_chords < 1)
+    throw std::invalid_argument("monitor: max_chords " + std::to_string(options.chords.max_chords));
+  if (!scene) throw std::invalid_argument("monitor: no scene");
+  impl_->scene = std::move(scene);
+  impl_->options = options;
+  impl_->siblings = siblingsOf(*impl_->scene);
+  for (const PlannedPair& pair : impl_->scene->pairs) {
+    impl_->checkers.emplace_back(*impl_->scene, pair, impl_->siblings, impl_->options);
+    PairResult result;
+    result.body_a = pair.body_a;
+    result.body_b = pair.body_b;
+    impl_->result.pairs.push_back(result);
+  }
+}
+
+Monitor::~Monitor() = default;
+
+const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  validate(motion, *impl_->scene);
+  // A pair has its own memory and state, so its result is the same whichever thread it meets.
+  tbb::parallel_for(std::size_t{0}, impl_->checkers.size(),
+                    [&](std::size_t i) { impl_->checkers[i].run(motion, request, impl_->result.pairs[i]); });
+  impl_->summarise();
+  impl_->result.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return impl_->result;
+}
+
+void Monitor::reset() {
+  for (PairChecker& checker : impl_->checkers) checker.forget();
+}
+
+const Scene& Monitor::scene() const {
+  return *impl_->scene;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,133 @@
+#include "pair_checker.h"
+
+#include <algorithm>
+#include <exception>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kRootTolerance = 1e-9;  // of the path, as segmentIntervals() guarantees
+
+void setNotChecked(const std::string& reason, PairResult& result) {
+  result.verdict = Verdict::kNotChecked;
+  result.reason = reason;
+}
+
+/// As new, but with its memory.
+void clear(PairResult& result) {
+  result.verdict = Verdict::kNotChecked;
+  result.reason.clear();
+  result.skipped = false;
+  result.error = {};
+  result.clearance = -1.0;
+  result.intervals.clear();
+  result.touches_at_sample = false;
+  result.deepest = {};
+  result.on_a_W = {};
+  result.on_b_W = {};
+  result.points.clear();
+}
+
+}  // namespace
+
+PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
+                         const std::vector<PairContact::Siblings>& siblings, const MonitorOptions& options)
+    : scene_(scene), pair_(pair), siblings_(siblings), options_(options) {
+  const auto addRole = [&](int shell, int field) {
+    if (scene.bodies[shell].shell.size() > 0 && !scene.bodies[field].parts.empty())
+      roles_.emplace_back(scene, shell, field);
+  };
+  if (pair.a_shell_b_field) addRole(pair.body_a, pair.body_b);
+  if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a);
+}
+
+void PairChecker::run(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
+  clear(result);
+  for (const int body : {pair_.body_a, pair_.body_b}) {
+    const std::string& failure = scene_.bodies[body].failure;
+    const bool lost = !motion.missing.empty() && !motion.missing[body].empty();
+    if (failure.empty() && !lost) continue;
+    forget();
+    return setNotChecked(failure.empty() ? motion.missing[body] : failure, result);
+  }
+  if (roles_.size() != static_cast<std::size_t>(pair_.a_shell_b_field + pair_.b_shell_a_field) || roles_.empty())
+    return setNotChecked("its fields and shells were not built", result);
+  try {
+    check(motion, request, result);
+  } catch (const std::exception& error) {
+    forget();
+    clear(result);
+    setNotChecked(error.what(), result);
+  }
+}
+
+void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
+  double motion_error = 0.0;
+  if (!motion.motion_error.empty())
+    motion_error = motion.motion_error[pair_.body_a] + motion.motion_error[pair_.body_b];
+  double travel = std::numeric_limits<double>::infinity(), jump = travel;
+  for (PairRole& role : roles_) {
+    role.setMotion(motion);
+    result.error.field = std::max(result.error.field, role.fieldError());
+    result.error.gap = std::max(result.error.gap, role.gap());
+    travel = std::min(travel, role.travel());
+    jump = std::min(jump, role.jump());
+  }
+  result.error.chord = motion_error;
+  result.error.root = kRootTolerance * travel;
+
+  // Farther than this, a test could not find anything: what it finds is off by field and chord error at most.
+  const double margin = result.error.total() + result.error.field + 2.0 * options_.chords.tolerance;
+  clearance_ -= jump + travel;
+  if (clearance_ > margin) {
+    result.verdict = Verdict::kClear;
+    result.skipped = true;
+    result.clearance = clearance_;
+    return;
+  }
+  if (clearFromAfar(margin, result)) return;
+
+  cutRoles(motion_error, result);
+  const double near = result.error.total();
+  if (std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
+    clearance_ = kUnknown;
+    findContacts(motion, request, result);
+    return;
+  }
+  result.verdict = Verdict::kClear;
+  clearance_ = roles_.front().clearanceAtEnd(0.5 * near);
+  result.clearance = clearance_;
+}
+
+/// Whether one role's ball alone shows that the bodies stay apart.
+bool PairChecker::clearFromAfar(double margin, PairResult& result) {
+  for (const PairRole& role : roles_) {
+    if (role.ballClearanceAtStart() - role.travel() <= margin) continue;
+    clearance_ = role.ballClearanceAtEnd();
+    result.verdict = Verdict::kClear;
+    result.clearance = clearance_;
+    return true;
+  }
+  return false;
+}
+
+void PairChecker::cutRoles(double motion_error, PairResult& result) {
+  for (PairRole& role : roles_) {
+    role.cut(options_.chords);
+    result.error.chord = std::max(result.error.chord, role.path().error + motion_error);
+  }
+}
+
+void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
+  contact_.begin(motion, pair_.body_a, pair_.body_b);
+  const double weight = 1.0 / double(roles_.size());
+  for (PairRole& role : roles_) {
+    const bool shell_is_a = role.fieldBody() == pair_.body_b;
+    contact_.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact, request.wrenches);
+  }
+  contact_.finish(request, result);
+  const bool proven = !result.intervals.empty() && result.deepest.depth > result.error.point();
+  result.verdict = proven ? Verdict::kContact : Verdict::kUncertain;
+}
+
+}  // namespace sdf_ccd

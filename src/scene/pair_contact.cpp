@@ -1,0 +1,126 @@
+#include "pair_contact.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kJoin = 1e-9;  // of the cycle: times that differ by rounding are the same
+
+}  // namespace
+
+void PairContact::begin(const CycleMotion& motion, int body_a, int body_b) {
+  motion_ = &motion;
+  body_a_ = body_a;
+  body_b_ = body_b;
+  p_WC_ = motion.X_WB[body_a].back().translation();
+  impulse_on_a_C_ = {};
+  intervals_.clear();
+  found_.clear();
+}
+
+void PairContact::setFieldPoses(const PairRole& role) {
+  const std::vector<Isometry3d>& X_WF = motion_->X_WB[role.fieldBody()];
+  const auto inC = [this](Isometry3d X) {
+    X.translation() -= p_WC_;
+    return X;
+  };
+  X_CF_.assign(1, inC(X_WF.front()));
+  const std::vector<Chord>& chords = role.path().chords;
+  for (std::size_t c = 0; c < chords.size();) {
+    const int knot = chords[c].knot;
+    const double t0 = motion_->times[knot], t1 = motion_->times[knot + 1];
+    const ScrewMotion screw(inC(X_WF[knot]), inC(X_WF[knot + 1]));
+    for (; c < chords.size() && chords[c].knot == knot; ++c)
+      X_CF_.push_back(screw.pose(chords[c].t_end == t1 ? 1.0 : (chords[c].t_end - t0) / (t1 - t0)));
+  }
+}
+
+void PairContact::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
+                      const ContactOptions& options, bool with_impulse) {
+  const Body& shell = role.shell();
+  bool have_poses = false;
+  for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
+    const BodyPart& part = role.field().parts[p];
+    const ChordPath& path = role.partPath(part);
+    shellIntervals(part.field, shell.shell, shell.tree, path, {}, query_);
+    if (query_.hits.empty()) continue;
+    if (!have_poses) setFieldPoses(role);
+    have_poses = true;
+    X_CG_.clear();
+    for (const Isometry3d& X_CF : X_CF_) X_CG_.push_back(X_CF * part.X_BG);
+    const ContactInput input{part.field, shell.shell, path, X_CG_, siblings[p]};
+    integrateContact(input, query_.hits, options, with_impulse, impulse_);
+    impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
+
+    for (std::size_t h = 0; h < query_.hits.size(); ++h) {
+      const ShellHit& hit = query_.hits[h];
+      const HitDepth& depth = impulse_.depths[h];
+      const Chord& chord = path.chords[hit.chord];
+      const auto timeAt = [&](double s) {
+        return s == 1.0 ? chord.t_end : chord.t_start + s * (chord.t_end - chord.t_start);
+      };
+      const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
+      intervals_.push_back(times);
+      if (depth.siblings) continue;
+      Found found{shell_is_a ? 0 : 1, hit.point, {times.enter, times.exit, depth.time, depth.depth, {}, {}}};
+      found.contact.p_W = depth.p_C + p_WC_;
+      // Out of the field's body: that is B if the shell is A's.
+      found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
+      found_.push_back(found);
+    }
+  }
+}
+
+/// Makes one contact of what chords and parts have cut of one point's stay inside.
+void PairContact::join() {
+  if (found_.empty()) return;
+  std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.role, a.point, a.contact.enter, a.contact.exit, a.contact.depth) <
+           std::tie(b.role, b.point, b.contact.enter, b.contact.exit, b.contact.depth);
+  });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < found_.size(); ++i) {
+    ContactPoint& kept = found_[last].contact;
+    const ContactPoint& next = found_[i].contact;
+    const bool same = found_[i].role == found_[last].role && found_[i].point == found_[last].point &&
+                      next.enter <= kept.exit + kJoin * motion_->times.back();
+    if (!same) {
+      found_[++last] = found_[i];
+      continue;
+    }
+    const double enter = kept.enter, exit = std::max(kept.exit, next.exit);
+    if (next.depth > kept.depth) kept = next;
+    kept.enter = enter;
+    kept.exit = exit;
+  }
+  found_.resize(last + 1);
+}
+
+void PairContact::finish(const CycleRequest& request, PairResult& result) {
+  const double cycle = motion_->times.back();
+  mergeIntervals(intervals_, kJoin * cycle);
+  result.intervals = intervals_;
+  result.touches_at_sample = false;
+  for (const double t : motion_->times)
+    for (const Interval& interval : intervals_)
+      result.touches_at_sample |= t >= interval.enter - kJoin * cycle && t <= interval.exit + kJoin * cycle;
+
+  join();
+  const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 1)));
+  std::partial_sort(found_.begin(), found_.begin() + listed, found_.end(), [](const Found& a, const Found& b) {
+    return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <
+           std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
+  });
+  if (!found_.empty()) result.deepest = found_.front().contact;
+  for (std::size_t i = 0; i < listed && request.max_points > 0; ++i) result.points.push_back(found_[i].contact);
+
+  if (!request.wrenches) return;
+  result.on_a_W = (1.0 / cycle) * impulse_on_a_C_;  // Eq. 8, 9; C's origin is A's at t₁
+  const Vector3d p_AB = motion_->X_WB[body_b_].back().translation() - p_WC_;
+  const Vector3d& force_on_a = result.on_a_W.force;
+  result.on_b_W = {-force_on_a, p_AB.cross(force_on_a) - result.on_a_W.torque};
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "pair_role.h"
+#include "sdf_ccd/contact/penalty.h"
+
+namespace sdf_ccd {
+
+/// Gathers the contacts of a pair over both roles and all parts: intervals, points, impulse.
+///
+/// Works in frame C: the world's axes about body A's origin at t₁. Far from the world's origin, moments about that
+/// would lose what the lever about the bodies still has.
+class PairContact {
+ public:
+  using Siblings = std::vector<std::vector<SiblingField>>;  // per part of a body
+
+  void begin(const CycleMotion& motion, int body_a, int body_b);
+
+  /// Adds the contacts of one role; its path must be cut.
+  /// @param shell_is_a  the shell's body is the pair's body A.
+  /// @param weight      ½ where the other role sees the same contact too (design §3.7).
+  void add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings, const ContactOptions& options,
+           bool with_impulse);
+
+  /// Writes intervals, deepest point, points and wrenches.
+  void finish(const CycleRequest& request, PairResult& result);
+
+ private:
+  struct Found {
+    int role;
+    int point;
+    ContactPoint contact;
+  };
+
+  void setFieldPoses(const PairRole& role);
+  void join();
+
+  const CycleMotion* motion_ = nullptr;
+  int body_a_ = -1, body_b_ = -1;
+  Vector3d p_WC_ = Vector3d::Zero();
+  Wrench impulse_on_a_C_;
+  Intervals intervals_;
+  std::vector<Found> found_;
+  std::vector<Isometry3d> X_CF_;  // per end of a chord, of the field's body
+  std::vector<Isometry3d> X_CG_;  // the same of a part
+  ShellQueryResult query_;
+  ContactImpulse impulse_;
+};
+
+}  // namespace sdf_ccd
