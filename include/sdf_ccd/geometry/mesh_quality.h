@@ -9,16 +9,16 @@ namespace sdf_ccd {
 /// What is known of a mesh before a field is made of it.
 struct MeshQuality {
   int triangles = 0;
-  int degenerate_triangles = 0;   ///< without area
-  int components = 0;             ///< connected over shared edges
-  int boundary_edges = 0;         ///< used by one triangle
-  int non_manifold_edges = 0;     ///< used by more than two
-  int misoriented_edges = 0;      ///< neighbours that disagree about the outside
-  int inverted_components = 0;    ///< closed components that were inside out (turned round by orientOutward())
-  double volume = 0.0;            ///< signed, of the oriented mesh [m³]
-  double area = 0.0;              ///< [m²]
-  AlignedBox3d box;               ///< [m]
-  bool sign_trusted = false;      ///< closed after orientation: inside and outside are beyond doubt
+  int degenerate_triangles = 0;  ///< without area
+  int components = 0;            ///< connected over shared edges
+  int boundary_edges = 0;        ///< used by one triangle
+  int non_manifold_edges = 0;    ///< used by more than two
+  int misoriented_edges = 0;     ///< neighbours that disagree about the outside
+  int inverted_components = 0;   ///< closed components that were inside out (turned round by orientOutward())
+  double volume = 0.0;           ///< signed, of the oriented mesh [m³]
+  double area = 0.0;             ///< [m²]
+  AlignedBox3d box;              ///< [m]
+  bool sign_trusted = false;     ///< closed after orientation: inside and outside are beyond doubt
 };
 
 struct OrientedMesh {

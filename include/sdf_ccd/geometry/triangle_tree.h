@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "sdf_ccd/geometry/triangle_mesh.h"
@@ -9,8 +11,8 @@ namespace sdf_ccd {
 
 /// Box hierarchy over the triangles of a mesh, for closest points and winding numbers.
 ///
-/// Also holds, per node, the dipole expansion of Barill et al. 2018 (area-weighted centre, sum of area normals and
-/// first-order moments). Copies the triangles in tree order, so the mesh need not outlive it.
+/// Also holds, per node, the expansion of Barill et al. 2018 up to second order about the node's area-weighted
+/// centre. Copies the triangles in tree order, so the mesh need not outlive it. Queries are thread-safe.
 class TriangleTree {
  public:
   /// @throws std::invalid_argument if the mesh is not valid (see validate()).
@@ -33,7 +35,33 @@ class TriangleTree {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
  private:
-  // Layout is chosen by the implementation.
+  struct Triangle {
+    Vector3d a, b, c;
+  };
+  /// Children are consecutive and come after their parent.
+  struct Node {
+    AlignedBox3d box;
+    std::int32_t first;  ///< first child, or first triangle of a leaf
+    std::int32_t count;  ///< triangles of a leaf; 0 for an inner node
+  };
+  /// Expansion of the field r·n/(4π|r|³) of a node's dipoles, r from the query to `center`. That field is the
+  /// gradient of a harmonic function, so of each moment only the symmetric part without trace is felt.
+  struct Expansion {
+    Vector3d center;
+    double radius2;                 ///< of the ball about `center` that holds the node's triangles
+    Vector3d dipole;                ///< Σ area · normal
+    std::array<double, 6> first;    ///< xx, yy, zz, xy, xz, yz
+    std::array<double, 10> second;  ///< xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
+  };
+
+  class Builder;
+  static Expansion expand(const Triangle* begin, const Triangle* end);
+  static double evaluate(const Expansion& expansion, const Vector3d& r, double distance2);
+
+  std::vector<Node> nodes_;
+  std::vector<Expansion> expansions_;  ///< one per node
+  std::vector<Triangle> triangles_;    ///< in tree order
+  std::vector<std::int32_t> ids_;      ///< index in the mesh of each of `triangles_`
 };
 
 }  // namespace sdf_ccd

@@ -1,0 +1,75 @@
+#include "sdf_ccd/geometry/triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdf_ccd {
+namespace {
+
+/// Below this square of height over length, Ericson's tests lose more than half their digits.
+constexpr double kSliver = 1e-8;
+
+Vector3d closestByRegions(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+  const Vector3d ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vector3d bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  const Vector3d cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double scale = 1 / (va + vb + vc);
+  return a + ab * (vb * scale) + ac * (vc * scale);
+}
+
+}  // namespace
+
+Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
+  const Vector3d ab = b - a;
+  const double length2 = ab.squaredNorm();
+  if (!(length2 > 0)) return a;
+  const double t = ab.dot(p - a) / length2;
+  if (t >= 1) return b;
+  return t > 0 ? Vector3d(a + ab * t) : a;
+}
+
+Vector3d closestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+  const Vector3d ab = b - a, ac = c - a;
+  const double area2 = ab.cross(ac).squaredNorm();
+  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  if (area2 > kSliver * longest2 * longest2) return closestByRegions(a, b, c, p);
+
+  Vector3d best = closestOnSegment(a, b, p);
+  const auto offer = [&](const Vector3d& q) {
+    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
+  };
+  offer(closestOnSegment(b, c, p));
+  offer(closestOnSegment(c, a, p));
+  // The interior, by the foot of the perpendicular and its barycentric coordinates, forced into the triangle.
+  const Vector3d normal = ab.cross(ac);
+  if (area2 > 0) {
+    const Vector3d ap = p - a;
+    const double v = std::clamp(ap.cross(ac).dot(normal) / area2, 0.0, 1.0);
+    const double w = std::clamp(ab.cross(ap).dot(normal) / area2, 0.0, 1.0 - v);
+    offer(a + ab * v + ac * w);
+  }
+  return best;
+}
+
+double solidAngleFraction(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+  const Vector3d pa = a - p, pb = b - p, pc = c - p;
+  const double la = pa.norm(), lb = pb.norm(), lc = pc.norm();
+  const double numerator = pa.dot(pb.cross(pc));
+  const double denominator = la * lb * lc + pa.dot(pb) * lc + pb.dot(pc) * la + pc.dot(pa) * lb;
+  constexpr double kTwoPi = 6.28318530717958647692;
+  return std::atan2(numerator, denominator) / kTwoPi;
+}
+
+}  // namespace sdf_ccd

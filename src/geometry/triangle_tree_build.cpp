@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kBins = 16;
+constexpr int kLeafSize = 4;
+/// Deeper than this, ranges are halved whatever it costs: the depth stays below kHeuristicDepth + 31.
+constexpr int kHeuristicDepth = 64;
+
+double halfArea(const AlignedBox3d& box) {
+  const Vector3d s = box.sizes();
+  return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+}
+
+}  // namespace
+
+/// Top-down splits by the surface area heuristic over bins of the triangles' box centres (Wald 2007).
+class TriangleTree::Builder {
+ public:
+  Builder(TriangleTree& tree, const TriangleMesh& mesh) : tree_(tree), mesh_(mesh) {}
+
+  void build() {
+    const int count = static_cast<int>(mesh_.triangles.size());
+    boxes_.resize(count);
+    centers_.resize(count);
+    for (int i = 0; i < count; ++i) {
+      for (int corner = 0; corner < 3; ++corner) boxes_[i].extend(mesh_.vertices[mesh_.triangles[i][corner]]);
+      centers_[i] = boxes_[i].center();
+    }
+    tree_.ids_.resize(count);
+    std::iota(tree_.ids_.begin(), tree_.ids_.end(), 0);
+    tree_.nodes_.reserve(count);
+    tree_.nodes_.emplace_back();
+    ranges_.push_back({0, count, 0});
+    for (std::size_t node = 0; node < tree_.nodes_.size(); ++node) divide(node);
+
+    tree_.triangles_.reserve(count);
+    for (const std::int32_t id : tree_.ids_) {
+      const Vector3i& t = mesh_.triangles[id];
+      tree_.triangles_.push_back({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
+    }
+    tree_.expansions_.resize(tree_.nodes_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree_.nodes_.size(), 64), [this](const auto& range) {
+      for (std::size_t node = range.begin(); node < range.end(); ++node) {
+        const Triangle* triangles = tree_.triangles_.data();
+        tree_.expansions_[node] = expand(triangles + ranges_[node].begin, triangles + ranges_[node].end);
+      }
+    });
+  }
+
+ private:
+  struct Range {
+    std::int32_t begin, end;
+    int depth;
+  };
+
+  void divide(std::size_t index) {
+    const Range range = ranges_[index];
+    AlignedBox3d box, centers;
+    for (std::int32_t i = range.begin; i < range.end; ++i) {
+      box.extend(boxes_[tree_.ids_[i]]);
+      centers.extend(centers_[tree_.ids_[i]]);
+    }
+    tree_.nodes_[index].box = box;
+    if (range.end - range.begin <= kLeafSize) {
+      tree_.nodes_[index].first = range.begin;
+      tree_.nodes_[index].count = range.end - range.begin;
+      return;
+    }
+    const std::int32_t middle = split(range, centers);
+    tree_.nodes_[index].first = static_cast<std::int32_t>(tree_.nodes_.size());
+    tree_.nodes_[index].count = 0;
+    for (const Range child : {Range{range.begin, middle, range.depth + 1}, Range{middle, range.end, range.depth + 1}}) {
+      tree_.nodes_.emplace_back();
+      ranges_.push_back(child);
+    }
+  }
+
+  std::int32_t split(const Range& range, const AlignedBox3d& centers) {
+    int axis;
+    const double extent = centers.sizes().maxCoeff(&axis);
+    std::int32_t* const begin = tree_.ids_.data() + range.begin;
+    std::int32_t* const end = tree_.ids_.data() + range.end;
+    std::int32_t* middle = begin + (end - begin) / 2;
+    if (range.depth >= kHeuristicDepth || !(extent > 0)) return static_cast<std::int32_t>(middle - tree_.ids_.data());
+
+    const double low = centers.min()[axis], scale = kBins / extent;
+    const auto binOf = [&](std::int32_t id) {
+      return std::min(kBins - 1, static_cast<int>((centers_[id][axis] - low) * scale));
+    };
+    std::array<AlignedBox3d, kBins> boxes;
+    std::array<int, kBins> counts{};
+    for (const std::int32_t* id = begin; id != end; ++id) {
+      const int bin = binOf(*id);
+      boxes[bin].extend(boxes_[*id]);
+      ++counts[bin];
+    }
+    std::array<double, kBins> cost_above{};
+    AlignedBox3d box;
+    int count = 0;
+    for (int bin = kBins - 1; bin > 0; --bin) {
+      box.extend(boxes[bin]);
+      count += counts[bin];
+      cost_above[bin] = count > 0 ? count * halfArea(box) : 0;
+    }
+    double best_cost = std::numeric_limits<double>::infinity();
+    int best_bin = 0;
+    box.setEmpty();
+    count = 0;
+    for (int bin = 1; bin < kBins; ++bin) {
+      box.extend(boxes[bin - 1]);
+      count += counts[bin - 1];
+      if (count == 0 || count == end - begin) continue;
+      const double cost = count * halfArea(box) + cost_above[bin];
+      if (cost < best_cost) {
+        best_cost = cost;
+        best_bin = bin;
+      }
+    }
+    if (best_bin > 0) middle = std::partition(begin, end, [&](std::int32_t id) { return binOf(id) < best_bin; });
+    return static_cast<std::int32_t>(middle - tree_.ids_.data());
+  }
+
+  TriangleTree& tree_;
+  const TriangleMesh& mesh_;
+  std::vector<AlignedBox3d> boxes_;
+  std::vector<Vector3d> centers_;
+  std::vector<Range> ranges_;
+};
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) {
+  validate(mesh);
+  Builder(*this, mesh).build();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+
+/// Moments of Barill et al. 2018, Eq. (8) to (10), integrated exactly over the triangles: ∫ d_j n_i and
+/// ½ ∫ d_j d_k n_i with d = x − center, then made symmetric and traceless.
+TriangleTree::Expansion TriangleTree::expand(const Triangle* begin, const Triangle* end) {
+  Expansion result{};
+  AlignedBox3d box;
+  double area = 0;
+  Vector3d weighted = Vector3d::Zero();
+  for (const Triangle* t = begin; t != end; ++t) {
+    box.extend(t->a).extend(t->b).extend(t->c);
+    const double weight = (t->b - t->a).cross(t->c - t->a).norm();
+    area += weight;
+    // Relative to the first corner, because the sum loses digits far from the origin.
+    weighted += weight * ((t->a - begin->a) + (t->b - begin->a) + (t->c - begin->a)) / 3;
+  }
+  result.center = area > 0 ? Vector3d(begin->a + weighted / area) : box.center();
+
+  Matrix3d first = Matrix3d::Zero();  // rows: n, columns: d
+  std::array<Matrix3d, 3> second = {Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
+  for (const Triangle* t = begin; t != end; ++t) {
+    const Vector3d a = t->a - result.center, b = t->b - result.center, c = t->c - result.center;
+    result.radius2 = std::max({result.radius2, a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
+    const Vector3d normal = (b - a).cross(c - a) / 2;  // area · n
+    const Vector3d sum = a + b + c;
+    result.dipole += normal;
+    first += normal * (sum / 3).transpose();
+    const Matrix3d spread = (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose()) / 12;
+    for (int i = 0; i < 3; ++i) second[i] += normal[i] / 2 * spread;
+  }
+
+  const Matrix3d symmetric = (first + first.transpose()) / 2 - Matrix3d::Identity() * (first.trace() / 3);
+  result.first = {symmetric(0, 0), symmetric(1, 1), symmetric(2, 2), symmetric(0, 1), symmetric(0, 2), symmetric(1, 2)};
+
+  const auto S = [&](int i, int j, int k) { return (second[i](j, k) + second[j](k, i) + second[k](i, j)) / 3; };
+  Vector3d trace;
+  for (int k = 0; k < 3; ++k) trace[k] = (S(0, 0, k) + S(1, 1, k) + S(2, 2, k)) / 5;
+  result.second = {S(0, 0, 0) - 3 * trace.x(), S(1, 1, 1) - 3 * trace.y(),
+                   S(2, 2, 2) - 3 * trace.z(), S(0, 0, 1) - trace.y(),
+                   S(0, 0, 2) - trace.z(),     S(0, 1, 1) - trace.x(),
+                   S(1, 1, 2) - trace.z(),     S(0, 2, 2) - trace.x(),
+                   S(1, 2, 2) - trace.y(),     S(0, 1, 2)};
+  return result;
+}
+
+/// Taylor series of r·n/(4π|r|³) to second order: N·r/ρ³ − 3 M(r,r)/ρ⁵ + 15 S(r,r,r)/ρ⁷.
+double TriangleTree::evaluate(const Expansion& expansion, const Vector3d& r, double distance2) {
+  constexpr double kFourPi = 12.5663706143591729539;
+  const double x = r.x(), y = r.y(), z = r.z();
+  const auto& m = expansion.first;
+  const auto& s = expansion.second;
+  const double first = m[0] * x * x + m[1] * y * y + m[2] * z * z + 2 * (m[3] * x * y + m[4] * x * z + m[5] * y * z);
+  const double second = x * x * (s[0] * x + 3 * (s[3] * y + s[4] * z)) +
+                        y * y * (s[1] * y + 3 * (s[5] * x + s[6] * z)) +
+                        z * z * (s[2] * z + 3 * (s[7] * x + s[8] * y)) + 6 * s[9] * x * y * z;
+  const double inverse2 = 1 / distance2;
+  const double inverse3 = inverse2 * std::sqrt(inverse2);
+  return inverse3 / kFourPi * (expansion.dipole.dot(r) + inverse2 * (-3 * first + 15 * inverse2 * second));
+}
+
+}  // namespace sdf_ccd

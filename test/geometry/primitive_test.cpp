@@ -1,0 +1,107 @@
+#include "sdf_ccd/geometry/primitive.h"
+
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+namespace {
+
+const std::vector<Primitive> kSolids = {Sphere{0.5}, Box{{0.2, 0.3, 0.7}}, Cylinder{0.3, 0.6}, Cylinder{0.6, 0.1}};
+
+Vector3d randomPoint(std::mt19937_64& random, double reach) {
+  std::uniform_real_distribution<double> uniform(-reach, reach);
+  return {uniform(random), uniform(random), uniform(random)};
+}
+
+TEST(Primitive, ClosedForms) {
+  EXPECT_DOUBLE_EQ(signedDistance(Sphere{2}, {0, 3, 4}), 3);
+  EXPECT_DOUBLE_EQ(signedDistance(Box{{1, 2, 3}}, {4, 6, 3}), 5);
+  EXPECT_DOUBLE_EQ(signedDistance(Box{{1, 2, 3}}, {0, 0, 0}), -1);
+  EXPECT_DOUBLE_EQ(signedDistance(Cylinder{1, 2}, {4, 0, 6}), 5);
+  EXPECT_DOUBLE_EQ(signedDistance(Cylinder{1, 2}, {0.25, 0, 1.5}), -0.5);
+  EXPECT_DOUBLE_EQ(signedDistance(HalfSpace{{0, 0, 1}, 0.5}, {7, 8, 2}), 1.5);
+}
+
+TEST(Primitive, DistanceIsExactAgainstAFineMesh) {
+  std::mt19937_64 random(1);
+  for (const Primitive& solid : kSolids) {
+    const double deviation = 2e-5;
+    const TriangleTree tree(tessellate(solid, deviation));
+    for (int i = 0; i < 500; ++i) {
+      const Vector3d p = randomPoint(random, 1.2);
+      const double sign = tree.windingNumber(p) > 0.5 ? -1 : 1;
+      EXPECT_NEAR(signedDistance(solid, p), sign * tree.closestPoint(p).distance, 1.01 * deviation);
+    }
+  }
+}
+
+TEST(Primitive, GradientIsUnitAndTheSlopeOfTheDistance) {
+  std::mt19937_64 random(2);
+  std::vector<Primitive> solids = kSolids;
+  solids.push_back(HalfSpace{Vector3d(1, 2, 3).normalized(), 0.1});
+  for (const Primitive& solid : solids) {
+    int smooth = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d p = randomPoint(random, 1.2);
+      const Vector3d gradient = distanceGradient(solid, p);
+      ASSERT_NEAR(gradient.norm(), 1, 1e-12);
+      // Stepping against the gradient by the distance lands on the surface, off the medial axis.
+      const double d = signedDistance(solid, p);
+      smooth += std::abs(signedDistance(solid, p - d * gradient)) < 1e-12;
+    }
+    EXPECT_EQ(smooth, 2000);
+  }
+}
+
+TEST(Primitive, GradientOfSymmetricPointsIsUnitAndNotNan) {
+  for (const Primitive& solid : kSolids) {
+    EXPECT_NEAR(distanceGradient(solid, Vector3d::Zero()).norm(), 1, 1e-15);
+    EXPECT_NEAR(distanceGradient(solid, boundingBox(solid).max()).norm(), 1, 1e-15);
+  }
+}
+
+TEST(Primitive, DistanceIsConvexAlongLines) {
+  std::mt19937_64 random(3);
+  for (const Primitive& solid : kSolids) {
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d a = randomPoint(random, 1), b = randomPoint(random, 1);
+      const double middle = signedDistance(solid, (a + b) / 2);
+      EXPECT_LE(middle, (signedDistance(solid, a) + signedDistance(solid, b)) / 2 + 1e-12);
+    }
+  }
+}
+
+TEST(Primitive, TessellationIsClosedOnTheSurfaceAndAsFineAsAsked) {
+  for (const Primitive& solid : kSolids) {
+    for (const double deviation : {0.05, 1e-3}) {
+      const TriangleMesh mesh = tessellate(solid, deviation);
+      EXPECT_NO_THROW(validate(mesh));
+      EXPECT_GT(signedVolume(mesh), 0);
+      for (const Vector3d& v : mesh.vertices) EXPECT_NEAR(signedDistance(solid, v), 0, 1e-14);
+      for (const Vector3i& t : mesh.triangles) {
+        const Vector3d middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+        EXPECT_LE(std::abs(signedDistance(solid, middle)), deviation);
+      }
+    }
+  }
+}
+
+TEST(Primitive, BadSizesAreNamed) {
+  EXPECT_THROW(validate(Primitive(Sphere{0})), std::invalid_argument);
+  EXPECT_THROW(validate(Primitive(Box{{1, -1, 1}})), std::invalid_argument);
+  EXPECT_THROW(validate(Primitive(Cylinder{1, std::numeric_limits<double>::infinity()})), std::invalid_argument);
+  EXPECT_THROW(validate(Primitive(HalfSpace{{0, 0, 2}, 0})), std::invalid_argument);
+  EXPECT_THROW(tessellate(HalfSpace{{0, 0, 1}, 0}, 0.1), std::invalid_argument);
+  EXPECT_THROW(tessellate(Sphere{1}, 0), std::invalid_argument);
+  EXPECT_THROW(tessellate(Cylinder{1, 1}, 1e-300), std::length_error);
+  EXPECT_NO_THROW(validate(Primitive(HalfSpace{{0, 0, -1}, 3})));
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,201 @@
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/geometry/triangle.h"
+
+namespace sdf_ccd {
+namespace {
+
+Vector3d randomPoint(std::mt19937_64& random, double reach) {
+  std::uniform_real_distribution<double> uniform(-reach, reach);
+  return {uniform(random), uniform(random), uniform(random)};
+}
+
+/// Triangles of every size, needles and specks among them.
+TriangleMesh randomSoup(int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d center = randomPoint(random, 1);
+    const double size = std::pow(10.0, -4 * std::abs(randomPoint(random, 1).x()));
+    for (int corner = 0; corner < 3; ++corner) mesh.vertices.push_back(center + randomPoint(random, size));
+    if (i % 7 == 0) mesh.vertices.back() = mesh.vertices[3 * i] + 1e-9 * randomPoint(random, 1);
+    if (i % 50 == 0) mesh.vertices.back() = (mesh.vertices[3 * i] + mesh.vertices[3 * i + 1]) / 2;
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  return mesh;
+}
+
+double bruteDistance(const TriangleMesh& mesh, const Vector3d& p) {
+  double best = TriangleTree::kInfinity;
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d q = closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
+    best = std::min(best, (q - p).norm());
+  }
+  return best;
+}
+
+double bruteWinding(const TriangleMesh& mesh, const Vector3d& p) {
+  double sum = 0;
+  for (const Vector3i& t : mesh.triangles) {
+    sum += solidAngleFraction(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
+  }
+  return sum;
+}
+
+TEST(TriangleTree, ClosestPointEqualsBruteForce) {
+  const TriangleMesh mesh = randomSoup(700, 1);
+  const TriangleTree tree(mesh);
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d p = randomPoint(random, i % 2 ? 1.1 : 5);
+    const TriangleTree::ClosestPoint found = tree.closestPoint(p);
+    EXPECT_DOUBLE_EQ(found.distance, bruteDistance(mesh, p));
+    EXPECT_DOUBLE_EQ((found.point - p).norm(), found.distance);
+    ASSERT_GE(found.triangle, 0);
+    const Vector3i& t = mesh.triangles[found.triangle];
+    EXPECT_EQ(found.point, closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p));
+  }
+}
+
+TEST(TriangleTree, MaxDistanceCutsOffExactlyThere) {
+  const TriangleTree tree(test::boxMesh({1, 1, 1}));
+  EXPECT_EQ(tree.closestPoint({3, 0, 0}, 2.5).triangle >= 0, true);
+  const TriangleTree::ClosestPoint none = tree.closestPoint({3, 0, 0}, 2.0);
+  EXPECT_EQ(none.triangle, -1);
+  EXPECT_EQ(none.distance, 2.0);
+  EXPECT_EQ(tree.closestPoint({3, 0, 0}, 0.0).triangle, -1);
+}
+
+TEST(TriangleTree, FullWindingNumberEqualsBruteForce) {
+  const TriangleMesh mesh = randomSoup(300, 3);
+  const TriangleTree tree(mesh);
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d p = randomPoint(random, 1.5);
+    EXPECT_NEAR(tree.windingNumber(p, TriangleTree::kInfinity), bruteWinding(mesh, p), 1e-11);
+  }
+}
+
+TEST(TriangleTree, FastWindingNumberIsNearAndConvergesWithAccuracy) {
+  const TriangleMesh mesh = test::torusMesh(1, 0.3, 120, 40);
+  const TriangleTree tree(mesh);
+  std::mt19937_64 random(5);
+  double worst2 = 0, worst4 = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p = randomPoint(random, 1.5);
+    const double exact = bruteWinding(mesh, p);
+    worst2 = std::max(worst2, std::abs(tree.windingNumber(p) - exact));
+    worst4 = std::max(worst4, std::abs(tree.windingNumber(p, 4) - exact));
+  }
+  EXPECT_LT(worst2, 0.02);
+  EXPECT_GT(worst2, 1e-5);  // the hierarchy is at work
+  EXPECT_LT(worst4, worst2 / 5);
+}
+
+TEST(TriangleTree, ExpansionHoldsForOpenMeshes) {
+  // Half a sphere: clusters with a net dipole, where an error in the first term would show.
+  TriangleMesh mesh = test::icosphere(1, 4);
+  std::vector<Vector3i> upper;
+  for (const Vector3i& t : mesh.triangles) {
+    if (mesh.vertices[t[0]].z() + mesh.vertices[t[1]].z() + mesh.vertices[t[2]].z() > 0) upper.push_back(t);
+  }
+  mesh.triangles = upper;
+  const TriangleTree tree(mesh);
+  std::mt19937_64 random(6);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d p = randomPoint(random, 3);
+    EXPECT_NEAR(tree.windingNumber(p), bruteWinding(mesh, p), 0.01);
+  }
+}
+
+TEST(TriangleTree, WindingNumberTellsInsideFromOutside) {
+  const TriangleTree tree(test::icosphere(1, 4));
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 5000; ++i) {
+    const Vector3d p = randomPoint(random, 1.5);
+    if (p.norm() > 0.99 && p.norm() < 1.0001) continue;  // between the sphere and its chords
+    EXPECT_NEAR(tree.windingNumber(p), p.norm() < 1 ? 1 : 0, 0.02);
+  }
+}
+
+TEST(TriangleTree, PointsOnTheMeshAreNotNan) {
+  const TriangleMesh mesh = test::translated(test::icosphere(0.3, 2), {1, 2, 3});
+  const TriangleTree tree(mesh);
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    for (const Vector3d& p : {a, Vector3d((a + b) / 2), Vector3d((a + b + c) / 3)}) {
+      EXPECT_LT(tree.closestPoint(p).distance, 1e-15);
+      const double winding = tree.windingNumber(p);
+      // On an edge, rounding puts the point on either side of both triangles.
+      EXPECT_GT(winding, -0.6);
+      EXPECT_LT(winding, 1.6);
+    }
+  }
+}
+
+TEST(TriangleTree, ManyEqualAndManyNestedTrianglesKeepTheTreeShallow) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 3000; ++i) {
+    const double size = std::pow(0.8, i % 600);  // centres in geometric progression, and five copies of each
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{size, 0, 0}, {size, size, 0}, {size, 0, size}});
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  const TriangleTree tree(mesh);
+  for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(0.3, 0.2, 0.1), Vector3d(2, 2, 2)}) {
+    EXPECT_DOUBLE_EQ(tree.closestPoint(p).distance, bruteDistance(mesh, p));
+    EXPECT_NEAR(tree.windingNumber(p), bruteWinding(mesh, p), 2.0);
+  }
+}
+
+TEST(TriangleTree, FarFromTheOriginNothingIsLost) {
+  const Vector3d offset(1e5, -2e5, 3e5);
+  const TriangleTree tree(test::translated(test::boxMesh({1, 1, 1}), offset));
+  EXPECT_NEAR(tree.closestPoint(offset + Vector3d(0, 0, 3)).distance, 2, 1e-9);
+  EXPECT_NEAR(tree.windingNumber(offset, TriangleTree::kInfinity), 1, 1e-9);
+  EXPECT_NEAR(tree.windingNumber(offset + Vector3d(2, 1, 0), TriangleTree::kInfinity), 0, 1e-9);
+}
+
+TEST(TriangleTree, BadMeshesAreRefused) {
+  EXPECT_THROW(TriangleTree{TriangleMesh{}}, std::invalid_argument);
+}
+
+TEST(Triangle, ClosestPointAgreesWithDenseSampling) {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d a = randomPoint(random, 1), b = randomPoint(random, 1);
+    // From fat triangles to needles to a segment.
+    const Vector3d c = i % 3 == 0   ? randomPoint(random, 1)
+                       : i % 3 == 1 ? Vector3d(a + 0.4 * (b - a) + std::pow(10.0, -i / 20) * randomPoint(random, 1))
+                                    : Vector3d(a + 0.4 * (b - a));
+    const Vector3d p = randomPoint(random, 2);
+    const double found = (closestOnTriangle(a, b, c, p) - p).norm();
+    double sampled = TriangleTree::kInfinity;
+    constexpr int n = 60;
+    for (int j = 0; j <= n; ++j) {
+      for (int k = 0; k + j <= n; ++k) {
+        sampled = std::min(sampled, (a + (b - a) * (double(j) / n) + (c - a) * (double(k) / n) - p).norm());
+      }
+    }
+    EXPECT_LE(found, sampled + 1e-12);
+    EXPECT_GE(found, sampled - 0.1);
+  }
+}
+
+TEST(Triangle, DegenerateTrianglesHaveNoSolidAngleAndNoNan) {
+  const Vector3d a(0, 0, 0), b(1, 0, 0);
+  EXPECT_EQ(closestOnTriangle(a, a, a, b), a);
+  EXPECT_TRUE(closestOnTriangle(a, b, a, Vector3d(0.5, 1, 0)).isApprox(Vector3d(0.5, 0, 0)));
+  EXPECT_EQ(solidAngleFraction(a, a, a, a), 0);
+  EXPECT_EQ(solidAngleFraction(a, b, a, Vector3d(0.5, 1, 0)), 0);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
