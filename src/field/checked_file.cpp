@@ -1,5 +1,6 @@
 #include "sdf_ccd/field/checked_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -30,6 +31,12 @@ struct Header {
   std::uint64_t checksum;  ///< XXH64 of the section table and the sections
 };
 static_assert(sizeof(Header) == 56, "the file's layout must not depend on the compiler");
+
+bool isKind(const Header& header, const std::string& kind) {
+  char padded[sizeof header.kind] = {};
+  std::memcpy(padded, kind.data(), std::min(kind.size(), sizeof padded - 1));
+  return std::memcmp(padded, header.kind, sizeof padded) == 0;
+}
 
 struct SectionEntry {
   std::uint64_t offset;
@@ -154,8 +161,10 @@ void CheckedFile::verify(const std::string& kind, std::uint32_t version) {
   Header header;
   std::memcpy(&header, start, sizeof header);
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) fail(path_, "not a file of sdf_ccd");
-  header.kind[sizeof header.kind - 1] = '\0';
-  if (kind != header.kind) fail(path_, "holds a " + std::string(header.kind) + ", not a " + kind);
+  if (!isKind(header, kind)) {
+    header.kind[sizeof header.kind - 1] = '\0';
+    fail(path_, "holds a " + std::string(header.kind) + ", not a " + kind);
+  }
   if (header.byte_order != kByteOrder) fail(path_, "written in another byte order");
   if (header.version != version) {
     fail(path_, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(version));
@@ -191,8 +200,7 @@ bool isCheckedFile(const std::string& path, const std::string& kind) {
   Header header{};
   std::ifstream in(path, std::ios::binary);
   if (!in.read(reinterpret_cast<char*>(&header), sizeof header)) return false;
-  header.kind[sizeof header.kind - 1] = '\0';
-  return std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 && kind == header.kind;
+  return std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 && isKind(header, kind);
 }
 
 }  // namespace sdf_ccd

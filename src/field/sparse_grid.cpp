@@ -63,12 +63,14 @@ DistanceRange SparseGrid::brickRange(const Vector3i& brick) const {
     const auto [low, high] = std::minmax_element(s, s + GridShape::kSamples);
     return {*low, *high};
   }
-  // No samples: |φ| > band all over the brick, with the sign of its corners, and within the Lipschitz bound of them.
+  // No samples: |φ| > band + cell all over the brick, with the sign of its corners, and within the Lipschitz bound of
+  // them; the half cell less leaves room for rounding.
   const std::array<double, 8> c = brickCorners(brick);
   const auto [low, high] = std::minmax_element(c.begin(), c.end());
+  const double outside_band = shape_.band + 0.5 * shape_.cell;
   const double slack = kHalfSqrt3 * GridShape::kBrick * shape_.cell;
-  if (*low > 0.0) return {float(std::max(*low - slack, shape_.band)), float(*high + slack)};
-  return {float(*low - slack), float(std::min(*high + slack, -shape_.band))};
+  if (*low > 0.0) return {float(std::max(*low - slack, outside_band)), float(*high + slack)};
+  return {float(*low - slack), float(std::min(*high + slack, -outside_band))};
 }
 
 void SparseGrid::buildLevels() {

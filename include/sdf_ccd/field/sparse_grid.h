@@ -59,7 +59,7 @@ struct DistanceRange {
 /// Samples of a signed distance, dense in bricks near the surface, one per brick corner elsewhere.
 ///
 /// Memory order: x fastest, then y, then z. The min/max hierarchy (paper §3.2) is an octree over the bricks; where a
-/// brick has no samples its range bounds the true distance.
+/// brick has no samples its range bounds the true distance. A brick has samples unless |φ| > band + cell all over it.
 class SparseGrid {
  public:
   static constexpr std::int32_t kFar = -1;

@@ -1,0 +1,259 @@
+#include "sdf_ccd/field/distance_field.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "sdf_ccd/field/build_field.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+
+FieldOptions cells(int n) {
+  FieldOptions options;
+  options.cells = n;
+  return options;
+}
+
+const Vector3d kHalf(0.3, 0.2, 0.1);
+
+/// A box as a mesh is the same solid as the primitive, so its field has an analytic answer everywhere.
+DistanceField boxField(int n) {
+  return buildField(test::boxMesh(kHalf), cells(n));
+}
+
+TEST(DistanceField, SamplesAreExactAtGridPoints) {
+  const DistanceField field = boxField(40);
+  const SparseGrid& grid = *field.grid();
+  const GridShape& shape = grid.shape();
+  int seen = 0;
+  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
+    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
+      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
+        if (grid.slot(b) == SparseGrid::kFar) continue;
+        const Vector3i cell(3, 5, 1);
+        const Vector3d p = shape.origin + shape.cell * (8 * b + cell).cast<double>();
+        EXPECT_NEAR(grid.cellCorners(grid.slot(b), cell)[0], signedDistance(Primitive(Box{kHalf}), p), 1e-7);
+        ++seen;
+      }
+  EXPECT_GT(seen, 50);
+}
+
+TEST(DistanceField, ErrorBoundHoldsEverywhereAndIsReached) {
+  const DistanceField field = boxField(40);
+  const Primitive exact = Box{kHalf};
+  Random random(1);
+  double worst = 0.0, worst_share = 0.0;
+  int in_band = 0, outside = 0;
+  for (int i = 0; i < 300000; ++i) {
+    const double size = i % 3 == 0 ? 3.0 : 0.4;
+    const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-size), Vector3d::Constant(size)});
+    const FieldSample at = field.sample(p);
+    const double truth = signedDistance(exact, p), error = std::abs(at.value - truth);
+    ASSERT_LE(error, at.error + 1e-12) << p.transpose();
+    ASSERT_LE(field.lowerBound(p), truth + 1e-12) << p.transpose();
+    if (std::abs(truth) <= field.band()) {
+      ++in_band;
+      ASSERT_LE(at.error, field.errorBound());
+      worst = std::max(worst, error);
+      worst_share = std::max(worst_share, error / at.error);
+    }
+    outside += !field.grid()->shape().box().contains(p);
+  }
+  EXPECT_GT(in_band, 10000);
+  EXPECT_GT(outside, 10000);
+  // Edges of the box are where interpolation is worst; the bound must not be far above what is met there.
+  EXPECT_GT(worst, 0.2 * field.errorBound());
+  EXPECT_GT(worst_share, 0.4);
+}
+
+TEST(DistanceField, LowerBoundGrowsWithTheDistanceOutside) {
+  const DistanceField field = boxField(32);
+  for (const double x : {1.0, 10.0, 1e3, 1e6}) {
+    EXPECT_NEAR(field.lowerBound({x, 0, 0}), x - 0.3, 1e-9 * x);
+    const FieldSample at = field.sample({x, 0, 0});
+    EXPECT_GT(at.value, 0.0);
+    EXPECT_LE(std::abs(at.value - (x - 0.3)), at.error + 1e-9 * x);
+    EXPECT_NEAR(at.gradient.x(), 1.0, 1e-12);
+  }
+}
+
+TEST(DistanceField, ErrorShrinksWithTheCell) {
+  // Away from edges a smooth surface's interpolation error falls with the square of the cell.
+  const double R = 0.5;
+  const TriangleMesh mesh = test::icosphere(R, 5);
+  double last = 0.0;
+  for (const int n : {16, 32, 64}) {
+    const DistanceField field = buildField(mesh, cells(n));
+    Random random(2);
+    double sum = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vector3d p = test::uniform(random, 0.97, 1.03) * R * test::direction(random);
+      sum += std::abs(field.sample(p).value - (p.norm() - R));
+    }
+    if (last > 0.0) {
+      EXPECT_GT(last / sum, n == 32 ? 2.8 : 1.9) << n;
+    }
+    last = sum;
+  }
+}
+
+TEST(DistanceField, GradientPointsOut) {
+  const DistanceField field = boxField(64);
+  EXPECT_TRUE(field.sample({0.301, 0.02, 0.03}).gradient.isApprox(Vector3d(1, 0, 0), 1e-5));
+  EXPECT_TRUE(field.sample({0.0, -0.199, 0.0}).gradient.isApprox(Vector3d(0, -1, 0), 1e-5));
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p = test::uniformIn(random, {-kHalf, kHalf}), d = 1e-7 * test::direction(random);
+    const FieldSample at = field.sample(p);
+    EXPECT_NEAR(field.sample(p + d).value - field.sample(p - d).value, 2 * at.gradient.dot(d), 2e-8);
+  }
+}
+
+TEST(DistanceField, MaximumErrorIsKept) {
+  FieldOptions options;
+  options.max_error = 0.004;
+  const DistanceField field = buildField(test::boxMesh(kHalf), options);
+  EXPECT_LE(field.errorBound(), 0.004 * (1 + 1e-4));
+  EXPECT_GE(field.errorBound(), 0.004 * (1 - 1e-4));
+  options.max_error.reset();
+  options.cell_size = 0.01;
+  EXPECT_EQ(buildField(test::boxMesh(kHalf), options).grid()->shape().cell, 0.01);
+}
+
+TEST(DistanceField, BandIsAsWideAsAsked) {
+  FieldOptions options = cells(32);
+  options.band = 0.07;
+  const DistanceField field = buildField(test::boxMesh(kHalf), options);
+  EXPECT_EQ(field.band(), 0.07);
+  const Primitive exact = Box{kHalf};
+  Random random(4);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector3d p = test::uniformIn(random, {-1.5 * kHalf, 1.5 * kHalf});
+    if (std::abs(signedDistance(exact, p)) <= 0.07) {
+      ASSERT_LE(field.sample(p).error, field.errorBound());
+    }
+  }
+}
+
+TEST(DistanceField, SparseFieldFollowsTheSurface) {
+  // Twice the resolution: four times the surface's cells, not eight.
+  const TriangleMesh mesh = test::icosphere(0.5, 4);
+  const auto coarse = buildField(mesh, cells(100)).grid()->storedCells();
+  const auto fine = buildField(mesh, cells(200)).grid()->storedCells();
+  EXPECT_GT(double(fine) / coarse, 3.0);
+  EXPECT_LT(double(fine) / coarse, 5.0);
+}
+
+TEST(DistanceField, HierarchyHoldsEveryCell) {
+  const DistanceField field = boxField(72);
+  const SparseGrid& grid = *field.grid();
+  for (Vector3i b(0, 0, 0); b.z() < grid.shape().bricks.z(); ++b.z())
+    for (b.y() = 0; b.y() < grid.shape().bricks.y(); ++b.y())
+      for (b.x() = 0; b.x() < grid.shape().bricks.x(); ++b.x()) {
+        DistanceRange range = grid.range(0, b);
+        const auto corners = grid.brickCorners(b);
+        for (const double c : corners) {
+          EXPECT_LE(range.min, c);
+          EXPECT_GE(range.max, c);
+        }
+        for (int level = 1; level < grid.levels(); ++level) {
+          const DistanceRange parent = grid.range(level, b / (1 << level));
+          ASSERT_LE(parent.min, range.min);
+          ASSERT_GE(parent.max, range.max);
+          range = parent;
+        }
+      }
+  EXPECT_GE(grid.levels(), 4);
+}
+
+TEST(DistanceField, SameForAnyNumberOfThreads) {
+  const TriangleMesh mesh = test::torusMesh(0.2, 0.08, 40, 20);
+  const auto bytesOf = [&](int threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const DistanceField field = buildField(mesh, cells(48));
+    const SparseGrid& g = *field.grid();
+    std::vector<float> all(g.corners().data, g.corners().data + g.corners().size);
+    all.insert(all.end(), g.samples().data, g.samples().data + g.samples().size);
+    return all;
+  };
+  EXPECT_EQ(bytesOf(1), bytesOf(2));
+}
+
+TEST(DistanceField, ProgressReachesTheEnd) {
+  double last = 0.0;
+  bool increasing = true;
+  buildField(test::boxMesh(kHalf), cells(48), [&](double share) {
+    increasing = increasing && share >= last && share <= 1.0;
+    last = share;
+  });
+  EXPECT_TRUE(increasing);
+  EXPECT_GT(last, 0.9);
+}
+
+TEST(DistanceField, OpenMeshHasBoundsStill) {
+  // A box without its lid: no triangle is lost, no value is NaN, distances to the triangles hold.
+  TriangleMesh open = test::boxMesh(kHalf);
+  open.triangles.resize(10);
+  const DistanceField field = buildField(open, cells(32));
+  Random random(5);
+  for (int i = 0; i < 20000; ++i) {
+    const FieldSample at = field.sample(test::uniformIn(random, {-2 * kHalf, 2 * kHalf}));
+    ASSERT_TRUE(std::isfinite(at.value) && std::isfinite(at.error) && at.gradient.allFinite());
+  }
+}
+
+TEST(DistanceField, RefusesBadInput) {
+  EXPECT_THROW(buildField({}, cells(16)), std::invalid_argument);
+  TriangleMesh mesh = test::boxMesh(kHalf);
+  mesh.vertices[0].x() = NAN;
+  EXPECT_THROW(buildField(mesh, cells(16)), std::invalid_argument);
+  mesh = test::boxMesh(kHalf);
+  EXPECT_THROW(buildField(mesh, FieldOptions{}), std::invalid_argument);
+  EXPECT_THROW(buildField(mesh, cells(0)), std::invalid_argument);
+  FieldOptions both = cells(10);
+  both.cell_size = 0.1;
+  EXPECT_THROW(buildField(mesh, both), std::invalid_argument);
+  FieldOptions tiny;
+  tiny.cell_size = 1e-7;
+  EXPECT_THROW(buildField(mesh, tiny), std::length_error);
+  FieldOptions capped = cells(200);
+  capped.max_bytes = 1 << 20;
+  EXPECT_THROW(buildField(mesh, capped), std::length_error);
+}
+
+TEST(DistanceField, PrimitiveIsExact) {
+  const DistanceField sphere{Primitive(Sphere{0.5})};
+  EXPECT_EQ(sphere.errorBound(), 0.0);
+  EXPECT_DOUBLE_EQ(sphere.sample({2, 0, 0}).value, 1.5);
+  EXPECT_DOUBLE_EQ(sphere.lowerBound({0, 0, 0.1}), -0.4);
+  EXPECT_EQ(sphere.grid(), nullptr);
+  EXPECT_THROW(DistanceField(Primitive(Sphere{-1.0})), std::invalid_argument);
+}
+
+TEST(Trilinear, JensenBoundHoldsForEveryLipschitzFunction) {
+  // Cones of slope one in random places: the least smooth functions that a distance may be (design §3.3).
+  Random random(6);
+  double worst_share = 0.0;
+  for (int i = 0; i < 200000; ++i) {
+    const AlignedBox3d near{Vector3d::Constant(-1), Vector3d::Constant(2)};
+    std::array<Vector3d, 3> tips{test::uniformIn(random, near), test::uniformIn(random, near),
+                                 test::uniformIn(random, near)};
+    const auto f = [&](const Vector3d& p) {
+      return std::min({(p - tips[0]).norm(), (p - tips[1]).norm(), (p - tips[2]).norm()});
+    };
+    std::array<double, 8> corners;
+    for (int k = 0; k < 8; ++k) corners[k] = f(Vector3d(k & 1, (k >> 1) & 1, k >> 2));
+    const Vector3d u = test::uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
+    const double error = std::abs(trilinear(corners, u) - f(u)), bound = lipschitzError(u, 1.0);
+    ASSERT_LE(error, bound);
+    worst_share = std::max(worst_share, error / bound);
+  }
+  EXPECT_GT(worst_share, 0.7);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

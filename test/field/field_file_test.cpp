@@ -1,0 +1,195 @@
+#include "sdf_ccd/field/field_file.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "sdf_ccd/field/checked_file.h"
+#include "sdf_ccd/field/field_cache.h"
+
+namespace sdf_ccd {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory of this test's own.
+class FieldFile : public testing::Test {
+ protected:
+  FieldFile() {
+    std::string name = (fs::temp_directory_path() / "sdf_ccd_test_XXXXXX").string();
+    directory_ = mkdtemp(&name[0]);
+    options_.cells = 24;
+  }
+  ~FieldFile() override { fs::remove_all(directory_); }
+
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string read(const std::string& file) const {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void write(const std::string& file, const std::string& bytes) const {
+    std::ofstream(file, std::ios::binary) << bytes;
+  }
+  std::size_t fileCount() const { return std::distance(fs::directory_iterator(directory_), fs::directory_iterator()); }
+
+  fs::path directory_;
+  FieldOptions options_;
+  TriangleMesh mesh_ = test::torusMesh(0.2, 0.08, 32, 16);
+};
+
+void expectSame(const DistanceField& a, const DistanceField& b) {
+  test::Random random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.5), Vector3d::Constant(0.5)});
+    ASSERT_EQ(a.sample(p).value, b.sample(p).value);
+    ASSERT_EQ(a.sample(p).error, b.sample(p).error);
+  }
+  EXPECT_EQ(a.band(), b.band());
+  EXPECT_EQ(a.errorBound(), b.errorBound());
+}
+
+TEST_F(FieldFile, RoundTripIsExact) {
+  const DistanceField field = buildField(mesh_, options_);
+  saveField(field, path("a.field"));
+  expectSame(field, loadField(path("a.field")));
+  EXPECT_EQ(fileCount(), 1U) << "a temporary file was left";
+  EXPECT_TRUE(isCheckedFile(path("a.field"), "field"));
+  EXPECT_FALSE(isCheckedFile(path("a.field"), "shell"));
+}
+
+TEST_F(FieldFile, EveryDamageIsNoticed) {
+  saveField(buildField(mesh_, options_), path("a.field"));
+  const std::string good = read(path("a.field"));
+  test::Random random(2);
+  for (int i = 0; i < 300; ++i) {
+    std::string bad = good;
+    if (i % 3 == 0) {
+      bad.resize(random() % good.size());
+    } else if (i % 3 == 1) {
+      bad[random() % good.size()] ^= char(1 << random() % 8);
+    } else {
+      bad[random() % 200] ^= char(1 + random() % 255);
+    }
+    write(path("b.field"), bad);
+    try {
+      loadField(path("b.field"));
+      ADD_FAILURE() << "damage " << i << " was not noticed";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("b.field"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(FieldFile, SaysWhatIsWrong) {
+  const auto reason = [&](const std::string& file) -> std::string {
+    try {
+      loadField(file);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(reason(path("none")).find("No such file"), std::string::npos);
+  EXPECT_NE(reason(directory_.string()).find("not a regular file"), std::string::npos);
+  write(path("empty"), "");
+  EXPECT_NE(reason(path("empty")).find("truncated"), std::string::npos);
+  write(path("text"), std::string(1000, 'x'));
+  EXPECT_NE(reason(path("text")).find("not a file of sdf_ccd"), std::string::npos);
+  const int value = 7;
+  writeCheckedFile(path("other"), "shell", 1, {{&value, sizeof value}});
+  EXPECT_NE(reason(path("other")).find("holds a shell"), std::string::npos);
+  writeCheckedFile(path("later"), "field", 99, {{&value, sizeof value}});
+  EXPECT_NE(reason(path("later")).find("version 99"), std::string::npos);
+  writeCheckedFile(path("short"), "field", 1, {{&value, sizeof value}});
+  EXPECT_NE(reason(path("short")).find("damaged"), std::string::npos);
+  EXPECT_THROW(saveField(DistanceField(Primitive(Sphere{1})), path("s")), std::invalid_argument);
+  EXPECT_THROW(saveField(buildField(mesh_, options_), path("no/such/folder")), std::runtime_error);
+}
+
+TEST_F(FieldFile, CacheBuildsOnceAndRebuildsDamage) {
+  const FieldCache cache(path("cache"));
+  const CachedField first = cache.fieldFor(mesh_, options_);
+  EXPECT_FALSE(first.from_cache);
+  EXPECT_EQ(first.warning, "");
+  const CachedField second = cache.fieldFor(mesh_, options_);
+  EXPECT_TRUE(second.from_cache);
+  expectSame(first.field, second.field);
+
+  const std::string file = path("cache/") + FieldCache::fileName(mesh_, options_);
+  std::string bytes = read(file);
+  bytes[bytes.size() / 2] ^= 1;
+  write(file, bytes);
+  const CachedField third = cache.fieldFor(mesh_, options_);
+  EXPECT_FALSE(third.from_cache);
+  EXPECT_NE(third.warning.find("damaged"), std::string::npos);
+  expectSame(first.field, third.field);
+  EXPECT_TRUE(cache.fieldFor(mesh_, options_).from_cache);
+}
+
+TEST_F(FieldFile, CacheKeyIsTheContent) {
+  const std::string name = FieldCache::fileName(mesh_, options_);
+  TriangleMesh moved = mesh_;
+  moved.vertices[5].x() = std::nextafter(moved.vertices[5].x(), 1.0);
+  EXPECT_NE(FieldCache::fileName(moved, options_), name);
+  EXPECT_NE(FieldCache::fileName(scaled(mesh_, {1, 1, 2}), options_), name);
+  FieldOptions finer = options_;
+  finer.cells = 25;
+  EXPECT_NE(FieldCache::fileName(mesh_, finer), name);
+  FieldOptions wider = options_;
+  wider.band = 0.1;
+  EXPECT_NE(FieldCache::fileName(mesh_, wider), name);
+  EXPECT_EQ(FieldCache::fileName(mesh_, options_), name);
+}
+
+TEST_F(FieldFile, CacheThatCannotBeWrittenCostsOnlyTheSaving) {
+  write(path("file"), "in the way");
+  const CachedField field = FieldCache(path("file/below")).fieldFor(mesh_, options_);
+  EXPECT_FALSE(field.from_cache);
+  EXPECT_NE(field.warning.find("cache not used"), std::string::npos);
+  expectSame(field.field, buildField(mesh_, options_));
+}
+
+TEST_F(FieldFile, TwoProcessesBuildOnce) {
+  // Child processes race for the same field; each says whether it found it in the cache.
+  options_.cells = 60;
+  setenv("SDF_CCD_TEST_CACHE", path("cache").c_str(), 1);
+  std::vector<pid_t> children;
+  for (int i = 0; i < 3; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      execl("/proc/self/exe", "test_field", "--gtest_filter=FieldFileChild.LooksUpTheCache", nullptr);
+      _exit(99);
+    }
+    children.push_back(child);
+  }
+  unsetenv("SDF_CCD_TEST_CACHE");
+  for (const pid_t child : children) waitpid(child, nullptr, 0);
+  int built = 0, loaded = 0;
+  for (const auto& entry : fs::directory_iterator(path("cache"))) {
+    built += entry.path().extension() == ".built";
+    loaded += entry.path().extension() == ".loaded";
+  }
+  EXPECT_EQ(built, 1);
+  EXPECT_EQ(loaded, 2);
+}
+
+/// One process of TwoProcessesBuildOnce; does nothing when run by itself.
+TEST(FieldFileChild, LooksUpTheCache) {
+  const char* directory = std::getenv("SDF_CCD_TEST_CACHE");
+  if (!directory) return;
+  FieldOptions options;
+  options.cells = 60;
+  const CachedField field = FieldCache(directory).fieldFor(test::torusMesh(0.2, 0.08, 32, 16), options);
+  std::ofstream(std::string(directory) + "/" + std::to_string(getpid()) + (field.from_cache ? ".loaded" : ".built"));
+  EXPECT_EQ(field.warning, "");
+}
+
+}  // namespace
+}  // namespace sdf_ccd
