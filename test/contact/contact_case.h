@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/contact/penalty.h"
+
+namespace sdf_ccd::test {
+
+inline Isometry3d translation(const Vector3d& p) {
+  return Isometry3d(Eigen::Translation3d(p));
+}
+
+inline Isometry3d pose(const Vector3d& p, double angle, const Vector3d& axis) {
+  return Eigen::Translation3d(p) * Eigen::AngleAxisd(angle, axis.normalized());
+}
+
+inline Isometry3d randomPose(std::mt19937& random, double extent) {
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  return pose(extent * Vector3d(u(random), u(random), u(random)), 3.0 * u(random),
+              Vector3d(u(random), u(random), u(random) + 2.0));
+}
+
+/// Points in a spiral on a sphere, each for the same area: evenly spaced in z, so sums over z are midpoint sums.
+inline PointShell spiralSphere(double radius, int count) {
+  PointShell shell;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count, turn = kPi * (3.0 - std::sqrt(5.0)) * i;
+    const double r = std::sqrt(1.0 - z * z);
+    shell.normals.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
+    shell.points.push_back(radius * shell.normals.back());
+    shell.areas.push_back(4.0 * kPi * radius * radius / count);
+  }
+  return shell;
+}
+
+/// The face z = 0 of a body above it, [-half, half]², as count × count points.
+inline PointShell bottomFace(double half, int count) {
+  PointShell shell;
+  const double side = 2.0 * half / count;
+  for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < count; ++k) {
+      shell.points.emplace_back(-half + (i + 0.5) * side, -half + (k + 0.5) * side, 0.0);
+      shell.normals.emplace_back(0, 0, -1);
+      shell.areas.push_back(side * side);
+    }
+  }
+  return shell;
+}
+
+inline PointShell onePoint(const Vector3d& p, const Vector3d& normal) {
+  return {{p}, {normal}, {1.0}, 0.0};
+}
+
+/// One shell against one field over chords, every point tested.
+struct ContactCase {
+  DistanceField field;
+  PointShell shell;
+  ChordPath path;
+  std::vector<Isometry3d> X_CF = {Isometry3d::Identity(), Isometry3d::Identity()};
+  std::vector<SiblingField> siblings = {};
+
+  std::vector<ShellHit> hits() const {
+    std::vector<ShellHit> hits;
+    for (std::size_t c = 0; c < path.chords.size(); ++c) {
+      const Chord& chord = path.chords[c];
+      for (std::size_t i = 0; i < shell.size(); ++i) {
+        const Segment segment{chord.X_FP_start * shell.points[i], chord.X_FP_end * shell.points[i]};
+        for (const Interval& interval : segmentIntervals(field, segment))
+          hits.push_back({static_cast<int>(i), static_cast<int>(c), interval});
+      }
+    }
+    return hits;
+  }
+
+  ContactImpulse run(const ContactOptions& options, bool with_impulse = true) const {
+    ContactImpulse result;
+    integrateContact({field, shell, path, X_CF, siblings}, hits(), options, with_impulse, result);
+    return result;
+  }
+};
+
+inline ChordPath oneChord(double duration, const Isometry3d& X_FP_start, const Isometry3d& X_FP_end) {
+  return {{{0.0, duration, X_FP_start, X_FP_end, 0}}, 0.0};
+}
+
+inline Primitive ground() {
+  return HalfSpace{Vector3d::UnitZ(), 0.0};
+}
+
+}  // namespace sdf_ccd::test
