@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// Collects faces of voxels as triangles with shared vertices.
+class VoxelSurface {
+ public:
+  using Cell = std::array<std::int64_t, 3>;  ///< of a voxel, or of its lower corner
+
+  /// @param origin  cell at the frame's origin.
+  VoxelSurface(double resolution, std::int64_t origin) : resolution_(resolution), origin_(origin) {}
+
+  /// The face of `cell` across `axis`, on its upper or lower side; the outside is away from the cell.
+  void addFace(const Cell& cell, int axis, bool upper) {
+    if (mesh_.triangles.size() >= kMaxTriangles) {
+      throw std::runtime_error("its surface has more than " + std::to_string(kMaxTriangles) + " triangles");
+    }
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    Cell corner = cell;
+    corner[axis] += upper;
+    const int a = vertex(corner);
+    ++corner[u];
+    const int b = vertex(corner);
+    ++corner[v];
+    const int c = vertex(corner);
+    --corner[u];
+    const int d = vertex(corner);
+    // a b c d turns about +axis.
+    mesh_.triangles.push_back(upper ? Vector3i(a, b, c) : Vector3i(a, c, b));
+    mesh_.triangles.push_back(upper ? Vector3i(a, c, d) : Vector3i(a, d, c));
+  }
+
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  static constexpr std::size_t kMaxTriangles = 40'000'000;
+
+  int vertex(const Cell& corner) {
+    const std::uint64_t key = static_cast<std::uint64_t>(corner[0]) << 40 |
+                              static_cast<std::uint64_t>(corner[1]) << 20 | static_cast<std::uint64_t>(corner[2]);
+    const auto [found, is_new] = index_.emplace(key, static_cast<int>(mesh_.vertices.size()));
+    if (is_new) {
+      Vector3d p;
+      for (int i = 0; i < 3; ++i) p[i] = static_cast<double>(corner[i] - origin_) * resolution_;
+      mesh_.vertices.push_back(p);
+    }
+    return found->second;
+  }
+
+  double resolution_;
+  std::int64_t origin_;
+  TriangleMesh mesh_;
+  std::unordered_map<std::uint64_t, int> index_;
+};
+
+}  // namespace sdf_ccd
