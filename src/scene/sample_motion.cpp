@@ -13,20 +13,22 @@ class Sampler {
           CycleMotion& motion)
       : poses_at_(poses_at), balls_(balls), sampling_(sampling), motion_(motion) {
     motion_.missing.resize(balls.size());
+    motion_.X_WB.resize(balls.size());
+    for (auto& poses : motion_.X_WB) poses.clear();
+    motion_.times.clear();
     motion_.motion_error.assign(balls.size(), 0.0);
   }
 
   /// Adds the samples after `start`, up to and with `end`. Samples are kept in order, so the first half goes first.
   void addUpTo(double end, const std::vector<Isometry3d>& X_end, int halvings_left) {
-    const std::size_t start = size_ - 1;
-    const double middle = 0.5 * (motion_.times[start] + end);
+    const double middle = 0.5 * (motion_.times.back() + end);
     std::vector<Isometry3d> X_middle;
     poses_at_(middle, X_middle);
     deviation_.assign(balls_.size(), 0.0);
     double worst = 0.0;
     for (std::size_t body = 0; body < balls_.size(); ++body) {
       if (!motion_.missing[body].empty()) continue;
-      deviation_[body] = deviation(motion_.X_WB[start][body], X_middle[body], X_end[body], balls_[body]);
+      deviation_[body] = deviation(motion_.X_WB[body].back(), X_middle[body], X_end[body], balls_[body]);
       worst = std::max(worst, deviation_[body]);
     }
     if (worst > sampling_.tolerance && halvings_left > 0) {
@@ -41,18 +43,8 @@ class Sampler {
   }
 
   void add(double time, const std::vector<Isometry3d>& X_WB) {
-    if (motion_.times.size() <= size_) {
-      motion_.times.resize(size_ + 1);
-      motion_.X_WB.resize(size_ + 1);
-    }
-    motion_.times[size_] = time;
-    motion_.X_WB[size_] = X_WB;
-    ++size_;
-  }
-
-  void finish() {
-    motion_.times.resize(size_);
-    motion_.X_WB.resize(size_);
+    motion_.times.push_back(time);
+    for (std::size_t body = 0; body < balls_.size(); ++body) motion_.X_WB[body].push_back(X_WB[body]);
   }
 
  private:
@@ -67,7 +59,6 @@ class Sampler {
   const std::vector<BoundingBall>& balls_;
   const MotionSampling& sampling_;
   CycleMotion& motion_;
-  std::size_t size_ = 0;  // samples set; the vectors may still hold an earlier motion's behind them
   std::vector<double> deviation_;
 };
 
@@ -85,7 +76,6 @@ void sampleMotion(const std::vector<double>& knots, const PosesAt& poses_at, con
       sampler.addUpTo(knots[i], X_WB, sampling.max_halvings);
     }
   }
-  sampler.finish();
 }
 
 BoundingBall motionBall(const Body& body) {

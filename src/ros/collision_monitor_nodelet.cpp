@@ -1,0 +1,248 @@
+#include "ros/collision_monitor_nodelet.h"
+
+#include <algorithm>
+
+#include <std_msgs/String.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "ros/conversions.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kIdlePeriod = 1.0;  // [s]
+
+/// Thrown out of building when the nodelet is unloaded meanwhile.
+struct Stopped {};
+
+/// "body: reason" for each body with a reason.
+std::vector<std::string> reasons(const Scene& scene, const std::vector<std::string>& missing) {
+  std::vector<std::string> lines;
+  for (std::size_t body = 0; body < missing.size(); ++body) {
+    if (!missing[body].empty()) lines.push_back(scene.bodies[body].name + ": " + missing[body]);
+  }
+  return lines;
+}
+
+}  // namespace
+
+CollisionMonitor::~CollisionMonitor() {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+  if (service_spinner_) service_spinner_->stop();
+  if (tf_spinner_) tf_spinner_->stop();
+}
+
+void CollisionMonitor::onInit() {
+  ros::NodeHandle& private_node = getPrivateNodeHandle();
+  state_publisher_ = private_node.advertise<MonitorState>("state", 100, true);
+  plan_publisher_ = private_node.advertise<std_msgs::String>("plan", 1, true);
+  diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), private_node, getName());
+  serve();
+  thread_ = std::thread([this] { run(); });
+}
+
+void CollisionMonitor::serve() {
+  ros::NodeHandle node(getPrivateNodeHandle());
+  node.setCallbackQueue(&service_queue_);
+  services_ = {node.advertiseService("query_motion", &CollisionMonitor::queryMotion, this),
+               node.advertiseService("query_points", &CollisionMonitor::queryPoints, this),
+               node.advertiseService("reset", &CollisionMonitor::reset, this)};
+  service_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &service_queue_);
+  service_spinner_->start();
+}
+
+void CollisionMonitor::run() {
+  try {
+    setUp();
+  } catch (const Stopped&) {
+    return;
+  } catch (const std::exception& error) {
+    NODELET_FATAL("Nothing is checked: %s", error.what());
+    health_.failure = error.what();
+  }
+  ros::WallRate rate(health_.failure.empty() ? parameters_.rate : 1.0 / kIdlePeriod);
+  while (!stop_ && ros::ok()) {
+    health_.failure.empty() ? cycle() : idle(health_.failure);
+    rate.sleep();
+  }
+}
+
+void CollisionMonitor::setUp() {
+  idle("reading the robot");
+  parameters_ = readParameters(getPrivateNodeHandle());
+  for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
+  described_ = describeScene(parameters_);
+  for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
+  buildFields();
+  monitor_ = std::make_unique<Monitor>(scene_, parameters_.monitor);
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), scene_, described_.fixed_frame, parameters_.markers);
+  listen();
+  queries_ = std::make_unique<Queries>(scene_, described_, parameters_, *history_, *tracker_);
+  forget();
+  health_.building.clear();
+  const std::lock_guard<std::mutex> lock(ready_mutex_);
+  ready_ = true;
+}
+
+void CollisionMonitor::buildFields() {
+  const ros::WallTime start = ros::WallTime::now();
+  const ScenePlan plan = planScene(described_.scene);
+  scene_ = std::make_shared<const Scene>(
+      buildScene(described_.scene, plan, parameters_.scene, [this](const std::string& body, double share) {
+        if (stop_) throw Stopped();
+        const int percent = static_cast<int>(100.0 * share);
+        idle("building fields: " + std::to_string(percent) + " %, " + body);
+      }));
+  if (stop_) throw Stopped();
+  health_.warnings = described_.warnings;
+  for (const Body& body : scene_->bodies) {
+    if (body.failure.empty()) continue;
+    NODELET_ERROR("%s: not checked: %s", body.name.c_str(), body.failure.c_str());
+    health_.bad_bodies.push_back(body.name + ": " + body.failure);
+  }
+  for (const BodyReport& report : scene_->reports) {
+    for (const std::string& warning : report.warnings) {
+      NODELET_WARN("%s: %s", report.name.c_str(), warning.c_str());
+      health_.warnings.push_back(report.name + ": " + warning);
+    }
+  }
+  health_.wanted_rate = parameters_.rate;
+  health_.pairs = static_cast<int>(scene_->pairs.size());
+  health_.pairs_left_out = static_cast<int>(described_.scene.disabled.size());
+  std_msgs::String table;
+  table.data = planTable(*scene_);
+  plan_publisher_.publish(table);
+  NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
+               described_.fixed_frame.c_str(), table.data.c_str());
+}
+
+void CollisionMonitor::listen() {
+  std::vector<TrackedBody> bodies;
+  for (const Body& body : scene_->bodies) bodies.push_back({body.frame, body.X_frame_B, motionBall(body)});
+  history_ = std::make_unique<TfHistory>(described_.fixed_frame);
+  tracker_ = std::make_unique<TfTracker>(*history_, bodies, parameters_.tf);
+  ros::NodeHandle node(getNodeHandle());
+  node.setCallbackQueue(&tf_queue_);
+  const auto listenTo = [&](const std::string& topic, bool is_static) {
+    const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> add =
+        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { history_->add(*message, is_static); };
+    return node.subscribe<tf2_msgs::TFMessage>(topic, 1000, add, ros::VoidConstPtr(),
+                                               ros::TransportHints().tcpNoDelay());
+  };
+  tf_subscriber_ = listenTo("/tf", false);
+  tf_static_subscriber_ = listenTo("/tf_static", true);
+  tf_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &tf_queue_);
+  tf_spinner_->start();
+}
+
+void CollisionMonitor::cycle() {
+  if (reset_asked_.exchange(false)) {
+    tracker_->reset();
+    forget();
+  }
+  switch (tracker_->next(ros::Time::now(), cycle_)) {
+    case TfTracker::Step::kWaiting:
+      diagnostics_->update(health_);
+      return;
+    case TfTracker::Step::kStalled:
+      health_.stalled = true;
+      health_.rate = 0.0;
+      idle("no new transforms");
+      return;
+    case TfTracker::Step::kJump:
+      NODELET_WARN("Time has jumped back: starting anew");
+      forget();
+      diagnostics_->update(health_, true);
+      return;
+    case TfTracker::Step::kCycle:
+      break;
+  }
+  const CycleResult& result = monitor_->run(cycle_.motion, outputs_->request(parameters_.max_points));
+  outputs_->publish(result, cycle_);
+  publishState(result);
+}
+
+void CollisionMonitor::publishState(const CycleResult& result) {
+  const ros::WallTime now = ros::WallTime::now();
+  if (!last_cycle_.isZero()) {
+    const double rate = 1.0 / std::max(1e-6, (now - last_cycle_).toSec());
+    health_.rate = health_.rate > 0.0 ? 0.9 * health_.rate + 0.1 * rate : rate;
+  }
+  last_cycle_ = now;
+  health_.stalled = false;
+  health_.latency = (ros::Time::now() - cycle_.end).toSec();
+  health_.run_time = result.run_time;
+  health_.missing = reasons(*scene_, cycle_.motion.missing);
+  health_.out_of_order = history_->outOfOrder();
+
+  MonitorState state;
+  state.header.stamp = cycle_.end;
+  state.header.frame_id = described_.fixed_frame;
+  state.verdict = static_cast<std::uint8_t>(result.verdict);
+  state.missing = health_.missing;
+  state.missing.insert(state.missing.end(), health_.bad_bodies.begin(), health_.bad_bodies.end());
+  if (result.verdict == Verdict::kNotChecked) {
+    state.reason = std::to_string(result.not_checked) + " pairs could not be checked";
+  }
+  state.cycle_start = cycle_.start;
+  state.run_time = result.run_time;
+  state.latency = health_.latency;
+  state.error_bound = result.error_bound;
+  state.pairs_checked = result.checked;
+  state.pairs_skipped = result.skipped;
+  state.pairs_not_checked = result.not_checked;
+  state_publisher_.publish(state);
+  diagnostics_->update(health_);
+}
+
+void CollisionMonitor::idle(const std::string& reason) {
+  {
+    const std::lock_guard<std::mutex> lock(ready_mutex_);
+    not_ready_ = reason;
+  }
+  if (!monitor_ && health_.failure.empty()) health_.building = reason;
+  const ros::WallTime now = ros::WallTime::now();
+  if (!last_idle_.isZero() && (now - last_idle_).toSec() < kIdlePeriod) return;
+  last_idle_ = now;
+  MonitorState state;
+  state.header.stamp = ros::Time::now();
+  state.header.frame_id = described_.fixed_frame;
+  state.verdict = MonitorState::NOT_CHECKED;
+  state.reason = reason;
+  state_publisher_.publish(state);
+  diagnostics_->update(health_, true);
+}
+
+void CollisionMonitor::forget() {
+  monitor_->reset();
+  outputs_->clear();
+  health_.missing.clear();
+  last_cycle_ = ros::WallTime();
+}
+
+bool CollisionMonitor::isReady(std::string& why_not) {
+  const std::lock_guard<std::mutex> lock(ready_mutex_);
+  if (!ready_) why_not = "not ready: " + not_ready_;
+  return ready_;
+}
+
+bool CollisionMonitor::queryMotion(QueryMotion::Request& request, QueryMotion::Response& response) {
+  response.verdict = QueryMotion::Response::NOT_CHECKED;
+  if (isReady(response.message)) queries_->answer(request, response);
+  return true;
+}
+
+bool CollisionMonitor::queryPoints(QueryPoints::Request& request, QueryPoints::Response& response) {
+  if (isReady(response.message)) queries_->answer(request, response);
+  return true;
+}
+
+bool CollisionMonitor::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  reset_asked_ = true;
+  return true;
+}
+
+}  // namespace sdf_ccd
+
+PLUGINLIB_EXPORT_CLASS(sdf_ccd::CollisionMonitor, nodelet::Nodelet)

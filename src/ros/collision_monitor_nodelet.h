@@ -1,0 +1,92 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
+#include <std_srvs/Empty.h>
+
+#include "ros/diagnostics.h"
+#include "ros/outputs.h"
+#include "ros/queries.h"
+#include "sdf_ccd/MonitorState.h"
+
+namespace sdf_ccd {
+
+/// Watches a robot that tf2 moves, and says for every cycle what touched when, where and how hard.
+///
+/// Parameters: see config/monitor.yaml; robot_description and robot_description_semantic are looked for upwards.
+///
+/// Subscribes:
+///   /tf, /tf_static  tf2_msgs/TFMessage
+///
+/// Publishes, below the node's name, besides what Outputs and Diagnostics do:
+///   state  sdf_ccd/MonitorState  every cycle, and once a second while there is none; latched
+///   plan   std_msgs/String       what is checked against what, and what is left out and why; latched
+///
+/// Serves, below the node's name:
+///   query_motion  sdf_ccd/QueryMotion
+///   query_points  sdf_ccd/QueryPoints
+///   reset         std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
+///
+/// Building and cycles have a thread of their own; transforms and services have a callback queue and a thread each.
+class CollisionMonitor : public nodelet::Nodelet {
+ public:
+  ~CollisionMonitor() override;
+
+ private:
+  void onInit() override;
+  void serve();
+
+  void run();
+  void setUp();
+  void buildFields();
+  void listen();
+  void cycle();
+  void idle(const std::string& reason);
+  void forget();
+  void publishState(const CycleResult& result);
+
+  bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
+  bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
+  bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+  bool isReady(std::string& why_not);
+
+  // Set while setting up, in this order; then only the cycles' thread changes them.
+  MonitorParameters parameters_;
+  DescribedScene described_;
+  std::shared_ptr<const Scene> scene_;
+  std::unique_ptr<TfHistory> history_;
+  std::unique_ptr<TfTracker> tracker_;
+  std::unique_ptr<Monitor> monitor_;
+  std::unique_ptr<Outputs> outputs_;
+  std::unique_ptr<Queries> queries_;
+
+  std::unique_ptr<Diagnostics> diagnostics_;
+  MonitorHealth health_;
+  TrackedCycle cycle_;
+  ros::WallTime last_cycle_;  // when it was published
+  ros::WallTime last_idle_;
+
+  ros::Publisher state_publisher_;
+  ros::Publisher plan_publisher_;
+  ros::CallbackQueue service_queue_;
+  ros::CallbackQueue tf_queue_;
+  std::vector<ros::ServiceServer> services_;
+  ros::Subscriber tf_subscriber_, tf_static_subscriber_;
+  std::unique_ptr<ros::AsyncSpinner> service_spinner_, tf_spinner_;
+
+  std::mutex ready_mutex_;
+  bool ready_ = false;  // guarded by ready_mutex_, as the reason
+  std::string not_ready_ = "starting";
+  std::atomic<bool> reset_asked_{false};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,126 @@
+#include "ros/conversions.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sdf_ccd {
+namespace {
+
+static_assert(static_cast<int>(Verdict::kClear) == PairContact::CLEAR, "as in the messages");
+static_assert(static_cast<int>(Verdict::kContact) == PairContact::CONTACT, "as in the messages");
+static_assert(static_cast<int>(Verdict::kUncertain) == PairContact::UNCERTAIN, "as in the messages");
+static_assert(static_cast<int>(Verdict::kNotChecked) == PairContact::NOT_CHECKED, "as in the messages");
+
+PointContact toPointContact(const ContactPoint& point, const ros::Time& start) {
+  PointContact message;
+  message.enter = start + ros::Duration(point.enter);
+  message.exit = start + ros::Duration(point.exit);
+  message.time = start + ros::Duration(point.time);
+  message.depth = point.depth;
+  message.position = toPoint(point.p_W);
+  message.normal = toVector3(point.normal_W);
+  return message;
+}
+
+bool holdsAny(const Interval& interval, const std::vector<double>& samples) {
+  const auto first = std::lower_bound(samples.begin(), samples.end(), interval.enter);
+  return first != samples.end() && *first <= interval.exit;
+}
+
+}  // namespace
+
+Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
+  const auto& q = transform.rotation;
+  const auto& p = transform.translation;
+  return Eigen::Translation3d(p.x, p.y, p.z) * Quaterniond(q.w, q.x, q.y, q.z).normalized();
+}
+
+Isometry3d toIsometry(const geometry_msgs::Pose& pose) {
+  const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  const Vector3d p = toEigen(pose.position);
+  if (!q.coeffs().allFinite() || q.norm() < 1e-6) throw std::invalid_argument("orientation is not a quaternion");
+  if (!p.allFinite()) throw std::invalid_argument("position is not finite");
+  return Eigen::Translation3d(p) * q.normalized();
+}
+
+Vector3d toEigen(const geometry_msgs::Point& point) {
+  return {point.x, point.y, point.z};
+}
+
+geometry_msgs::Point toPoint(const Vector3d& p) {
+  geometry_msgs::Point message;
+  message.x = p.x();
+  message.y = p.y();
+  message.z = p.z();
+  return message;
+}
+
+geometry_msgs::Vector3 toVector3(const Vector3d& v) {
+  geometry_msgs::Vector3 message;
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+  return message;
+}
+
+geometry_msgs::Wrench toWrench(const Wrench& wrench) {
+  geometry_msgs::Wrench message;
+  message.force = toVector3(wrench.force);
+  message.torque = toVector3(wrench.torque);
+  return message;
+}
+
+PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
+  PairContact message;
+  message.body_a = cycle.scene.bodies[pair.body_a].name;
+  message.body_b = cycle.scene.bodies[pair.body_b].name;
+  message.verdict = static_cast<std::uint8_t>(pair.verdict);
+  message.reason = pair.reason;
+  for (const Interval& interval : pair.intervals) {
+    TimeInterval times;
+    times.start = cycle.start + ros::Duration(interval.enter);
+    times.end = cycle.start + ros::Duration(interval.exit);
+    message.intervals.push_back(times);
+    message.in_contact_at_samples |= holdsAny(interval, cycle.samples);
+  }
+  if (!pair.intervals.empty()) {
+    message.first_contact = message.intervals.front().start;
+    message.deepest = toPointContact(pair.deepest, cycle.start);
+    message.depth = message.deepest.depth;
+    message.normal = message.deepest.normal;
+  }
+  for (const ContactPoint& point : pair.points) message.points.push_back(toPointContact(point, cycle.start));
+  message.wrench_on_a = toWrench(pair.on_a_W);
+  message.wrench_on_b = toWrench(pair.on_b_W);
+  message.origin_a = toPoint(cycle.motion.X_WB[pair.body_a].back().translation());
+  message.origin_b = toPoint(cycle.motion.X_WB[pair.body_b].back().translation());
+  message.error_bound = pair.error.total();
+  message.error_field = pair.error.field;
+  message.error_chord = pair.error.chord;
+  message.error_root = pair.error.root;
+  message.error_gap = pair.error.gap;
+  return message;
+}
+
+std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleContext& cycle) {
+  std::vector<PairContact> messages;
+  for (const PairResult& pair : result.pairs) {
+    if (pair.verdict != Verdict::kClear) messages.push_back(toPairContact(pair, cycle));
+  }
+  return messages;
+}
+
+ContactArray toContactArray(const CycleResult& result, const CycleContext& cycle) {
+  ContactArray message;
+  message.cycle_start = cycle.start;
+  message.run_time = result.run_time;
+  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.error_bound = result.error_bound;
+  message.pairs = toPairContacts(result, cycle);
+  message.checked = result.checked;
+  message.skipped = result.skipped;
+  message.not_checked = result.not_checked;
+  return message;
+}
+
+}  // namespace sdf_ccd

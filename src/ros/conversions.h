@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Vector3.h>
+#include <geometry_msgs/Wrench.h>
+#include <ros/time.h>
+
+#include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/PairContact.h"
+#include "sdf_ccd/scene/monitor.h"
+
+namespace sdf_ccd {
+
+Isometry3d toIsometry(const geometry_msgs::Transform& transform);  ///< the quaternion need not be normalised
+
+/// @throws std::invalid_argument if a number is not finite or the quaternion is zero.
+Isometry3d toIsometry(const geometry_msgs::Pose& pose);
+
+Vector3d toEigen(const geometry_msgs::Point& point);
+geometry_msgs::Point toPoint(const Vector3d& p);
+geometry_msgs::Vector3 toVector3(const Vector3d& v);
+geometry_msgs::Wrench toWrench(const Wrench& wrench);
+
+/// What the results of a cycle refer to.
+struct CycleContext {
+  const Scene& scene;
+  const CycleMotion& motion;
+  const std::vector<double>& samples;  ///< times of the recorded poses [s] from the start
+  ros::Time start;
+};
+
+PairContact toPairContact(const PairResult& pair, const CycleContext& cycle);
+
+/// The pairs that are not clear.
+std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleContext& cycle);
+
+/// All but the header, which is the caller's.
+ContactArray toContactArray(const CycleResult& result, const CycleContext& cycle);
+
+}  // namespace sdf_ccd

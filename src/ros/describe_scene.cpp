@@ -1,0 +1,108 @@
+#include "ros/describe_scene.h"
+
+#include <array>
+
+#include <resource_retriever/retriever.h>
+#include <ros/package.h>
+
+#include "sdf_ccd/field/octomap_surface.h"
+#include "sdf_ccd/geometry/mesh_file.h"
+
+namespace sdf_ccd {
+namespace {
+
+BodyDescription emptyBody(const std::string& name, const std::string& frame, const Isometry3d& X_frame_B) {
+  BodyDescription body;
+  body.name = name;
+  body.frame = frame;
+  body.X_frame_B = X_frame_B;
+  body.is_world = true;
+  return body;
+}
+
+GeometryDescription toGeometry(const std::variant<Primitive, MeshObject>& shape, const ResourceLoader& loader,
+                               std::vector<std::string>& warnings) {
+  GeometryDescription geometry;
+  if (const Primitive* primitive = std::get_if<Primitive>(&shape)) {
+    geometry.shape = *primitive;
+    geometry.source = std::array<const char*, 4>{"sphere", "box", "cylinder", "plane"}[primitive->index()];
+    return geometry;
+  }
+  const MeshObject& mesh = std::get<MeshObject>(shape);
+  const Resource resource = loader(mesh.uri);
+  if (!resource.warning.empty()) warnings.push_back(resource.warning);
+  geometry.shape = std::make_shared<const TriangleMesh>(scaled(parseMesh(resource.bytes, resource.name), mesh.scale));
+  geometry.source = mesh.uri;
+  return geometry;
+}
+
+BodyDescription toBody(const WorldObject& object, const std::string& frame, const ResourceLoader& loader,
+                       std::vector<std::string>& warnings) {
+  BodyDescription body = emptyBody(object.name, frame, object.X_frame_B);
+  try {
+    body.geometry.push_back(toGeometry(object.shape, loader, warnings));
+  } catch (const std::exception& error) {
+    body.failure = "object " + object.name + ": " + error.what();
+  }
+  return body;
+}
+
+BodyDescription toBody(const OctomapObject& octomap, const std::string& frame) {
+  BodyDescription body = emptyBody("octomap", frame, octomap.X_frame_B);
+  try {
+    double resolution = 0.0;
+    GeometryDescription geometry;
+    geometry.shape = std::make_shared<const TriangleMesh>(loadOctomapSurface(octomap.file, resolution));
+    geometry.source = octomap.file;
+    geometry.watertight_voxels = true;
+    body.geometry.push_back(std::move(geometry));
+  } catch (const std::exception& error) {
+    body.failure = error.what();
+  }
+  return body;
+}
+
+}  // namespace
+
+ResourceLoader makeResourceLoader() {
+  return [](const std::string& uri) {
+    if (uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0) {
+      const resource_retriever::MemoryResource memory = resource_retriever::Retriever().get(uri);
+      return Resource{{reinterpret_cast<const char*>(memory.data.get()), memory.size}, uri, ""};
+    }
+    return loadLocalResource(
+        uri, [](const std::string& package) { return ros::package::getPath(package); }, "");
+  };
+}
+
+DescribedScene describeScene(const MonitorParameters& parameters) {
+  const auto robot = std::make_shared<const RobotModel>(parameters.urdf);
+  const Srdf srdf = parameters.srdf.empty() ? Srdf() : parseSrdf(parameters.srdf);
+  const ResourceLoader loader = makeResourceLoader();
+  const std::string prefix = parameters.tf_prefix.empty() ? "" : parameters.tf_prefix + "/";
+
+  DescribedScene described;
+  described.robot = robot;
+  described.root_frame = prefix + robot->root();
+  described.fixed_frame = parameters.fixed_frame.empty() ? described.root_frame : parameters.fixed_frame;
+  described.scene = describeRobot(*robot, srdf, loader, parameters.robot, described.warnings);
+
+  // The core knows the robot's frames by the names of its links, tf by these with the prefix.
+  const auto frameOf = [&](const std::string& frame) {
+    const std::string resolved = frame.empty() ? described.fixed_frame : withoutLeadingSlash(frame);
+    return resolved == described.root_frame ? robot->root() : resolved;
+  };
+  for (const WorldObject& object : parameters.world) {
+    described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));
+  }
+  if (!parameters.octomap.file.empty()) {
+    described.scene.bodies.push_back(toBody(parameters.octomap, frameOf(parameters.octomap.frame)));
+  }
+  disableUnreachable(*robot, described.scene);
+  for (BodyDescription& body : described.scene.bodies) {
+    if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
+  }
+  return described;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/parameters.h"
+
+namespace sdf_ccd {
+
+/// The robot and its world, before anything is built.
+struct DescribedScene {
+  std::shared_ptr<const RobotModel> robot;
+  SceneDescription scene;
+  std::string root_frame;   ///< the tf frame of the robot's root link
+  std::string fixed_frame;  ///< without leading slash
+  std::vector<std::string> warnings;
+};
+
+/// package://, file:// and paths from the disk, http:// and https:// through resource_retriever.
+ResourceLoader makeResourceLoader();
+
+/// Reads URDF, SRDF, world objects and the OctoMap. A link or object whose mesh cannot be read is there, with the
+/// reason in BodyDescription::failure.
+/// @throws std::exception if the URDF or the SRDF cannot be read, or two bodies share a name.
+DescribedScene describeScene(const MonitorParameters& parameters);
+
+}  // namespace sdf_ccd

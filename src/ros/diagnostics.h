@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+namespace sdf_ccd {
+
+/// What /diagnostics tells of the monitor.
+struct MonitorHealth {
+  std::string failure;       ///< why the monitor cannot start; empty if it can
+  std::string building;      ///< what is being built; empty if all is
+  bool stalled = false;      ///< no transforms arrive
+  double wanted_rate = 0.0;  ///< [Hz]
+  double rate = 0.0;         ///< of cycles [Hz]
+  double latency = 0.0;      ///< of the last cycle [s]
+  double run_time = 0.0;     ///< of the last check [s]
+  int pairs = 0;             ///< to be checked in each cycle
+  int pairs_left_out = 0;
+  std::vector<std::string> missing;     ///< "body: reason" of the last cycle
+  std::vector<std::string> bad_bodies;  ///< "body: reason" of those without field or shell
+  std::vector<std::string> warnings;    ///< from reading robot and world
+  long out_of_order = 0;                ///< transforms that came behind newer ones
+};
+
+/// Publishes:
+///   /diagnostics  diagnostic_msgs/DiagnosticArray  once a second: cycles, transforms, bodies
+class Diagnostics {
+ public:
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name);
+
+  /// Publishes if a second has passed, or `at_once`: as after the clock has jumped back.
+  void update(const MonitorHealth& health, bool at_once = false);
+
+ private:
+  void cycles(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void transforms(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void bodies(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  diagnostic_updater::Updater updater_;
+  MonitorHealth health_;
+};
+
+}  // namespace sdf_ccd

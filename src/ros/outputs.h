@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include "ros/markers.h"
+#include "ros/tf_tracker.h"
+
+namespace sdf_ccd {
+
+/// Publishes what a cycle found.
+///
+/// Publishes, below the node's name:
+///   contacts         sdf_ccd/ContactArray            every cycle
+///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
+///                                                    link's frame, about its origin [N, N·m]
+///   markers          visualization_msgs/MarkerArray  contacts to look at
+/// Nothing is put together, or computed, that has no subscriber.
+class Outputs {
+ public:
+  Outputs(ros::NodeHandle private_node, std::shared_ptr<const Scene> scene, const std::string& fixed_frame,
+          const MarkerOptions& options);
+
+  /// What the subscribers want to know of the next cycle.
+  CycleRequest request(int max_points) const;
+
+  void publish(const CycleResult& result, const TrackedCycle& cycle);
+
+  /// Deletes all markers.
+  void clear();
+
+ private:
+  struct LinkWrench {
+    int body;
+    ros::Publisher publisher;
+  };
+
+  void publishWrenches(const CycleResult& result, const TrackedCycle& cycle) const;
+
+  std::shared_ptr<const Scene> scene_;
+  std::string fixed_frame_;
+  MarkerDrawer drawer_;
+  ros::Publisher contacts_;
+  ros::Publisher markers_;
+  std::vector<LinkWrench> wrenches_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,142 @@
+#include "ros/parameter_reader.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace sdf_ccd {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+bool isNumber(const XmlRpcValue& value) {
+  return value.getType() == XmlRpcValue::TypeDouble || value.getType() == XmlRpcValue::TypeInt;
+}
+
+double toNumber(XmlRpcValue& value) {
+  return value.getType() == XmlRpcValue::TypeInt ? static_cast<int>(value) : static_cast<double>(value);
+}
+
+}  // namespace
+
+ParameterReader::ParameterReader(XmlRpcValue tree, std::string name) : tree_(std::move(tree)), name_(std::move(name)) {}
+
+bool ParameterReader::has(const std::string& key) const {
+  return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
+}
+
+XmlRpcValue* ParameterReader::find(const std::string& key) {
+  read_.insert(key);
+  return has(key) ? &tree_[key] : nullptr;
+}
+
+void ParameterReader::fail(const std::string& key, const std::string& expected) const {
+  std::ostringstream text;
+  text << "parameter " << name_ << "/" << key;
+  if (has(key)) {
+    XmlRpcValue value = tree_[key];
+    text << " is " << value;
+  } else {
+    text << " is missing";
+  }
+  text << ", expected " << expected;
+  throw ParameterError(text.str());
+}
+
+double ParameterReader::number(const std::string& key, double fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (!isNumber(*value) || !std::isfinite(toNumber(*value))) fail(key, "a finite number");
+  return toNumber(*value);
+}
+
+double ParameterReader::positive(const std::string& key, double fallback) {
+  const double value = number(key, fallback);
+  if (!(value > 0.0)) fail(key, "a number above 0");
+  return value;
+}
+
+double ParameterReader::notNegative(const std::string& key, double fallback) {
+  const double value = number(key, fallback);
+  if (!(value >= 0.0)) fail(key, "a number not below 0");
+  return value;
+}
+
+int ParameterReader::integer(const std::string& key, int fallback, int smallest) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeInt || static_cast<int>(*value) < smallest) {
+    fail(key, "an integer not below " + std::to_string(smallest));
+  }
+  return *value;
+}
+
+bool ParameterReader::flag(const std::string& key, bool fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeBoolean) fail(key, "true or false");
+  return *value;
+}
+
+std::string ParameterReader::text(const std::string& key, const std::string& fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeString) fail(key, "a text");
+  return *value;
+}
+
+int ParameterReader::choice(const std::string& key, std::initializer_list<const char*> choices, int fallback) {
+  const std::string value = text(key, "");
+  if (!has(key)) return fallback;
+  std::string expected = "one of";
+  int index = 0;
+  for (const char* choice : choices) {
+    if (value == choice) return index;
+    expected += std::string(" ") + choice;
+    ++index;
+  }
+  fail(key, expected);
+}
+
+Vector3d ParameterReader::vector(const std::string& key, const Vector3d& fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeArray || value->size() != 3) fail(key, "three numbers");
+  Vector3d result;
+  for (int i = 0; i < 3; ++i) {
+    XmlRpcValue& element = (*value)[i];
+    if (!isNumber(element) || !std::isfinite(toNumber(element))) fail(key, "three finite numbers");
+    result[i] = toNumber(element);
+  }
+  return result;
+}
+
+ParameterReader ParameterReader::group(const std::string& key) {
+  XmlRpcValue* value = find(key);
+  if (value && value->getType() != XmlRpcValue::TypeStruct) fail(key, "a group of parameters");
+  return {value ? *value : XmlRpcValue(), name_ + "/" + key};
+}
+
+std::vector<ParameterReader> ParameterReader::list(const std::string& key) {
+  std::vector<ParameterReader> readers;
+  XmlRpcValue* value = find(key);
+  if (!value) return readers;
+  if (value->getType() != XmlRpcValue::TypeArray) fail(key, "a list");
+  for (int i = 0; i < value->size(); ++i) {
+    const std::string name = key + "[" + std::to_string(i) + "]";
+    if ((*value)[i].getType() != XmlRpcValue::TypeStruct) fail(key, "a list of groups of parameters");
+    readers.emplace_back((*value)[i], name_ + "/" + name);
+  }
+  return readers;
+}
+
+std::vector<std::string> ParameterReader::unread() const {
+  std::vector<std::string> names;
+  if (tree_.getType() != XmlRpcValue::TypeStruct) return names;
+  for (auto member = const_cast<XmlRpcValue&>(tree_).begin(); member != const_cast<XmlRpcValue&>(tree_).end();
+       ++member) {
+    if (read_.count(member->first) == 0) names.push_back(name_ + "/" + member->first);
+  }
+  return names;
+}
+
+}  // namespace sdf_ccd

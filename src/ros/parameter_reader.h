@@ -1,0 +1,59 @@
+#pragma once
+
+#include <initializer_list>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <XmlRpcValue.h>
+
+#include "sdf_ccd/geometry/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// A parameter that cannot be used; says its name and value.
+class ParameterError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads a tree of parameters with their types, and knows afterwards which ones nobody asked for.
+class ParameterReader {
+ public:
+  /// @param tree  a struct, or anything else if there are no parameters
+  /// @param name  of the tree, for errors: "/collision_monitor"
+  ParameterReader(XmlRpc::XmlRpcValue tree, std::string name);
+
+  bool has(const std::string& key) const;
+
+  double number(const std::string& key, double fallback);
+  double positive(const std::string& key, double fallback);     ///< > 0 and finite
+  double notNegative(const std::string& key, double fallback);  ///< ≥ 0 and finite
+  int integer(const std::string& key, int fallback, int smallest);
+  bool flag(const std::string& key, bool fallback);
+  std::string text(const std::string& key, const std::string& fallback);
+
+  /// Index of the value among `choices`.
+  int choice(const std::string& key, std::initializer_list<const char*> choices, int fallback);
+
+  Vector3d vector(const std::string& key, const Vector3d& fallback);
+
+  ParameterReader group(const std::string& key);
+  std::vector<ParameterReader> list(const std::string& key);
+
+  /// Names of what was not read, this group's only.
+  std::vector<std::string> unread() const;
+
+  [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
+
+ private:
+  XmlRpc::XmlRpcValue tree_;
+  std::string name_;
+  std::set<std::string> read_;
+
+  /// Null if it is not set.
+  XmlRpc::XmlRpcValue* find(const std::string& key);
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,171 @@
+#include "ros/parameters.h"
+
+#include <cstdlib>
+
+#include "ros/parameter_reader.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kDefaultCellSize = 0.004;  // [m]
+
+Isometry3d readPose(ParameterReader& reader) {
+  const Vector3d rpy = reader.vector("rpy", Vector3d::Zero());
+  return Eigen::Translation3d(reader.vector("xyz", Vector3d::Zero())) * Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) * Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
+}
+
+std::string required(ParameterReader& reader, const std::string& key) {
+  const std::string value = reader.text(key, "");
+  if (value.empty()) reader.fail(key, "a text");
+  return value;
+}
+
+WorldObject readWorldObject(ParameterReader& reader) {
+  WorldObject object;
+  object.name = required(reader, "name");
+  object.frame = reader.text("frame", "");
+  object.X_frame_B = readPose(reader);
+  constexpr double kUnset = -1.0;  // refused by positive(): sizes have no default
+  switch (reader.choice("type", {"box", "sphere", "cylinder", "plane", "mesh"}, -1)) {
+    case 0: {
+      const Vector3d size = reader.vector("size", Vector3d::Zero());
+      if (!(size.minCoeff() > 0.0)) reader.fail("size", "three numbers above 0");
+      object.shape = Primitive(Box{0.5 * size});
+      break;
+    }
+    case 1:
+      object.shape = Primitive(Sphere{reader.positive("radius", kUnset)});
+      break;
+    case 2:
+      object.shape = Primitive(Cylinder{reader.positive("radius", kUnset), 0.5 * reader.positive("length", kUnset)});
+      break;
+    case 3:
+      object.shape = Primitive(HalfSpace{Vector3d::UnitZ(), 0.0});
+      break;
+    case 4: {
+      const Vector3d scale = reader.vector("scale", Vector3d::Ones());
+      if (scale.cwiseAbs().minCoeff() == 0.0) reader.fail("scale", "three numbers, none of them 0");
+      object.shape = MeshObject{required(reader, "uri"), scale};
+      break;
+    }
+    default:
+      reader.fail("type", "one of box sphere cylinder plane mesh");
+  }
+  return object;
+}
+
+FieldOptions readField(ParameterReader reader, std::vector<std::string>& unknown) {
+  FieldOptions field;
+  const int given = reader.has("cells") + reader.has("cell_size") + reader.has("max_error");
+  if (given > 1) reader.fail("cells", "only one of cells, cell_size and max_error to be set");
+  if (reader.has("cells")) {
+    field.cells = reader.integer("cells", 0, 2);
+  } else if (reader.has("max_error")) {
+    field.max_error = reader.positive("max_error", 0.0);
+  } else {
+    field.cell_size = reader.positive("cell_size", kDefaultCellSize);
+  }
+  field.band = reader.notNegative("band", field.band);
+  const double megabytes = reader.positive("max_megabytes", static_cast<double>(field.max_bytes >> 20));
+  field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
+  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  return field;
+}
+
+ShellOptions readShell(ParameterReader reader, std::vector<std::string>& unknown) {
+  ShellOptions shell;
+  shell.spacing = reader.positive("spacing", shell.spacing);
+  shell.vertex_spacing = reader.notNegative("vertex_spacing", shell.vertex_spacing);
+  shell.seed = reader.integer("seed", static_cast<int>(shell.seed), 0);
+  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  return shell;
+}
+
+ContactOptions readContact(ParameterReader reader, std::vector<std::string>& unknown) {
+  ContactOptions contact;
+  contact.stiffness_per = static_cast<StiffnessPer>(
+      reader.choice("stiffness_per", {"area", "point"}, static_cast<int>(contact.stiffness_per)));
+  contact.stiffness = reader.notNegative("stiffness", contact.stiffness);
+  contact.damping = reader.notNegative("damping", contact.damping);
+  contact.normal =
+      static_cast<NormalSource>(reader.choice("normal", {"field", "shell"}, static_cast<int>(contact.normal)));
+  contact.quadrature =
+      static_cast<Quadrature>(reader.choice("quadrature", {"exact", "midpoint"}, static_cast<int>(contact.quadrature)));
+  contact.midpoint_intervals = reader.integer("midpoint_intervals", contact.midpoint_intervals, 1);
+  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  return contact;
+}
+
+OctomapObject readOctomap(ParameterReader reader, std::vector<std::string>& unknown) {
+  OctomapObject octomap;
+  octomap.file = reader.text("file", "");
+  octomap.frame = reader.text("frame", "");
+  octomap.X_frame_B = readPose(reader);
+  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  return octomap;
+}
+
+std::string defaultCacheDirectory() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/sdf_ccd";
+  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/sdf_ccd";
+  return "";
+}
+
+/// The text that a parameter of the given name holds, looked for upwards from the private namespace as `~/…`,
+/// then `/ns/…`, then `/…`; empty if there is none.
+std::string findDescription(const ros::NodeHandle& private_node, const std::string& name) {
+  std::string key, text;
+  if (private_node.searchParam(name, key)) private_node.getParam(key, text);
+  return text;
+}
+
+}  // namespace
+
+MonitorParameters readParameters(const ros::NodeHandle& private_node) {
+  XmlRpc::XmlRpcValue tree;
+  private_node.getParam("", tree);
+  ParameterReader reader(tree, private_node.getNamespace());
+  MonitorParameters parameters;
+
+  const std::string urdf_name = reader.text("robot_description", "robot_description");
+  parameters.urdf = findDescription(private_node, urdf_name);
+  if (parameters.urdf.empty()) throw ParameterError("parameter " + urdf_name + " is missing, expected a robot's URDF");
+  parameters.srdf = findDescription(private_node, reader.text("robot_description_semantic", urdf_name + "_semantic"));
+  parameters.fixed_frame = withoutLeadingSlash(reader.text("fixed_frame", ""));
+  parameters.tf_prefix = withoutLeadingSlash(reader.text("tf_prefix", ""));
+  parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
+
+  for (ParameterReader& object : reader.list("world")) {
+    parameters.world.push_back(readWorldObject(object));
+    for (const std::string& name : object.unread()) parameters.unknown.push_back(name);
+  }
+  parameters.octomap = readOctomap(reader.group("octomap"), parameters.unknown);
+  parameters.scene.field = readField(reader.group("field"), parameters.unknown);
+  parameters.scene.shell = readShell(reader.group("shell"), parameters.unknown);
+  if (reader.flag("cache", true)) {
+    parameters.scene.cache_directory = reader.text("cache_directory", "");
+    if (parameters.scene.cache_directory.empty()) parameters.scene.cache_directory = defaultCacheDirectory();
+  } else {
+    reader.text("cache_directory", "");
+  }
+
+  parameters.monitor.contact = readContact(reader.group("contact"), parameters.unknown);
+  ChordOptions& chords = parameters.monitor.chords;
+  chords.tolerance = reader.positive("chord_tolerance", chords.tolerance);
+  chords.max_chords = reader.integer("max_chords", chords.max_chords, 1);
+  parameters.tf.sampling.tolerance = chords.tolerance;
+  parameters.tf.max_latency = reader.positive("max_latency", parameters.tf.max_latency);
+  parameters.tf.max_cycle = reader.positive("max_cycle", parameters.tf.max_cycle);
+  parameters.rate = reader.positive("rate", 30.0);
+
+  parameters.max_points = reader.integer("max_points", 50, 0);
+  parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
+  parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
+  reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's
+  reader.positive("diagnostic_period", 1.0);   // the diagnostic updater's
+  for (const std::string& name : reader.unread()) parameters.unknown.push_back(name);
+  return parameters;
+}
+
+}  // namespace sdf_ccd

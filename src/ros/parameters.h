@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "ros/markers.h"
+#include "ros/tf_tracker.h"
+#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/scene/monitor.h"
+
+namespace sdf_ccd {
+
+struct MeshObject {
+  std::string uri;
+  Vector3d scale = Vector3d::Ones();
+};
+
+/// A static object of the world, from the parameter `world`.
+struct WorldObject {
+  std::string name;
+  std::string frame;  ///< empty: the fixed frame
+  Isometry3d X_frame_B = Isometry3d::Identity();
+  std::variant<Primitive, MeshObject> shape;
+};
+
+/// The world as an OctoMap file, from the parameters `octomap/…`.
+struct OctomapObject {
+  std::string file;   ///< empty: none
+  std::string frame;  ///< empty: the fixed frame
+  Isometry3d X_frame_B = Isometry3d::Identity();
+};
+
+/// All parameters of the monitor; config/monitor.yaml documents them.
+struct MonitorParameters {
+  std::string urdf;         ///< text of the robot's description
+  std::string srdf;         ///< text of its semantic description, empty if there is none
+  std::string fixed_frame;  ///< empty: the robot's root link
+  std::string tf_prefix;
+  RobotSceneOptions robot;
+  std::vector<WorldObject> world;
+  OctomapObject octomap;
+  SceneOptions scene;
+  MonitorOptions monitor;
+  TfTrackerOptions tf;
+  MarkerOptions markers;
+  double rate = 0.0;  ///< [Hz]
+  int max_points = 0;
+  std::vector<std::string> unknown;  ///< names of parameters that nothing reads
+};
+
+/// Reads and checks all parameters from a private namespace.
+/// @throws ParameterError naming the parameter and its value.
+MonitorParameters readParameters(const ros::NodeHandle& private_node);
+
+}  // namespace sdf_ccd
