@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// A triangle's side, named by its vertices in ascending order.
+struct EdgeUse {
+  std::int32_t low, high;
+  std::int32_t triangle;
+  bool forward;  ///< the triangle runs from `low` to `high`
+};
+
+/// All sides of all triangles, sorted by edge; those of one edge are consecutive, in the order of the triangles.
+std::vector<EdgeUse> edgeUses(const TriangleMesh& mesh);
+
+/// Calls visit(first, last) for every edge, with the range of its uses.
+template <typename Visit>
+void forEachEdge(const std::vector<EdgeUse>& uses, Visit visit) {
+  const EdgeUse* const end = uses.data() + uses.size();
+  for (const EdgeUse* first = uses.data(); first != end;) {
+    const EdgeUse* last = first + 1;
+    while (last != end && last->low == first->low && last->high == first->high) ++last;
+    visit(first, last);
+    first = last;
+  }
+}
+
+/// Disjoint sets of triangles (Galler & Fischer 1964, with path halving).
+class TriangleSets {
+ public:
+  explicit TriangleSets(std::size_t count);
+  std::int32_t find(std::int32_t triangle);
+  void join(std::int32_t first, std::int32_t second);
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+}  // namespace sdf_ccd

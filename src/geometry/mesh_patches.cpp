@@ -1,0 +1,139 @@
+#include "mesh_patches.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace sdf_ccd {
+namespace {
+
+struct Neighbour {
+  std::int32_t triangle = -1;
+  bool agrees = true;
+};
+
+/// Over the three sides of every triangle, where the edge has exactly two triangles.
+std::vector<std::array<Neighbour, 3>> neighbours(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
+  std::vector<std::array<Neighbour, 3>> result(mesh.triangles.size());
+  std::vector<char> filled(mesh.triangles.size(), 0);
+  forEachEdge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+    if (last - first != 2) return;
+    const EdgeUse &a = first[0], &b = first[1];
+    const bool agrees = a.forward != b.forward;
+    result[a.triangle][filled[a.triangle]++] = {b.triangle, agrees};
+    result[b.triangle][filled[b.triangle]++] = {a.triangle, agrees};
+  });
+  return result;
+}
+
+/// Labels the connected sets and turns each one's triangles; returns a label per triangle.
+std::vector<std::int32_t> turnBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
+  const auto adjacent = neighbours(mesh, uses);
+  std::vector<std::int32_t> label(mesh.triangles.size(), -1);
+  std::vector<char> turned(mesh.triangles.size(), 0);
+  std::vector<std::int32_t> set;
+  std::int32_t sets = 0;
+  for (std::size_t seed = 0; seed < label.size(); ++seed) {
+    if (label[seed] >= 0) continue;
+    set.assign(1, static_cast<std::int32_t>(seed));
+    label[seed] = sets;
+    double area = 0, turned_area = 0;
+    for (std::size_t next = 0; next < set.size(); ++next) {
+      const std::int32_t triangle = set[next];
+      const double weight = areaNormal(mesh, triangle).norm();
+      area += weight;
+      if (turned[triangle]) turned_area += weight;
+      for (const Neighbour& neighbour : adjacent[triangle]) {
+        if (neighbour.triangle < 0 || label[neighbour.triangle] >= 0) continue;
+        label[neighbour.triangle] = sets;
+        turned[neighbour.triangle] = turned[triangle] != !neighbour.agrees;
+        set.push_back(neighbour.triangle);
+      }
+    }
+    const bool keep_turned = turned_area <= area / 2;
+    for (const std::int32_t triangle : set) {
+      if ((turned[triangle] != 0) == keep_turned) std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+    }
+    ++sets;
+  }
+  return label;
+}
+
+/// Which labels have every edge balanced. `uses` must be of the mesh as it is now.
+std::vector<char> balanced(const std::vector<EdgeUse>& uses, const std::vector<std::int32_t>& label) {
+  std::vector<char> result(label.size(), 1);
+  std::map<std::int32_t, int> balance;
+  forEachEdge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+    balance.clear();
+    for (const EdgeUse* use = first; use != last; ++use) balance[label[use->triangle]] += use->forward ? 1 : -1;
+    for (const auto& [set, sum] : balance) {
+      if (sum != 0) result[set] = 0;
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
+  const std::vector<std::int32_t> label = turnBySets(mesh, edgeUses(mesh));
+  const std::vector<EdgeUse> uses = edgeUses(mesh);
+  const std::vector<char> closed_alone = balanced(uses, label);
+
+  TriangleSets sets(mesh.triangles.size());
+  forEachEdge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+    const EdgeUse* previous_open = nullptr;
+    for (const EdgeUse* use = first; use != last; ++use) {
+      if (closed_alone[label[use->triangle]]) continue;
+      if (previous_open) sets.join(previous_open->triangle, use->triangle);
+      previous_open = use;
+    }
+  });
+  std::vector<std::int32_t> first_of_label(label.size(), -1), patch_label(label.size());
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    const auto triangle = static_cast<std::int32_t>(i);
+    if (closed_alone[label[i]]) {
+      if (first_of_label[label[i]] < 0) first_of_label[label[i]] = triangle;
+      sets.join(first_of_label[label[i]], triangle);
+    }
+    patch_label[i] = sets.find(triangle);
+  }
+  const std::vector<char> closed = balanced(uses, patch_label);
+
+  std::vector<Patch> patches;
+  std::vector<std::int32_t> place(label.size(), -1);
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    std::int32_t& index = place[patch_label[i]];
+    if (index < 0) {
+      index = static_cast<std::int32_t>(patches.size());
+      patches.push_back({{}, closed[patch_label[i]] != 0});
+    }
+    patches[index].triangles.push_back(static_cast<std::int32_t>(i));
+  }
+  return patches;
+}
+
+TriangleMesh extract(const TriangleMesh& mesh, const Patch& patch) {
+  TriangleMesh part;
+  part.triangles.reserve(patch.triangles.size());
+  std::map<std::int32_t, std::int32_t> vertices;
+  for (const std::int32_t triangle : patch.triangles) {
+    Vector3i corners;
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t vertex = mesh.triangles[triangle][i];
+      const auto [place, is_new] = vertices.try_emplace(vertex, static_cast<std::int32_t>(part.vertices.size()));
+      if (is_new) part.vertices.push_back(mesh.vertices[vertex]);
+      corners[i] = place->second;
+    }
+    part.triangles.push_back(corners);
+  }
+  return part;
+}
+
+void flip(TriangleMesh& mesh, const Patch& patch) {
+  for (const std::int32_t triangle : patch.triangles) {
+    std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+  }
+}
+
+}  // namespace sdf_ccd
