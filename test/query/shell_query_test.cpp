@@ -1,0 +1,170 @@
+#include "sdf_ccd/query/shell_query.h"
+
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/shell/sample_surface.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+
+BoundingBall rootBall(const SphereTree& tree) {
+  return {tree.nodes[0].center, tree.nodes[0].radius};
+}
+
+/// Every point on every chord, without the tree.
+std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& shell, const ChordPath& path,
+                                 double sigma) {
+  std::vector<ShellHit> hits;
+  for (std::size_t c = 0; c < path.chords.size(); ++c)
+    for (std::size_t i = 0; i < shell.size(); ++i)
+      for (const Interval& interval : segmentIntervals(
+               field, {path.chords[c].X_FP_start * shell.points[i], path.chords[c].X_FP_end * shell.points[i]},
+               {sigma, false}))
+        hits.push_back({int(i), int(c), interval});
+  return hits;
+}
+
+void expectEqual(std::vector<ShellHit> tree, std::vector<ShellHit> scan) {
+  const auto order = [](const ShellHit& a, const ShellHit& b) {
+    return std::tie(a.chord, a.point, a.interval.enter) < std::tie(b.chord, b.point, b.interval.enter);
+  };
+  std::sort(tree.begin(), tree.end(), order);
+  std::sort(scan.begin(), scan.end(), order);
+  ASSERT_EQ(tree.size(), scan.size());
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    ASSERT_EQ(tree[i].point, scan[i].point);
+    ASSERT_EQ(tree[i].chord, scan[i].chord);
+    ASSERT_EQ(tree[i].interval.enter, scan[i].interval.enter);
+    ASSERT_EQ(tree[i].interval.exit, scan[i].interval.exit);
+  }
+}
+
+struct Scene {
+  DistanceField field;
+  PointShell shell;
+  SphereTree tree;
+};
+
+std::vector<Scene> scenes() {
+  FieldOptions field;
+  field.cells = 40;
+  ShellOptions shell;
+  shell.spacing = 0.02;
+  std::vector<Scene> all;
+  const auto add = [&](DistanceField f, PointShell s) {
+    SphereTree tree = buildSphereTree(s);
+    all.push_back({std::move(f), std::move(s), std::move(tree)});
+  };
+  const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);
+  add(buildField(torus, field), sampleSurface(torus, shell));
+  add(buildField(test::boxMesh({0.2, 0.2, 0.004}), field), sampleSurface(Primitive(Sphere{0.1}), shell));
+  add(DistanceField(Primitive(Box{{0.2, 0.1, 0.0005}})), sampleSurface(Primitive(Cylinder{0.05, 0.1}), shell));
+  return all;
+}
+
+TEST(ShellQuery, EqualsLinearScanOnEveryPoint) {
+  Random random(1);
+  long hits = 0, visits = 0, points = 0;
+  for (const Scene& scene : scenes()) {
+    for (int i = 0; i < 200; ++i) {
+      // Far and near, fast and slow, also turning by more than a right angle.
+      const double reach = i % 4 == 0 ? 1.0 : 0.3;
+      RelativePath motion{{0.0, 0.5, 1.0},
+                          {test::pose(random, 3.0, reach), test::pose(random, 3.0, reach),
+                           test::pose(random, i % 2 ? 0.1 : 3.0, reach)}};
+      ChordPath path;
+      cutIntoChords(motion, rootBall(scene.tree), {i % 5 == 0 ? 1e-3 : 1e-1, 40}, path);
+      const double sigma = i % 3 == 0 ? 0.0 : test::uniform(random, -1, 1) * std::min(scene.field.band(), 0.02);
+      ShellQueryResult result;
+      shellIntervals(scene.field, scene.shell, scene.tree, path, {sigma, false}, result);
+      expectEqual(result.hits, linearScan(scene.field, scene.shell, path, sigma));
+      if (HasFatalFailure()) return;
+      hits += long(result.hits.size());
+      visits += result.points_tested;
+      points += long(scene.shell.size() * path.chords.size());
+    }
+  }
+  EXPECT_GT(hits, 10000);
+  EXPECT_LT(visits, points / 2) << "the tree culls nothing";
+}
+
+TEST(ShellQuery, EqualsLinearScanOnAdversarialMotions) {
+  Random random(2);
+  for (const Scene& scene : scenes()) {
+    std::vector<std::pair<Isometry3d, Isometry3d>> ends;
+    const auto at = [](const Vector3d& p) {
+      Isometry3d X = Isometry3d::Identity();
+      X.translation() = p;
+      return X;
+    };
+    ends.push_back({at({0, 0, 0}), at({0, 0, 0})});        // no motion, deep overlap
+    ends.push_back({at({50, 0, 0}), at({-50, 1e-4, 0})});  // through everything at once
+    ends.push_back({at({0, 0, 1e3}), at({0, 0, -1e3})});
+    ends.push_back({at({0, 0, 0.1}), at({0.4, 0, 0.1})});            // sphere slides along the plate's face
+    ends.push_back({at({1e4, 1e4, 1e4}), at({1e4, 1e4, 1e4 + 1})});  // never near
+    const AlignedBox3d box = scene.field.grid() ? scene.field.grid()->shape().box() : scene.field.surfaceBox();
+    for (int k = 0; k < 3; ++k) {  // along the grid's own boundary
+      Vector3d a = box.min(), b = box.min();
+      b[k] = box.max()[k];
+      ends.push_back({at(a), at(b)});
+    }
+    for (const auto& [from, to] : ends) {
+      ChordPath path;
+      cutIntoChords({{0.0, 1.0}, {from, to}}, rootBall(scene.tree), {1e-3, 40}, path);
+      ShellQueryResult result;
+      shellIntervals(scene.field, scene.shell, scene.tree, path, {0.0, false}, result);
+      expectEqual(result.hits, linearScan(scene.field, scene.shell, path, 0.0));
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(ShellQuery, AnyStopsAtOneHit) {
+  const Scene scene = std::move(scenes()[0]);
+  ChordPath path;
+  cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), Isometry3d::Identity()}}, rootBall(scene.tree), {}, path);
+  ShellQueryResult result;
+  shellIntervals(scene.field, scene.shell, scene.tree, path, {scene.field.errorBound(), true}, result);
+  EXPECT_EQ(result.hits.size(), 1U);
+}
+
+TEST(ShellQuery, ClearanceIsATightLowerBound) {
+  Random random(3);
+  const double slack = 0.002;
+  for (const Scene& scene : scenes()) {
+    for (int i = 0; i < 200; ++i) {
+      const Isometry3d X_FP = test::pose(random, 3.0, 0.6);
+      double nearest = 1e9, nearest_bound = 1e9;
+      for (const Vector3d& p : scene.shell.points) {
+        const FieldSample at = scene.field.sample(X_FP * p);
+        nearest = std::min(nearest, at.value + at.error);
+        nearest_bound = std::min(nearest_bound, scene.field.lowerBound(X_FP * p));
+      }
+      const double found = clearance(scene.field, scene.tree, scene.shell, X_FP, slack);
+      EXPECT_LE(found, nearest + 1e-12);
+      EXPECT_GE(found, nearest_bound - slack - 1e-12);
+    }
+  }
+}
+
+TEST(ShellQuery, EmptyShellNeverHits) {
+  const DistanceField field{Primitive(Sphere{1.0})};
+  PointShell shell;
+  const SphereTree tree = buildSphereTree(shell);
+  ChordPath path;
+  cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), Isometry3d::Identity()}}, {}, {}, path);
+  ShellQueryResult result;
+  shellIntervals(field, shell, tree, path, {}, result);
+  EXPECT_TRUE(result.hits.empty());
+}
+
+}  // namespace
+}  // namespace sdf_ccd
