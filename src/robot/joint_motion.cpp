@@ -44,6 +44,7 @@ Range positionRange(const urdf::ModelInterface& model, const urdf::Joint& joint)
 void ChainReach::addFixed(const Isometry3d& X) {
   piece_.offset = X.linear().transpose() * (piece_.offset + X.translation());
   piece_.slide = X.linear().transpose() * piece_.slide;
+  piece_.turned_about = X.linear().transpose() * piece_.turned_about;
 }
 
 void ChainReach::addJoint(const urdf::Joint& joint, const Range& range, bool forward) {
@@ -52,13 +53,14 @@ void ChainReach::addJoint(const urdf::Joint& joint, const Range& range, bool for
       break;
     case urdf::Joint::REVOLUTE:
     case urdf::Joint::CONTINUOUS:
-      turns_.push_back({unitAxis(joint), piece_});
-      piece_ = {Vector3d::Zero(), Vector3d::Zero(), 0.0, 0.0};
+      turns_.push_back({piece_, unitAxis(joint)});
+      piece_ = Piece();
+      piece_.turned_about = unitAxis(joint);
       break;
     case urdf::Joint::PRISMATIC:
       if (!std::isfinite(range.first) || !std::isfinite(range.second)) {
         unlimited_ = true;
-      } else if (piece_.slide.isZero(0.0)) {
+      } else if (!piece_.slides()) {
         piece_.slide = (forward ? 1.0 : -1.0) * unitAxis(joint);
         piece_.low = range.first;
         piece_.high = range.second;
@@ -82,20 +84,24 @@ Range ChainReach::distanceTo(const Vector3d& end) const {
   Piece last = piece_;
   last.offset += end;
 
-  const bool slides = !last.slide.isZero(0.0) || (!turns_.empty() && !turns_[0].before.slide.isZero(0.0));
-  if (turns_.size() == 1 && further_slides_.empty() && !slides) {
+  // A turn about an end moves nothing.
+  std::vector<Turn> turns = turns_;
+  for (; !turns.empty() && last.isPoint(); turns.pop_back()) last = turns.back().before;
+  while (!turns.empty() && turns.front().before.isPoint()) turns.erase(turns.begin());
+
+  const bool one_turn = turns.size() == 1 && further_slides_.empty();
+  if (one_turn && !last.slides() && !turns[0].before.slides()) {
     // |v + R w|, R about the axis: the parts along it are fixed, those across it add up to anything in between.
-    const Vector3d& axis = turns_[0].axis;
-    const Vector3d& v = turns_[0].before.offset;
+    const Vector3d& v = turns[0].before.offset;
     const Vector3d& w = last.offset;
-    const double along = axis.dot(v + w);
-    const double across_v = axis.cross(v).norm();
-    const double across_w = axis.cross(w).norm();
+    const double along = turns[0].axis.dot(v) + last.turned_about.dot(w);
+    const double across_v = turns[0].axis.cross(v).norm();
+    const double across_w = last.turned_about.cross(w).norm();
     return {std::hypot(along, across_v - across_w), std::hypot(along, across_v + across_w)};
   }
 
   std::vector<Range> lengths = {lengthOf(last)};
-  for (const Turn& turn : turns_) lengths.push_back(lengthOf(turn.before));
+  for (const Turn& turn : turns) lengths.push_back(lengthOf(turn.before));
   for (const double length : further_slides_) lengths.emplace_back(0.0, length);
   double farthest = 0.0;
   for (const Range& length : lengths) farthest += length.second;

@@ -23,7 +23,7 @@ Range positionRange(const urdf::ModelInterface& model, const urdf::Joint& joint)
 class ChainReach {
  public:
   /// @param start  the first end, in the frame that the first element is added to [m].
-  explicit ChainReach(const Vector3d& start) : piece_{-start, Vector3d::Zero(), 0.0, 0.0} {}
+  explicit ChainReach(const Vector3d& start) { piece_.offset = -start; }
 
   void addFixed(const Isometry3d& X);
   /// @param forward  false if the chain passes from the joint's child to its parent.
@@ -35,14 +35,19 @@ class ChainReach {
  private:
   /// Vectors from the last cut to the frame's origin: offset + q slide, q in [low, high], in the frame's axes.
   struct Piece {
-    Vector3d offset;
-    Vector3d slide;
-    double low;
-    double high;
+    Vector3d offset = Vector3d::Zero();
+    Vector3d slide = Vector3d::Zero();
+    double low = 0.0;
+    double high = 0.0;
+    Vector3d turned_about = Vector3d::Zero();  ///< unit axis of the cut that it begins with; zero for the first piece
+
+    bool slides() const { return !slide.isZero(0.0); }
+    bool isPoint() const { return !slides() && offset.isZero(1e-15); }
   };
+  /// A cut, and the piece that ends in it.
   struct Turn {
-    Vector3d axis;  ///< unit
-    Piece before;   ///< the piece that ends in this cut, in the joint's axes
+    Piece before;   ///< in the joint's axes
+    Vector3d axis;  ///< unit, in the joint's axes
   };
 
   static Range lengthOf(const Piece& piece);

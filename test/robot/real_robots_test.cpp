@@ -1,0 +1,66 @@
+#include <cstdlib>
+#include <string>
+
+#include "oracle/test_data.h"
+#include "robot/read_text.h"
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd {
+namespace {
+
+struct RealRobot {
+  const char* urdf;
+  const char* srdf;  ///< empty: none
+  std::size_t bodies;
+  std::size_t disabled;
+  std::size_t pairs;
+};
+
+std::ostream& operator<<(std::ostream& stream, const RealRobot& robot) {
+  return stream << robot.urdf;
+}
+
+const std::string kExample = "robots/example-robot-data/robots/";
+
+class RealRobots : public ::testing::TestWithParam<RealRobot> {};
+
+TEST_P(RealRobots, LoadWithoutFailureOrWarning) {
+  const std::string urdf = "robots/" + std::string(GetParam().urdf);
+  SDF_CCD_NEEDS_DATA(urdf);
+  ::setenv("ROS_PACKAGE_PATH", test::dataPath("robots").c_str(), 1);
+  const PackageFinder packages = packagesFromEnvironment();
+  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, ""); };
+  const std::string srdf = GetParam().srdf;
+
+  ::testing::internal::CaptureStderr();
+  const RobotModel robot(test::readText(test::dataPath(urdf)));
+  std::vector<std::string> warnings;
+  const Srdf parsed = srdf.empty() ? Srdf() : parseSrdf(test::readText(test::dataPath("robots/" + srdf)));
+  const SceneDescription scene = describeRobot(robot, parsed, loader, {}, warnings);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+
+  for (const BodyDescription& body : scene.bodies) EXPECT_EQ(body.failure, "");
+  for (const std::string& warning : warnings) ADD_FAILURE() << warning;
+  EXPECT_EQ(scene.bodies.size(), GetParam().bodies);
+  EXPECT_EQ(scene.disabled.size(), GetParam().disabled);
+  EXPECT_EQ(scene.bodies.size() * (scene.bodies.size() - 1) / 2 - scene.disabled.size(), GetParam().pairs);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RealRobots,
+    ::testing::Values(
+        RealRobot{"panda_from_xacro.urdf", "panda_moveit_config/config/panda.srdf", 11, 34, 21},
+        RealRobot{"dual_panda_from_xacro.urdf", "", 23, 59, 194},
+        RealRobot{"fanuc_description/urdf/fanuc.urdf", "fanuc_moveit_config/config/fanuc.srdf", 7, 10, 11},
+        RealRobot{"pr2_description/urdf/robot.xml", "pr2_description/srdf/robot.xml", 54, 441, 990},
+        RealRobot{"pr2_calibrated/pr1012_urdf_1a0f5a3.urdf", "", 51, 387, 888},
+        RealRobot{"pr2_calibrated/pr1012_urdf_67b1b5a5.urdf", "", 51, 387, 888},
+        RealRobot{"example-robot-data/robots/ur_description/urdf/ur5_robot.urdf",
+                  "example-robot-data/robots/ur_description/srdf/ur5.srdf", 8, 12, 16},
+        RealRobot{"example-robot-data/robots/kinova_description/robots/kinova.urdf",
+                  "example-robot-data/robots/kinova_description/srdf/kinova.srdf", 11, 21, 34},
+        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_left_hand.urdf", "", 21, 25, 185},
+        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_right_hand.urdf", "", 21, 25, 185}));
+
+}  // namespace
+}  // namespace sdf_ccd

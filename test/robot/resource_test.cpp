@@ -1,0 +1,125 @@
+#include "sdf_ccd/robot/resource.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace sdf_ccd {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ResourceFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("sdf_ccd_resource_" + std::to_string(::getpid()));
+    write("a/b/c_folder/package.xml",
+          "<package format=\"2\">\n <!-- -- -->\n <name> arm_description </name></package>");
+    write("a/b/c_folder/Meshes/Link.STL", "steel");
+    write("a/b/c_folder/nested/package.xml", "<package><name>nested</name></package>");
+    write("a/old_stack/manifest.xml", "<package/>");
+    write("a/ignored/CATKIN_IGNORE", "");
+    write("a/ignored/package.xml", "<package><name>ignored</name></package>");
+    write("a/other_build/COLCON_IGNORE", "");
+    write("a/other_build/x/package.xml", "<package><name>other_build</name></package>");
+    write("a/.hidden/package.xml", "<package><name>hidden</name></package>");
+    write("a/broken/package.xml", "<package><name>broken");
+    write("b/copy/package.xml", "<package><name>arm_description</name></package>");
+    const std::string path = (directory_ / "a").string() + "/:/no/such/place::" + (directory_ / "b").string();
+    ::setenv("ROS_PACKAGE_PATH", path.c_str(), 1);
+    find_ = packagesFromEnvironment();
+  }
+  void TearDown() override {
+    fs::remove_all(directory_);
+    ::unsetenv("ROS_PACKAGE_PATH");
+  }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((directory_ / name).parent_path());
+    std::ofstream(directory_ / name, std::ios::binary) << text;
+  }
+
+  std::string failure(const std::string& uri) {
+    try {
+      loadLocalResource(uri, find_, directory_.string());
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(uri), std::string::npos);
+      return error.what();
+    }
+    return "loaded";
+  }
+
+  fs::path directory_;
+  PackageFinder find_;
+};
+
+TEST_F(ResourceFiles, PackageIsNamedByItsFileNotItsFolder) {
+  EXPECT_EQ(find_("arm_description"), (directory_ / "a/b/c_folder").string());
+  EXPECT_EQ(find_("c_folder"), "");
+  EXPECT_EQ(find_("old_stack"), (directory_ / "a/old_stack").string());
+}
+
+TEST_F(ResourceFiles, CrawlStopsWhereRospackStops) {
+  for (const char* name : {"nested", "ignored", "other_build", "hidden", "broken"}) EXPECT_EQ(find_(name), "") << name;
+}
+
+TEST_F(ResourceFiles, NoPackagePathFindsNothing) {
+  ::unsetenv("ROS_PACKAGE_PATH");
+  EXPECT_EQ(packagesFromEnvironment()("arm_description"), "");
+}
+
+TEST_F(ResourceFiles, EveryKindOfUriIsRead) {
+  const std::string mesh = (directory_ / "a/b/c_folder/Meshes/Link.STL").string();
+  for (const std::string& uri :
+       {std::string("package://arm_description/Meshes/Link.STL"),
+        std::string("package:///arm_description/Meshes/Link.STL"), "file://" + mesh, mesh,
+        std::string("a/b/c_folder/Meshes/Link.STL"), std::string("b/../a/b/c_folder/Meshes/Link.STL")}) {
+    const Resource resource = loadLocalResource(uri, find_, directory_.string());
+    EXPECT_EQ(resource.bytes, "steel") << uri;
+    EXPECT_EQ(fs::path(resource.name).filename(), "Link.STL");
+    EXPECT_EQ(resource.warning, "");
+  }
+}
+
+TEST_F(ResourceFiles, OtherCaseIsTakenWithAWarning) {
+  const Resource resource = loadLocalResource("package://arm_description/meshes/link.stl", find_, "");
+  EXPECT_EQ(resource.bytes, "steel");
+  EXPECT_EQ(
+      resource.warning,
+      "package://arm_description/meshes/link.stl: found Meshes, the URI says meshes, found Link.STL, the URI says "
+      "link.stl");
+}
+
+TEST_F(ResourceFiles, FailuresNameTheUriAndTheReason) {
+  EXPECT_NE(failure("package://arm_descriptions/x.stl").find("no such package: arm_descriptions"), std::string::npos);
+  EXPECT_NE(failure("package://arm_description/x.stl").find("no such file"), std::string::npos);
+  EXPECT_NE(failure("package://arm_description/../x.stl").find(".."), std::string::npos);
+  EXPECT_NE(failure("package://arm_description/Meshes").find("is a directory"), std::string::npos);
+  EXPECT_NE(failure("package://arm_description/Meshes/").find("is a directory"), std::string::npos);
+  EXPECT_NE(failure("package://arm_description").find("names no file"), std::string::npos);
+  EXPECT_NE(failure("package://").find("names no file"), std::string::npos);
+  EXPECT_NE(failure("http://example.org/x.stl").find("http:// is not supported"), std::string::npos);
+  EXPECT_NE(failure("file://x.stl").find("absolute"), std::string::npos);
+  EXPECT_NE(failure("").find("empty"), std::string::npos);
+}
+
+TEST_F(ResourceFiles, PipesAreNotReadFrom) {
+  ASSERT_EQ(::mkfifo((directory_ / "pipe.stl").c_str(), 0600), 0);
+  EXPECT_NE(failure("pipe.stl").find("not a regular file"), std::string::npos);
+}
+
+TEST_F(ResourceFiles, UnreadableFileIsNamed) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads everything";
+  write("secret.stl", "x");
+  ASSERT_EQ(::chmod((directory_ / "secret.stl").c_str(), 0), 0);
+  EXPECT_NE(failure("secret.stl").find("cannot be opened"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

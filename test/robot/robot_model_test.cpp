@@ -1,0 +1,212 @@
+#include "sdf_ccd/robot/robot_model.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "oracle/random.h"
+#include "oracle/test_data.h"
+#include "robot/read_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// base –(shoulder, z)– upper –(fixed)– bracket –(elbow, y)– fore –(slide, x)– tip, and a finger that mimics slide.
+const char* const kArm = R"(<?xml version="1.0"?>
+<!-- a comment -- with dashes, as calibrated robots have -->
+<robot name="arm">
+  <link name="base"/><link name="upper"/><link name="bracket"/><link name="fore"/><link name="tip"/>
+  <link name="finger"/><link name="wheel"/>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/>
+    <origin xyz="0 0 1"/><axis xyz="0 0 2"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="mount" type="fixed"><parent link="upper"/><child link="bracket"/><origin xyz="0.5 0 0"/></joint>
+  <joint name="elbow" type="revolute"><parent link="bracket"/><child link="fore"/>
+    <origin xyz="0 0 0.2"/><axis xyz="0 1 0"/><limit lower="0.1" upper="2" effort="1" velocity="1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="fore"/><child link="tip"/>
+    <origin xyz="0.3 0 0"/><axis xyz="1 0 0"/><limit lower="-0.05" upper="0.1" effort="1" velocity="1"/></joint>
+  <joint name="grip" type="prismatic"><parent link="tip"/><child link="finger"/>
+    <axis xyz="0 1 0"/><limit lower="0" upper="0.2" effort="1" velocity="1"/>
+    <mimic joint="slide" multiplier="2" offset="0.01"/></joint>
+  <joint name="spin" type="continuous"><parent link="base"/><child link="wheel"/>
+    <origin xyz="0 0.4 0" rpy="1.5707963267948966 0 0"/><axis xyz="0 0 1"/></joint>
+</robot>)";
+
+std::size_t indexOf(const RobotModel& robot, const std::string& link) {
+  for (std::size_t i = 0; i < robot.links().size(); ++i) {
+    if (robot.links()[i] == link) return i;
+  }
+  throw std::invalid_argument(link);
+}
+
+Isometry3d poseOf(const RobotModel& robot, const std::string& link, const JointPositions& positions) {
+  return robot.forwardKinematics(positions)[indexOf(robot, link)];
+}
+
+std::string failure(const std::string& xml) {
+  try {
+    RobotModel robot(xml);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "parsed";
+}
+
+std::string twoLinks(const std::string& joint) {
+  return "<robot name='r'><link name='a'/><link name='b'/>" + joint + "</robot>";
+}
+
+TEST(RobotModel, ForwardKinematicsOfAnArm) {
+  const RobotModel robot(kArm);
+  const double s = 0.7, e = 0.9, d = 0.04;
+  const JointPositions positions = {{"shoulder", s}, {"elbow", e}, {"slide", d}, {"spin", 0.5}};
+  // Along the upper arm 0.5, then 0.3 + d turned about y by e, all turned about z by s.
+  const double out = 0.5 + (0.3 + d) * std::cos(e);
+  const Vector3d tip(out * std::cos(s), out * std::sin(s), 1.2 - (0.3 + d) * std::sin(e));
+  EXPECT_TRUE(poseOf(robot, "tip", positions).translation().isApprox(tip, 1e-14));
+  const Vector3d left(-std::sin(s), std::cos(s), 0);
+  EXPECT_TRUE(poseOf(robot, "finger", positions).translation().isApprox(tip + (2 * d + 0.01) * left, 1e-14));
+  const Isometry3d wheel = poseOf(robot, "wheel", positions);
+  EXPECT_TRUE(wheel.translation().isApprox(Vector3d(0, 0.4, 0), 1e-14));
+  EXPECT_TRUE(wheel.linear().col(0).isApprox(Vector3d(std::cos(0.5), 0, std::sin(0.5)), 1e-12));
+  EXPECT_TRUE(wheel.linear().col(2).isApprox(Vector3d(0, -1, 0), 1e-12));
+}
+
+TEST(RobotModel, JointsThatAreNotNamedAreAtZeroOrTheNearestLimit) {
+  const RobotModel robot(kArm);
+  const Vector3d tip(0.5 + 0.3 * std::cos(0.1), 0, 1.2 - 0.3 * std::sin(0.1));
+  EXPECT_TRUE(poseOf(robot, "tip", {}).translation().isApprox(tip, 1e-14));
+}
+
+TEST(RobotModel, MimicJointFollowsItsLeaderWhateverItIsSaidToBe) {
+  const RobotModel robot(kArm);
+  EXPECT_TRUE(poseOf(robot, "finger", {{"slide", 0.03}, {"grip", 9.0}})
+                  .isApprox(poseOf(robot, "finger", {{"slide", 0.03}}), 1e-15));
+}
+
+TEST(RobotModel, RefusesUnknownJointsAndPositionsThatAreNotFinite) {
+  const RobotModel robot(kArm);
+  EXPECT_THROW(robot.forwardKinematics({{"knee", 0.0}}), std::invalid_argument);
+  EXPECT_THROW(robot.forwardKinematics({{"elbow", std::nan("")}}), std::invalid_argument);
+}
+
+TEST(RobotModel, LinksAreInDepthFirstOrder) {
+  const RobotModel robot(kArm);
+  EXPECT_EQ(robot.root(), "base");
+  EXPECT_EQ(robot.links().front(), "base");
+  EXPECT_EQ(robot.links().size(), 7u);
+  EXPECT_EQ(indexOf(robot, "tip"), indexOf(robot, "fore") + 1);
+}
+
+TEST(RobotModel, TellsRigidAndAdjacentLinks) {
+  const RobotModel robot(kArm);
+  EXPECT_TRUE(robot.rigidlyJoined("upper", "bracket"));
+  EXPECT_TRUE(robot.rigidlyJoined("tip", "tip"));
+  EXPECT_FALSE(robot.rigidlyJoined("base", "upper"));
+  EXPECT_TRUE(robot.adjacent("base", "bracket"));  // one joint and a fixed one
+  EXPECT_TRUE(robot.adjacent("fore", "upper"));
+  EXPECT_FALSE(robot.adjacent("upper", "bracket"));
+  EXPECT_FALSE(robot.adjacent("wheel", "upper"));
+  EXPECT_THROW(robot.adjacent("wheel", "leg"), std::invalid_argument);
+}
+
+TEST(RobotModel, ReachIsExactOverOneJoint) {
+  const RobotModel robot(kArm);
+  const auto still = robot.reach("upper", "bracket");
+  EXPECT_DOUBLE_EQ(still.nearest, 0.5);
+  EXPECT_DOUBLE_EQ(still.farthest, 0.5);
+  // The fore arm's origin turns about z at a radius of 0.5, 1.2 above the base.
+  const auto turned = robot.reach("base", Vector3d(2, 0, 0), "fore", Vector3d::Zero());
+  EXPECT_NEAR(turned.nearest, std::hypot(1.5, 1.2), 1e-14);
+  EXPECT_NEAR(turned.farthest, std::hypot(2.5, 1.2), 1e-14);
+  const auto slid = robot.reach("fore", Vector3d(0.28, 0.1, 0), "tip", Vector3d::Zero());
+  EXPECT_NEAR(slid.nearest, 0.1, 1e-14);
+  EXPECT_NEAR(slid.farthest, std::hypot(0.12, 0.1), 1e-14);
+}
+
+TEST(RobotModel, ReachOfUnlimitedJointsIsInfinite) {
+  for (const char* joint : {"<joint name='j' type='floating'><parent link='a'/><child link='b'/></joint>",
+                            "<joint name='j' type='planar'><parent link='a'/><child link='b'/></joint>"}) {
+    const RobotModel robot(twoLinks(joint));
+    EXPECT_EQ(robot.reach("a", "b").nearest, 0.0);
+    EXPECT_TRUE(std::isinf(robot.reach("b", "a").farthest));
+    EXPECT_TRUE(robot.adjacent("a", "b"));
+    EXPECT_TRUE(poseOf(robot, "b", {}).isApprox(Isometry3d::Identity()));
+  }
+}
+
+/// All joint positions: those of revolute joints anything, of prismatic ones within their limits.
+JointPositions randomPositions(const RobotModel& robot, test::Random& random) {
+  JointPositions positions;
+  for (const auto& [name, joint] : robot.urdf().joints_) {
+    if (joint->type == urdf::Joint::PRISMATIC) {
+      positions[name] = test::uniform(random, joint->limits->lower, joint->limits->upper);
+    } else if (joint->type != urdf::Joint::FIXED) {
+      positions[name] = test::uniform(random, -kPi, kPi);
+    }
+  }
+  return positions;
+}
+
+void expectReachHolds(const RobotModel& robot, int states) {
+  test::Random random(7);
+  const std::size_t count = robot.links().size();
+  std::vector<std::vector<RobotModel::Reach>> reach(count);
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < count; ++i) points.push_back(0.2 * test::direction(random));
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      reach[i].push_back(robot.reach(robot.links()[i], points[i], robot.links()[j], points[j]));
+    }
+  }
+  for (int state = 0; state < states; ++state) {
+    const auto X = robot.forwardKinematics(randomPositions(robot, random));
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        const double distance = (X[i] * points[i] - X[j] * points[j]).norm();
+        ASSERT_GE(distance, reach[i][j].nearest - 1e-9) << robot.links()[i] << " " << robot.links()[j];
+        ASSERT_LE(distance, reach[i][j].farthest + 1e-9) << robot.links()[i] << " " << robot.links()[j];
+      }
+    }
+  }
+}
+
+TEST(RobotModel, ReachIsNeverViolated) {
+  expectReachHolds(RobotModel(kArm), 3000);
+}
+
+TEST(RobotModel, ReachIsNeverViolatedByPanda) {
+  SDF_CCD_NEEDS_DATA("robots/panda_from_xacro.urdf");
+  expectReachHolds(RobotModel(test::readText(test::dataPath("robots/panda_from_xacro.urdf"))), 300);
+}
+
+TEST(RobotModel, ReachIsNeverViolatedByCalibratedPr2) {
+  SDF_CCD_NEEDS_DATA("robots/pr2_calibrated/pr1012_urdf_67b1b5a5.urdf");
+  const RobotModel robot(test::readText(test::dataPath("robots/pr2_calibrated/pr1012_urdf_67b1b5a5.urdf")));
+  EXPECT_EQ(robot.links().size(), robot.urdf().links_.size());
+  expectReachHolds(robot, 20);
+}
+
+TEST(RobotModel, ParserFailuresGiveTheReason) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_NE(failure("").find("cannot be parsed"), std::string::npos);
+  EXPECT_NE(failure("<robot name='r'><link").find("cannot be parsed"), std::string::npos);
+  EXPECT_NE(failure("<sdf/>").find("robot"), std::string::npos);
+  EXPECT_NE(failure("<robot name='r'><link name='twin'/><link name='twin'/></robot>").find("twin"), std::string::npos);
+  EXPECT_NE(failure("<robot name='r'><link name='a'/><link name='b'/></robot>").find("root"), std::string::npos);
+  EXPECT_NE(failure(twoLinks("<joint name='j' type='bendy'><parent link='a'/><child link='b'/></joint>")).find("bendy"),
+            std::string::npos);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(RobotModel, JointsWithoutKinematicsAreRefused) {
+  const auto joint = [](const std::string& rest) {
+    return twoLinks("<joint name='j' type='continuous'><parent link='a'/><child link='b'/>" + rest + "</joint>");
+  };
+  EXPECT_NE(failure(joint("<axis xyz='0 0 0'/>")).find("axis is 0 0 0"), std::string::npos);
+  EXPECT_NE(failure(joint("<mimic joint='k'/>")).find("mimics k, which does not exist"), std::string::npos);
+  EXPECT_NE(failure(joint("<mimic joint='j'/>")).find("mimics itself"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,213 @@
+#include "sdf_ccd/robot/robot_scene.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "oracle/test_data.h"
+#include "robot/read_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// One triangle, as an OFF file.
+const char* const kTriangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n";
+
+Resource loadOwn(const std::string& uri) {
+  if (uri == "good.off") return {kTriangle, uri, ""};
+  if (uri == "Good.OFF") return {kTriangle, uri, "Good.OFF: found good.off, the URI says Good.OFF"};
+  if (uri == "garbage.off") return {"OFF\nhello", uri, ""};
+  throw std::runtime_error(uri + ": no such file");
+}
+
+std::string mesh(const std::string& uri, const std::string& scale = "1 1 1") {
+  return "<collision><geometry><mesh filename='" + uri + "' scale='" + scale + "'/></geometry></collision>";
+}
+
+std::string box(const std::string& size, const std::string& xyz = "0 0 0") {
+  return "<collision><origin xyz='" + xyz + "' rpy='0 0 0'/><geometry><box size='" + size +
+         "'/></geometry></collision>";
+}
+
+std::string link(const std::string& name, const std::string& inside = "") {
+  return "<link name='" + name + "'>" + inside + "</link>";
+}
+
+std::string joint(const std::string& parent, const std::string& child, const std::string& type,
+                  const std::string& xyz) {
+  return "<joint name='" + parent + "_" + child + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+         child + "'/><origin xyz='" + xyz + "'/><axis xyz='0 0 1'/></joint>";
+}
+
+/// a –turns– b –turns– c –fixed– d, each a box of 0.1 m, 1 m apart along x.
+std::string chain() {
+  const std::string cube = box("0.1 0.1 0.1");
+  return "<robot name='chain'>" + link("a", cube) + link("b", cube) + link("c", cube) + link("d", cube) +
+         link("tool_frame") + joint("a", "b", "continuous", "1 0 0") + joint("b", "c", "continuous", "1 0 0") +
+         joint("c", "d", "fixed", "0.5 0 0") + joint("d", "tool_frame", "fixed", "0 0 0") + "</robot>";
+}
+
+std::string reasonFor(const SceneDescription& scene, const std::string& a, const std::string& b) {
+  for (const DisabledPair& pair : scene.disabled) {
+    if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a)) return pair.reason;
+  }
+  return "checked";
+}
+
+struct Described {
+  SceneDescription scene;
+  std::vector<std::string> warnings;
+};
+
+Described describe(const std::string& urdf, const Srdf& srdf = {}, const RobotSceneOptions& options = {}) {
+  Described described;
+  described.scene = describeRobot(RobotModel(urdf), srdf, loadOwn, options, described.warnings);
+  return described;
+}
+
+TEST(RobotScene, LinksWithCollisionElementsAreBodies) {
+  const Described described =
+      describe("<robot name='r'>" +
+               link("a", "<collision><geometry><sphere radius='0.2'/></geometry></collision>" + box("2 4 6", "1 2 3") +
+                             "<collision><geometry><cylinder radius='0.1' length='3'/></geometry></collision>") +
+               link("frame") + joint("a", "frame", "fixed", "0 0 0") + "</robot>");
+  ASSERT_EQ(described.scene.bodies.size(), 1u);
+  const BodyDescription& body = described.scene.bodies[0];
+  EXPECT_EQ(body.name, "a");
+  EXPECT_EQ(body.frame, "a");
+  EXPECT_EQ(body.failure, "");
+  EXPECT_FALSE(body.is_world);
+  ASSERT_EQ(body.geometry.size(), 3u);
+  EXPECT_EQ(std::get<Sphere>(std::get<Primitive>(body.geometry[0].shape)).radius, 0.2);
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body.geometry[1].shape)).half_size, Vector3d(1, 2, 3));
+  EXPECT_EQ(body.geometry[1].X_BG.translation(), Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<Cylinder>(std::get<Primitive>(body.geometry[2].shape)).half_length, 1.5);
+  EXPECT_EQ(body.geometry[2].source, "cylinder");
+  EXPECT_TRUE(described.warnings.empty());
+}
+
+TEST(RobotScene, MeshesAreSharedByUriAndScale) {
+  const Described described = describe(
+      "<robot name='r'>" +
+      link("a", mesh("good.off") + mesh("good.off") + mesh("good.off", "1 -2 3") + mesh("good.off", "1 -2 3")) +
+      "</robot>");
+  using Mesh = std::shared_ptr<const TriangleMesh>;
+  const auto& geometry = described.scene.bodies.at(0).geometry;
+  ASSERT_EQ(geometry.size(), 4u);
+  const auto meshOf = [&](int i) { return std::get<Mesh>(geometry[i].shape); };
+  EXPECT_EQ(meshOf(0), meshOf(1));
+  EXPECT_EQ(meshOf(2), meshOf(3));
+  EXPECT_NE(meshOf(0), meshOf(2));
+  // Mirrored about y: the vertices move, and the triangle is turned round with them.
+  EXPECT_EQ(boundingBox(*meshOf(2)).min(), Vector3d(0, -4, 0));
+  EXPECT_LT(areaNormal(*meshOf(0), 0).z() * -2.0, 0.0);
+  EXPECT_NEAR(areaNormal(*meshOf(2), 0).z(), 2.0 * areaNormal(*meshOf(0), 0).z(), 1e-12);
+  EXPECT_EQ(geometry[2].source, "good.off");
+}
+
+TEST(RobotScene, BadMeshCostsItsLinkAlone) {
+  const Described described = describe(
+      "<robot name='r'>" + link("good", mesh("good.off")) + link("forearm", mesh("good.off") + mesh("missing.stl")) +
+      link("hand", mesh("garbage.off")) + link("thumb", mesh("missing.stl")) + link("flat", mesh("good.off", "1 0 1")) +
+      link("sunk", box("1 -1 1")) + joint("good", "forearm", "continuous", "0 0 0") +
+      joint("forearm", "hand", "continuous", "0 0 0") + joint("hand", "thumb", "continuous", "0 0 0") +
+      joint("thumb", "flat", "continuous", "0 0 0") + joint("flat", "sunk", "continuous", "0 0 0") + "</robot>");
+  ASSERT_EQ(described.scene.bodies.size(), 6u);
+  EXPECT_EQ(described.scene.bodies[0].failure, "");
+  EXPECT_EQ(described.scene.bodies[1].failure, "link forearm: missing.stl: no such file");
+  EXPECT_TRUE(described.scene.bodies[1].geometry.empty());
+  EXPECT_EQ(described.scene.bodies[2].failure.find("link hand: "), 0u);
+  EXPECT_NE(described.scene.bodies[2].failure.find("garbage.off"), std::string::npos);
+  EXPECT_EQ(described.scene.bodies[3].failure, "link thumb: missing.stl: no such file");
+  EXPECT_EQ(described.scene.bodies[4].failure.find("link flat: good.off: "), 0u);
+  EXPECT_EQ(described.scene.bodies[5].failure.find("link sunk: "), 0u);
+  EXPECT_EQ(reasonFor(described.scene, "good", "hand"), "checked");  // which the plan makes NOT_CHECKED
+}
+
+TEST(RobotScene, WarningsArePassedOnOnce) {
+  const Described described =
+      describe("<robot name='r'>" + link("a", mesh("Good.OFF") + mesh("Good.OFF", "2 2 2")) + "</robot>");
+  ASSERT_EQ(described.warnings.size(), 1u);
+  EXPECT_NE(described.warnings[0].find("found good.off"), std::string::npos);
+}
+
+TEST(RobotScene, RigidAndAdjacentLinksAreNoPairs) {
+  const SceneDescription scene = describe(chain()).scene;
+  EXPECT_EQ(reasonFor(scene, "c", "d"), "rigidly joined");
+  EXPECT_EQ(reasonFor(scene, "a", "b"), "adjacent");
+  EXPECT_EQ(reasonFor(scene, "b", "d"), "adjacent");
+  EXPECT_EQ(reasonFor(scene, "a", "c"), "checked");
+  RobotSceneOptions options;
+  options.check_adjacent = true;
+  const SceneDescription adjacent = describe(chain(), {}, options).scene;
+  EXPECT_EQ(reasonFor(adjacent, "c", "d"), "rigidly joined");
+  EXPECT_EQ(reasonFor(adjacent, "a", "b"), "out of reach");  // 1 m apart whatever the joint does
+}
+
+TEST(RobotScene, SrdfDisablesAndEnables) {
+  Srdf srdf = parseSrdf(R"(<robot name="chain">
+      <disable_collisions link1="c" link2="a" reason="Never"/>
+      <disable_collisions link1="ghost" link2="a" reason="Never"/>
+      <disable_default_collisions link="d"/></robot>)");
+  const Described disabled = describe(chain(), srdf);
+  EXPECT_EQ(reasonFor(disabled.scene, "a", "c"), "SRDF: Never");
+  EXPECT_EQ(reasonFor(disabled.scene, "a", "d"), "SRDF: disabled by default");
+  EXPECT_EQ(reasonFor(disabled.scene, "c", "d"), "rigidly joined");
+  ASSERT_EQ(disabled.warnings.size(), 1u);
+  EXPECT_NE(disabled.warnings[0].find("ghost"), std::string::npos);
+
+  srdf.enabled = {{"a", "d"}, {"c", "a"}, {"c", "d"}};
+  const SceneDescription enabled = describe(chain(), srdf).scene;
+  EXPECT_EQ(reasonFor(enabled, "d", "a"), "checked");
+  EXPECT_EQ(reasonFor(enabled, "a", "c"), "SRDF: Never");  // as in MoveIt, disabling wins
+  EXPECT_EQ(reasonFor(enabled, "c", "d"), "rigidly joined");
+}
+
+TEST(RobotScene, LinksOutOfReachAreNoPair) {
+  // b turns 1 m from a, c at 0.2 m from b: between 0.8 and 1.2 m from a.
+  const std::string cube = box("0.1 0.1 0.1");
+  const SceneDescription scene =
+      describe("<robot name='r'>" + link("a", cube) + link("b", cube) + link("c", cube) +
+               joint("a", "b", "continuous", "1 0 0") + joint("b", "c", "continuous", "0.2 0 0") + "</robot>")
+          .scene;
+  EXPECT_EQ(reasonFor(scene, "a", "c"), "out of reach");
+}
+
+BodyDescription worldBox(const std::string& name, const std::string& frame, const Vector3d& place,
+                         const Vector3d& half_size) {
+  BodyDescription body;
+  body.name = name;
+  body.frame = frame;
+  body.X_frame_B.translation() = place;
+  body.is_world = true;
+  GeometryDescription element;
+  element.shape.emplace<Primitive>(Box{half_size});
+  body.geometry.push_back(element);
+  return body;
+}
+
+TEST(RobotScene, WorldObjectsOutOfReachAreNoPair) {
+  const RobotModel robot(chain());
+  std::vector<std::string> warnings;
+  SceneDescription scene = describeRobot(robot, {}, loadOwn, {}, warnings);
+  scene.bodies.push_back(worldBox("far", "a", {9, 0, 0}, Vector3d::Constant(0.5)));
+  scene.bodies.push_back(worldBox("wall", "a", {0, -3, 0}, {20, 0.1, 20}));
+  scene.bodies.push_back(worldBox("near", "a", {2.0, 0, 0}, Vector3d::Constant(0.1)));
+  scene.bodies.push_back(worldBox("elsewhere", "map", {9, 0, 0}, Vector3d::Constant(0.5)));
+  BodyDescription ground = worldBox("ground", "a", {0, 0, -5}, Vector3d::Ones());
+  ground.geometry[0].shape = Primitive(HalfSpace{Vector3d(0, 0, 1), 0.0});
+  scene.bodies.push_back(ground);
+  disableUnreachable(robot, scene);
+  for (const char* moving : {"b", "c", "d"}) {
+    EXPECT_EQ(reasonFor(scene, "far", moving), "out of reach");
+    EXPECT_EQ(reasonFor(scene, "wall", moving), "out of reach");
+    EXPECT_EQ(reasonFor(scene, "ground", moving), "out of reach");
+    EXPECT_EQ(reasonFor(scene, "elsewhere", moving), "checked");
+  }
+  EXPECT_EQ(reasonFor(scene, "near", "a"), "rigidly joined");
+  EXPECT_EQ(reasonFor(scene, "near", "c"), "checked");
+  EXPECT_EQ(reasonFor(scene, "near", "b"), "out of reach");  // it turns on its own place, 1 m away
+  EXPECT_EQ(reasonFor(scene, "elsewhere", "a"), "checked");
+}
+
+}  // namespace
+}  // namespace sdf_ccd

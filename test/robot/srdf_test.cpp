@@ -1,0 +1,66 @@
+#include "sdf_ccd/robot/srdf.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace sdf_ccd {
+namespace {
+
+std::string failure(const std::string& xml) {
+  try {
+    parseSrdf(xml);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "parsed";
+}
+
+TEST(Srdf, ReadsPairsWithTheirReasons) {
+  const Srdf srdf = parseSrdf(R"(<?xml version="1.0"?>
+    <!-- a comment -- with dashes -->
+    <robot name="arm">
+      <group name="all"><link name="a"/></group>
+      <disable_collisions link1="a" link2="b" reason="Adjacent"/>
+      <disable_collisions link1="a" link2="c"/>
+      <disable_default_collisions link="d"/>
+      <enable_collisions link1="d" link2="a"/>
+    </robot>)");
+  ASSERT_EQ(srdf.disabled.size(), 2u);
+  EXPECT_EQ(srdf.disabled[0].body_a, "a");
+  EXPECT_EQ(srdf.disabled[0].body_b, "b");
+  EXPECT_EQ(srdf.disabled[0].reason, "SRDF: Adjacent");
+  EXPECT_EQ(srdf.disabled[1].reason, "SRDF: no reason given");
+  EXPECT_EQ(srdf.disabled_by_default, std::vector<std::string>{"d"});
+  ASSERT_EQ(srdf.enabled.size(), 1u);
+  EXPECT_EQ(srdf.enabled[0], (std::pair<std::string, std::string>("d", "a")));
+}
+
+TEST(Srdf, ReadsStates) {
+  const Srdf srdf = parseSrdf(R"(<robot name="arm">
+      <group_state name="ready" group="arm"><joint name="j1" value="-1.5e-1"/><joint name="j2" value=" 2. "/></group_state>
+      <group_state name="up"><joint name="base" value="0 0 1"/><joint name="j1" value="1"/></group_state>
+    </robot>)");
+  ASSERT_EQ(srdf.states.size(), 2u);
+  EXPECT_EQ(srdf.states.at("arm/ready"), (JointPositions{{"j1", -0.15}, {"j2", 2.0}}));
+  EXPECT_EQ(srdf.states.at("up"), (JointPositions{{"j1", 1.0}}));
+}
+
+TEST(Srdf, MalformedTextGivesLineAndReason) {
+  EXPECT_NE(failure("<robot>\n<group>\n</robot>").find("line"), std::string::npos);
+  EXPECT_NE(failure("").find("line"), std::string::npos);
+  EXPECT_NE(failure("<!-- nothing -->").find("no element"), std::string::npos);
+  EXPECT_NE(failure("\n<model/>").find("line 2: the root element is <model>"), std::string::npos);
+  EXPECT_NE(failure("<robot>\n\n<disable_collisions link1='a'/></robot>")
+                .find("line 3: disable_collisions lacks the attribute link2"),
+            std::string::npos);
+  EXPECT_NE(failure("<robot><disable_default_collisions/></robot>").find("attribute link"), std::string::npos);
+  for (const char* value : {"fast", "1 2 x", "nan", "1e999", ""}) {
+    const std::string xml = std::string("<robot><group_state name='s' group='g'>\n<joint name='j' value='") + value +
+                            "'/></group_state></robot>";
+    EXPECT_NE(failure(xml).find("line 2"), std::string::npos) << value;
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
