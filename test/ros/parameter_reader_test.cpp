@@ -1,0 +1,65 @@
+#include "ros/parameter_reader.h"
+
+#include <gtest/gtest.h>
+
+namespace sdf_ccd {
+namespace {
+
+XmlRpc::XmlRpcValue tree() {
+  XmlRpc::XmlRpcValue tree;
+  tree["rate"] = 30;
+  tree["max_latency"] = -0.5;
+  tree["field"]["cells"] = 64;
+  tree["contact"]["normal"] = std::string("fiel");
+  tree["world"][0]["xyz"][0] = 1;
+  tree["world"][0]["xyz"][1] = 2.5;
+  tree["world"][0]["xyz"][2] = 3;
+  tree["world"][1]["xyz"] = std::string("0 0 1");
+  tree["typo"] = 1;
+  return tree;
+}
+
+template <class Read>
+std::string errorOf(const Read& read) {
+  try {
+    read();
+  } catch (const ParameterError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ParameterReader, ReadsNumbersGroupsAndLists) {
+  ParameterReader reader(tree(), "/monitor");
+  EXPECT_EQ(reader.number("rate", 1.0), 30.0);  // an integer is a number too
+  EXPECT_EQ(reader.positive("max_cycle", 2.0), 2.0);
+  EXPECT_EQ(reader.group("field").integer("cells", 0, 1), 64);
+  EXPECT_FALSE(reader.group("shell").has("spacing"));
+  EXPECT_EQ(reader.list("world")[0].vector("xyz", Vector3d::Zero()), Vector3d(1.0, 2.5, 3.0));
+  EXPECT_EQ(reader.unread(), (std::vector<std::string>{"/monitor/contact", "/monitor/max_latency", "/monitor/typo"}));
+}
+
+TEST(ParameterReader, ErrorsNameParameterAndValue) {
+  ParameterReader reader(tree(), "/monitor");
+  EXPECT_EQ(errorOf([&] { reader.positive("max_latency", 1.0); }),
+            "parameter /monitor/max_latency is -0.5, expected a number above 0");
+  EXPECT_EQ(errorOf([&] {
+              reader.group("contact").choice("normal", {"field", "shell"}, 0);
+            }),
+            "parameter /monitor/contact/normal is fiel, expected one of field shell");
+  EXPECT_EQ(errorOf([&] { reader.list("world")[1].vector("xyz", Vector3d::Zero()); }),
+            "parameter /monitor/world[1]/xyz is 0 0 1, expected three numbers");
+  EXPECT_EQ(errorOf([&] { reader.flag("rate", true); }), "parameter /monitor/rate is 30, expected true or false");
+  EXPECT_EQ(errorOf([&] { reader.text("rate", ""); }), "parameter /monitor/rate is 30, expected a text");
+  EXPECT_EQ(errorOf([&] { reader.fail("name", "a text"); }), "parameter /monitor/name is missing, expected a text");
+}
+
+TEST(ParameterReader, NoParametersGiveDefaults) {
+  ParameterReader reader(XmlRpc::XmlRpcValue(), "/monitor");
+  EXPECT_EQ(reader.number("rate", 7.0), 7.0);
+  EXPECT_TRUE(reader.list("world").empty());
+  EXPECT_TRUE(reader.unread().empty());
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,217 @@
+#include "ros/tf_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sdf_ccd {
+namespace {
+
+using Step = TfTracker::Step;
+
+geometry_msgs::TransformStamped transform(const std::string& parent, const std::string& child, double stamp, double x,
+                                          double yaw = 0.0) {
+  geometry_msgs::TransformStamped result;
+  result.header.frame_id = parent;
+  result.header.stamp = ros::Time(stamp);
+  result.child_frame_id = child;
+  result.transform.translation.x = x;
+  result.transform.rotation.w = std::cos(0.5 * yaw);
+  result.transform.rotation.z = std::sin(0.5 * yaw);
+  return result;
+}
+
+class TfTrackerTest : public ::testing::Test {
+ protected:
+  void send(const geometry_msgs::TransformStamped& transform, bool is_static = false) {
+    tf2_msgs::TFMessage message;
+    message.transforms = {transform};
+    history_.add(message, is_static);
+  }
+
+  Step next(double now) { return tracker_.next(ros::Time(now), cycle_); }
+
+  TfHistory history_{"/world"};
+  TfTracker tracker_{history_,
+                     {{"/hand", Isometry3d::Identity(), {Vector3d::Zero(), 0.1}},
+                      {"foot", Isometry3d::Identity(), {Vector3d::Zero(), 0.1}},
+                      {"world", Isometry3d::Identity(), {Vector3d::Zero(), 1.0}}},
+                     TfTrackerOptions()};
+  TrackedCycle cycle_;
+};
+
+TEST_F(TfTrackerTest, CycleEndsAtTheNewestTimeAllFramesAreKnownAndHoldsEveryRecordedTransform) {
+  send(transform("/world", "/hand", 10.0, 0.0));
+  send(transform("world", "foot", 10.0, 0.0));
+  EXPECT_EQ(next(10.0), Step::kWaiting);  // the first cycle begins
+  send(transform("world", "hand", 10.02, 0.1));
+  send(transform("world", "hand", 10.05, 0.4));
+  send(transform("world", "hand", 10.09, 0.5));
+  send(transform("world", "foot", 10.03, 1.0));
+  send(transform("world", "foot", 10.07, 2.0));
+  ASSERT_EQ(next(10.1), Step::kCycle);
+  EXPECT_EQ(cycle_.start, ros::Time(10.0));
+  EXPECT_EQ(cycle_.end, ros::Time(10.07));
+  ASSERT_EQ(cycle_.samples.size(), 5u);
+  EXPECT_NEAR(cycle_.samples[1], 0.02, 1e-9);
+  EXPECT_NEAR(cycle_.samples[2], 0.03, 1e-9);
+  EXPECT_NEAR(cycle_.samples[3], 0.05, 1e-9);
+  ASSERT_EQ(cycle_.motion.times, cycle_.samples);
+  EXPECT_NEAR(cycle_.motion.X_WB[0][1].translation().x(), 0.1, 1e-9);
+  EXPECT_NEAR(cycle_.motion.X_WB[0][2].translation().x(), 0.2, 1e-9);  // as tf2 interpolates
+  EXPECT_NEAR(cycle_.motion.X_WB[1][2].translation().x(), 1.0, 1e-9);
+  EXPECT_NEAR(cycle_.motion.X_WB[1].back().translation().x(), 2.0, 1e-9);
+  for (const std::string& missing : cycle_.motion.missing) EXPECT_EQ(missing, "");
+  EXPECT_EQ(next(10.1), Step::kWaiting);
+}
+
+TEST_F(TfTrackerTest, RestingFramesAddNoTimes) {
+  for (int i = 0; i <= 10; ++i) {
+    send(transform("world", "hand", 10.0 + 0.01 * i, i == 5 ? 0.3 : 0.0));
+    send(transform("world", "foot", 10.0 + 0.01 * i, 0.0));
+    if (i == 0) {
+      EXPECT_EQ(next(10.0), Step::kWaiting);
+    }
+  }
+  ASSERT_EQ(next(10.1), Step::kCycle);
+  ASSERT_EQ(cycle_.samples.size(), 5u);  // both ends, and before, at and after the move
+  EXPECT_NEAR(cycle_.samples[1], 0.04, 1e-9);
+  EXPECT_NEAR(cycle_.samples[3], 0.06, 1e-9);
+}
+
+TEST_F(TfTrackerTest, WaitsForALateFrameThenGoesOnWithoutIt) {
+  for (int i = 0; i <= 5; ++i) {
+    send(transform("world", "hand", 10.0 + 0.1 * i, 0.01 * i));
+    if (i <= 1) send(transform("world", "foot", 10.0 + 0.1 * i, 0.0));
+    const Step step = next(10.0 + 0.1 * i);
+    EXPECT_EQ(step, i == 1 ? Step::kCycle : Step::kWaiting) << i;
+  }
+  send(transform("world", "hand", 10.7, 0.07));
+  ASSERT_EQ(next(10.7), Step::kCycle);
+  EXPECT_EQ(cycle_.start, ros::Time(10.1));
+  EXPECT_EQ(cycle_.end, ros::Time(10.7));
+  EXPECT_EQ(cycle_.motion.missing[0], "");
+  EXPECT_EQ(cycle_.motion.missing[1], "foot is late by 0.60 s");
+  // It comes back: the first cycle that it covers from its start is checked again.
+  send(transform("world", "foot", 10.75, 0.0));
+  send(transform("world", "hand", 10.75, 0.08));
+  ASSERT_EQ(next(10.75), Step::kCycle);
+  EXPECT_EQ(cycle_.motion.missing[1], "");
+}
+
+TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
+  send(transform("world", "hand", 10.0, 0.0));
+  EXPECT_EQ(next(10.0), Step::kWaiting);
+  send(transform("world", "hand", 10.3, 0.0));
+  EXPECT_EQ(next(10.3), Step::kWaiting);
+  send(transform("world", "hand", 10.6, 0.0));
+  EXPECT_EQ(next(10.6), Step::kWaiting);  // begins here
+  send(transform("world", "hand", 10.7, 0.0));
+  ASSERT_EQ(next(10.7), Step::kCycle);
+  EXPECT_EQ(cycle_.motion.missing[1], "no transform from foot to world");
+}
+
+TEST_F(TfTrackerTest, TransformsAheadOfTheClockMakeNobodyLate) {
+  for (int i = 0; i <= 30; ++i) {
+    send(transform("world", "foot", 10.5 + 0.03 * i, 0.0));      // 0.5 s in the future
+    send(transform("world", "hand", 9.75 + 0.03 * i, 0.1 * i));  // 0.25 s late
+    const Step step = next(10.0 + 0.03 * i);
+    if (i == 30) {
+      ASSERT_EQ(step, Step::kCycle);
+    }
+  }
+  EXPECT_NEAR(cycle_.end.toSec(), 10.65, 1e-9);
+  EXPECT_EQ(cycle_.motion.missing[0], "");
+  EXPECT_EQ(cycle_.motion.missing[1], "");
+}
+
+TEST_F(TfTrackerTest, AGapIsMissingAndALongPauseToo) {
+  send(transform("world", "hand", 10.0, 0.0));
+  send(transform("world", "foot", 10.0, 0.0));
+  EXPECT_EQ(next(10.0), Step::kWaiting);
+  EXPECT_EQ(next(10.6), Step::kStalled);
+  send(transform("world", "hand", 13.0, 1.0));
+  send(transform("world", "foot", 13.0, 0.0));
+  ASSERT_EQ(next(13.0), Step::kCycle);
+  EXPECT_EQ(cycle_.motion.missing[0], "no cycle for 3.00 s");
+  EXPECT_EQ(cycle_.motion.missing[1], "no cycle for 3.00 s");
+  EXPECT_EQ(cycle_.motion.missing[2], "");  // does not move
+  send(transform("world", "hand", 13.03, 1.0));
+  send(transform("world", "foot", 13.03, 0.0));
+  ASSERT_EQ(next(13.03), Step::kCycle);
+  EXPECT_EQ(cycle_.start, ros::Time(13.0));
+  EXPECT_EQ(cycle_.motion.missing[0], "");
+}
+
+TEST_F(TfTrackerTest, TimeThatJumpsBackStartsAnewButKeepsStaticFrames) {
+  send(transform("world", "foot", 0.0, 0.5), true);
+  send(transform("world", "hand", 100.0, 0.0));
+  EXPECT_EQ(next(100.0), Step::kWaiting);
+  send(transform("world", "hand", 100.03, 0.0));
+  EXPECT_EQ(next(100.03), Step::kCycle);
+  send(transform("world", "hand", 50.0, 2.0));
+  EXPECT_EQ(next(100.06), Step::kJump);
+  EXPECT_EQ(next(100.06), Step::kWaiting);
+  send(transform("world", "hand", 50.03, 3.0));
+  ASSERT_EQ(next(100.09), Step::kCycle);
+  EXPECT_EQ(cycle_.start, ros::Time(50.0));
+  EXPECT_EQ(cycle_.end, ros::Time(50.03));
+  EXPECT_EQ(cycle_.motion.missing[1], "");
+  EXPECT_NEAR(cycle_.motion.X_WB[1][0].translation().x(), 0.5, 1e-9);
+}
+
+TEST_F(TfTrackerTest, AClockThatGoesBackStartsAnew) {
+  send(transform("world", "hand", 100.0, 0.0));
+  send(transform("world", "foot", 100.0, 0.0));
+  EXPECT_EQ(next(100.0), Step::kWaiting);
+  EXPECT_EQ(next(20.0), Step::kJump);
+  EXPECT_EQ(next(20.03), Step::kWaiting);
+}
+
+TEST_F(TfTrackerTest, CurvedMotionGetsMoreSamplesAndAnError) {
+  // The hand turns about the foot, which drives along: tf2 turns and drives evenly, which is no screw.
+  send(transform("world", "foot", 10.0, 0.0));
+  send(transform("foot", "hand", 10.0, 0.0));
+  EXPECT_EQ(next(10.0), Step::kWaiting);
+  send(transform("world", "foot", 10.1, 0.3));
+  send(transform("foot", "hand", 10.1, 0.0, 0.5));
+  ASSERT_EQ(next(10.1), Step::kCycle);
+  EXPECT_EQ(cycle_.samples.size(), 2u);
+  EXPECT_GT(cycle_.motion.times.size(), 4u);
+  EXPECT_GT(cycle_.motion.motion_error[0], 0.0);
+  EXPECT_LE(cycle_.motion.motion_error[0], 1e-4);
+  EXPECT_EQ(cycle_.motion.motion_error[2], 0.0);
+}
+
+TEST(TfHistory, CountsTransformsOutOfOrderAndIgnoresRepeatedOnes) {
+  TfHistory history("world");
+  tf2_msgs::TFMessage message;
+  message.transforms = {transform("world", "hand", 1.0, 0.0), transform("world", "hand", 1.2, 0.0),
+                        transform("world", "hand", 1.2, 5.0), transform("world", "hand", 1.1, 0.0)};
+  history.add(message, false);
+  EXPECT_EQ(history.outOfOrder(), 1);
+  std::vector<ros::Time> times;
+  history.recordedTimes("hand", ros::Time(1.0), ros::Time(1.2), times);
+  EXPECT_EQ(times, std::vector<ros::Time>{ros::Time(1.1)});
+  EXPECT_NEAR(history.longestGap("hand", ros::Time(1.0), ros::Time(1.2)), 0.1, 1e-9);
+}
+
+TEST(TfHistory, GoesUpAndDownTheTree) {
+  TfHistory history("left");
+  tf2_msgs::TFMessage message;
+  message.transforms = {transform("base", "left", 1.0, 1.0), transform("base", "right", 1.0, -2.0),
+                        transform("map", "base", 5.0, 0.0)};
+  history.add(message, false);
+  const TfHistory::Span span = history.span("right");
+  EXPECT_EQ(span.problem, "");
+  EXPECT_EQ(span.last, ros::Time(1.0));  // map → base does not lie on the way
+  Isometry3d X_WF;
+  std::string problem;
+  ASSERT_TRUE(history.lookup("right", ros::Time(1.0), X_WF, problem)) << problem;
+  EXPECT_NEAR(X_WF.translation().x(), -3.0, 1e-9);
+  EXPECT_FALSE(history.lookup("right", ros::Time(2.0), X_WF, problem));
+  EXPECT_NE(problem, "");
+}
+
+}  // namespace
+}  // namespace sdf_ccd
