@@ -78,8 +78,9 @@ struct MonitorOptions {
 /// Limit: a body without a shell (half-space, voxel map) that lies wholly inside the other from the start, without
 /// touching its surface, is not seen.
 ///
-/// After the first cycles no memory is allocated unless contacts or the number of chords grow. Pairs run in parallel on
-/// the caller's TBB arena; results do not depend on the number of threads. Not thread-safe: one cycle at a time.
+/// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
+/// the arena (it makes its scratch memory once). Pairs run in parallel on the caller's TBB arena; results do not depend
+/// on the number of threads. Not thread-safe: one cycle at a time.
 class Monitor {
  public:
   /// @throws std::invalid_argument if the options are not valid.
