@@ -1,0 +1,85 @@
+#include <cmath>
+#include <stdexcept>
+#include <type_traits>
+
+#include "sdf_ccd/shell/sample_surface.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double exactArea(const Sphere& sphere) {
+  return 4 * kPi * sphere.radius * sphere.radius;
+}
+double exactArea(const Box& box) {
+  const Vector3d& h = box.half_size;
+  return 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
+}
+double exactArea(const Cylinder& cylinder) {
+  return 2 * kPi * cylinder.radius * (cylinder.radius + 2 * cylinder.half_length);
+}
+
+/// Lifts a point of the tessellation onto the solid, with the solid's normal there.
+void lift(const Sphere& sphere, Vector3d& p, Vector3d& normal) {
+  normal = p.normalized();
+  p = sphere.radius * normal;
+}
+void lift(const Box&, Vector3d&, Vector3d&) {}  // the tessellation is the box
+void lift(const Cylinder& cylinder, Vector3d& p, Vector3d& normal) {
+  const double rho = p.head<2>().norm();
+  const bool on_cap = std::abs(p.z()) >= cylinder.half_length * (1 - 1e-12);
+  if (on_cap && rho < cylinder.radius * (1 - 1e-9)) {
+    normal = Vector3d(0, 0, p.z() < 0 ? -1 : 1);
+    return;
+  }
+  p.head<2>() *= cylinder.radius / rho;
+  normal = Vector3d(p.x(), p.y(), 0) / cylinder.radius;
+  if (on_cap) normal = (normal + Vector3d(0, 0, p.z() < 0 ? -1 : 1)).normalized();
+}
+
+/// How far the tessellation may be from a curved solid, over the spacing.
+constexpr double kDeviation = 0.005;
+
+template <typename Solid>
+PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
+  constexpr bool curved = !std::is_same_v<Solid, Box>;
+  ShellOptions flat = options;
+  double deviation = 0;
+  if (curved) {
+    // From the surface to the tessellation, along it, and back with the point: spacing + 2 deviations.
+    deviation = kDeviation * options.spacing;
+    flat.spacing = options.spacing - 2 * deviation;
+    // Where the tessellation is finer than the shell, its vertices are no features to be kept.
+    flat.vertex_spacing = std::max(options.vertex_spacing, flat.spacing);
+  }
+  PointShell shell = sampleSurface(tessellate(solid, curved ? deviation : options.spacing), flat);
+  double area = 0;
+  for (const double share : shell.areas) area += share;
+  for (std::size_t i = 0; i < shell.size(); ++i) {
+    lift(solid, shell.points[i], shell.normals[i]);
+    shell.areas[i] *= exactArea(solid) / area;
+  }
+  shell.covering_radius += 2 * deviation;
+  return shell;
+}
+
+struct Sample {
+  const ShellOptions& options;
+  template <typename Solid>
+  PointShell operator()(const Solid& solid) const {
+    return sampleSolid(solid, options);
+  }
+  PointShell operator()(const HalfSpace&) const {
+    throw std::invalid_argument("a half-space has no bounded surface to sample");
+  }
+};
+
+}  // namespace
+
+PointShell sampleSurface(const Primitive& primitive, const ShellOptions& options) {
+  validate(primitive);
+  return std::visit(Sample{options}, primitive);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,138 @@
+#include "sdf_ccd/shell/sphere_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::int32_t kLeafSize = 8;
+
+struct Ball {
+  Vector3d center;
+  double radius;
+};
+
+class Builder {
+ public:
+  explicit Builder(const std::vector<Vector3d>& points) : points_(points), order_(points.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+  }
+
+  SphereTree build() {
+    SphereTree tree;
+    if (points_.empty()) return tree;
+    tree.nodes.push_back(node(0, static_cast<std::int32_t>(points_.size())));
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+      const SphereTree::Node parent = tree.nodes[i];
+      if (parent.end - parent.begin <= kLeafSize) continue;
+      const std::int32_t middle = split(parent.begin, parent.end);
+      tree.nodes[i].first_child = static_cast<std::int32_t>(tree.nodes.size());
+      tree.nodes[i].child_count = 2;
+      tree.nodes.push_back(node(parent.begin, middle));
+      tree.nodes.push_back(node(middle, parent.end));
+    }
+    return tree;
+  }
+
+  const std::vector<std::int32_t>& order() const { return order_; }
+
+ private:
+  const Vector3d& point(std::int32_t i) const { return points_[order_[i]]; }
+
+  SphereTree::Node node(std::int32_t begin, std::int32_t end) const {
+    const Ball ball = boundingBall(begin, end);
+    return {ball.center, ball.radius, begin, end, -1, 0};
+  }
+
+  /// Halves the points along the longest side of their box; equal coordinates are told apart by their order.
+  std::int32_t split(std::int32_t begin, std::int32_t end) {
+    AlignedBox3d box;
+    for (std::int32_t i = begin; i < end; ++i) box.extend(point(i));
+    int axis;
+    box.sizes().maxCoeff(&axis);
+    const std::int32_t middle = begin + (end - begin) / 2;
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                     [&](std::int32_t a, std::int32_t b) {
+                       return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
+                     });
+    return middle;
+  }
+
+  /// The point farthest from p, and its distance.
+  std::pair<std::int32_t, double> farthest(const Vector3d& p, std::int32_t begin, std::int32_t end) const {
+    std::pair<std::int32_t, double> best{begin, -1};
+    for (std::int32_t i = begin; i < end; ++i) {
+      const double distance2 = (point(i) - p).squaredNorm();
+      if (distance2 > best.second) best = {i, distance2};
+    }
+    best.second = std::sqrt(best.second);
+    return best;
+  }
+
+  /// Start: the smallest of the balls about the box's centre, the centroid and of Ritter 1990. Then steps towards
+  /// the farthest point, ever shorter (Bădoiu & Clarkson 2003); the best ball on the way is kept.
+  Ball boundingBall(std::int32_t begin, std::int32_t end) const {
+    AlignedBox3d box;
+    Vector3d sum = Vector3d::Zero();
+    for (std::int32_t i = begin; i < end; ++i) {
+      box.extend(point(i));
+      sum += point(i) - point(begin);
+    }
+    Ball best{box.center(), farthest(box.center(), begin, end).second};
+    for (const Vector3d& center : {Vector3d(point(begin) + sum / (end - begin)), ritterCenter(begin, end)}) {
+      const double radius = farthest(center, begin, end).second;
+      if (radius < best.radius) best = {center, radius};
+    }
+    constexpr int kSteps = 16;
+    Vector3d center = best.center;
+    for (int step = 1; step <= kSteps; ++step) {
+      const auto [index, radius] = farthest(center, begin, end);
+      if (radius < best.radius) best = {center, radius};
+      center += (point(index) - center) / (step + 3);
+    }
+    best.radius *= 1 + 1e-14;  // distances measured elsewhere round differently
+    return best;
+  }
+
+  Vector3d ritterCenter(std::int32_t begin, std::int32_t end) const {
+    const Vector3d a = point(farthest(point(begin), begin, end).first);
+    const Vector3d b = point(farthest(a, begin, end).first);
+    Ball ball{(a + b) / 2, (a - b).norm() / 2};
+    for (std::int32_t i = begin; i < end; ++i) {
+      const double distance = (point(i) - ball.center).norm();
+      if (distance <= ball.radius) continue;
+      const double radius = (ball.radius + distance) / 2;
+      ball.center += (point(i) - ball.center) * ((distance - radius) / distance);
+      ball.radius = radius;
+    }
+    return ball.center;
+  }
+
+  const std::vector<Vector3d>& points_;
+  std::vector<std::int32_t> order_;
+};
+
+template <typename T>
+void reorder(std::vector<T>& values, const std::vector<std::int32_t>& order) {
+  if (values.size() != order.size()) return;  // a shell without areas or normals
+  std::vector<T> result;
+  result.reserve(values.size());
+  for (const std::int32_t i : order) result.push_back(values[i]);
+  values = std::move(result);
+}
+
+}  // namespace
+
+SphereTree buildSphereTree(PointShell& shell) {
+  Builder builder(shell.points);
+  SphereTree tree = builder.build();
+  const std::vector<std::int32_t> order = builder.order();
+  reorder(shell.points, order);
+  reorder(shell.normals, order);
+  reorder(shell.areas, order);
+  return tree;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,143 @@
+#include "surface_filler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "surface_piece.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Uniform in [0, 1), the same with every standard library.
+double uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+/// Normals weighted by the angle of each triangle at the vertex (Thürmer & Wüthrich 1998).
+std::vector<Vector3d> vertexNormals(const TriangleMesh& mesh, const std::vector<Vector3d>& triangle_normals) {
+  std::vector<Vector3d> sums(mesh.vertices.size(), Vector3d::Zero());
+  std::vector<Vector3d> fallback(mesh.vertices.size(), Vector3d::UnitZ());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3i& t = mesh.triangles[i];
+    if (triangle_normals[i].isZero()) continue;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vector3d& p = mesh.vertices[t[corner]];
+      const Vector3d u = mesh.vertices[t[(corner + 1) % 3]] - p, v = mesh.vertices[t[(corner + 2) % 3]] - p;
+      sums[t[corner]] += triangle_normals[i] * std::atan2(u.cross(v).norm(), u.dot(v));
+      fallback[t[corner]] = triangle_normals[i];
+    }
+  }
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    const double norm = sums[v].norm();
+    sums[v] = norm > 1e-6 ? Vector3d(sums[v] / norm) : fallback[v];  // the sides of a sheet cancel
+  }
+  return sums;
+}
+
+}  // namespace
+
+SurfaceFiller::SurfaceFiller(const TriangleMesh& mesh, const ShellOptions& options)
+    : mesh_(mesh), options_(options), grid_(options.spacing) {
+  triangle_normals_.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3d normal = areaNormal(mesh, static_cast<int>(i));
+    const double norm = normal.norm();
+    triangle_normals_.push_back(norm > 0 ? Vector3d(normal / norm) : Vector3d::Zero());
+  }
+}
+
+void SurfaceFiller::add(const Vector3d& p, const Vector3d& normal) {
+  if (shell_.size() >= options_.max_points) {
+    throw std::length_error("a point every " + std::to_string(options_.spacing) + " m needs more than " +
+                            std::to_string(options_.max_points) + " points");
+  }
+  shell_.points.push_back(p);
+  shell_.normals.push_back(normal);
+  grid_.insert(p);
+}
+
+bool SurfaceFiller::isCovered(const Vector3d& p, const Vector3d& normal) const {
+  const double spacing2 = options_.spacing * options_.spacing;
+  return grid_.anyNear(p, [&](std::int32_t i) {
+    return (shell_.points[i] - p).squaredNorm() < spacing2 && shell_.normals[i].dot(normal) >= 0;
+  });
+}
+
+void SurfaceFiller::addVertices() {
+  const std::vector<Vector3d> normals = vertexNormals(mesh_, triangle_normals_);
+  const double thinning = options_.vertex_spacing;
+  if (thinning == 0) {
+    for (std::size_t v = 0; v < normals.size(); ++v) add(mesh_.vertices[v], normals[v]);
+    return;
+  }
+  PointGrid kept(thinning);
+  std::vector<Vector3d> places;
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    const Vector3d& p = mesh_.vertices[v];
+    if (kept.anyNear(p, [&](std::int32_t i) { return (places[i] - p).squaredNorm() < thinning * thinning; })) continue;
+    kept.insert(p);
+    places.push_back(p);
+    add(p, normals[v]);
+  }
+}
+
+void SurfaceFiller::throwDarts() {
+  std::vector<double> area_below;
+  double area = 0;
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    area += areaNormal(mesh_, static_cast<int>(i)).norm() / 2;
+    area_below.push_back(area);
+  }
+  // A full Poisson-disk sampling has about 0.7 points per spacing²; with ten darts for each, few gaps are left.
+  const double darts = 7 * area / (options_.spacing * options_.spacing);
+  std::mt19937_64 random(options_.seed);
+  for (double dart = 0; dart < darts; ++dart) {
+    const double choice = uniform(random) * area, u = std::sqrt(uniform(random)), v = uniform(random);
+    const auto place = std::upper_bound(area_below.begin(), area_below.end(), choice);
+    const std::size_t i = std::min<std::size_t>(place - area_below.begin(), area_below.size() - 1);
+    const Vector3i& t = mesh_.triangles[i];
+    // Uniform in the triangle: Turk 1990, Generating random points in triangles.
+    const Vector3d p = mesh_.vertices[t[0]] + u * (1 - v) * (mesh_.vertices[t[1]] - mesh_.vertices[t[0]]) +
+                       u * v * (mesh_.vertices[t[2]] - mesh_.vertices[t[0]]);
+    if (!isCovered(p, triangle_normals_[i])) add(p, triangle_normals_[i]);
+  }
+}
+
+void SurfaceFiller::fillGaps() {
+  const double spacing2 = options_.spacing * options_.spacing;
+  // Pieces this small that no single point covers lie on the rim of several balls; their own point ends it.
+  constexpr double kSmallest2 = 0.05 * 0.05;
+  std::vector<SurfacePiece> stack;
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    const Vector3i& t = mesh_.triangles[i];
+    const Vector3d& normal = triangle_normals_[i];
+    stack.push_back({{mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]}});
+    while (!stack.empty()) {
+      const SurfacePiece piece = stack.back();
+      stack.pop_back();
+      const auto [corner, length2] = piece.longestEdge();
+      const Vector3d center = piece.centroid();
+      if (length2 <= 4 * spacing2) {
+        const bool done = grid_.anyNear(center, [&](std::int32_t q) {
+          return piece.farthest2(shell_.points[q]) <= spacing2 && shell_.normals[q].dot(normal) >= 0;
+        });
+        if (done) continue;
+        if (length2 <= kSmallest2 * spacing2 || !isCovered(center, normal)) {
+          add(center, normal.isZero() ? Vector3d::UnitZ() : normal);
+          stack.push_back(piece);
+          continue;
+        }
+      }
+      SurfacePiece first = piece, second = piece;
+      const int next = (corner + 1) % 3, last = (corner + 2) % 3;
+      first.corners[last] = second.corners[next] = (piece.corners[next] + piece.corners[last]) / 2;
+      stack.push_back(first);
+      stack.push_back(second);
+    }
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "point_grid.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/shell/sample_surface.h"
+
+namespace sdf_ccd {
+
+/// Adds points to a shell until no place of the mesh is farther than options.spacing from one that faces its way.
+class SurfaceFiller {
+ public:
+  /// @param mesh  welded.
+  SurfaceFiller(const TriangleMesh& mesh, const ShellOptions& options);
+
+  /// The mesh's vertices, thinned to options.vertex_spacing.
+  void addVertices();
+  /// Poisson-disk sampling: random places, kept if no point that faces their way is nearer than the spacing.
+  void throwDarts();
+  /// Halves triangles until one point covers each piece; adds a point wherever none does.
+  void fillGaps();
+
+  PointShell take() { return std::move(shell_); }
+
+ private:
+  void add(const Vector3d& p, const Vector3d& normal);
+  bool isCovered(const Vector3d& p, const Vector3d& normal) const;
+
+  const TriangleMesh& mesh_;
+  const ShellOptions& options_;
+  std::vector<Vector3d> triangle_normals_;  // unit, or zero
+  PointGrid grid_;
+  PointShell shell_;
+};
+
+}  // namespace sdf_ccd

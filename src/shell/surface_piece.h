@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "sdf_ccd/geometry/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// A triangular piece of a surface that is halved until it is small enough to decide about.
+struct SurfacePiece {
+  std::array<Vector3d, 3> corners;
+
+  Vector3d centroid() const { return (corners[0] + corners[1] + corners[2]) / 3; }
+
+  /// Index of the corner opposite the longest edge, and that edge's squared length.
+  std::pair<int, double> longestEdge() const {
+    std::pair<int, double> longest{0, -1.0};
+    for (int i = 0; i < 3; ++i) {
+      const double length2 = (corners[(i + 2) % 3] - corners[(i + 1) % 3]).squaredNorm();
+      if (length2 > longest.second) longest = {i, length2};
+    }
+    return longest;
+  }
+
+  /// Largest distance of the piece from q, squared: distance is convex, so a corner has it.
+  double farthest2(const Vector3d& q) const {
+    return std::max({(corners[0] - q).squaredNorm(), (corners[1] - q).squaredNorm(), (corners[2] - q).squaredNorm()});
+  }
+};
+
+}  // namespace sdf_ccd
