@@ -32,34 +32,34 @@ void validate(const ContactOptions& options);
 /// point inside two overlapping parts counts once.
 struct SiblingField {
   const DistanceField* field;
-  Isometry3d X_GF;    ///< from this field's frame F to the sibling's G
-  bool wins_tie;      ///< takes the contact if both are equally deep
+  Isometry3d X_GF;  ///< from this field's frame F to the sibling's G
+  bool wins_tie;    ///< takes the contact if both are equally deep
 };
 
 /// One shell against one field, after shellIntervals() with σ = 0.
 struct ContactInput {
   const DistanceField& field;
   const PointShell& shell;
-  const ChordPath& path;                       ///< X_FP
-  const std::vector<Isometry3d>& X_CF;         ///< F in an unaccelerated frame C: at the first chord's start and at
-                                               ///< every chord's end, so one more than there are chords
+  const ChordPath& path;                ///< X_FP
+  const std::vector<Isometry3d>& X_CF;  ///< F in an unaccelerated frame C: at the first chord's start and at
+                                        ///< every chord's end, so one more than there are chords
   const std::vector<SiblingField>& siblings;
 };
 
 /// Where a hit is deepest.
 struct HitDepth {
-  bool siblings = false;    ///< the contact is a sibling's all along: the rest is not set
-  double depth = 0.0;       ///< [m], positive inside; of a place on the path, so never more than the deepest
-  double time = 0.0;        ///< [s]
-  Vector3d p_C = Vector3d::Zero();       ///< contact point [m], frame C
+  bool siblings = false;            ///< the contact is a sibling's all along: the rest is not set
+  double depth = 0.0;               ///< [m], positive inside; of a place on the path, so never more than the deepest
+  double time = 0.0;                ///< [s]
+  Vector3d p_C = Vector3d::Zero();  ///< contact point [m], frame C
   Vector3d normal_C = Vector3d::Zero();  ///< unit, out of the field's body
 };
 
 /// Impulses over all hits.
 struct ContactImpulse {
-  Wrench on_shell_body;         ///< I [N·s] and M about C's origin [N·m·s] on P; on F it is the opposite (Eq. 6, 7)
-  std::vector<HitDepth> depths; ///< one per hit
-  std::vector<double> breaks;   ///< memory that is reused from hit to hit
+  Wrench on_shell_body;          ///< I [N·s] and M about C's origin [N·m·s] on P; on F it is the opposite (Eq. 6, 7)
+  std::vector<HitDepth> depths;  ///< one per hit
+  std::vector<double> breaks;    ///< memory that is reused from hit to hit
 };
 
 /// Integrates penalty force F = −k d N (N out of the field's body, d < 0 inside) and damping force −k_D v_rel over

@@ -17,7 +17,9 @@ struct Wrench {
   }
 };
 
-inline Wrench operator*(double factor, const Wrench& w) { return {factor * w.force, factor * w.torque}; }
+inline Wrench operator*(double factor, const Wrench& w) {
+  return {factor * w.force, factor * w.torque};
+}
 
 /// The wrench `w_C`, about C's origin in C's axes, about B's origin in B's axes.
 inline Wrench expressedIn(const Isometry3d& X_CB, const Wrench& w_C) {

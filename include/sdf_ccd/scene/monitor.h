@@ -12,10 +12,10 @@ namespace sdf_ccd {
 
 /// Where the bodies were during a cycle (t₀, t₁].
 struct CycleMotion {
-  std::vector<double> times;                   ///< [s] from t₀, increasing; first 0, last the cycle's length
-  std::vector<std::vector<Isometry3d>> X_WB;   ///< per body, per time
-  std::vector<std::string> missing;            ///< per body: why its poses are not known; empty if they are, or all are
-  std::vector<double> motion_error;            ///< per body: distance of the true motion from X_WB's [m]; may be empty
+  std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
+  std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
+  std::vector<std::string> missing;           ///< per body: why its poses are not known; empty if they are, or all are
+  std::vector<double> motion_error;           ///< per body: distance of the true motion from X_WB's [m]; may be empty
 };
 
 /// What a cycle is asked for; what nobody reads is not computed.
@@ -26,38 +26,38 @@ struct CycleRequest {
 
 /// One contact of one shell point.
 struct ContactPoint {
-  double enter = 0.0;   ///< [s] from t₀
-  double exit = 0.0;    ///< [s] from t₀
-  double time = 0.0;    ///< when it is deepest [s] from t₀
-  double depth = 0.0;   ///< [m]
-  Vector3d p_W = Vector3d::Zero();        ///< when deepest [m]
-  Vector3d normal_W = Vector3d::Zero();   ///< unit, from body A to body B
+  double enter = 0.0;                    ///< [s] from t₀
+  double exit = 0.0;                     ///< [s] from t₀
+  double time = 0.0;                     ///< when it is deepest [s] from t₀
+  double depth = 0.0;                    ///< [m]
+  Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
+  Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
 };
 
 struct PairResult {
   int body_a = -1;
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;             ///< why it was not checked; empty if it was
-  bool skipped = false;           ///< clear by the clearance left from an earlier cycle
+  std::string reason;    ///< why it was not checked; empty if it was
+  bool skipped = false;  ///< clear by the clearance left from an earlier cycle
   ErrorBound error;
-  double clearance = 0.0;         ///< a lower bound of the distance at t₁ [m]; negative if not known
+  double clearance = 0.0;           ///< a lower bound of the distance at t₁ [m]; negative if not known
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
-  bool touches_at_sample = false; ///< some interval holds one of CycleMotion::times: a check there would see it
-  ContactPoint deepest;           ///< valid if intervals is not empty
-  Wrench on_a_W;                  ///< average over the cycle, world axes, about A's origin at t₁
-  Wrench on_b_W;                  ///< the same on B, about B's origin at t₁
+  bool touches_at_sample = false;   ///< some interval holds one of CycleMotion::times: a check there would see it
+  ContactPoint deepest;             ///< valid if intervals is not empty
+  Wrench on_a_W;                    ///< average over the cycle, world axes, about A's origin at t₁
+  Wrench on_b_W;                    ///< the same on B, about B's origin at t₁
   std::vector<ContactPoint> points;
 };
 
 struct CycleResult {
-  std::vector<PairResult> pairs;  ///< in the order of Scene::pairs
+  std::vector<PairResult> pairs;      ///< in the order of Scene::pairs
   Verdict verdict = Verdict::kClear;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR
-  double error_bound = 0.0;       ///< largest of the pairs checked [m]
+  double error_bound = 0.0;           ///< largest of the pairs checked [m]
   int checked = 0;
   int skipped = 0;
   int not_checked = 0;
-  double run_time = 0.0;          ///< [s]
+  double run_time = 0.0;  ///< [s]
 };
 
 struct MonitorOptions {
@@ -102,9 +102,9 @@ class Monitor {
 
 /// Distance from a point to the nearest body at given poses; for the point queries.
 struct NearestBody {
-  int body = -1;         ///< -1 if no body has a field
-  double distance = 0.0; ///< [m], negative inside
-  double error = 0.0;    ///< [m]
+  int body = -1;          ///< -1 if no body has a field
+  double distance = 0.0;  ///< [m], negative inside
+  double error = 0.0;     ///< [m]
   Vector3d gradient_W = Vector3d::Zero();
 };
 NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB, const Vector3d& p_W);

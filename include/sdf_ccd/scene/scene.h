@@ -31,7 +31,7 @@ struct Body {
   std::vector<BodyPart> parts;  ///< empty if no pair needs its field
   PointShell shell;             ///< frame B; empty if no pair needs it. Points deep inside a sibling part are left out
   SphereTree tree;
-  BoundingBall ball;            ///< holds the shell's points
+  BoundingBall ball;  ///< holds the shell's points
 };
 
 /// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing + the field's own error +
@@ -47,11 +47,11 @@ struct SceneOptions {
 /// What was built for one body; a row of the plan's table.
 struct BodyReport {
   std::string name;
-  std::string geometry;      ///< "mesh (300 triangles, closed)", "box", …
-  std::string field;         ///< "cached", "built 1.2 s", "exact", "shared", "left out"
+  std::string geometry;         ///< "mesh (300 triangles, closed)", "box", …
+  std::string field;            ///< "cached", "built 1.2 s", "exact", "shared", "left out"
   std::size_t field_bytes = 0;  ///< a mesh that several bodies have counts for the first
-  std::size_t cells = 0;     ///< stored cells
-  double field_error = 0.0;  ///< [m]
+  std::size_t cells = 0;        ///< stored cells
+  double field_error = 0.0;     ///< [m]
   std::size_t shell_points = 0;
   std::size_t shell_bytes = 0;
   double covering_radius = 0.0;  ///< [m]

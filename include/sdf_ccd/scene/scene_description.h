@@ -23,10 +23,10 @@ struct GeometryDescription {
 /// A rigid body: a robot's link or an object of the world.
 struct BodyDescription {
   std::string name;
-  std::string frame;  ///< the tf frame that carries it
+  std::string frame;                              ///< the tf frame that carries it
   Isometry3d X_frame_B = Isometry3d::Identity();  ///< its frame B in that frame
   std::vector<GeometryDescription> geometry;
-  std::string failure;  ///< why the body cannot be checked; empty if it can
+  std::string failure;    ///< why the body cannot be checked; empty if it can
   bool is_world = false;  ///< an object of the world, not a link
 };
 
