@@ -41,7 +41,7 @@ TEST(Monitor, GivesAllFourVerdicts) {
 
 TEST(Monitor, FindsContactBetweenTheSamples) {
   const auto scene = build(
-      {body("plate", Primitive(Box{{0.3, 0.3, 0.0005}}), true), body("ball", Primitive(Sphere{0.02}))}, fine(0.004));
+      {body("plate", Primitive(Box{{0.05, 0.05, 0.0005}}), true), body("ball", Primitive(Sphere{0.02}))}, fine(0.004));
   Monitor monitor(scene, soft());
   // Through the plate from above to below within one cycle.
   const CycleResult& result = monitor.run(
@@ -80,9 +80,9 @@ struct Pressed {
 TEST(Monitor, BothRolesDoNotDouble) {
   const Pressed press;
   const auto scene = build(
-      {body("ball", Primitive(Sphere{press.R})), body("block", Primitive(Box{{0.2, 0.2, 0.1}}), true)}, fine(0.003));
+      {body("ball", Primitive(Sphere{press.R})), body("block", Primitive(Box{{0.07, 0.07, 0.03}}), true)}, fine(0.003));
   Monitor monitor(scene, soft());
-  const Isometry3d X_WA = translation({0.02, 0.03, 0.1 + press.R - press.delta});
+  const Isometry3d X_WA = translation({0.02, 0.03, 0.03 + press.R - press.delta});
   const PairResult pair = monitor.run(cycle(0.1, {still(X_WA), still(Isometry3d::Identity())}), {}).pairs[0];
   EXPECT_NEAR(pair.on_a_W.force.z(), press.force(), 0.05 * press.force());
   EXPECT_LT((pair.on_a_W.force + pair.on_b_W.force).norm(), 1e-9 * press.force());
@@ -189,15 +189,15 @@ TEST(Monitor, QuarterTurnWithinOneCycle) {
 
 TEST(Monitor, OverlappingPartsOfABodyPushOnce) {
   const Pressed press;
-  BodyDescription block = body("block", Primitive(Box{{0.3, 0.3, 0.1}}), true);
+  BodyDescription block = body("block", Primitive(Box{{0.07, 0.06, 0.03}}), true);
   BodyDescription doubled = block;
   doubled.geometry.push_back(block.geometry[0]);
-  doubled.geometry[1].X_BG = translation({0.05, 0, 0});
+  doubled.geometry[1].X_BG = translation({0.01, 0, 0});
   const BodyDescription ball = body("ball", Primitive(Sphere{press.R}));
   SceneOptions options = fine(0.003);
   Monitor one(build({block, ball}, options), soft()), two(build({doubled, ball}, options), soft());
   const CycleMotion motion =
-      cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.1 + press.R - press.delta}))});
+      cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.03 + press.R - press.delta}))});
   const double once = one.run(motion, {}).pairs[0].on_b_W.force.z(),
                found = two.run(motion, {}).pairs[0].on_b_W.force.z();
   // The ball's points in the two boxes count once; of the boxes' points the doubled face's stay.
