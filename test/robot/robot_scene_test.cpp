@@ -179,9 +179,8 @@ BodyDescription worldBox(const std::string& name, const std::string& frame, cons
   body.frame = frame;
   body.X_frame_B.translation() = place;
   body.is_world = true;
-  GeometryDescription element;
-  element.shape.emplace<Primitive>(Box{half_size});
-  body.geometry.push_back(element);
+  body.geometry.resize(1);
+  body.geometry[0].shape = Primitive(Box{half_size});
   return body;
 }
 

@@ -1,0 +1,44 @@
+#include "sdf_ccd/shell/shell_file.h"
+
+#include <stdexcept>
+
+#include "sdf_ccd/field/checked_file.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr char kKind[] = "shell";
+constexpr std::uint32_t kVersion = 1;
+
+static_assert(sizeof(Vector3d) == 3 * sizeof(double), "points are written as three numbers each");
+
+}  // namespace
+
+void saveShell(const PointShell& shell, const std::string& path) {
+  writeCheckedFile(path, kKind, kVersion,
+                   {{&shell.covering_radius, sizeof(double)},
+                    {shell.points.data(), shell.points.size() * sizeof(Vector3d)},
+                    {shell.normals.data(), shell.normals.size() * sizeof(Vector3d)},
+                    {shell.areas.data(), shell.areas.size() * sizeof(double)}});
+}
+
+PointShell loadShell(const std::string& path) {
+  const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kKind, kVersion);
+  std::size_t numbers = 0, points = 0, normals = 0, areas = 0;
+  const auto* covering_radius = file->section<double>(0, numbers);
+  const auto* point = file->section<Vector3d>(1, points);
+  const auto* normal = file->section<Vector3d>(2, normals);
+  const auto* area = file->section<double>(3, areas);
+  if (numbers != 1 || normals != points || areas != points) {
+    throw std::runtime_error(path + ": damaged: " + std::to_string(points) + " points, " + std::to_string(normals) +
+                             " normals, " + std::to_string(areas) + " areas");
+  }
+  PointShell shell;
+  shell.points.assign(point, point + points);
+  shell.normals.assign(normal, normal + normals);
+  shell.areas.assign(area, area + areas);
+  shell.covering_radius = *covering_radius;
+  return shell;
+}
+
+}  // namespace sdf_ccd

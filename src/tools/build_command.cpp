@@ -1,0 +1,156 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include <tbb/global_control.h>
+
+#include "commands.h"
+#include "field_builder.h"
+#include "sdf_ccd/field/octomap_surface.h"
+#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/scene/scene_plan.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string urdf;
+  std::string srdf;
+  std::string mesh;
+  std::string octomap;
+  std::string out;
+  ResolutionOptions resolution;
+  double spacing = 0.0;
+  bool has_spacing = false;
+  int threads = 0;
+};
+
+std::string stemOf(const std::string& path) {
+  return fs::path(path).stem().string();
+}
+
+std::string readText(const std::string& path) {
+  return loadLocalResource(path, nullptr, "").bytes;
+}
+
+/// Link names become file names.
+std::string asFileName(std::string name) {
+  for (char& c : name) {
+    if (c == '/') c = '_';
+  }
+  return name;
+}
+
+struct Robot {
+  SceneDescription scene;
+  std::size_t pairs = 0;
+};
+
+Robot loadRobot(const Arguments& arguments) {
+  const std::string directory = fs::absolute(arguments.urdf).parent_path().string();
+  const PackageFinder packages = packagesFromEnvironment();
+  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); };
+  const RobotModel model(readText(arguments.urdf));
+  const Srdf srdf = arguments.srdf.empty() ? Srdf() : parseSrdf(readText(arguments.srdf));
+  std::vector<std::string> warnings;
+  Robot robot;
+  robot.scene = describeRobot(model, srdf, loader, {}, warnings);
+  robot.pairs = planScene(robot.scene).pairs.size();
+  for (const std::string& warning : warnings) std::cerr << "sdf_ccd: " << warning << std::endl;
+  return robot;
+}
+
+/// Fields and shells of one link's meshes; false, with a line on stderr, if one of them cannot be built.
+bool buildLink(const BodyDescription& body, FieldBuilder& builder) {
+  try {
+    if (!body.failure.empty()) throw std::runtime_error(body.failure);
+    int meshes = 0;
+    for (const GeometryDescription& element : body.geometry) {
+      std::cout << body.name << ": " << element.source << "\n";
+      const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&element.shape);
+      if (!mesh) {
+        std::cout << "  exact, needs no file\n";
+        continue;
+      }
+      const std::string name = asFileName(body.name);
+      builder.addMesh(++meshes == 1 ? name : name + "_" + std::to_string(meshes), **mesh);
+    }
+    return true;
+  } catch (const std::exception& error) {
+    const std::string reason = error.what();
+    std::cout << std::flush;
+    std::cerr << "sdf_ccd: " << (body.failure.empty() ? "link " + body.name + ": " : "") << reason << std::endl;
+    return false;
+  }
+}
+
+void buildRobot(const Arguments& arguments) {
+  const Robot robot = loadRobot(arguments);
+  OutputDirectory out(arguments.out);
+  FieldBuilder builder(out, arguments.resolution,
+                       arguments.has_spacing ? std::make_optional(arguments.spacing) : std::nullopt);
+  std::size_t failed = 0;
+  for (const BodyDescription& body : robot.scene.bodies) failed += !buildLink(body, builder);
+  std::cout << robot.scene.bodies.size() << " links, " << robot.pairs << " pairs to check, "
+            << robot.scene.disabled.size() << " left out; ";
+  builder.printTotals();
+  if (failed > 0) throw PartlyDone();
+}
+
+void run(Arguments& arguments) {
+  if (!arguments.srdf.empty() && arguments.urdf.empty()) throw std::runtime_error("--srdf needs --urdf");
+  if (arguments.has_spacing && !(arguments.spacing > 0.0)) throw std::runtime_error("--spacing must be positive");
+  if (arguments.threads < 0) throw std::runtime_error("--threads must not be negative");
+  arguments.resolution.fieldOptions();  // refuses bad values before anything is read
+  std::unique_ptr<tbb::global_control> limit;
+  if (arguments.threads > 0) {
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
+  }
+  if (!arguments.urdf.empty()) return buildRobot(arguments);
+
+  const bool is_mesh = !arguments.mesh.empty();
+  const std::string& file = is_mesh ? arguments.mesh : arguments.octomap;
+  double voxel_size = 0.0;
+  const TriangleMesh mesh = is_mesh ? loadMesh(file) : loadOctomapSurface(file, voxel_size);
+  OutputDirectory out(arguments.out);
+  FieldBuilder builder(out, arguments.resolution,
+                       arguments.has_spacing ? std::make_optional(arguments.spacing) : std::nullopt);
+  std::cout << stemOf(file) << ": " << file << "\n";
+  if (is_mesh) {
+    builder.addMesh(stemOf(file), mesh);
+  } else {
+    builder.addVoxels(stemOf(file), mesh, voxel_size);
+  }
+  builder.printTotals();
+}
+
+}  // namespace
+
+void addBuildCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("build", "Make fields and shells, and report on the meshes");
+  command->footer(
+      "Writes NAME.field and NAME.shell, each in its mesh's frame: for a robot per link, NAME the link's (a link's "
+      "second mesh is NAME_2), else the file's name. package:// is looked up in ROS_PACKAGE_PATH.");
+  auto* source = command->add_option_group("source");
+  source->add_option("--urdf", arguments->urdf, "Robot; its links' collision meshes are taken");
+  source->add_option("--mesh", arguments->mesh, "Mesh file: STL, DAE, OBJ, OFF, PLY, …");
+  source->add_option("--octomap", arguments->octomap, "World: .bt or .ot file; the default cell is a voxel");
+  source->require_option(1);
+  command->add_option("--srdf", arguments->srdf, "With --urdf: pairs that need no check, for the count of pairs");
+  command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
+  arguments->resolution.addTo(*command);
+  CLI::Option* spacing = command->add_option(
+      "--spacing", arguments->spacing, "No place of a surface is farther from a shell point [m]; default two cells");
+  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  command->callback([arguments, spacing] {
+    arguments->has_spacing = spacing->count() > 0;
+    run(*arguments);
+  });
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace sdf_ccd::tools {
+
+/// Each adds one subcommand; its callback does the work and throws if it cannot.
+void addBuildCommand(CLI::App& app);
+void addInfoCommand(CLI::App& app);
+void addQueryCommand(CLI::App& app);
+
+/// Some of what was asked for was done, the rest was reported: exit code 1.
+struct PartlyDone {};
+
+}  // namespace sdf_ccd::tools

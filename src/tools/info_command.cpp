@@ -1,0 +1,121 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "commands.h"
+#include "output_file.h"
+#include "print.h"
+#include "progress_bar.h"
+#include "resolution_options.h"
+#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field/checked_file.h"
+#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/field/octomap_surface.h"
+#include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/shell/shell_file.h"
+#include "slice.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+struct Arguments {
+  std::string file;
+  std::string slice;
+  std::string out;
+  ResolutionOptions resolution;
+};
+
+void printField(const DistanceField& field) {
+  std::cout << "field: " << describe(field) << "\nsurface within " << describe(field.surfaceBox())
+            << "\nsamples within " << describe(field.grid()->shape().box()) << std::endl;
+}
+
+void printShell(const PointShell& shell) {
+  AlignedBox3d box;
+  double area = 0.0;
+  for (const Vector3d& p : shell.points) box.extend(p);
+  for (const double a : shell.areas) area += a;
+  std::cout << "shell: " << describe(shell) << ", area " << shortly(area) << " m²\n";
+  if (shell.size() > 0) std::cout << "within " << describe(box) << std::endl;
+}
+
+void printQuality(const MeshQuality& quality) {
+  std::cout << "mesh: " << summary(quality) << "\n"
+            << "triangles            " << quality.triangles << "\n"
+            << "without area         " << quality.degenerate_triangles << "\n"
+            << "components           " << quality.components << "\n"
+            << "inverted components  " << quality.inverted_components << "\n"
+            << "boundary edges       " << quality.boundary_edges << "\n"
+            << "non-manifold edges   " << quality.non_manifold_edges << "\n"
+            << "misoriented edges    " << quality.misoriented_edges << "\n"
+            << "volume               " << shortly(quality.volume) << " m³\n"
+            << "area                 " << shortly(quality.area) << " m²\n"
+            << "box                  " << describe(quality.box) << "\n"
+            << "sign trusted         " << (quality.sign_trusted ? "yes" : "no") << std::endl;
+}
+
+DistanceField fieldOf(const TriangleMesh& mesh, const FieldOptions& options) {
+  ProgressBar bar("field");
+  return buildField(mesh, options, [&](double share) { bar(share); });
+}
+
+/// Prints what the file holds; returns its field if a slice of it is wanted.
+std::optional<DistanceField> inspect(const Arguments& arguments) {
+  const std::string& file = arguments.file;
+  const bool wants_field = !arguments.slice.empty();
+  if (isCheckedFile(file, "field")) {
+    const DistanceField field = loadField(file);
+    printField(field);
+    return field;
+  }
+  if (isCheckedFile(file, "shell")) {
+    printShell(loadShell(file));
+    return std::nullopt;
+  }
+  const std::string ending = std::filesystem::path(file).extension().string();
+  if (ending == ".bt" || ending == ".ot") {
+    double voxel_size = 0.0;
+    const TriangleMesh mesh = loadOctomapSurface(file, voxel_size);
+    std::cout << "OctoMap: voxels of " << voxel_size << " m; the surface of the occupied ones has "
+              << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m³\nwithin "
+              << describe(boundingBox(mesh)) << std::endl;
+    if (!wants_field) return std::nullopt;
+    return fieldOf(mesh, arguments.resolution.fieldOptions(voxel_size));
+  }
+  const OrientedMesh oriented = orientOutward(loadMesh(file));
+  printQuality(oriented.quality);
+  if (!wants_field) return std::nullopt;
+  return fieldOf(oriented.mesh, arguments.resolution.fieldOptions());
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.slice.empty() != arguments.out.empty()) throw std::runtime_error("--slice and --out go together");
+  if (arguments.slice.empty()) {
+    inspect(arguments);
+    return;
+  }
+  const Slice slice = parseSlice(arguments.slice);
+  OutputFile out(arguments.out);
+  const std::optional<DistanceField> field = inspect(arguments);
+  if (!field) throw std::runtime_error(arguments.file + ": a shell has no slice");
+  writePng(drawSlice(*field, slice), out.stream());
+  out.commit();
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("info", "What a field, shell, mesh or OctoMap file holds");
+  command->add_option("file", arguments->file, "File to look into")->required();
+  command->add_option("--slice", arguments->slice, "Plane to draw, such as z=0.1 [m]; of a mesh a field is made first");
+  command->add_option("--out", arguments->out, "PNG file for the slice");
+  arguments->resolution.addTo(*command);
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "commands.h"
+
+namespace {
+
+constexpr int kPartlyDone = 1;
+constexpr int kBadInput = 2;
+
+/// One line, whatever the message holds.
+int refuse(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "sdf_ccd: " << message << std::endl;
+  return kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Signed distance fields of robots and worlds, and queries against them. Lengths are metres.", "sdf_ccd");
+  app.require_subcommand(1);
+  app.footer("Exit code: 0 done, 1 partly done (the rest is named on stderr), 2 bad input.");
+  sdf_ccd::tools::addBuildCommand(app);
+  sdf_ccd::tools::addInfoCommand(app);
+  sdf_ccd::tools::addQueryCommand(app);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error) : refuse(error.what() + std::string(" (see --help)"));
+  } catch (const sdf_ccd::tools::PartlyDone&) {
+    return kPartlyDone;
+  } catch (const std::bad_alloc&) {
+    return refuse("not enough memory");
+  } catch (const std::exception& error) {
+    return refuse(error.what());
+  }
+}

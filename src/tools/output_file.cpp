@@ -1,0 +1,63 @@
+#include "output_file.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace sdf_ccd::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw std::runtime_error(path + ": cannot write: " + reason);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) : path_(path), temporary_(path + ".XXXXXX") {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) fail(path, "it is a directory");
+  if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "it is not a regular file");
+  const int descriptor = ::mkstemp(&temporary_[0]);
+  if (descriptor < 0) {
+    temporary_.clear();
+    fail(path, std::strerror(errno));
+  }
+  ::fchmod(descriptor, 0644);
+  ::close(descriptor);
+  stream_.open(temporary_, std::ios::binary);
+}
+
+OutputFile::~OutputFile() {
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void OutputFile::commit() {
+  stream_.close();
+  if (!stream_) fail(path_, std::strerror(errno));
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, std::strerror(errno));
+  temporary_.clear();
+}
+
+OutputDirectory::OutputDirectory(const std::string& path) : path_(path) {
+  std::error_code error;
+  is_new_ = fs::create_directories(path, error);
+  if (error) fail(path, error.message());
+  if (!fs::is_directory(path, error)) fail(path, "it is not a directory");
+  if (::access(path.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+}
+
+OutputDirectory::~OutputDirectory() {
+  std::error_code error;
+  if (is_new_) fs::remove(path_, error);  // only if it is empty
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace sdf_ccd::tools {
+
+/// Shows on stderr how far work has come, from its second second on: a bar on a terminal, else a line every ten
+/// percent. Call it with the share done, from 0 to 1, from one thread at a time.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string what);
+  ~ProgressBar();  ///< takes the bar away
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void operator()(double share);
+
+ private:
+  std::string what_;
+  bool on_terminal_;
+  std::chrono::steady_clock::time_point start_;
+  int shown_ = -1;  ///< percent
+};
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "commands.h"
+#include "output_file.h"
+#include "progress_bar.h"
+#include "resolution_options.h"
+#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/query/segment_query.h"
+#include "segment_csv.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+constexpr std::size_t kBlock = 4096;
+
+struct Arguments {
+  std::string field;
+  std::string mesh;
+  std::string segments;
+  std::string out;
+  ResolutionOptions resolution;
+  SegmentOptions query;
+};
+
+DistanceField fieldOf(const Arguments& arguments) {
+  if (!arguments.field.empty()) return loadField(arguments.field);
+  FieldOptions options = arguments.resolution.fieldOptions();
+  options.band = std::max(options.band, std::abs(arguments.query.sigma));
+  const TriangleMesh mesh = orientOutward(loadMesh(arguments.mesh)).mesh;
+  ProgressBar bar("field");
+  return buildField(mesh, options, [&](double share) { bar(share); });
+}
+
+std::vector<Intervals> intervalsOf(const DistanceField& field, const std::vector<Segment>& segments,
+                                   const SegmentOptions& options) {
+  std::vector<Intervals> intervals(segments.size());
+  ProgressBar bar("segments");
+  std::mutex bar_mutex;
+  std::size_t done = 0;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, segments.size(), kBlock), [&](const auto& block) {
+    for (std::size_t i = block.begin(); i < block.end(); ++i) {
+      segmentIntervals(field, segments[i], options, intervals[i]);
+    }
+    const std::lock_guard<std::mutex> lock(bar_mutex);
+    done += block.size();
+    bar(static_cast<double>(done) / static_cast<double>(segments.size()));
+  });
+  return intervals;
+}
+
+void run(const Arguments& arguments) {
+  if (!std::isfinite(arguments.query.sigma)) throw std::invalid_argument("--sigma is not finite");
+  const std::vector<Segment> segments = readSegments(arguments.segments);
+  OutputFile out(arguments.out);
+  const DistanceField field = fieldOf(arguments);
+  const std::vector<Intervals> intervals = intervalsOf(field, segments, arguments.query);
+  out.stream() << "segment,t_enter,t_exit\n";
+  char row[96];
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    for (const Interval& interval : intervals[i]) {
+      std::snprintf(row, sizeof row, "%zu,%.17g,%.17g\n", i, interval.enter, interval.exit);
+      out.stream() << row;
+    }
+  }
+  out.commit();
+}
+
+}  // namespace
+
+void addQueryCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("query", "Times during which moving points are inside an isosurface");
+  command->footer(
+      "In: a line ox,oy,oz,ex,ey,ez [m] per segment, with or without a header line. Out: a line segment,t_enter,t_exit "
+      "per interval; segments count from 0, times run from 0 at the start to 1 at the end of the segment.");
+  auto* source = command->add_option_group("source");
+  source->add_option("--field", arguments->field, "Field file, made by build");
+  source->add_option("--mesh", arguments->mesh, "Mesh file, of which a field is made");
+  source->require_option(1);
+  command->add_option("--segments", arguments->segments, "CSV file to read")->required();
+  command->add_option("--out", arguments->out, "CSV file to write")->required();
+  command->add_option("--sigma", arguments->query.sigma, "Distance of the isosurface from the surface [m]; default 0");
+  command->add_flag("--first", arguments->query.first_only, "Only the first interval of each segment");
+  arguments->resolution.addTo(*command);
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,38 @@
+#include "resolution_options.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+constexpr int kDefaultCells = 64;
+
+}  // namespace
+
+void ResolutionOptions::addTo(CLI::App& command) {
+  resolution_option_ = command.add_option("--resolution", cells,
+                                          "Cells along the longest side of the surface's box (64 if none is given)");
+  cell_option_ = command.add_option("--cell", cell_size, "Size of a cell [m]");
+  max_error_option_ = command.add_option("--max-error", max_error, "Largest error of a distance near the surface [m]");
+  resolution_option_->excludes(cell_option_)->excludes(max_error_option_);
+  cell_option_->excludes(max_error_option_);
+  command.add_option("--band", band, "Distances are accurate up to this from the surface [m]; at least two cells");
+}
+
+FieldOptions ResolutionOptions::fieldOptions(std::optional<double> default_cell) const {
+  FieldOptions options;
+  options.band = band;
+  if (resolution_option_->count()) {
+    options.cells = cells;
+  } else if (cell_option_->count()) {
+    options.cell_size = cell_size;
+  } else if (max_error_option_->count()) {
+    options.max_error = max_error;
+  } else if (default_cell) {
+    options.cell_size = default_cell;
+  } else {
+    options.cells = kDefaultCells;
+  }
+  validate(options);
+  return options;
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "sdf_ccd/field/field_options.h"
+
+namespace sdf_ccd::tools {
+
+/// The options that say how fine a field is.
+struct ResolutionOptions {
+  int cells = 0;
+  double cell_size = 0.0;
+  double max_error = 0.0;
+  double band = 0.0;
+
+  /// Adds --resolution, --cell, --max-error and --band.
+  void addTo(CLI::App& command);
+
+  /// What was chosen; else `default_cell` [m], or 64 cells along the longest side.
+  FieldOptions fieldOptions(std::optional<double> default_cell = std::nullopt) const;
+
+ private:
+  CLI::Option* resolution_option_ = nullptr;
+  CLI::Option* cell_option_ = nullptr;
+  CLI::Option* max_error_option_ = nullptr;
+};
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,79 @@
+#include "segment_csv.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace sdf_ccd::tools {
+namespace {
+
+constexpr std::size_t kColumns = 6;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> words;
+  std::istringstream stream(line);
+  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  if (!line.empty() && line.back() == ',') words.emplace_back();
+  return words;
+}
+
+/// The program keeps the C locale, so the point is always the decimal separator.
+std::optional<double> number(const std::string& word) {
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  const bool has_digits = end != word.c_str();
+  while (*end == ' ' || *end == '\t') ++end;
+  return has_digits && *end == '\0' ? std::make_optional(value) : std::nullopt;
+}
+
+bool isHeader(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (number(word)) return false;
+  }
+  return true;
+}
+
+Segment parseSegment(const std::vector<std::string>& words) {
+  if (words.size() != kColumns) {
+    throw std::runtime_error("six numbers ox,oy,oz,ex,ey,ez are wanted, there are " + std::to_string(words.size()));
+  }
+  double values[kColumns];
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    const std::optional<double> value = number(words[i]);
+    if (!value) throw std::runtime_error("\"" + words[i] + "\" is not a number");
+    if (!std::isfinite(*value)) throw std::runtime_error("\"" + words[i] + "\" is not finite");
+    values[i] = *value;
+  }
+  return {Vector3d(values), Vector3d(values + 3)};
+}
+
+}  // namespace
+
+std::vector<Segment> readSegments(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw std::runtime_error(path + ": is a directory");
+  std::ifstream stream(path);
+  if (!stream) throw std::runtime_error(path + ": cannot be opened");
+  std::vector<Segment> segments;
+  std::size_t line_number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++line_number;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.find_first_not_of(" \t") == std::string::npos) continue;
+    const std::vector<std::string> words = split(line);
+    if (line_number == 1 && isHeader(words)) continue;
+    try {
+      segments.push_back(parseSegment(words));
+    } catch (const std::exception& reason) {
+      throw std::runtime_error(path + ":" + std::to_string(line_number) + ": " + reason.what());
+    }
+  }
+  if (segments.empty()) throw std::runtime_error(path + ": holds no segment");
+  return segments;
+}
+
+}  // namespace sdf_ccd::tools

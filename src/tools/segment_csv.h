@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/query/segment_query.h"
+
+namespace sdf_ccd::tools {
+
+/// Reads lines `ox,oy,oz,ex,ey,ez` [m]. A first line without any number is a header; blank lines are passed over.
+/// @throws std::runtime_error naming file, line and value: not six numbers, one that is not finite, no segment at all.
+std::vector<Segment> readSegments(const std::string& path);
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "image.h"
+#include "sdf_ccd/field/distance_field.h"
+
+namespace sdf_ccd::tools {
+
+/// A plane across one axis of a field's frame.
+struct Slice {
+  int axis;      ///< 0 x, 1 y, 2 z
+  double place;  ///< [m]
+};
+
+/// Reads "z=0.1". @throws std::invalid_argument with the text if it is not of that form.
+Slice parseSlice(const std::string& text);
+
+/// Draws a slice through a field's box: blue inside, white at the surface, red outside; the surface black, the edge of
+/// the band grey and distances beyond it pale; beside it the scale of distances, below it one of lengths.
+/// @throws std::invalid_argument if the plane does not meet the box.
+Image drawSlice(const DistanceField& field, const Slice& slice);
+
+}  // namespace sdf_ccd::tools

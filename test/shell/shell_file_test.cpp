@@ -1,0 +1,61 @@
+#include "sdf_ccd/shell/shell_file.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace sdf_ccd {
+namespace {
+
+class ShellFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = std::filesystem::temp_directory_path() / ("sdf_ccd_shell_" + std::to_string(::getpid()) + ".shell");
+    shell_.points = {{1, 2, 3}, {4, 5, 6}};
+    shell_.normals = {{1, 0, 0}, {0, 1, 0}};
+    shell_.areas = {0.1, 0.2};
+    shell_.covering_radius = 0.007;
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  std::filesystem::path path_;
+  PointShell shell_;
+};
+
+TEST_F(ShellFile, ComesBackAsItWas) {
+  saveShell(shell_, path_.string());
+  const PointShell loaded = loadShell(path_.string());
+  EXPECT_EQ(loaded.points, shell_.points);
+  EXPECT_EQ(loaded.normals, shell_.normals);
+  EXPECT_EQ(loaded.areas, shell_.areas);
+  EXPECT_EQ(loaded.covering_radius, shell_.covering_radius);
+}
+
+TEST_F(ShellFile, EmptyShellComesBack) {
+  saveShell({}, path_.string());
+  EXPECT_EQ(loadShell(path_.string()).size(), 0u);
+}
+
+TEST_F(ShellFile, PartsThatDoNotFitEachOtherAreRefused) {
+  shell_.areas.pop_back();
+  saveShell(shell_, path_.string());
+  EXPECT_THROW(loadShell(path_.string()), std::runtime_error);
+}
+
+TEST_F(ShellFile, EveryTruncationIsRefused) {
+  saveShell(shell_, path_.string());
+  std::ifstream stream(path_, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  for (std::size_t size = 0; size < bytes.size(); size += 7) {
+    std::ofstream(path_, std::ios::binary) << bytes.substr(0, size);
+    EXPECT_THROW(loadShell(path_.string()), std::runtime_error) << size;
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
