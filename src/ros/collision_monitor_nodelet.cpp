@@ -6,6 +6,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/conversions.h"
+#include "ros/world_markers.h"
 
 namespace sdf_ccd {
 namespace {
@@ -37,6 +38,7 @@ void CollisionMonitor::onInit() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   state_publisher_ = private_node.advertise<MonitorState>("state", 100, true);
   plan_publisher_ = private_node.advertise<std_msgs::String>("plan", 1, true);
+  world_publisher_ = private_node.advertise<visualization_msgs::MarkerArray>("world", 1, true);
   diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), private_node, getName());
   serve();
   thread_ = std::thread([this] { run(); });
@@ -74,6 +76,7 @@ void CollisionMonitor::setUp() {
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
   described_ = describeScene(parameters_);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
+  world_publisher_.publish(toWorldMarkers(described_.scene));
   buildFields();
   monitor_ = std::make_unique<Monitor>(scene_, parameters_.monitor);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), scene_, described_.fixed_frame, parameters_.markers);

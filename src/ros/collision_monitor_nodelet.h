@@ -28,6 +28,7 @@ namespace sdf_ccd {
 /// Publishes, below the node's name, besides what Outputs and Diagnostics do:
 ///   state  sdf_ccd/MonitorState  every cycle, and once a second while there is none; latched
 ///   plan   std_msgs/String       what is checked against what, and what is left out and why; latched
+///   world  visualization_msgs/MarkerArray  the world's objects as they are checked; latched
 ///
 /// Serves, below the node's name:
 ///   query_motion  sdf_ccd/QueryMotion
@@ -75,6 +76,7 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   ros::Publisher state_publisher_;
   ros::Publisher plan_publisher_;
+  ros::Publisher world_publisher_;
   ros::CallbackQueue service_queue_;
   ros::CallbackQueue tf_queue_;
   std::vector<ros::ServiceServer> services_;

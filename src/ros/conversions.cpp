@@ -55,6 +55,17 @@ geometry_msgs::Point toPoint(const Vector3d& p) {
   return message;
 }
 
+geometry_msgs::Pose toPose(const Isometry3d& X) {
+  const Quaterniond q(X.linear());
+  geometry_msgs::Pose message;
+  message.position = toPoint(X.translation());
+  message.orientation.w = q.w();
+  message.orientation.x = q.x();
+  message.orientation.y = q.y();
+  message.orientation.z = q.z();
+  return message;
+}
+
 geometry_msgs::Vector3 toVector3(const Vector3d& v) {
   geometry_msgs::Vector3 message;
   message.x = v.x();

@@ -22,6 +22,7 @@ Isometry3d toIsometry(const geometry_msgs::Pose& pose);
 
 Vector3d toEigen(const geometry_msgs::Point& point);
 geometry_msgs::Point toPoint(const Vector3d& p);
+geometry_msgs::Pose toPose(const Isometry3d& X);
 geometry_msgs::Vector3 toVector3(const Vector3d& v);
 geometry_msgs::Wrench toWrench(const Wrench& wrench);
 

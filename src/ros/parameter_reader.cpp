@@ -1,6 +1,7 @@
 #include "ros/parameter_reader.h"
 
 #include <cmath>
+#include <locale>
 #include <sstream>
 
 namespace sdf_ccd {
@@ -8,12 +9,23 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-bool isNumber(const XmlRpcValue& value) {
-  return value.getType() == XmlRpcValue::TypeDouble || value.getType() == XmlRpcValue::TypeInt;
-}
-
-double toNumber(XmlRpcValue& value) {
-  return value.getType() == XmlRpcValue::TypeInt ? static_cast<int>(value) : static_cast<double>(value);
+/// Sets the number that the value holds. YAML takes 1.0e8 (without a sign in the exponent) for a text; here it is a
+/// number all the same.
+bool toNumber(const XmlRpcValue& value, double& number) {
+  XmlRpcValue copy = value;
+  if (value.getType() == XmlRpcValue::TypeInt) {
+    number = static_cast<int>(copy);
+  } else if (value.getType() == XmlRpcValue::TypeDouble) {
+    number = static_cast<double>(copy);
+  } else if (value.getType() == XmlRpcValue::TypeString) {
+    const std::string text = copy;
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    if (!(stream >> number) || !stream.eof()) return false;
+  } else {
+    return false;
+  }
+  return std::isfinite(number);
 }
 
 }  // namespace
@@ -45,8 +57,9 @@ void ParameterReader::fail(const std::string& key, const std::string& expected) 
 double ParameterReader::number(const std::string& key, double fallback) {
   XmlRpcValue* value = find(key);
   if (!value) return fallback;
-  if (!isNumber(*value) || !std::isfinite(toNumber(*value))) fail(key, "a finite number");
-  return toNumber(*value);
+  double number = 0.0;
+  if (!toNumber(*value, number)) fail(key, "a finite number");
+  return number;
 }
 
 double ParameterReader::positive(const std::string& key, double fallback) {
@@ -103,9 +116,7 @@ Vector3d ParameterReader::vector(const std::string& key, const Vector3d& fallbac
   if (value->getType() != XmlRpcValue::TypeArray || value->size() != 3) fail(key, "three numbers");
   Vector3d result;
   for (int i = 0; i < 3; ++i) {
-    XmlRpcValue& element = (*value)[i];
-    if (!isNumber(element) || !std::isfinite(toNumber(element))) fail(key, "three finite numbers");
-    result[i] = toNumber(element);
+    if (!toNumber((*value)[i], result[i])) fail(key, "three finite numbers");
   }
   return result;
 }

@@ -75,8 +75,8 @@ FieldOptions readField(ParameterReader reader, std::vector<std::string>& unknown
 
 ShellOptions readShell(ParameterReader reader, std::vector<std::string>& unknown) {
   ShellOptions shell;
-  shell.spacing = reader.positive("spacing", shell.spacing);
-  shell.vertex_spacing = reader.notNegative("vertex_spacing", shell.vertex_spacing);
+  shell.spacing = reader.positive("spacing", 0.005);
+  shell.vertex_spacing = reader.notNegative("vertex_spacing", 0.002);
   shell.seed = reader.integer("seed", static_cast<int>(shell.seed), 0);
   for (const std::string& name : reader.unread()) unknown.push_back(name);
   return shell;
