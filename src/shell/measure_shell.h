@@ -7,12 +7,12 @@
 
 namespace sdf_ccd {
 
-/// Least radius with which balls about the shell's points cover the mesh: an upper bound, at most 1 % above it
-/// (or above the rounding of the mesh's size, where the points hit the whole mesh).
-double coveringRadius(const TriangleMesh& mesh, const PointShell& shell);
+/// Least radius with which balls about the shell's points cover the mesh: exact, to a rounding upwards of 1e-9.
+/// @param scale  about the distance between points [m]: larger triangles are halved before points are looked for.
+double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double scale);
 
 /// Area of the mesh nearest to each point, among points whose normal is not against the triangle's, so that the two
-/// sides of a thin plate do not share. Cell borders are resolved to `resolution` [m]. The sum is the mesh's area.
-std::vector<double> nearestAreas(const TriangleMesh& mesh, const PointShell& shell, double resolution);
+/// sides of a thin plate do not share. Exact; the sum is the mesh's area.
+std::vector<double> nearestAreas(const TriangleMesh& mesh, const PointShell& shell, double scale);
 
 }  // namespace sdf_ccd

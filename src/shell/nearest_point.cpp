@@ -10,10 +10,6 @@ namespace {
 constexpr std::int32_t kLeafSize = 6;
 constexpr int kStackSize = 64;  // splits halve the count, so the tree is at most 31 deep
 
-double squaredDistance(const AlignedBox3d& box, const Vector3d& p) {
-  return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0).squaredNorm();
-}
-
 }  // namespace
 
 NearestPoint::NearestPoint(const PointShell& shell) {

@@ -22,6 +22,12 @@ class NearestPoint {
   /// the one with the least index.
   Hit find(const Vector3d& p, const Vector3d& facing) const;
 
+  /// Calls visit(index, point) for all such points within `radius` of p.
+  template <typename Visit>
+  void forEachWithin(const Vector3d& p, double radius, const Vector3d& facing, Visit visit) const {
+    if (!nodes_.empty()) visitWithin(0, p, radius * radius, facing, visit);
+  }
+
  private:
   struct Node {
     AlignedBox3d box;
@@ -32,6 +38,26 @@ class NearestPoint {
     Vector3d point, normal;
     std::int32_t index;
   };
+
+  static double squaredDistance(const AlignedBox3d& box, const Vector3d& p) {
+    return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0).squaredNorm();
+  }
+
+  template <typename Visit>
+  void visitWithin(std::int32_t index, const Vector3d& p, double radius2, const Vector3d& facing, Visit& visit) const {
+    const Node& node = nodes_[index];
+    if (squaredDistance(node.box, p) > radius2) return;
+    if (node.count == 0) {
+      visitWithin(node.first, p, radius2, facing, visit);
+      visitWithin(node.first + 1, p, radius2, facing, visit);
+      return;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const Entry& entry = entries_[i];
+      if ((entry.point - p).squaredNorm() <= radius2 && entry.normal.dot(facing) >= 0) visit(entry.index, entry.point);
+    }
+  }
+
   std::vector<Node> nodes_;
   std::vector<Entry> entries_;
 };

@@ -29,13 +29,15 @@ void lift(const Box&, Vector3d&, Vector3d&) {}  // the tessellation is the box
 void lift(const Cylinder& cylinder, Vector3d& p, Vector3d& normal) {
   const double rho = p.head<2>().norm();
   const bool on_cap = std::abs(p.z()) >= cylinder.half_length * (1 - 1e-12);
+  const Vector3d axial(0, 0, p.z() < 0 ? -1 : 1);
+  if (on_cap) p.z() = axial.z() * cylinder.half_length;
   if (on_cap && rho < cylinder.radius * (1 - 1e-9)) {
-    normal = Vector3d(0, 0, p.z() < 0 ? -1 : 1);
+    normal = axial;
     return;
   }
   p.head<2>() *= cylinder.radius / rho;
   normal = Vector3d(p.x(), p.y(), 0) / cylinder.radius;
-  if (on_cap) normal = (normal + Vector3d(0, 0, p.z() < 0 ? -1 : 1)).normalized();
+  if (on_cap) normal = (normal + axial).normalized();
 }
 
 /// How far the tessellation may be from a curved solid, over the spacing.

@@ -34,11 +34,6 @@ void requireRoom(double area, const ShellOptions& options) {
   throw std::length_error(message.str());
 }
 
-/// How far cells of points may be resolved wrongly when areas are shared out.
-double areaResolution(const ShellOptions& options) {
-  return 0.2 * options.spacing;
-}
-
 }  // namespace
 
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) {
@@ -52,9 +47,9 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) 
   filler.throwDarts();
   filler.fillGaps();
   PointShell shell = filler.take();
-  shell.areas = nearestAreas(surface, shell, areaResolution(options));
+  shell.areas = nearestAreas(surface, shell, options.spacing);
   // The filler has certified the spacing; the measured radius is an upper bound of its own.
-  shell.covering_radius = std::min(options.spacing, coveringRadius(surface, shell));
+  shell.covering_radius = std::min(options.spacing, coveringRadius(surface, shell, options.spacing));
   return shell;
 }
 

@@ -112,13 +112,12 @@ void SurfaceFiller::fillGaps() {
   constexpr double kSmallest2 = 0.05 * 0.05;
   std::vector<SurfacePiece> stack;
   for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-    const Vector3i& t = mesh_.triangles[i];
     const Vector3d& normal = triangle_normals_[i];
-    stack.push_back({{mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]}});
+    stack.push_back(SurfacePiece::of(mesh_, static_cast<int>(i)));
     while (!stack.empty()) {
       const SurfacePiece piece = stack.back();
       stack.pop_back();
-      const auto [corner, length2] = piece.longestEdge();
+      const double length2 = piece.longestEdge().second;
       const Vector3d center = piece.centroid();
       if (length2 <= 4 * spacing2) {
         const bool done = grid_.anyNear(center, [&](std::int32_t q) {
@@ -131,9 +130,7 @@ void SurfaceFiller::fillGaps() {
           continue;
         }
       }
-      SurfacePiece first = piece, second = piece;
-      const int next = (corner + 1) % 3, last = (corner + 2) % 3;
-      first.corners[last] = second.corners[next] = (piece.corners[next] + piece.corners[last]) / 2;
+      const auto [first, second] = piece.halves();
       stack.push_back(first);
       stack.push_back(second);
     }

@@ -1,0 +1,115 @@
+#include "sdf_ccd/shell/sphere_tree.h"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/shell/sample_surface.h"
+
+namespace sdf_ccd {
+namespace {
+
+PointShell shellOf(std::vector<Vector3d> points) {
+  PointShell shell;
+  shell.points = std::move(points);
+  for (std::size_t i = 0; i < shell.size(); ++i) {
+    shell.normals.push_back(Vector3d::UnitZ());
+    shell.areas.push_back(static_cast<double>(i));  // tells points apart
+  }
+  return shell;
+}
+
+std::vector<Vector3d> randomPoints(int count) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < count; ++i) points.emplace_back(uniform(random), uniform(random), uniform(random));
+  return points;
+}
+
+void expectSound(const SphereTree& tree, const PointShell& shell) {
+  ASSERT_FALSE(tree.nodes.empty());
+  EXPECT_EQ(tree.nodes[0].begin, 0);
+  EXPECT_EQ(tree.nodes[0].end, static_cast<int>(shell.size()));
+  std::vector<int> in_leaves(shell.size(), 0);
+  for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+    const SphereTree::Node& node = tree.nodes[n];
+    for (int i = node.begin; i < node.end; ++i) {
+      ASSERT_LE((shell.points[i] - node.center).norm(), node.radius);
+      if (node.first_child < 0) ++in_leaves[i];
+    }
+    if (node.first_child < 0) {
+      EXPECT_LE(node.end - node.begin, 8);
+      EXPECT_EQ(node.child_count, 0);
+      continue;
+    }
+    EXPECT_GT(node.first_child, static_cast<int>(n));
+    int next = node.begin;
+    for (int child = node.first_child; child < node.first_child + node.child_count; ++child) {
+      EXPECT_EQ(tree.nodes[child].begin, next);
+      next = tree.nodes[child].end;
+    }
+    EXPECT_EQ(next, node.end);
+  }
+  EXPECT_EQ(std::count(in_leaves.begin(), in_leaves.end(), 1), static_cast<int>(shell.size()));
+}
+
+TEST(SphereTree, HoldsAllPointsOnceAndNests) {
+  PointShell shell = shellOf(randomPoints(5000));
+  const PointShell before = shell;
+  const SphereTree tree = buildSphereTree(shell);
+  expectSound(tree, shell);
+  // The areas went along with their points.
+  for (std::size_t i = 0; i < shell.size(); ++i) {
+    EXPECT_EQ(shell.points[i], before.points[static_cast<std::size_t>(shell.areas[i])]);
+  }
+}
+
+TEST(SphereTree, NoPointGivesNoNode) {
+  PointShell shell;
+  EXPECT_TRUE(buildSphereTree(shell).nodes.empty());
+}
+
+TEST(SphereTree, OnePointIsALeafOfNoRadius) {
+  PointShell shell = shellOf({{1, 2, 3}});
+  const SphereTree tree = buildSphereTree(shell);
+  ASSERT_EQ(tree.nodes.size(), 1u);
+  EXPECT_EQ(tree.nodes[0].radius, 0);
+  EXPECT_EQ(tree.nodes[0].center, Vector3d(1, 2, 3));
+  expectSound(tree, shell);
+}
+
+TEST(SphereTree, DuplicatesAndLines) {
+  PointShell same = shellOf(std::vector<Vector3d>(1000, Vector3d(0.1, 0.2, 0.3)));
+  expectSound(buildSphereTree(same), same);
+  std::vector<Vector3d> line;
+  for (int i = 0; i < 1000; ++i) line.emplace_back(0.001 * i, -0.002 * i, 1e5);
+  PointShell collinear = shellOf(line);
+  const SphereTree tree = buildSphereTree(collinear);
+  expectSound(tree, collinear);
+  EXPECT_NEAR(tree.nodes[0].radius, (line.front() - line.back()).norm() / 2, 1e-6);
+}
+
+TEST(SphereTree, SpheresAreTight) {
+  ShellOptions options;
+  options.spacing = 0.05;
+  PointShell ball = sampleSurface(Primitive(Sphere{1}), options);
+  const SphereTree tree = buildSphereTree(ball);
+  expectSound(tree, ball);
+  EXPECT_LT(tree.nodes[0].radius, 1.001);
+  PointShell box = sampleSurface(Primitive(Box{{1, 0.5, 0.25}}), options);
+  EXPECT_LT(buildSphereTree(box).nodes[0].radius, 1.001 * Vector3d(1, 0.5, 0.25).norm());
+}
+
+TEST(SphereTree, IsTheSameEveryTime) {
+  PointShell a = shellOf(randomPoints(500)), b = a;
+  const SphereTree first = buildSphereTree(a), second = buildSphereTree(b);
+  EXPECT_EQ(a.points, b.points);
+  ASSERT_EQ(first.nodes.size(), second.nodes.size());
+  for (std::size_t i = 0; i < first.nodes.size(); ++i) EXPECT_EQ(first.nodes[i].radius, second.nodes[i].radius);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
