@@ -1,10 +1,13 @@
 #include "pixel_font.h"
 
 #include <array>
+#include <cstring>
 #include <map>
 
 namespace sdf_ccd::tools {
 namespace {
+
+constexpr int kBlankWidth = 2;
 
 using Glyph = std::array<const char*, kGlyphHeight>;
 
@@ -17,7 +20,7 @@ const std::map<char, Glyph>& glyphs() {
       {'8', {"###", "# #", "###", "# #", "###"}}, {'9', {"###", "# #", "###", "  #", "###"}},
       {'-', {"   ", "   ", "###", "   ", "   "}}, {'+', {"   ", " # ", "###", " # ", "   "}},
       {'.', {"   ", "   ", "   ", "   ", " # "}}, {'=', {"   ", "###", "   ", "###", "   "}},
-      {'e', {"   ", "###", "###", "#  ", "###"}}, {'m', {"   ", "   ", "###", "###", "# #"}},
+      {'e', {"   ", "###", "###", "#  ", "###"}}, {'m', {"     ", "     ", "#### ", "# # #", "# # #"}},
       {'x', {"   ", "# #", " # ", "# #", "   "}}, {'y', {"# #", "# #", "###", "  #", "## "}},
       {'z', {"   ", "###", " ##", "## ", "###"}}};
   return all;
@@ -28,12 +31,13 @@ const std::map<char, Glyph>& glyphs() {
 void drawText(Image& image, int column, int row, const std::string& text, int size) {
   for (const char c : text) {
     const auto glyph = glyphs().find(c);
+    const int width = glyph == glyphs().end() ? kBlankWidth : static_cast<int>(std::strlen(glyph->second[0]));
     for (int y = 0; glyph != glyphs().end() && y < kGlyphHeight * size; ++y) {
-      for (int x = 0; x < 3 * size; ++x) {
+      for (int x = 0; x < width * size; ++x) {
         if (glyph->second[y / size][x / size] == '#') image.set(column + x, row + y, Color{0, 0, 0});
       }
     }
-    column += kGlyphWidth * size;
+    column += (width + 1) * size;
   }
 }
 

@@ -6,8 +6,7 @@
 
 namespace sdf_ccd::tools {
 
-constexpr int kGlyphWidth = 4;  ///< [pixels of the font], gap included
-constexpr int kGlyphHeight = 5;
+constexpr int kGlyphHeight = 5;  ///< [pixels of the font]
 
 /// Writes digits, signs, 'e', 'm', 'x', 'y', 'z', '=' and '.' with the upper left corner at (column, row), each pixel
 /// of the font `size` pixels wide. Other characters are blanks.

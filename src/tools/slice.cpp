@@ -125,6 +125,14 @@ void drawLegend(Image& image, const DistanceField& field, const Raster& raster) 
   }
 }
 
+/// The axes' names: of the columns below the right end, of the rows beside the upper end.
+void drawAxisNames(Image& image, const Raster& raster) {
+  const int letter = 3 * kFont;
+  drawText(image, kMargin + raster.width - letter, kMargin + raster.height + 4, std::string(1, "xyz"[raster.right]),
+           kFont);
+  drawText(image, (kMargin - letter) / 2, kMargin, std::string(1, "xyz"[raster.up]), kFont);
+}
+
 void drawLengthScale(Image& image, const Raster& raster, const Slice& slice) {
   // 1, 2 or 5 times a power of ten, at most a third of the picture.
   const double longest = raster.pixel * raster.width / 3.0;
@@ -162,6 +170,7 @@ Image drawSlice(const DistanceField& field, const Slice& slice) {
   Image image(raster.width + 2 * kMargin + kLegendWidth, raster.height + kMargin + kFooter);
   drawField(image, field, raster);
   drawLegend(image, field, raster);
+  drawAxisNames(image, raster);
   drawLengthScale(image, raster, slice);
   return image;
 }

@@ -17,7 +17,8 @@ struct Slice {
 Slice parseSlice(const std::string& text);
 
 /// Draws a slice through a field's box: blue inside, white at the surface, red outside; the surface black, the edge of
-/// the band grey and distances beyond it pale; beside it the scale of distances, below it one of lengths.
+/// the band grey and distances beyond it pale; beside it the scale of distances, below it one of lengths,
+/// and the names of the axes that point right and up.
 /// @throws std::invalid_argument if the plane does not meet the box.
 Image drawSlice(const DistanceField& field, const Slice& slice);
 

@@ -1,0 +1,281 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/shell/shell_file.h"
+
+namespace sdf_ccd {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDone = 0;
+constexpr int kPartlyDone = 1;
+constexpr int kBadInput = 2;
+
+struct ToolRun {
+  int exit_code;
+  std::string out;
+  std::string error;
+};
+
+std::string readText(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string toOff(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "OFF\n" << mesh.vertices.size() << " " << mesh.triangles.size() << " 0\n";
+  for (const Vector3d& v : mesh.vertices) text << v.x() << " " << v.y() << " " << v.z() << "\n";
+  for (const Vector3i& t : mesh.triangles) text << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+  return text.str();
+}
+
+class Tool : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("sdf_ccd_tool_" + std::to_string(::getpid()));
+    fs::create_directories(directory_ / "work");
+    write("ball.off", toOff(test::icosphere(0.5, 3)));
+    write("in.csv", "ox,oy,oz,ex,ey,ez\n-1,0,0,1,0,0\n-1,2,0,1,2,0\n0,0,0,0,0,1\n");
+  }
+  void TearDown() override {
+    fs::permissions(directory_ / "work", fs::perms::owner_all);
+    fs::remove_all(directory_);
+  }
+
+  /// Runs the tool in the work directory.
+  ToolRun run(const std::string& arguments) {
+    const std::string command = "cd '" + (directory_ / "work").string() + "' && '" SDF_CCD_TOOL "' " + arguments +
+                                " > ../out.txt 2> ../error.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(directory_ / "out.txt"),
+            readText(directory_ / "error.txt")};
+  }
+
+  /// Bad input: exit code 2, one line that holds `reason`, and no file that was not there before.
+  void expectRefused(const std::string& arguments, const std::string& reason) {
+    const std::size_t files = countFiles();
+    const ToolRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, kBadInput) << arguments;
+    EXPECT_NE(result.error.find(reason), std::string::npos) << arguments << ": " << result.error;
+    EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
+    EXPECT_EQ(countFiles(), files) << arguments;
+  }
+
+  std::size_t countFiles() const {
+    std::size_t count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(directory_ / "work")) count += entry.exists();
+    return count;
+  }
+
+  fs::path path(const std::string& name) const { return directory_ / "work" / name; }
+  void write(const std::string& name, const std::string& bytes) {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+  }
+
+  fs::path directory_;
+};
+
+TEST_F(Tool, HelpIsEverywhere) {
+  for (const char* arguments : {"--help", "build --help", "info --help", "query --help"}) {
+    const ToolRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, kDone);
+    EXPECT_NE(result.out.find("Usage"), std::string::npos);
+    EXPECT_EQ(result.error, "");
+  }
+}
+
+TEST_F(Tool, BuildWritesAFieldAndAShellOfAMesh) {
+  const ToolRun result = run("build --mesh ball.off --out made --resolution 32 --spacing 0.05 --threads 1");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_EQ(result.error, "");
+  EXPECT_NE(result.out.find("1280 triangles"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 fields"), std::string::npos) << result.out;
+  EXPECT_EQ(countFiles(), 5u);
+  const DistanceField field = loadField(path("made/ball.field").string());
+  EXPECT_NEAR(field.sample(Vector3d(0.5, 0, 0)).value, 0.0, field.errorBound() + 0.01);
+  EXPECT_LE(loadShell(path("made/ball.shell").string()).covering_radius, 0.05);
+}
+
+TEST_F(Tool, InfoTellsWhatFilesHold) {
+  ASSERT_EQ(run("build --mesh ball.off --out made --resolution 16").exit_code, kDone);
+  EXPECT_NE(run("info made/ball.field").out.find("cells of 0.0625 m"), std::string::npos);
+  EXPECT_NE(run("info made/ball.shell").out.find("points"), std::string::npos);
+  EXPECT_NE(run("info ball.off").out.find("sign trusted         yes"), std::string::npos);
+}
+
+TEST_F(Tool, SliceIsAPicture) {
+  const ToolRun result = run("info ball.off --slice z=-0.1 --out slice.png --resolution 16");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_EQ(readText(path("slice.png")).substr(1, 3), "PNG");
+  expectRefused("info ball.off --slice z=5 --out no.png", "misses the field's box");
+  expectRefused("info ball.off --slice w=0 --out no.png", "w=0");
+  expectRefused("info ball.off --slice z=nan --out no.png", "z=nan");
+  expectRefused("info ball.off --slice z=0", "--slice and --out go together");
+  expectRefused("info ball.off --slice z=0 --out no/such/place.png", "cannot write");
+}
+
+TEST_F(Tool, QueryEqualsTheLibrary) {
+  ASSERT_EQ(run("build --mesh ball.off --out made --resolution 24").exit_code, kDone);
+  const ToolRun result = run("query --field made/ball.field --segments in.csv --out out.csv");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  std::istringstream lines(readText(path("out.csv")));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "segment,t_enter,t_exit");
+
+  const DistanceField field = loadField(path("made/ball.field").string());
+  const std::vector<Segment> segments = {{{-1, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 1}}};
+  for (const int i : {0, 2}) {  // the second one misses the ball
+    const Intervals intervals = segmentIntervals(field, segments[i / 2]);
+    ASSERT_EQ(intervals.size(), 1u);
+    int segment = -1;
+    double enter = -1.0, exit = -1.0;
+    std::getline(lines, line);
+    ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf,%lf", &segment, &enter, &exit), 3) << line;
+    EXPECT_EQ(segment, i);
+    EXPECT_EQ(enter, intervals[0].enter);
+    EXPECT_EQ(exit, intervals[0].exit);
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST_F(Tool, QueryTakesAMeshAnIsovalueAndOnlyTheFirst) {
+  write("two.off", toOff(merged(test::translated(test::icosphere(0.2, 2), {-0.5, 0, 0}),
+                                test::translated(test::icosphere(0.2, 2), {0.5, 0, 0}))));
+  write("one.csv", "-1,0,0,1,0,0\r\n\r\n");
+  const auto rows = [&](const std::string& more) {
+    const ToolRun result = run("query --mesh two.off --segments one.csv --out out.csv --resolution 40 " + more);
+    EXPECT_EQ(result.exit_code, kDone) << result.error;
+    std::vector<std::string> lines;
+    std::istringstream stream(readText(path("out.csv")));
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  };
+  EXPECT_EQ(rows("").size(), 3u);
+  EXPECT_EQ(rows("--first").size(), 2u);
+  double enter = 0.0;
+  ASSERT_EQ(std::sscanf(rows("--sigma -0.05").at(1).c_str(), "0,%lf", &enter), 1);
+  EXPECT_NEAR(enter, (1.0 - 0.5 - 0.15) / 2.0, 0.01);
+}
+
+TEST_F(Tool, QueryRefusesBadSegmentsByLine) {
+  const std::string query = "query --mesh ball.off --out out.csv --segments ";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"1,2,3,4,5,nan\n", ":1: \"nan\" is not finite"},
+      {"a,b,c,d,e,f\n1,2,3,4,5,inf\n", ":2: \"inf\" is not finite"},
+      {"1,2,3,4,5\n", ":1: six numbers"},
+      {"1,2,3,4,5,6,\n", ":1: six numbers"},
+      {"1,2,3,4,5,6\nox,oy,oz,ex,ey,ez\n", ":2: \"ox\" is not a number"},
+      {"1,2,x,4,5,6\n", ":1: \"x\" is not a number"},
+      {"1,2,3,4,5,1e999\n", ":1: \"1e999\" is not finite"},
+      {"ox,oy,oz,ex,ey,ez\n", "holds no segment"},
+      {"", "holds no segment"},
+      {std::string("\0\xff\0", 3), "holds no segment"}};
+  for (const auto& [text, reason] : cases) {
+    write("bad.csv", text);
+    expectRefused(query + "bad.csv", reason);
+  }
+  expectRefused(query + "missing.csv", "missing.csv: cannot be opened");
+  expectRefused(query + ".", "is a directory");
+}
+
+TEST_F(Tool, QueryRefusesDamagedFields) {
+  ASSERT_EQ(run("build --mesh ball.off --out made --resolution 12").exit_code, kDone);
+  const std::string bytes = readText(path("made/ball.field"));
+  write("short.field", bytes.substr(0, bytes.size() / 2));
+  write("empty.field", "");
+  std::string flipped = bytes;
+  flipped[flipped.size() / 2] ^= 1;
+  write("flipped.field", flipped);
+  for (const char* field :
+       {"short.field", "empty.field", "flipped.field", "missing.field", "ball.off", "made", "made/ball.shell"}) {
+    expectRefused("query --field " + std::string(field) + " --segments in.csv --out out.csv", field);
+  }
+  expectRefused("info short.field", "short.field");
+  expectRefused("query --field made/ball.field --segments in.csv --out out.csv --sigma 9", "band");
+  expectRefused("query --field made/ball.field --segments in.csv --out out.csv --sigma nan", "sigma");
+}
+
+TEST_F(Tool, OutputsThatCannotBeWrittenAreRefusedAndLeaveNothing) {
+  expectRefused("query --mesh ball.off --segments in.csv --out no/such/out.csv", "no/such/out.csv: cannot write");
+  expectRefused("query --mesh ball.off --segments in.csv --out .", "directory");
+  expectRefused("query --mesh ball.off --segments in.csv --out /dev/null", "not a regular file");
+  expectRefused("build --mesh ball.off --out in.csv", "in.csv: cannot write");
+  expectRefused("build --mesh ball.off --out in.csv/deeper", "cannot write");
+  EXPECT_NE(readText(path("in.csv")).find("-1,0,0,1,0,0"), std::string::npos);
+  if (::geteuid() == 0) return;  // root may write everywhere
+  fs::permissions(path(""), fs::perms::owner_read | fs::perms::owner_exec);
+  expectRefused("query --mesh ball.off --segments in.csv --out out.csv", "cannot write");
+}
+
+TEST_F(Tool, FailedQueryKeepsTheOldOutput) {
+  write("out.csv", "old");
+  write("bad.csv", "1,2,3");
+  EXPECT_EQ(run("query --mesh ball.off --segments bad.csv --out out.csv").exit_code, kBadInput);
+  EXPECT_EQ(readText(path("out.csv")), "old");
+}
+
+TEST_F(Tool, BadMeshesAndOptionsAreRefused) {
+  write("garbage.stl", "solid but hollow");
+  write("nan.off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  write("empty.obj", "");
+  for (const char* mesh : {"garbage.stl", "nan.off", "empty.obj", "missing.stl", "."}) {
+    expectRefused("build --mesh " + std::string(mesh) + " --out made", mesh);
+    expectRefused("info " + std::string(mesh), mesh);
+  }
+  expectRefused("build --octomap garbage.stl --out made", "garbage.stl");
+  expectRefused("build --mesh ball.off --out made --cell -1", "-1");
+  expectRefused("build --mesh ball.off --out made --cell nan", "nan");
+  expectRefused("build --mesh ball.off --out made --resolution 0", "0");
+  expectRefused("build --mesh ball.off --out made --cell 1e-9", "");  // more memory than is allowed
+  expectRefused("build --mesh ball.off --out made --cell 0.1 --resolution 9", "excludes");
+  expectRefused("build --mesh ball.off --out made --spacing 0", "--spacing");
+  expectRefused("build --mesh ball.off --out made --threads -1", "--threads");
+  expectRefused("build --mesh ball.off --urdf a.urdf --out made", "--urdf");
+  expectRefused("build --mesh ball.off --srdf a.srdf --out made", "--srdf needs --urdf");
+  expectRefused("build --urdf ball.off --out made", "URDF");
+  expectRefused("build --urdf . --out made", "is a directory");
+  expectRefused("build --out made", "required");
+  expectRefused("", "subcommand");
+  expectRefused("fly", "");
+}
+
+TEST_F(Tool, RobotIsBuiltLinkByLink) {
+  const std::string mesh = "<collision><geometry><mesh filename='ball.off'/></geometry></collision>";
+  write("arm.urdf",
+        "<robot name='arm'><link name='a'>" + mesh + mesh +
+            "</link><link name='b'><collision><geometry>"
+            "<box size='1 1 1'/></geometry></collision></link><link name='c'><collision><geometry><mesh "
+            "filename='package://nowhere/x.stl'/></geometry></collision></link><joint name='ab' "
+            "type='continuous'><parent "
+            "link='a'/><child link='b'/></joint><joint name='bc' type='continuous'><parent link='b'/><child "
+            "link='c'/></joint></robot>");
+  const ToolRun result = run("build --urdf arm.urdf --out made --resolution 12");
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("link c: package://nowhere/x.stl: no such package"), std::string::npos) << result.error;
+  EXPECT_EQ(result.error.find('\n'), result.error.size() - 1);
+  EXPECT_NE(result.out.find("3 links"), std::string::npos) << result.out;
+  for (const char* name : {"a.field", "a.shell", "a_2.field", "a_2.shell"})
+    EXPECT_TRUE(fs::exists(path("made") / name));
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("made")), fs::directory_iterator()), 4);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
