@@ -129,14 +129,14 @@ TEST(Penalty, HundredMetresPerSecondThroughOneMillimetre) {
 }
 
 TEST(Penalty, DepthIsFoundBetweenTheNodes) {
-  // Past a sphere at distance b from its centre: deepest half-way, R − b.
+  // Past a sphere at distance b from its centre: deepest nearest to it, R − b. It starts inside, off the middle.
   const double R = 0.1, b = 0.08;
   const ContactCase passing{DistanceField(Sphere{R}), onePoint({0, b, 0}, -Vector3d::UnitY()),
-                            oneChord(1.0, translation({-0.3, 0, 0}), translation({0.37, 0, 0}))};
+                            oneChord(1.0, translation({-0.0317, 0, 0}), translation({0.37, 0, 0}))};
   const HitDepth deepest = passing.run(perArea(), false).depths.at(0);
   EXPECT_NEAR(deepest.depth, R - b, 1e-9);
   EXPECT_LE(deepest.depth, R - b + 1e-15);
-  EXPECT_NEAR(deepest.time, 0.3 / 0.67, 1e-4);
+  EXPECT_NEAR(deepest.time, 0.0317 / 0.4017, 1e-4);
   EXPECT_LT((deepest.normal_C - Vector3d::UnitY()).norm(), 1e-3);
   EXPECT_LT((deepest.p_C - Vector3d(0, b, 0)).norm(), 1e-4);
 }

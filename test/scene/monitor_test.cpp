@@ -244,9 +244,10 @@ TEST(Monitor, WithoutSubscribersNoWrenchAndNoPoints) {
 }
 
 TEST(Monitor, BoundBeyondTheBandNeverMakesClear) {
-  // A field with a band of two cells only, and a motion that is known to 5 cm.
-  SceneOptions options = fine(0.005);
-  auto scene = build({body("a", meshShape(boxMesh({0.1, 0.1, 0.1}))), body("b", Primitive(Sphere{0.05}))}, options);
+  // Only a sampled field, with a narrow band, and a motion that is known to 20 cm.
+  BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
+  map.geometry[0].watertight_voxels = true;
+  const auto scene = build({map, body("ball", Primitive(Sphere{0.05}))});
   Monitor monitor(scene, soft());
   const auto verdictAt = [&](double distance) {
     CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation({0.15 + distance, 0, 0}))});
@@ -254,10 +255,86 @@ TEST(Monitor, BoundBeyondTheBandNeverMakesClear) {
     monitor.reset();
     return monitor.run(motion, {}).verdict;
   };
-  ASSERT_LT(scene->bodies[0].parts[0].field.band(), 0.2);
+  ASSERT_LT(scene->bodies[0].parts[0].field.band(), 0.05);
   EXPECT_EQ(verdictAt(0.1), Verdict::kUncertain);
   EXPECT_EQ(verdictAt(0.19), Verdict::kUncertain);
   EXPECT_EQ(verdictAt(0.3), Verdict::kClear);
+}
+
+TEST(Monitor, MotionErrorsOfBothBodiesCount) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  Monitor monitor(scene, soft());
+  const auto run = [&](double height, double angle) -> const PairResult& {
+    const Isometry3d X = translation({0, 0, height});
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), {X, X * pose({0, 0, 0}, angle, {1, 0, 0})}});
+    motion.motion_error = {0.01, 0.02};
+    monitor.reset();
+    return monitor.run(motion, {}).pairs[0];
+  };
+  EXPECT_EQ(run(0.075, 0.0).verdict, Verdict::kUncertain);  // 25 mm deep, known to 30 mm
+  EXPECT_EQ(run(0.065, 0.0).verdict, Verdict::kContact);
+  EXPECT_EQ(run(0.135, 0.0).verdict, Verdict::kUncertain);
+  EXPECT_EQ(run(0.145, 0.0).verdict, Verdict::kClear);
+  const double chord = run(0.1, 1.0).error.chord;
+  EXPECT_GT(chord, 0.03 + 1e-6);
+  EXPECT_LE(chord, 0.03 + 1e-4);
+}
+
+TEST(Monitor, PartsLieWhereTheirBodyPutsThem) {
+  // The ground is a part that stands upright in its body: it pushes along the body's x.
+  BodyDescription wall = body("wall", ground(), true);
+  wall.geometry[0].X_BG = pose({0.3, 0.1, 0.2}, kPi / 2.0, {0, 1, 0});
+  const Pressed press;
+  Monitor monitor(build({wall, body("ball", Primitive(Sphere{press.R}))}, fine(0.003)), soft());
+  const Isometry3d X_W_wall = pose({1, 2, 3}, kPi / 2.0, {0, 0, 1});
+  const Vector3d p_wall(0.3 + press.R - press.delta, 0.4, -0.2);
+  const PairResult& pair =
+      monitor.run(cycle(0.1, {still(X_W_wall), still(translation(X_W_wall * p_wall))}), {}).pairs[0];
+  EXPECT_NEAR(pair.deepest.depth, press.delta, 2e-4);
+  EXPECT_LT((pair.on_b_W.force - Vector3d(0, press.force(), 0)).norm(), 0.02 * press.force());
+}
+
+TEST(Monitor, TurntableIsTheSameInOneStepAndInMany) {
+  // A ball pressed off-centre onto a turning table, with damping: force, drag and moment are constant in the world.
+  const Pressed press;
+  const auto scene = build({body("table", ground()), body("ball", Primitive(Sphere{press.R}))}, fine(0.005));
+  MonitorOptions options = soft();
+  options.contact.damping = 1e6;
+  Monitor coarse(scene, options), dense(scene, options);
+  const auto turning = [&](int steps) {
+    std::vector<Isometry3d> table;
+    for (int i = 0; i <= steps; ++i) table.push_back(pose({5, 5, 5}, 1.0 * i / steps, {0, 0, 1}));
+    return cycle(0.1, {table, still(translation({5.3, 5, 5 + press.R - press.delta}), steps + 1)});
+  };
+  const PairResult &one = coarse.run(turning(1), {true, 1000}).pairs[0], &many = dense.run(turning(50), {}).pairs[0];
+  EXPECT_LT((one.on_a_W.force - many.on_a_W.force).norm(), 2e-3 * many.on_a_W.force.norm());
+  EXPECT_LT((one.on_a_W.torque - many.on_a_W.torque).norm(), 2e-3 * many.on_a_W.torque.norm());
+  EXPECT_LT((one.on_b_W.torque - many.on_b_W.torque).norm(), 2e-3 * many.on_a_W.torque.norm());
+  // The table drags the ball along +y and is braked by it.
+  EXPECT_GT(one.on_b_W.force.y(), 0.1 * press.force());
+  EXPECT_LT(one.on_a_W.torque.z(), 0.0);
+  EXPECT_NEAR(one.on_b_W.force.z(), press.force(), 0.03 * press.force());
+  // Each point is in contact once, all the time, though the path has many chords.
+  EXPECT_GT(one.points.size(), 10u);
+  EXPECT_LT(one.points.size(), 200u);
+  for (const ContactPoint& point : one.points) {
+    EXPECT_NEAR(point.enter, 0.0, 1e-12);
+    EXPECT_NEAR(point.exit, 0.1, 1e-12);
+  }
+}
+
+TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
+  Scene scene = *build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  scene.bodies[1].shell.covering_radius = 0.2;
+  Monitor monitor(std::make_shared<const Scene>(scene), soft());
+  for (const double height : {2.0, 0.35}) {  // from the ball alone, and from the points
+    monitor.reset();
+    const PairResult& pair =
+        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, height}))}), {}).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kClear);
+    EXPECT_LE(pair.clearance, height - 0.1 - 0.2 + 1e-3);
+    EXPECT_GT(pair.clearance, height - 0.1 - 0.2 - 0.15);
+  }
 }
 
 TEST(Monitor, RefusesMotionsThatDoNotFit) {
