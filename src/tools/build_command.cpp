@@ -77,7 +77,7 @@ bool buildLink(const BodyDescription& body, FieldBuilder& builder) {
         continue;
       }
       const std::string name = asFileName(body.name);
-      builder.addMesh(++meshes == 1 ? name : name + "_" + std::to_string(meshes), **mesh);
+      builder.addMesh(++meshes == 1 ? name : name + "_" + std::to_string(meshes), *mesh);
     }
     return true;
   } catch (const std::exception& error) {
@@ -121,7 +121,7 @@ void run(Arguments& arguments) {
                        arguments.has_spacing ? std::make_optional(arguments.spacing) : std::nullopt);
   std::cout << stemOf(file) << ": " << file << "\n";
   if (is_mesh) {
-    builder.addMesh(stemOf(file), mesh);
+    builder.addMesh(stemOf(file), std::make_shared<TriangleMesh>(mesh));
   } else {
     builder.addVoxels(stemOf(file), mesh, voxel_size);
   }

@@ -18,49 +18,65 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+std::string time(double seconds) {
+  return rounded(seconds, 2) + " s";
+}
+
 }  // namespace
 
-void FieldBuilder::addMesh(const std::string& name, const TriangleMesh& mesh) {
+DistanceField FieldBuilder::makeField(const std::string& name, const TriangleMesh& mesh,
+                                      std::optional<double> default_cell) const {
+  ProgressBar bar("field of " + name);
+  return buildField(mesh, resolution_.fieldOptions(default_cell), [&](double share) { bar(share); });
+}
+
+FieldBuilder::Made FieldBuilder::make(const std::string& name, const TriangleMesh& mesh) const {
   const OrientedMesh oriented = orientOutward(mesh);
-  std::cout << "  mesh   " << summary(oriented.quality) << "\n";
-  const double cell = writeField(name, oriented.mesh, std::nullopt);
-  writeShell(name, oriented.mesh, spacing_.value_or(2.0 * cell));
+  const auto start = std::chrono::steady_clock::now();
+  DistanceField field = makeField(name, oriented.mesh, std::nullopt);
+  const double field_seconds = secondsSince(start);
+  ShellOptions options;
+  options.spacing = spacing_.value_or(2.0 * field.grid()->shape().cell);
+  PointShell shell = sampleSurface(oriented.mesh, options);
+  return {field, std::move(shell), summary(oriented.quality), field_seconds, secondsSince(start) - field_seconds};
+}
+
+void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
+  auto found = made_.find(mesh);
+  const bool is_new = found == made_.end();
+  if (is_new) {
+    found = made_.emplace(mesh, make(name, *mesh)).first;
+    seconds_ += found->second.field_seconds + found->second.shell_seconds;
+  }
+  const Made& made = found->second;
+  std::cout << "  mesh   " << made.quality << "\n";
+  writeField(name, made.field, is_new ? time(made.field_seconds) : "made above");
+  writeShell(name, made.shell, is_new ? time(made.shell_seconds) : "made above");
 }
 
 void FieldBuilder::addVoxels(const std::string& name, const TriangleMesh& mesh, double voxel_size) {
   std::cout << "  voxels " << voxel_size << " m, " << mesh.triangles.size() << " triangles, volume "
             << signedVolume(mesh) << " m³\n";
-  writeField(name, mesh, voxel_size);
+  const auto start = std::chrono::steady_clock::now();
+  const DistanceField field = makeField(name, mesh, voxel_size);
+  seconds_ += secondsSince(start);
+  writeField(name, field, time(secondsSince(start)));
 }
 
-double FieldBuilder::writeField(const std::string& name, const TriangleMesh& mesh, std::optional<double> default_cell) {
-  const auto start = std::chrono::steady_clock::now();
-  const DistanceField field = [&] {
-    ProgressBar bar("field of " + name);
-    return buildField(mesh, resolution_.fieldOptions(default_cell), [&](double share) { bar(share); });
-  }();
+void FieldBuilder::writeField(const std::string& name, const DistanceField& field, const std::string& time) {
   const std::string file = name + ".field";
   saveField(field, out_.file(file));
-  const double seconds = secondsSince(start);
-  std::cout << "  field  " << file << ": " << describe(field) << ", " << rounded(seconds, 2) << " s" << std::endl;
+  std::cout << "  field  " << file << ": " << describe(field) << ", " << time << std::endl;
   ++fields_;
   field_bytes_ += field.bytes();
-  seconds_ += seconds;
-  return field.grid()->shape().cell;
 }
 
-void FieldBuilder::writeShell(const std::string& name, const TriangleMesh& mesh, double spacing) {
-  const auto start = std::chrono::steady_clock::now();
-  ShellOptions options;
-  options.spacing = spacing;
-  const PointShell shell = sampleSurface(mesh, options);
+void FieldBuilder::writeShell(const std::string& name, const PointShell& shell, const std::string& time) {
   const std::string file = name + ".shell";
   saveShell(shell, out_.file(file));
-  const double seconds = secondsSince(start);
-  std::cout << "  shell  " << file << ": " << describe(shell) << ", " << rounded(seconds, 2) << " s" << std::endl;
+  std::cout << "  shell  " << file << ": " << describe(shell) << ", " << time << std::endl;
   ++shells_;
   shell_points_ += shell.size();
-  seconds_ += seconds;
 }
 
 void FieldBuilder::printTotals() const {

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "output_file.h"
 #include "resolution_options.h"
+#include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd::tools {
 
@@ -17,8 +21,8 @@ class FieldBuilder {
   FieldBuilder(OutputDirectory& out, const ResolutionOptions& resolution, std::optional<double> spacing)
       : out_(out), resolution_(resolution), spacing_(spacing) {}
 
-  /// A mesh of any quality: its parts are turned outward first.
-  void addMesh(const std::string& name, const TriangleMesh& mesh);
+  /// A mesh of any quality: its parts are turned outward first. What was made of it before is written again.
+  void addMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh);
 
   /// The boundary of whole voxels, which needs no turning and has no shell.
   void addVoxels(const std::string& name, const TriangleMesh& mesh, double voxel_size);
@@ -26,12 +30,23 @@ class FieldBuilder {
   void printTotals() const;
 
  private:
-  double writeField(const std::string& name, const TriangleMesh& mesh, std::optional<double> default_cell);
-  void writeShell(const std::string& name, const TriangleMesh& mesh, double spacing);
+  struct Made {
+    DistanceField field;
+    PointShell shell;
+    std::string quality;
+    double field_seconds;
+    double shell_seconds;
+  };
+
+  Made make(const std::string& name, const TriangleMesh& mesh) const;
+  DistanceField makeField(const std::string& name, const TriangleMesh& mesh, std::optional<double> default_cell) const;
+  void writeField(const std::string& name, const DistanceField& field, const std::string& time);
+  void writeShell(const std::string& name, const PointShell& shell, const std::string& time);
 
   OutputDirectory& out_;
   const ResolutionOptions& resolution_;
   std::optional<double> spacing_;
+  std::map<std::shared_ptr<const TriangleMesh>, Made> made_;
   std::size_t fields_ = 0;
   std::size_t field_bytes_ = 0;
   std::size_t shells_ = 0;
