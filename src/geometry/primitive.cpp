@@ -8,12 +8,24 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 void requirePositive(const char* what, double value) {
   if (std::isfinite(value) && value > 0) return;
   std::ostringstream message;
   message << what << " must be finite and positive, not " << value;
   throw std::invalid_argument(message.str());
 }
+
+struct Area {
+  double operator()(const Sphere& s) const { return 4 * kPi * s.radius * s.radius; }
+  double operator()(const Box& b) const {
+    const Vector3d& h = b.half_size;
+    return 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
+  }
+  double operator()(const Cylinder& c) const { return 2 * kPi * c.radius * (c.radius + 2 * c.half_length); }
+  double operator()(const HalfSpace&) const { return std::numeric_limits<double>::infinity(); }
+};
 
 struct Validate {
   void operator()(const Sphere& sphere) const { requirePositive("a sphere's radius", sphere.radius); }
@@ -116,6 +128,10 @@ Vector3d distanceGradient(const Primitive& primitive, const Vector3d& p) {
 
 AlignedBox3d boundingBox(const Primitive& primitive) {
   return std::visit(Bounds{}, primitive);
+}
+
+double surfaceArea(const Primitive& primitive) {
+  return std::visit(Area{}, primitive);
 }
 
 }  // namespace sdf_ccd

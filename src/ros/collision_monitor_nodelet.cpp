@@ -90,7 +90,7 @@ void CollisionMonitor::setUp() {
 
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
-  const ScenePlan plan = planScene(described_.scene);
+  const ScenePlan plan = planScene(described_.scene, {parameters_.scene.shell.spacing});
   scene_ = std::make_shared<const Scene>(
       buildScene(described_.scene, plan, parameters_.scene, [this](const std::string& body, double share) {
         if (stop_) throw Stopped();

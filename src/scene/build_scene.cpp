@@ -60,12 +60,12 @@ class BodyBuilder {
       parts.push_back({geometry.X_BG, *meshes_[i]->field});
       const DistanceField& field = parts.back().field;
       exact = false;
-      built |= made.now && !made.from_cache;
-      cached |= made.from_cache;
+      built |= made.now && !made.outcome.from_cache;
+      cached |= made.outcome.from_cache;
       if (made.now) report_.field_bytes += field.bytes();
       report_.cells += field.grid()->storedCells();
       report_.field_error = std::max(report_.field_error, field.errorBound());
-      if (!made.warning.empty()) report_.warnings.push_back(made.warning);
+      note(made.outcome);
     }
     char text[32];
     std::snprintf(text, sizeof(text), "built %.1f s", std::chrono::duration<double>(Clock::now() - start).count());
@@ -84,7 +84,7 @@ class BodyBuilder {
         primitives.emplace_back(primitive);
         shells.push_back({geometry.X_BG, sampleSurface(primitive, options_.shell), &primitives.back()});
       } else {
-        pool_.makeShell(*meshes_[i]);
+        note(pool_.makeShell(*meshes_[i]).outcome);
         const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
         shells.push_back({geometry.X_BG, *meshes_[i]->shell, known ? &*meshes_[i]->field : nullptr});
       }
@@ -95,6 +95,10 @@ class BodyBuilder {
  private:
   static const Primitive& primitiveOf(const GeometryDescription& geometry) {
     return std::get<Primitive>(geometry.shape);
+  }
+
+  void note(const CacheOutcome& outcome) {
+    if (!outcome.warning.empty()) report_.warnings.push_back(outcome.warning);
   }
 
   const BodyDescription& description_;

@@ -5,6 +5,9 @@
 #include <functional>
 #include <string_view>
 
+#include "sdf_ccd/field/field_cache.h"
+#include "sdf_ccd/shell/shell_cache.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -58,13 +61,16 @@ FieldOptions MeshPool::fieldOptions(const TriangleMesh& mesh) const {
 
 MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   if (mesh.field) return {};
-  CachedField made = cache_.fieldFor(mesh.mesh, fieldOptions(mesh.mesh), progress);
+  CachedField made = cachedField(cache_, mesh.mesh, fieldOptions(mesh.mesh), progress);
   mesh.field = std::move(made.field);
-  return {true, made.from_cache, made.warning};
+  return {true, made.outcome};
 }
 
-void MeshPool::makeShell(PooledMesh& mesh) {
-  if (!mesh.shell) mesh.shell = sampleSurface(mesh.mesh, options_.shell);
+MeshPool::Made MeshPool::makeShell(PooledMesh& mesh) {
+  if (mesh.shell) return {};
+  CachedShell made = cachedShell(cache_, mesh.mesh, options_.shell);
+  mesh.shell = std::move(made.shell);
+  return {true, made.outcome};
 }
 
 }  // namespace sdf_ccd

@@ -6,7 +6,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "sdf_ccd/field/field_cache.h"
+#include "sdf_ccd/field/file_cache.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/scene/scene.h"
 
@@ -31,17 +31,16 @@ class MeshPool {
 
   struct Made {
     bool now = false;  ///< false: it was there already, for another body
-    bool from_cache = false;
-    std::string warning;
+    CacheOutcome outcome;
   };
   Made makeField(PooledMesh& mesh, const Progress& progress);
-  void makeShell(PooledMesh& mesh);
+  Made makeShell(PooledMesh& mesh);
 
  private:
   FieldOptions fieldOptions(const TriangleMesh& mesh) const;
 
   const SceneOptions& options_;
-  FieldCache cache_;
+  FileCache cache_;
   struct Entry {
     TriangleMesh original;
     PooledMesh pooled;

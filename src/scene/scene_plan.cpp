@@ -1,5 +1,6 @@
 #include "sdf_ccd/scene/scene_plan.h"
 
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -22,6 +23,36 @@ std::string whyNoShell(const BodyDescription& body) {
     if (primitive && std::holds_alternative<HalfSpace>(*primitive)) return "a half-space has no bounded surface";
   }
   return {};
+}
+
+/// Size of what a body must be held against to tell whether another one could hold it [m].
+struct Extent {
+  double longest_side = 0.0;  ///< of the box around a lone primitive; 0 for other bodies
+  double diagonal = 0.0;      ///< no two points of the body are farther apart
+};
+
+Extent extentOf(const BodyDescription& body) {
+  Extent extent;
+  AlignedBox3d all;
+  for (const GeometryDescription& geometry : body.geometry) {
+    const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+    if (mesh && !*mesh) continue;  // a failure that building the body will name
+    const AlignedBox3d box = primitive ? boundingBox(*primitive) : boundingBox(**mesh);
+    if (!box.sizes().allFinite()) return {0.0, std::numeric_limits<double>::infinity()};
+    for (int k = 0; k < 8; ++k) all.extend(geometry.X_BG * box.corner(AlignedBox3d::CornerType(k)));
+    if (primitive && body.geometry.size() == 1) extent.longest_side = box.sizes().maxCoeff();
+  }
+  extent.diagonal = all.isEmpty() ? 0.0 : all.diagonal().norm();
+  return extent;
+}
+
+/// Whether a body is one primitive that would need very many points.
+bool isLarge(const BodyDescription& body, const PlanOptions& options) {
+  if (body.geometry.size() != 1 || options.shell_spacing <= 0.0) return false;
+  const auto* primitive = std::get_if<Primitive>(&body.geometry.front().shape);
+  if (!primitive || std::holds_alternative<HalfSpace>(*primitive)) return false;
+  return surfaceArea(*primitive) / (options.shell_spacing * options.shell_spacing) > options.large_shell_points;
 }
 
 std::map<Names, std::string> disabledPairs(const SceneDescription& description) {
@@ -54,13 +85,23 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
 
 }  // namespace
 
-ScenePlan planScene(const SceneDescription& description) {
+ScenePlan planScene(const SceneDescription& description, const PlanOptions& options) {
   const std::map<Names, std::string> disabled = disabledPairs(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
   plan.needs_field.assign(count, false);
   plan.needs_shell.assign(count, false);
-  std::vector<bool> has_pair(count, false);
+  std::vector<bool> has_pair(count, false), is_large(count, false);
+  std::vector<Extent> extents(count);
+  for (int i = 0; i < count; ++i) {
+    if (!description.bodies[i].failure.empty()) continue;
+    is_large[i] = isLarge(description.bodies[i], options);
+    extents[i] = extentOf(description.bodies[i]);
+  }
+  // Without its shell, a body that lay all inside the other's would not be seen: so it must be too long for that.
+  const auto isOnlyAField = [&](int large, int small) {
+    return is_large[large] && !is_large[small] && extents[large].longest_side > extents[small].diagonal;
+  };
 
   for (int i = 0; i < count; ++i) {
     for (int k = i + 1; k < count; ++k) {
@@ -72,8 +113,9 @@ ScenePlan planScene(const SceneDescription& description) {
         continue;
       }
       const bool checkable = a.failure.empty() && b.failure.empty();
-      const bool a_shell = checkable && whyNoShell(a).empty();
-      const bool b_shell = checkable && whyNoShell(b).empty();
+      const bool a_can = checkable && whyNoShell(a).empty(), b_can = checkable && whyNoShell(b).empty();
+      const bool a_shell = a_can && !(b_can && isOnlyAField(i, k));
+      const bool b_shell = b_can && !(a_can && isOnlyAField(k, i));
       plan.pairs.push_back({i, k, a_shell, b_shell});
       has_pair[i] = has_pair[k] = true;
       if (a_shell) plan.needs_shell[i] = plan.needs_field[k] = true;
@@ -84,7 +126,8 @@ ScenePlan planScene(const SceneDescription& description) {
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];
     if (!body.failure.empty() || body.geometry.empty()) continue;
-    const std::string no_shell = whyNoShell(body);
+    std::string no_shell = whyNoShell(body);
+    if (no_shell.empty() && is_large[i] && has_pair[i]) no_shell = "large, and the shells of smaller bodies do";
     const std::string idle = has_pair[i] ? "the others of its pairs cannot be checked" : "no pair needs it";
     if (!plan.needs_field[i])
       plan.left_out.push_back({"field of " + body.name, plan.needs_shell[i] ? "only ever a shell" : idle});

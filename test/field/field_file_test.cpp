@@ -114,45 +114,45 @@ TEST_F(FieldFile, SaysWhatIsWrong) {
 }
 
 TEST_F(FieldFile, CacheBuildsOnceAndRebuildsDamage) {
-  const FieldCache cache(path("cache"));
-  const CachedField first = cache.fieldFor(mesh_, options_);
-  EXPECT_FALSE(first.from_cache);
-  EXPECT_EQ(first.warning, "");
-  const CachedField second = cache.fieldFor(mesh_, options_);
-  EXPECT_TRUE(second.from_cache);
+  const FileCache cache(path("cache"));
+  const CachedField first = cachedField(cache, mesh_, options_);
+  EXPECT_FALSE(first.outcome.from_cache);
+  EXPECT_EQ(first.outcome.warning, "");
+  const CachedField second = cachedField(cache, mesh_, options_);
+  EXPECT_TRUE(second.outcome.from_cache);
   expectSame(first.field, second.field);
 
-  const std::string file = path("cache/") + FieldCache::fileName(mesh_, options_);
+  const std::string file = path("cache/") + fieldFileName(mesh_, options_);
   std::string bytes = read(file);
   bytes[bytes.size() / 2] ^= 1;
   write(file, bytes);
-  const CachedField third = cache.fieldFor(mesh_, options_);
-  EXPECT_FALSE(third.from_cache);
-  EXPECT_NE(third.warning.find("damaged"), std::string::npos);
+  const CachedField third = cachedField(cache, mesh_, options_);
+  EXPECT_FALSE(third.outcome.from_cache);
+  EXPECT_NE(third.outcome.warning.find("damaged"), std::string::npos);
   expectSame(first.field, third.field);
-  EXPECT_TRUE(cache.fieldFor(mesh_, options_).from_cache);
+  EXPECT_TRUE(cachedField(cache, mesh_, options_).outcome.from_cache);
 }
 
 TEST_F(FieldFile, CacheKeyIsTheContent) {
-  const std::string name = FieldCache::fileName(mesh_, options_);
+  const std::string name = fieldFileName(mesh_, options_);
   TriangleMesh moved = mesh_;
   moved.vertices[5].x() = std::nextafter(moved.vertices[5].x(), 1.0);
-  EXPECT_NE(FieldCache::fileName(moved, options_), name);
-  EXPECT_NE(FieldCache::fileName(scaled(mesh_, {1, 1, 2}), options_), name);
+  EXPECT_NE(fieldFileName(moved, options_), name);
+  EXPECT_NE(fieldFileName(scaled(mesh_, {1, 1, 2}), options_), name);
   FieldOptions finer = options_;
   finer.cells = 25;
-  EXPECT_NE(FieldCache::fileName(mesh_, finer), name);
+  EXPECT_NE(fieldFileName(mesh_, finer), name);
   FieldOptions wider = options_;
   wider.band = 0.1;
-  EXPECT_NE(FieldCache::fileName(mesh_, wider), name);
-  EXPECT_EQ(FieldCache::fileName(mesh_, options_), name);
+  EXPECT_NE(fieldFileName(mesh_, wider), name);
+  EXPECT_EQ(fieldFileName(mesh_, options_), name);
 }
 
 TEST_F(FieldFile, CacheThatCannotBeWrittenCostsOnlyTheSaving) {
   write(path("file"), "in the way");
-  const CachedField field = FieldCache(path("file/below")).fieldFor(mesh_, options_);
-  EXPECT_FALSE(field.from_cache);
-  EXPECT_NE(field.warning.find("cache not used"), std::string::npos);
+  const CachedField field = cachedField(FileCache(path("file/below")), mesh_, options_);
+  EXPECT_FALSE(field.outcome.from_cache);
+  EXPECT_NE(field.outcome.warning.find("cache not used"), std::string::npos);
   expectSame(field.field, buildField(mesh_, options_));
 }
 
@@ -186,9 +186,10 @@ TEST(FieldFileChild, LooksUpTheCache) {
   if (!directory) return;
   FieldOptions options;
   options.cells = 60;
-  const CachedField field = FieldCache(directory).fieldFor(test::torusMesh(0.2, 0.08, 32, 16), options);
-  std::ofstream(std::string(directory) + "/" + std::to_string(getpid()) + (field.from_cache ? ".loaded" : ".built"));
-  EXPECT_EQ(field.warning, "");
+  const CachedField field = cachedField(FileCache(directory), test::torusMesh(0.2, 0.08, 32, 16), options);
+  std::ofstream(std::string(directory) + "/" + std::to_string(getpid()) +
+                (field.outcome.from_cache ? ".loaded" : ".built"));
+  EXPECT_EQ(field.outcome.warning, "");
 }
 
 }  // namespace

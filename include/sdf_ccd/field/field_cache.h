@@ -3,32 +3,20 @@
 #include <string>
 
 #include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field/file_cache.h"
 
 namespace sdf_ccd {
 
 struct CachedField {
   DistanceField field;
-  bool from_cache = false;
-  std::string warning;  ///< a damaged file was rebuilt, or the directory cannot be used; empty if all went well
+  CacheOutcome outcome;
 };
 
-/// Fields kept on disk, named by a hash of the mesh's content (scale included) and of the options.
-///
-/// Safe against several processes: whoever comes second waits for the first and loads what it built. A file that is
-/// damaged or of another version is built again; a directory that cannot be written costs only the saving.
-class FieldCache {
- public:
-  /// @param directory  made if it does not exist; empty: nothing is read or written.
-  explicit FieldCache(std::string directory);
+/// As buildField(), but from the cache where it is there: by the mesh's content (scale included) and the options.
+CachedField cachedField(const FileCache& cache, const TriangleMesh& mesh, const FieldOptions& options,
+                        const Progress& progress = {});
 
-  /// As buildField(), but from the cache where it is there.
-  CachedField fieldFor(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress = {}) const;
-
-  /// File that fieldFor() uses, without its directory.
-  static std::string fileName(const TriangleMesh& mesh, const FieldOptions& options);
-
- private:
-  std::string directory_;
-};
+/// Name of the file that cachedField() uses.
+std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options);
 
 }  // namespace sdf_ccd

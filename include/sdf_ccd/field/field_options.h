@@ -8,10 +8,10 @@ namespace sdf_ccd {
 
 /// How fine a field is. Exactly one of the first three is set.
 struct FieldOptions {
-  std::optional<int> cells;          ///< cells along the longest side of the surface's box
-  std::optional<double> cell_size;   ///< [m]
-  std::optional<double> max_error;   ///< |interpolated − true distance| in the band [m]; cell = 2/√3 of it
-  double band = 0.0;                 ///< accurate where |φ| ≤ band [m]; at least two cells are taken
+  std::optional<int> cells;         ///< cells along the longest side of the surface's box
+  std::optional<double> cell_size;  ///< [m]
+  std::optional<double> max_error;  ///< |interpolated − true distance| in the band [m]; cell = 2/√3 of it
+  double band = 0.0;                ///< accurate where |φ| ≤ band [m]; at least two cells are taken
   std::size_t max_bytes = std::size_t{4} << 30;  ///< larger fields are refused, with the cell size that would fit
 };
 

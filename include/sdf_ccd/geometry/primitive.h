@@ -42,6 +42,9 @@ Vector3d distanceGradient(const Primitive& primitive, const Vector3d& p);
 /// Box around the solid; infinite for a half-space.
 AlignedBox3d boundingBox(const Primitive& primitive);
 
+/// Area of the surface [m²]; infinite for a half-space.
+double surfaceArea(const Primitive& primitive);
+
 /// Closed mesh with vertices on the surface, nowhere farther than `max_deviation` [m] from it.
 /// @throws std::invalid_argument for a half-space, which is unbounded.
 TriangleMesh tessellate(const Primitive& primitive, double max_deviation);

@@ -28,12 +28,19 @@ struct ScenePlan {
   std::vector<LeftOut> left_out;
 };
 
+struct PlanOptions {
+  double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
+  double large_shell_points = 2e4;  ///< a primitive that needs more is not sampled for the sake of smaller bodies
+};
+
 /// Leaves out pairs that are disabled, both of the world, in the same frame, or of a body without geometry; fields
 /// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (they cannot
-/// be covered with points), and pairs of two such bodies. All others are tested in both roles.
+/// be covered with points), and pairs of two such bodies. A body that is one large primitive (a table, a wall) is only
+/// a field to bodies too small to hold it: their shells against its exact field see every contact of the surfaces.
+/// All others are tested in both roles.
 /// A pair with a body that cannot be checked stays, asks for nothing to be built, and is NOT_CHECKED.
 /// A disabled pair may name bodies that the scene does not have (an SRDF's links without collision geometry).
 /// @throws std::invalid_argument if two bodies share a name, or a disabled pair names the same body twice.
-ScenePlan planScene(const SceneDescription& description);
+ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 
 }  // namespace sdf_ccd

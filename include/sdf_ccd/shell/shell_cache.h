@@ -1,0 +1,16 @@
+#pragma once
+
+#include "sdf_ccd/field/file_cache.h"
+#include "sdf_ccd/shell/sample_surface.h"
+
+namespace sdf_ccd {
+
+struct CachedShell {
+  PointShell shell;
+  CacheOutcome outcome;
+};
+
+/// As sampleSurface(), but from the cache where it is there: by the mesh's content and the options.
+CachedShell cachedShell(const FileCache& cache, const TriangleMesh& mesh, const ShellOptions& options);
+
+}  // namespace sdf_ccd
