@@ -58,7 +58,7 @@ void FieldBuilder::addVoxels(const std::string& name, const TriangleMesh& mesh, 
   std::cout << "  voxels " << voxel_size << " m, " << mesh.triangles.size() << " triangles, volume "
             << signedVolume(mesh) << " m³\n";
   const auto start = std::chrono::steady_clock::now();
-  const DistanceField field = makeField(name, mesh, voxel_size);
+  const DistanceField field = makeField(name, mesh, voxel_size / 2.0);
   seconds_ += secondsSince(start);
   writeField(name, field, time(secondsSince(start)));
 }

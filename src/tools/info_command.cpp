@@ -84,7 +84,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
               << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m³\nwithin "
               << describe(boundingBox(mesh)) << std::endl;
     if (!wants_field) return std::nullopt;
-    return fieldOf(mesh, arguments.resolution.fieldOptions(voxel_size));
+    return fieldOf(mesh, arguments.resolution.fieldOptions(voxel_size / 2.0));
   }
   const OrientedMesh oriented = orientOutward(loadMesh(file));
   printQuality(oriented.quality);
