@@ -41,7 +41,7 @@ std::string aligned(const std::vector<Row>& rows, std::size_t left) {
   return text;
 }
 
-/// One line per kind and reason, with a few examples: "not tested, SRDF: Never: 212 pairs (a – b, c – d, …)".
+/// One line per kind and reason, with a few examples: "212 pairs, SRDF: Never: a – b, c – d, …".
 std::string leftOutLines(const std::vector<LeftOut>& left_out) {
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
   for (const LeftOut& item : left_out) {
