@@ -7,13 +7,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
-#include "collada_unit.h"
-#include "stl_bytes.h"
+#include "collada.h"
+#include "mended_bytes.h"
+#include "polygon.h"
 
 namespace sdf_ccd {
 namespace {
@@ -36,6 +35,30 @@ Eigen::Affine3d toEigen(const aiMatrix4x4& m) {
   return result;
 }
 
+struct Placement {
+  int first_vertex;
+  bool mirrored;
+};
+
+/// Appends a polygon's triangles; lines and points have none.
+void appendFace(const aiMesh& mesh, const aiFace& face, const Placement& placement, TriangleMesh& result) {
+  std::vector<int> vertices;
+  std::vector<Vector3d> corners;
+  for (unsigned i = 0; i < face.mNumIndices; ++i) {
+    if (face.mIndices[i] >= mesh.mNumVertices) {
+      throw std::runtime_error("a face names vertex " + std::to_string(face.mIndices[i]) + " of " +
+                               std::to_string(mesh.mNumVertices));
+    }
+    vertices.push_back(placement.first_vertex + static_cast<int>(face.mIndices[i]));
+    corners.push_back(result.vertices[vertices.back()]);
+  }
+  for (const Vector3i& local : triangulatePolygon(corners)) {
+    Vector3i t(vertices[local[0]], vertices[local[1]], vertices[local[2]]);
+    if (placement.mirrored) std::swap(t[1], t[2]);
+    result.triangles.push_back(t);
+  }
+}
+
 /// Appends a node's triangles and its children's; X is the node's place in the file's frame.
 void gather(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& X, TriangleMesh& result) {
   const bool mirrored = X.linear().determinant() < 0;
@@ -49,20 +72,7 @@ void gather(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& X, 
       const aiVector3D& p = mesh.mVertices[v];
       result.vertices.push_back(X * Vector3d(p.x, p.y, p.z));
     }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;
-      Vector3i t;
-      for (int corner = 0; corner < 3; ++corner) {
-        if (face.mIndices[corner] >= mesh.mNumVertices) {
-          throw std::runtime_error("a face names vertex " + std::to_string(face.mIndices[corner]) + " of " +
-                                   std::to_string(mesh.mNumVertices));
-        }
-        t[corner] = offset + static_cast<int>(face.mIndices[corner]);
-      }
-      if (mirrored) std::swap(t[1], t[2]);
-      result.triangles.push_back(t);
-    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) appendFace(mesh, mesh.mFaces[f], {offset, mirrored}, result);
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
     gather(scene, *node.mChildren[i], X * toEigen(node.mChildren[i]->mTransformation), result);
@@ -71,9 +81,8 @@ void gather(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& X, 
 
 TriangleMesh import(const std::string& bytes, const std::string& format) {
   Assimp::Importer importer;
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(),
-                                                     aiProcess_Triangulate | aiProcess_SortByPType, format.c_str());
+  // No post-processing: assimp's triangulation aborts the process on damaged faces where asserts are compiled in.
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
   if (!scene || !scene->mRootNode) throw std::runtime_error(importer.GetErrorString());
   TriangleMesh mesh;
   // As rviz: what hangs below the root ignores the root's transform, where assimp puts COLLADA's unit and up-axis.
@@ -91,11 +100,11 @@ TriangleMesh parse(const std::string& bytes, const std::string& name) {
   if (bytes.size() > kMaxBytes) throw std::runtime_error("larger than 1 GiB");
   const std::string format = ending(name);
   if (format.empty()) throw std::runtime_error("no file name ending, which would tell the format");
+  if (format == "ply") requireSoundPly(bytes);
+  if (format == "off") requireSoundOff(bytes);
+  const double meter = format == "dae" ? inspectCollada(bytes) : 1.0;
   TriangleMesh mesh = import(format == "stl" ? mendedStl(bytes) : bytes, format);
-  if (format == "dae") {
-    const double meter = colladaUnit(bytes);
-    for (Vector3d& v : mesh.vertices) v *= meter;
-  }
+  for (Vector3d& v : mesh.vertices) v *= meter;
   mesh = welded(mesh);
   validate(mesh);
   return mesh;

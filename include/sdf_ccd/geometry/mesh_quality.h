@@ -27,8 +27,12 @@ struct OrientedMesh {
 };
 
 /// Turns triangles so that neighbours agree and every closed component encloses positive volume, except cavities:
-/// components that lie inside another one and already point inwards. Duplicate triangles are dropped.
-/// The quality report describes what was found on the way.
+/// components that lie inside another one and already point inwards. Vertices at the same place are welded.
+/// Duplicate triangles are dropped, and so are walls that two solids share (a patch drawn from both sides).
+///
+/// Of parts that are not closed, only an outer skin that is clearly inside out is turned: it makes up at least four
+/// sides of the mesh's box, and the volumes its triangles span with the box's centre are mostly negative, three to
+/// one. The quality report describes what was found on the way.
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 OrientedMesh orientOutward(const TriangleMesh& mesh);
 

@@ -13,7 +13,7 @@ struct TriangleMesh {
 };
 
 /// Throws std::invalid_argument, naming the first bad element, if the mesh has no triangle, a vertex that is not
-/// finite, an index out of range, or an extent above 1e6 m or below 1e-9 m.
+/// finite, an index out of range, an extent above 1e6 m or below 1e-9 m, or a place farther than 1e9 m from the origin.
 void validate(const TriangleMesh& mesh);
 
 /// Box around the vertices that triangles use; empty for an empty mesh.

@@ -9,19 +9,23 @@
 namespace sdf_ccd {
 
 struct ShellOptions {
-  double spacing = 0.01;         ///< no place of the surface farther than this from a point [m]
-  double vertex_spacing = 0.0;   ///< mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all
-  std::uint64_t seed = 1;        ///< equal seeds give equal shells
+  double spacing = 0.01;        ///< no place of the surface farther than this from a point [m]
+  double vertex_spacing = 0.0;  ///< mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all
+  std::uint64_t seed = 1;       ///< equal seeds give equal shells
   std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
 };
 
 /// Point shell of a mesh: its vertices (paper §5) and a Poisson-disk sampling that fills the surface between them
 /// until no gap exceeds options.spacing. Vertex normals are weighted by angle; a vertex of a sharp edge keeps its
 /// averaged normal. Areas sum to the mesh's area.
+///
+/// A place belongs to the nearest point whose normal is not against the place's own, and gaps are filled by that
+/// measure too, so both sides of a thin plate get points and area. The covering radius counts all points.
 /// @throws std::invalid_argument if the mesh or the options are not valid.
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
 
-/// Point shell of a primitive: points exactly on its surface, with its exact normals away from edges.
+/// Point shell of a primitive: points exactly on its surface, with its exact normals away from edges. Areas sum to
+/// the primitive's. Of a sphere or cylinder no two points that come from vertices are nearer than the spacing.
 /// @throws std::invalid_argument for a half-space, which has no bounded surface.
 PointShell sampleSurface(const Primitive& primitive, const ShellOptions& options);
 

@@ -1,4 +1,4 @@
-#include "stl_bytes.h"
+#include "mended_bytes.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,0 +1,222 @@
+#include "sdf_ccd/geometry/mesh_quality.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "oracle/shapes.h"
+#include "oracle/test_data.h"
+#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::boxMesh;
+using test::flipped;
+using test::icosphere;
+using test::translated;
+
+TEST(MeshQuality, AClosedMeshIsLeftAlone) {
+  const TriangleMesh box = boxMesh({1, 2, 3});
+  const OrientedMesh result = orientOutward(box);
+  EXPECT_EQ(result.mesh.triangles.size(), 12u);
+  EXPECT_EQ(result.quality.triangles, 12);
+  EXPECT_EQ(result.quality.components, 1);
+  EXPECT_EQ(result.quality.boundary_edges, 0);
+  EXPECT_EQ(result.quality.non_manifold_edges, 0);
+  EXPECT_EQ(result.quality.misoriented_edges, 0);
+  EXPECT_EQ(result.quality.inverted_components, 0);
+  EXPECT_NEAR(result.quality.volume, 48, 1e-9);
+  EXPECT_NEAR(result.quality.area, 88, 1e-9);
+  EXPECT_TRUE(result.quality.sign_trusted);
+  EXPECT_EQ(summary(result.quality), "12 triangles, closed, volume 48 m³, sign trusted");
+}
+
+TEST(MeshQuality, InsideOutIsTurnedRound) {
+  const OrientedMesh result = orientOutward(flipped(icosphere(1, 2)));
+  EXPECT_EQ(result.quality.inverted_components, 1);
+  EXPECT_GT(result.quality.volume, 3.9);
+  EXPECT_TRUE(result.quality.sign_trusted);
+}
+
+TEST(MeshQuality, TrianglesTurnedAtRandomAreMadeToAgree) {
+  TriangleMesh mesh = icosphere(1, 3);
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
+  const OrientedMesh result = orientOutward(mesh);
+  EXPECT_GT(result.quality.misoriented_edges, 100);
+  EXPECT_NEAR(result.quality.volume, signedVolume(icosphere(1, 3)), 1e-12);
+  EXPECT_TRUE(result.quality.sign_trusted);
+}
+
+TEST(MeshQuality, EveryComponentIsTurnedForItself) {
+  const TriangleMesh mesh = merged(flipped(boxMesh({1, 1, 1})), translated(boxMesh({1, 1, 1}), {5, 0, 0}));
+  const OrientedMesh result = orientOutward(mesh);
+  EXPECT_EQ(result.quality.components, 2);
+  EXPECT_EQ(result.quality.inverted_components, 1);
+  EXPECT_NEAR(result.quality.volume, 16, 1e-9);
+}
+
+TEST(MeshQuality, CavitiesStay) {
+  const TriangleMesh hollow = merged(boxMesh({1, 1, 1}), flipped(icosphere(0.5, 2)));
+  const OrientedMesh result = orientOutward(hollow);
+  EXPECT_EQ(result.quality.inverted_components, 0);
+  EXPECT_LT(result.quality.volume, 8 - 0.4);
+  const TriangleTree tree(result.mesh);
+  EXPECT_NEAR(tree.windingNumber({0, 0, 0}), 0, 0.02);
+  EXPECT_NEAR(tree.windingNumber({0.8, 0.8, 0.8}), 1, 0.02);
+}
+
+TEST(MeshQuality, AnInvertedPartThatSticksOutIsNoCavity) {
+  const TriangleMesh mesh = merged(boxMesh({1, 1, 1}), flipped(translated(boxMesh({0.2, 0.2, 0.2}), {1, 0, 0})));
+  const OrientedMesh result = orientOutward(mesh);
+  EXPECT_EQ(result.quality.inverted_components, 1);
+  EXPECT_NEAR(TriangleTree(result.mesh).windingNumber({1.1, 0, 0}), 1, 0.05);
+  EXPECT_TRUE(result.quality.sign_trusted);
+}
+
+TEST(MeshQuality, DuplicatesAreDropped) {
+  const TriangleMesh box = boxMesh({1, 1, 1});
+  for (const TriangleMesh& twin : {box, flipped(box)}) {
+    const OrientedMesh result = orientOutward(merged(box, twin));
+    EXPECT_EQ(result.quality.triangles, 12);
+    EXPECT_NEAR(result.quality.volume, 8, 1e-9);
+    EXPECT_TRUE(result.quality.sign_trusted);
+  }
+}
+
+TEST(MeshQuality, AWallBetweenGluedSolidsGoes) {
+  const OrientedMesh result = orientOutward(merged(boxMesh({1, 1, 1}), translated(boxMesh({1, 1, 1}), {2, 0, 0})));
+  EXPECT_EQ(result.quality.triangles, 20);
+  EXPECT_NEAR(result.quality.volume, 16, 1e-9);
+  EXPECT_TRUE(result.quality.sign_trusted);
+  EXPECT_NEAR(TriangleTree(result.mesh).windingNumber({1, 0.1, 0.2}), 1, 0.05);
+}
+
+TEST(MeshQuality, AFinDrawnFromBothSidesStays) {
+  TriangleMesh mesh = boxMesh({1, 1, 1});
+  mesh.vertices.emplace_back(2, 0, 1);
+  mesh.triangles.emplace_back(5, 7, 8);
+  mesh.triangles.emplace_back(7, 5, 8);
+  const OrientedMesh result = orientOutward(mesh);
+  EXPECT_EQ(result.quality.triangles, 13);
+  EXPECT_EQ(result.quality.non_manifold_edges, 1);
+  EXPECT_FALSE(result.quality.sign_trusted);
+}
+
+TEST(MeshQuality, OpenMeshesAreNotTrustedAndAClearSkinIsTurned) {
+  TriangleMesh open = icosphere(1, 3);
+  open.triangles.resize(open.triangles.size() - 3);
+  for (const TriangleMesh& mesh : {open, flipped(open)}) {
+    const OrientedMesh result = orientOutward(mesh);
+    EXPECT_GT(result.quality.boundary_edges, 0);
+    EXPECT_FALSE(result.quality.sign_trusted);
+    EXPECT_GT(result.quality.volume, 3.5);
+    EXPECT_EQ(result.quality.inverted_components, 0);
+  }
+}
+
+TEST(MeshQuality, TheWallOfAHoleIsNotTakenForAnInvertedSkin) {
+  // A tube whose inner and outer walls do not meet: two open patches, the inner one rightly facing the axis.
+  TriangleMesh tube;
+  constexpr int n = 24;
+  for (const double radius : {1.0, 0.5}) {
+    const int first = static_cast<int>(tube.vertices.size());
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * test::kPi * i / n;
+      tube.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), -1);
+      tube.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 1);
+    }
+    for (int i = 0; i < n; ++i) {
+      const int a = first + 2 * i, b = first + 2 * ((i + 1) % n);
+      tube.triangles.push_back(radius == 1.0 ? Vector3i(a, b, b + 1) : Vector3i(a, b + 1, b));
+      tube.triangles.push_back(radius == 1.0 ? Vector3i(a, b + 1, a + 1) : Vector3i(a, a + 1, b + 1));
+    }
+  }
+  const OrientedMesh result = orientOutward(tube);
+  EXPECT_EQ(result.quality.components, 2);
+  EXPECT_NEAR(result.quality.volume, signedVolume(tube), 1e-12);
+}
+
+TEST(MeshQuality, AMoebiusStripIsNotTrusted) {
+  TriangleMesh strip;
+  constexpr int n = 30;
+  for (int i = 0; i < n; ++i) {
+    const double u = 2 * test::kPi * i / n;
+    for (const double w : {-0.3, 0.3}) {
+      const double rho = 1 + w * std::cos(u / 2);
+      strip.vertices.emplace_back(rho * std::cos(u), rho * std::sin(u), w * std::sin(u / 2));
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    const int a = 2 * i, b = 2 * i + 1;
+    const int c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? b + 2 : 0;
+    strip.triangles.emplace_back(a, c, d);
+    strip.triangles.emplace_back(a, d, b);
+  }
+  EXPECT_FALSE(orientOutward(strip).quality.sign_trusted);
+}
+
+TEST(MeshQuality, DegenerateTrianglesAreCounted) {
+  TriangleMesh mesh = boxMesh({1, 1, 1});
+  mesh.triangles.emplace_back(0, 0, 1);
+  mesh.vertices.emplace_back(1, 0, 1);
+  mesh.triangles.emplace_back(5, 8, 7);
+  EXPECT_EQ(orientOutward(mesh).quality.degenerate_triangles, 2);
+  TriangleMesh points;
+  points.vertices = {{0, 0, 0}, {1, 0, 0}};
+  points.triangles = {{0, 1, 1}};
+  EXPECT_THROW(orientOutward(points), std::invalid_argument);
+  EXPECT_THROW(orientOutward({}), std::invalid_argument);
+}
+
+TEST(MeshQuality, UnweldedTrianglesCountAsConnected) {
+  TriangleMesh soup;
+  for (const Vector3i& t : boxMesh({1, 1, 1}).triangles) {
+    const int first = static_cast<int>(soup.vertices.size());
+    for (int corner = 0; corner < 3; ++corner) soup.vertices.push_back(boxMesh({1, 1, 1}).vertices[t[corner]]);
+    soup.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  EXPECT_TRUE(orientOutward(soup).quality.sign_trusted);
+}
+
+TEST(MeshQuality, OverlappingSolidsAreTrustedAndTheirUnionIsInside) {
+  const TriangleMesh mesh = merged(boxMesh({1, 1, 1}), translated(icosphere(1, 3), {1, 1, 1}));
+  const OrientedMesh result = orientOutward(mesh);
+  EXPECT_TRUE(result.quality.sign_trusted);
+  EXPECT_NEAR(TriangleTree(result.mesh).windingNumber({0.8, 0.8, 0.8}), 2, 0.05);
+}
+
+struct Expected {
+  const char* name;
+  int components;
+  int boundary_edges;
+  bool trusted;
+  double volume;
+};
+
+class RealMeshes : public ::testing::TestWithParam<Expected> {};
+
+TEST_P(RealMeshes, AreReportedAsTheyAre) {
+  SDF_CCD_NEEDS_DATA(GetParam().name);
+  const MeshQuality quality = orientOutward(loadMesh(test::dataPath(GetParam().name))).quality;
+  EXPECT_EQ(quality.components, GetParam().components) << summary(quality);
+  EXPECT_EQ(quality.boundary_edges, GetParam().boundary_edges) << summary(quality);
+  EXPECT_EQ(quality.sign_trusted, GetParam().trusted) << summary(quality);
+  EXPECT_NEAR(quality.volume, GetParam().volume, 0.01 * GetParam().volume) << summary(quality);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MeshQuality, RealMeshes,
+    ::testing::Values(Expected{"meshes/bunny00.off", 1, 0, true, 0.199},
+                      Expected{"meshes/stanford-bunny.obj", 1, 223, false, 7.36e-4},
+                      Expected{"meshes/teapot.obj", 4, 160, false, 26.2},
+                      Expected{"meshes/cgal_nasty/boeing.off", 1, 0, true, 211},
+                      Expected{"meshes/cgal_nasty/elephant-with-holes.off", 1, 1353, false, 0.0383},
+                      Expected{"robots/panda_description/meshes/collision/link0.stl", 1, 0, true, 3.0e-3},
+                      Expected{"robots/pr2_description/urdf/meshes/base_v0/base.stl", 1, 26, false, 0.0887},
+                      Expected{"robots/example-robot-data/robots/ur_description/meshes/ur5/collision/wrist3.stl", 5, 0,
+                               true, 1.38e-4}));
+
+}  // namespace
+}  // namespace sdf_ccd
