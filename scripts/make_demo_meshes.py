@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Makes the demo arm's meshes: surfaces of revolution and lofts of rounded rectangles, closed, as OBJ files [m].
 
+rviz colours them as their material file says, not as the URDF does.
+
 usage: make_demo_meshes.py DIRECTORY
 """
 import math
@@ -55,16 +57,18 @@ def round_end(x, radius, sign):
              radius * math.sin(math.radians(a))) for a in angles]
 
 
+COLOURS = {'dark': (0.25, 0.25, 0.28), 'steel': (0.55, 0.58, 0.62), 'orange': (0.95, 0.50, 0.15)}
+
 MESHES = {
-    'pedestal': lambda: along_z([(0.0, 0.14, 0.14), (0.02, 0.14, 0.14), (0.06, 0.09, 0.09), (0.22, 0.075, 0.075),
-                                 (0.25, 0.085, 0.085)]),
-    'turret': lambda: along_z([(0.0, 0.085, 0.085), (0.03, 0.085, 0.085), (0.06, 0.06, 0.08), (0.14, 0.055, 0.07),
-                               (0.16, 0.04, 0.05)], 4.0),
-    'upper_arm': lambda: along_x(round_end(0.0, 0.055, -1) + [(0.0, 0.055, 0.055), (0.1, 0.045, 0.05),
+    'pedestal': ('dark', lambda: along_z([(0.0, 0.14, 0.14), (0.02, 0.14, 0.14), (0.06, 0.09, 0.09), (0.22, 0.075, 0.075),
+                                 (0.25, 0.085, 0.085)])),
+    'turret': ('steel', lambda: along_z([(0.0, 0.085, 0.085), (0.03, 0.085, 0.085), (0.06, 0.06, 0.08), (0.14, 0.055, 0.07),
+                               (0.16, 0.04, 0.05)], 4.0)),
+    'upper_arm': ('orange', lambda: along_x(round_end(0.0, 0.055, -1) + [(0.0, 0.055, 0.055), (0.1, 0.045, 0.05),
                                                               (0.3, 0.035, 0.04), (0.4, 0.045, 0.045)]
-                                 + round_end(0.4, 0.045, 1)),
-    'forearm': lambda: along_x([(0.055, 0.03, 0.03), (0.07, 0.038, 0.038), (0.2, 0.03, 0.03), (0.3, 0.026, 0.026)]),
-    'palm': lambda: along_x([(0.03, 0.02, 0.02), (0.035, 0.03, 0.025), (0.08, 0.032, 0.026), (0.095, 0.02, 0.02)], 5.0),
+                                 + round_end(0.4, 0.045, 1))),
+    'forearm': ('orange', lambda: along_x([(0.055, 0.03, 0.03), (0.07, 0.038, 0.038), (0.2, 0.03, 0.03), (0.3, 0.026, 0.026)])),
+    'palm': ('dark', lambda: along_x([(0.03, 0.02, 0.02), (0.035, 0.03, 0.025), (0.08, 0.032, 0.026), (0.095, 0.02, 0.02)], 5.0)),
 }
 
 
@@ -72,10 +76,13 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     os.makedirs(sys.argv[1], exist_ok=True)
-    for name, make in MESHES.items():
+    with open(os.path.join(sys.argv[1], 'arm.mtl'), 'w') as file:
+        for name, colour in COLOURS.items():
+            file.write('newmtl %s\nKd %.2f %.2f %.2f\nKa %.2f %.2f %.2f\n' % ((name,) + colour + colour))
+    for name, (colour, make) in MESHES.items():
         vertices, triangles = make()
         with open(os.path.join(sys.argv[1], name + '.obj'), 'w') as file:
-            file.write('# Made by scripts/make_demo_meshes.py\n')
+            file.write('# Made by scripts/make_demo_meshes.py\nmtllib arm.mtl\nusemtl %s\n' % colour)
             file.writelines('v %.5f %.5f %.5f\n' % v for v in vertices)
             file.writelines('f %d %d %d\n' % tuple(i + 1 for i in t) for t in triangles)
 

@@ -97,11 +97,11 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
   Marker normals = marker(kNormals, id, Marker::LINE_LIST);
   Marker depth = marker(kDepth, id, Marker::ARROW);
   Marker swept = marker(kSwept, id, Marker::LINE_LIST);
-  points.scale.x = points.scale.y = points.scale.z = 0.012 * options_.scale;
-  normals.scale.x = 0.002 * options_.scale;
+  points.scale.x = points.scale.y = points.scale.z = 0.007 * options_.scale;
+  normals.scale.x = 0.001 * options_.scale;
   depth.scale.x = 0.006 * options_.scale;
   depth.scale.y = 0.014 * options_.scale;
-  swept.scale.x = 0.003 * options_.scale;
+  swept.scale.x = 0.0015 * options_.scale;
   points.color = contactColor(toPairContact(pair, cycle).in_contact_at_samples);
   normals.color = color(1.0f, 1.0f, 1.0f, 0.9f);
   depth.color = color(1.0f, 0.9f, 0.0f, 1.0f);
@@ -110,7 +110,7 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
   for (const ContactPoint& point : pair.points) {
     points.points.push_back(toPoint(point.p_W));
     normals.points.push_back(toPoint(point.p_W));
-    normals.points.push_back(toPoint(point.p_W + 0.03 * options_.scale * point.normal_W));
+    normals.points.push_back(toPoint(point.p_W + 0.02 * options_.scale * point.normal_W));
     for (const int body : {pair.body_a, pair.body_b}) {
       if (!cycle.scene.bodies[body].is_world) addPath(pathOf(body, point, cycle.motion), swept);
     }
@@ -130,10 +130,12 @@ void MarkerDrawer::drawText(int id, const PairResult& pair, const CycleContext& 
   Marker text = marker(kText, id, Marker::TEXT_VIEW_FACING);
   char depth[32];
   std::snprintf(depth, sizeof(depth), "%.1f mm", 1e3 * pair.deepest.depth);
-  text.text = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + "\n" + depth;
-  text.pose.position = toPoint(pair.deepest.p_W + Vector3d(0.0, 0.0, 0.08 * options_.scale));
+  const bool seen = toPairContact(pair, cycle).in_contact_at_samples;
+  text.text = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + "\n" + depth +
+              (seen ? "" : ", between samples");
+  text.pose.position = toPoint(pair.deepest.p_W + Vector3d(0.0, 0.0, 0.15 * options_.scale));
   text.scale.z = 0.03 * options_.scale;
-  text.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  text.color = seen ? color(1.0f, 1.0f, 1.0f, 1.0f) : color(1.0f, 0.4f, 0.4f, 1.0f);
   markers.markers.push_back(text);
 }
 

@@ -10,7 +10,7 @@
 namespace sdf_ccd {
 
 struct MarkerOptions {
-  double scale = 1.0;  ///< of all markers; at 1 a contact point is a ball of 12 mm
+  double scale = 1.0;  ///< of all markers; at 1 a contact point is a ball of 7 mm
   double hold = 0.5;   ///< how long a contact stays visible after the cycle that found it [s]
 };
 

@@ -53,10 +53,10 @@ visualization_msgs::MarkerArray toWorldMarkers(const SceneDescription& scene) {
       marker.action = Marker::ADD;
       marker.frame_locked = true;
       marker.pose = toPose(body.X_frame_B * geometry.X_BG);
-      marker.color.r = 0.5f;
-      marker.color.g = 0.7f;
-      marker.color.b = 0.6f;
-      marker.color.a = 0.8f;
+      marker.color.r = 0.7f;
+      marker.color.g = 0.85f;
+      marker.color.b = 0.8f;
+      marker.color.a = 0.6f;
       if (const Primitive* primitive = std::get_if<Primitive>(&geometry.shape)) {
         setShape(*primitive, marker);
       } else {
