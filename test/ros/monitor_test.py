@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Drives the monitor through tf, as a robot would, and looks at what it says."""
+import sys
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Point, Pose, TransformStamped, WrenchStamped
+from std_msgs.msg import Header, String
+from std_srvs.srv import Empty
+from tf2_msgs.msg import TFMessage
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+from visualization_msgs.msg import Marker, MarkerArray
+
+from sdf_ccd.msg import ContactArray, LinkPoses, MonitorState, PairContact
+from sdf_ccd.srv import QueryMotion, QueryMotionRequest, QueryPoints
+
+PERIOD = 0.033  # [s]
+RADIUS, PLATE = 0.02, 0.4995  # of the balls, and x of the plate's face [m]
+
+
+class Recorder:
+    """Keeps all messages of a topic."""
+
+    def __init__(self, topic, kind):
+        self.condition, self.messages = threading.Condition(), []
+        self.subscriber = rospy.Subscriber(topic, kind, self.add, queue_size=1000)
+
+    def add(self, message):
+        with self.condition:
+            self.messages.append(message)
+            self.condition.notify_all()
+
+    def find(self, test, timeout=20.0):
+        """The first message that passes the test, among those that are there or come in time; else None."""
+        end = time.monotonic() + timeout
+        with self.condition:
+            seen = 0
+            while True:
+                for message in self.messages[seen:]:
+                    if test(message):
+                        return message
+                seen = len(self.messages)
+                if not self.condition.wait(max(0.0, end - time.monotonic())):
+                    return None
+
+    def clear(self):
+        with self.condition:
+            self.messages.clear()
+
+
+def pair_of(message, a, b):
+    for pair in message.pairs:
+        if {pair.body_a, pair.body_b} == {a, b}:
+            return pair
+    return None
+
+
+def trajectory(joint, positions):
+    points = [JointTrajectoryPoint(positions=[p], time_from_start=rospy.Duration(float(i)))
+              for i, p in enumerate(positions)]
+    return QueryMotionRequest(trajectory=JointTrajectory(joint_names=[joint], points=points))
+
+
+class MonitorTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.tf = rospy.Publisher('/tf', TFMessage, queue_size=1000)
+        cls.contacts = Recorder('/collision_monitor/contacts', ContactArray)
+        cls.markers = Recorder('/collision_monitor/markers', MarkerArray)
+        cls.states = Recorder('/collision_monitor/state', MonitorState)
+        cls.wrenches = Recorder('/collision_monitor/wrenches/ball', WrenchStamped)
+        for service in ('query_motion', 'query_points', 'reset'):
+            rospy.wait_for_service('/collision_monitor/' + service, 60.0)
+        cls.query_motion = rospy.ServiceProxy('/collision_monitor/query_motion', QueryMotion)
+        cls.query_points = rospy.ServiceProxy('/collision_monitor/query_points', QueryPoints)
+        cls.reset = rospy.ServiceProxy('/collision_monitor/reset', Empty)
+        cls.stamp = rospy.Time.now()
+        assert Recorder('/collision_monitor/plan', String).find(lambda m: 'plate' in m.data, 60.0), 'no plan'
+        end = time.monotonic() + 30.0
+        while cls.contacts.find(lambda m: not m.not_checked, 0.0) is None:
+            assert time.monotonic() < end, 'no complete cycle'
+            cls.send(0.0)
+
+    @classmethod
+    def send(cls, ball, other=0.0):
+        """One sample; `other` None leaves that ball's transform out."""
+        cls.stamp = max(cls.stamp + rospy.Duration(PERIOD), rospy.Time.now() - rospy.Duration(0.1))
+        cls.send_at(cls.stamp, ball, other)
+        rospy.sleep(PERIOD)
+
+    @classmethod
+    def send_at(cls, stamp, ball, other):
+        message = TFMessage()
+        for frame, x, y in (('ball', ball, 0.0), ('other', other, 0.5)):
+            if x is None:
+                continue
+            transform = TransformStamped(header=Header(stamp=stamp, frame_id='base'), child_frame_id=frame)
+            transform.transform.translation.x, transform.transform.translation.y = x, y
+            transform.transform.rotation.w = 1.0
+            message.transforms.append(transform)
+        cls.tf.publish(message)
+
+    def setUp(self):
+        for _ in range(3):
+            self.send(0.0)
+        for recorder in (self.contacts, self.markers, self.states, self.wrenches):
+            recorder.clear()
+
+    def touching(self, message):
+        pair = pair_of(message, 'ball', 'plate')
+        return pair is not None and pair.intervals
+
+    def test_contact_between_two_samples(self):
+        self.send(0.4)
+        before = self.stamp
+        self.send(0.6)
+        after = self.stamp
+        self.send(0.6)
+        message = self.contacts.find(self.touching)
+        self.assertIsNotNone(message, 'no contact')
+        self.assertEqual(message.header.frame_id, 'base')
+        self.assertEqual(message.verdict, ContactArray.CONTACT)
+        pair = pair_of(message, 'ball', 'plate')
+        self.assertEqual(pair.verdict, PairContact.CONTACT)
+        self.assertFalse(pair.in_contact_at_samples)
+        # The ball's front reaches the plate's face; its back leaves the other.
+        length = (after - before).to_sec()
+        enter = (PLATE - RADIUS - 0.4) / 0.2 * length
+        leave = (PLATE + 0.001 + RADIUS - 0.4) / 0.2 * length
+        self.assertEqual(pair.first_contact, pair.intervals[0].start)
+        self.assertAlmostEqual((pair.first_contact - before).to_sec(), enter, delta=0.02 * length)
+        self.assertAlmostEqual((pair.intervals[-1].end - before).to_sec(), leave, delta=0.02 * length)
+        self.assertGreater(pair.depth, 0.0004)  # by the ball's shell, half the plate; by the plate's, the radius
+        self.assertLess(pair.depth, RADIUS + 1e-6)
+        self.assertGreater(pair.error_bound, 0.0)
+        self.assertGreater(len(pair.points), 0)
+        a, b = pair.wrench_on_a.force, pair.wrench_on_b.force
+        for axis in 'xyz':
+            self.assertAlmostEqual(getattr(a, axis), -getattr(b, axis), delta=1e-6)
+        self.assertIsNotNone(self.states.find(lambda m: m.verdict == MonitorState.CONTACT))
+
+    def test_every_cycle_has_a_message_and_presses_back(self):
+        for _ in range(10):
+            self.send(PLATE - RADIUS + 0.003)
+        message = self.contacts.find(self.touching)
+        self.assertTrue(pair_of(message, 'ball', 'plate').in_contact_at_samples)
+        self.assertIsNotNone(self.wrenches.find(lambda m: m.wrench.force.x < -1e-3 and m.header.frame_id == 'ball'))
+        for _ in range(30):
+            self.send(0.0)
+        with self.contacts.condition:
+            messages = list(self.contacts.messages)
+        self.assertGreater(len(messages), 20)
+        self.assertEqual(messages[-1].verdict, ContactArray.CLEAR)
+        for earlier, later in zip(messages, messages[1:]):
+            self.assertEqual(earlier.header.stamp, later.cycle_start)
+        # The markers of the contact are shown, and deleted when they are stale.
+        self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.ADD for x in m.markers)))
+        self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETE for x in m.markers)))
+
+    def test_late_frame_costs_only_its_own_pairs(self):
+        for _ in range(25):
+            self.send(0.0, None)
+
+        def late(message):
+            pair = pair_of(message, 'other', 'plate')
+            return pair is not None and pair.verdict == PairContact.NOT_CHECKED and 'late' in pair.reason
+
+        message = self.contacts.find(late)
+        self.assertIsNotNone(message)
+        self.assertEqual(message.verdict, ContactArray.NOT_CHECKED)
+        self.assertIsNone(pair_of(message, 'ball', 'plate'))
+        self.assertIsNotNone(self.states.find(lambda m: any('other' in x for x in m.missing)))
+        self.contacts.clear()
+        for _ in range(10):
+            self.send(0.0)
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+
+    def test_time_that_jumps_back_starts_anew(self):
+        self.send(0.6)
+        self.send(0.4)
+        self.assertIsNotNone(self.contacts.find(self.touching))
+        self.contacts.clear()
+        stamp = self.stamp - rospy.Duration(100.0)
+        for i in range(12):
+            self.send_at(stamp + rospy.Duration(PERIOD * i), 0.0, 0.0)
+            rospy.sleep(PERIOD)
+        self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
+        message = self.contacts.find(lambda m: m.header.stamp < self.stamp - rospy.Duration(50.0))
+        self.assertIsNotNone(message)
+        self.assertGreaterEqual(message.cycle_start, stamp)
+        # Forward again: the gap is not checked, and then all goes on.
+        self.contacts.clear()
+        for _ in range(12):
+            self.send(0.0)
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.NOT_CHECKED))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+
+    def test_query_motion(self):
+        answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CLEAR)
+        answer = self.query_motion(trajectory('slide', [0.0, 1.0, 0.0]))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(len(answer.pairs), 1)
+        self.assertEqual(len(answer.pairs[0].intervals), 2)
+        self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), PLATE - RADIUS, delta=0.003)
+        answer = self.query_motion(trajectory('glide', [0.0, 1.0]))
+        self.assertFalse(answer.success)
+        self.assertIn('glide', answer.message)
+        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+
+        request = QueryMotionRequest(links=['ball'])
+        for i, x in enumerate((0.0, 1.0)):
+            pose = Pose()
+            pose.position.x, pose.orientation.w = x, 1.0
+            request.poses.append(LinkPoses(time_from_start=rospy.Duration(float(i)), poses=[pose]))
+        answer = self.query_motion(request)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+
+    def test_query_points(self):
+        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(0.5, 0.25, 0.0)])
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(list(answer.bodies), ['plate', 'plate'])
+        self.assertAlmostEqual(answer.distances[0], PLATE - 0.45, delta=1e-6)
+        self.assertAlmostEqual(answer.distances[1], -0.0005, delta=1e-6)
+        self.assertAlmostEqual(answer.gradients[0].x, -1.0, delta=1e-6)
+        answer = self.query_points(Header(frame_id='nowhere'), [Point(0.45, 0.0, 0.0)])
+        self.assertFalse(answer.success)
+        self.assertIn('nowhere', answer.message)
+
+    def test_reset(self):
+        self.reset()
+        self.send(0.0)
+        self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
+        for _ in range(10):
+            self.send(0.0)
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+
+    def test_bad_parameter_is_named(self):
+        state = Recorder('/bad_monitor/state', MonitorState).find(lambda m: 'max_latency' in m.reason)
+        self.assertIsNotNone(state)
+        self.assertEqual(state.verdict, MonitorState.NOT_CHECKED)
+        self.assertIn('-3.5', state.reason)
+        answer = rospy.ServiceProxy('/bad_monitor/query_motion', QueryMotion)(trajectory('slide', [0.0, 1.0]))
+        self.assertFalse(answer.success)
+        self.assertIn('max_latency', answer.message)
+
+
+if __name__ == '__main__':
+    rospy.init_node('monitor_test')
+    rostest.rosrun('sdf_ccd', 'monitor_test', MonitorTest, sys.argv)
