@@ -128,10 +128,10 @@ MonitorParameters readParameters(const ros::NodeHandle& private_node) {
   ParameterReader reader(tree, private_node.getNamespace());
   MonitorParameters parameters;
 
-  const std::string urdf_name = reader.text("robot_description", "robot_description");
+  const std::string urdf_name = reader.text("urdf_parameter", "robot_description");
   parameters.urdf = findDescription(private_node, urdf_name);
   if (parameters.urdf.empty()) throw ParameterError("parameter " + urdf_name + " is missing, expected a robot's URDF");
-  parameters.srdf = findDescription(private_node, reader.text("robot_description_semantic", urdf_name + "_semantic"));
+  parameters.srdf = findDescription(private_node, reader.text("srdf_parameter", urdf_name + "_semantic"));
   parameters.fixed_frame = withoutLeadingSlash(reader.text("fixed_frame", ""));
   parameters.tf_prefix = withoutLeadingSlash(reader.text("tf_prefix", ""));
   parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
