@@ -159,7 +159,7 @@ MonitorParameters readParameters(const ros::NodeHandle& private_node) {
   parameters.tf.max_cycle = reader.positive("max_cycle", parameters.tf.max_cycle);
   parameters.rate = reader.positive("rate", 30.0);
 
-  parameters.max_points = reader.integer("max_points", 50, 0);
+  parameters.max_points = reader.integer("max_points", 20, 0);
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
   reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's

@@ -39,8 +39,8 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   std::vector<std::string>& missing = cycle.motion.missing;
   missing.assign(bodies_.size(), "");
   const ros::Time end = cycleEnd(now, missing);
-  const bool incomplete = std::any_of(missing.begin(), missing.end(), [](const auto& m) { return !m.empty(); });
-  if (last_end_.isZero() && incomplete && !waited_enough) return Step::kWaiting;  // transforms may be on their way
+  if (last_end_.isZero() && !waited_enough && !allKnownAt(end, missing))
+    return Step::kWaiting;  // they may be on the way
   if (end.isZero() || end <= last_end_) return waited_enough ? Step::kStalled : Step::kWaiting;
   waits_since_ = now;
   const ros::Time start = last_end_;
@@ -79,6 +79,13 @@ ros::Time TfTracker::cycleEnd(const ros::Time& now, std::vector<std::string>& mi
     }
   }
   return end.isZero() ? reference : end;
+}
+
+bool TfTracker::allKnownAt(const ros::Time& time, const std::vector<std::string>& missing) const {
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    if (!missing[body].empty() || (!spans_[body].is_static && spans_[body].first > time)) return false;
+  }
+  return true;
 }
 
 void TfTracker::findGaps(const TrackedCycle& cycle, std::vector<std::string>& missing) const {

@@ -54,6 +54,7 @@ class TfTracker {
 
  private:
   ros::Time cycleEnd(const ros::Time& now, std::vector<std::string>& missing);
+  bool allKnownAt(const ros::Time& time, const std::vector<std::string>& missing) const;
   void findGaps(const TrackedCycle& cycle, std::vector<std::string>& missing) const;
   std::vector<double> recordedSamples(const TrackedCycle& cycle) const;
 
