@@ -8,9 +8,13 @@
 namespace sdf_ccd::test {
 
 /// Path of real data that a plain clone does not have.
-inline std::string dataPath(const std::string& name) { return std::string(SDF_CCD_TEST_DATA) + "/" + name; }
+inline std::string dataPath(const std::string& name) {
+  return std::string(SDF_CCD_TEST_DATA) + "/" + name;
+}
 
-inline bool exists(const std::string& path) { return std::ifstream(path).good(); }
+inline bool exists(const std::string& path) {
+  return std::ifstream(path).good();
+}
 
 }  // namespace sdf_ccd::test
 
