@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <string_view>
+#include <utility>
 
+#include "sdf_ccd/field/content_hash.h"
 #include "sdf_ccd/field/field_cache.h"
 #include "sdf_ccd/shell/shell_cache.h"
 
@@ -13,37 +13,23 @@ namespace {
 
 constexpr int kWidestBand = 32;  // cells
 
-std::size_t contentHash(const TriangleMesh& mesh) {
-  const std::hash<std::string_view> hash;
-  const auto* vertices = reinterpret_cast<const char*>(mesh.vertices.data());
-  const auto* triangles = reinterpret_cast<const char*>(mesh.triangles.data());
-  return hash({vertices, mesh.vertices.size() * sizeof(Vector3d)}) * 31 +
-         hash({triangles, mesh.triangles.size() * sizeof(Vector3i)});
-}
-
 }  // namespace
 
 PooledMesh& MeshPool::find(const TriangleMesh& mesh, bool voxels) {
-  const std::size_t hash = contentHash(mesh);
-  const auto [first, last] = entries_.equal_range(hash);
-  for (auto it = first; it != last; ++it) {
-    const Entry& entry = *it->second;
-    if (entry.pooled.voxels == voxels && entry.original.vertices == mesh.vertices &&
-        entry.original.triangles == mesh.triangles)
-      return it->second->pooled;
-  }
-  auto entry = std::make_unique<Entry>();
-  entry->original = mesh;
-  entry->pooled.voxels = voxels;
+  const std::string hash = contentHash(mesh, {double(voxels)});
+  const auto known = meshes_.find(hash);
+  if (known != meshes_.end()) return known->second;
+  PooledMesh pooled;
+  pooled.voxels = voxels;
   if (voxels) {
     validate(mesh);
-    entry->pooled.mesh = mesh;
+    pooled.mesh = mesh;
   } else {
     OrientedMesh oriented = orientOutward(mesh);
-    entry->pooled.mesh = std::move(oriented.mesh);
-    entry->pooled.quality = oriented.quality;
+    pooled.mesh = std::move(oriented.mesh);
+    pooled.quality = oriented.quality;
   }
-  return entries_.emplace(hash, std::move(entry))->second->pooled;
+  return meshes_.emplace(hash, std::move(pooled)).first->second;
 }
 
 FieldOptions MeshPool::fieldOptions(const TriangleMesh& mesh) const {

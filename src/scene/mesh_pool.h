@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -41,11 +39,7 @@ class MeshPool {
 
   const SceneOptions& options_;
   FileCache cache_;
-  struct Entry {
-    TriangleMesh original;
-    PooledMesh pooled;
-  };
-  std::unordered_multimap<std::size_t, std::unique_ptr<Entry>> entries_;  // by the content's hash
+  std::unordered_map<std::string, PooledMesh> meshes_;  // by the content's hash
 };
 
 }  // namespace sdf_ccd

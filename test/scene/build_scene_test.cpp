@@ -45,6 +45,14 @@ TEST(BuildScene, EqualMeshesAreBuiltOnce) {
   EXPECT_GT(scene->reports[0].field_bytes, 0u);
 }
 
+TEST(BuildScene, EqualVoxelsAndMeshesAreNotTakenForEachOther) {
+  BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
+  map.geometry[0].watertight_voxels = true;
+  const auto scene = build({body("box", meshShape(boxMesh({0.1, 0.1, 0.1}))), map});
+  EXPECT_EQ(scene->reports[0].geometry, "mesh (12 triangles, closed)");
+  EXPECT_EQ(scene->reports[1].geometry, "voxels (12 triangles)");
+}
+
 TEST(BuildScene, BandHoldsTheMargin) {
   const SceneOptions options = fine(0.004);
   const auto scene = build({body("a", meshShape(icosphere(0.1, 3))), body("b", Primitive(Sphere{0.1}))}, options);
