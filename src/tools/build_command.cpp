@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include <tbb/global_control.h>
@@ -24,8 +25,7 @@ struct Arguments {
   std::string octomap;
   std::string out;
   ResolutionOptions resolution;
-  double spacing = 0.0;
-  bool has_spacing = false;
+  std::optional<double> spacing;
   int threads = 0;
 };
 
@@ -91,8 +91,7 @@ bool buildLink(const BodyDescription& body, FieldBuilder& builder) {
 void buildRobot(const Arguments& arguments) {
   const Robot robot = loadRobot(arguments);
   OutputDirectory out(arguments.out);
-  FieldBuilder builder(out, arguments.resolution,
-                       arguments.has_spacing ? std::make_optional(arguments.spacing) : std::nullopt);
+  FieldBuilder builder(out, arguments.resolution, arguments.spacing);
   std::size_t failed = 0;
   for (const BodyDescription& body : robot.scene.bodies) failed += !buildLink(body, builder);
   std::cout << robot.scene.bodies.size() << " links, " << robot.pairs << " pairs to check, "
@@ -103,7 +102,7 @@ void buildRobot(const Arguments& arguments) {
 
 void run(Arguments& arguments) {
   if (!arguments.srdf.empty() && arguments.urdf.empty()) throw std::runtime_error("--srdf needs --urdf");
-  if (arguments.has_spacing && !(arguments.spacing > 0.0)) throw std::runtime_error("--spacing must be positive");
+  if (arguments.spacing && !(*arguments.spacing > 0.0)) throw std::runtime_error("--spacing must be positive");
   if (arguments.threads < 0) throw std::runtime_error("--threads must not be negative");
   arguments.resolution.fieldOptions();  // refuses bad values before anything is read
   std::unique_ptr<tbb::global_control> limit;
@@ -117,8 +116,7 @@ void run(Arguments& arguments) {
   double voxel_size = 0.0;
   const TriangleMesh mesh = is_mesh ? loadMesh(file) : loadOctomapSurface(file, voxel_size);
   OutputDirectory out(arguments.out);
-  FieldBuilder builder(out, arguments.resolution,
-                       arguments.has_spacing ? std::make_optional(arguments.spacing) : std::nullopt);
+  FieldBuilder builder(out, arguments.resolution, arguments.spacing);
   std::cout << stemOf(file) << ": " << file << "\n";
   if (is_mesh) {
     builder.addMesh(stemOf(file), std::make_shared<TriangleMesh>(mesh));
@@ -144,13 +142,11 @@ void addBuildCommand(CLI::App& app) {
   command->add_option("--srdf", arguments->srdf, "With --urdf: pairs that need no check, for the count of pairs");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   arguments->resolution.addTo(*command);
-  CLI::Option* spacing = command->add_option(
-      "--spacing", arguments->spacing, "No place of a surface is farther from a shell point [m]; default two cells");
+  command->add_option_function<double>(
+      "--spacing", [arguments](double spacing) { arguments->spacing = spacing; },
+      "No place of a surface is farther from a shell point [m]; default two cells");
   command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
-  command->callback([arguments, spacing] {
-    arguments->has_spacing = spacing->count() > 0;
-    run(*arguments);
-  });
+  command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace sdf_ccd::tools

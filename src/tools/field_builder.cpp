@@ -24,16 +24,15 @@ std::string time(double seconds) {
 
 }  // namespace
 
-DistanceField FieldBuilder::makeField(const std::string& name, const TriangleMesh& mesh,
-                                      std::optional<double> default_cell) const {
-  ProgressBar bar("field of " + name);
-  return buildField(mesh, resolution_.fieldOptions(default_cell), [&](double share) { bar(share); });
+DistanceField buildWithBar(const std::string& title, const TriangleMesh& mesh, const FieldOptions& options) {
+  ProgressBar bar(title);
+  return buildField(mesh, options, [&](double share) { bar(share); });
 }
 
 FieldBuilder::Made FieldBuilder::make(const std::string& name, const TriangleMesh& mesh) const {
   const OrientedMesh oriented = orientOutward(mesh);
   const auto start = std::chrono::steady_clock::now();
-  DistanceField field = makeField(name, oriented.mesh, std::nullopt);
+  DistanceField field = buildWithBar("field of " + name, oriented.mesh, resolution_.fieldOptions());
   const double field_seconds = secondsSince(start);
   ShellOptions options;
   options.spacing = spacing_.value_or(2.0 * field.grid()->shape().cell);
@@ -58,7 +57,7 @@ void FieldBuilder::addVoxels(const std::string& name, const TriangleMesh& mesh, 
   std::cout << "  voxels " << voxel_size << " m, " << mesh.triangles.size() << " triangles, volume "
             << signedVolume(mesh) << " m³\n";
   const auto start = std::chrono::steady_clock::now();
-  const DistanceField field = makeField(name, mesh, voxel_size / 2.0);
+  const DistanceField field = buildWithBar("field of " + name, mesh, resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
   writeField(name, field, time(secondsSince(start)));
 }

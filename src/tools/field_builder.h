@@ -14,6 +14,9 @@
 
 namespace sdf_ccd::tools {
 
+/// The field of a mesh that is turned outward, or of voxels, with a progress bar of that title.
+DistanceField buildWithBar(const std::string& title, const TriangleMesh& mesh, const FieldOptions& options);
+
 /// Makes fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {
  public:
@@ -40,7 +43,6 @@ class FieldBuilder {
   };
 
   Made make(const std::string& name, const TriangleMesh& mesh) const;
-  DistanceField makeField(const std::string& name, const TriangleMesh& mesh, std::optional<double> default_cell) const;
   void writeField(const std::string& name, const DistanceField& field, const std::string& time);
   void writeShell(const std::string& name, const PointShell& shell, const std::string& time);
 

@@ -5,11 +5,10 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "field_builder.h"
 #include "output_file.h"
 #include "print.h"
-#include "progress_bar.h"
 #include "resolution_options.h"
-#include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/checked_file.h"
 #include "sdf_ccd/field/field_file.h"
 #include "sdf_ccd/field/octomap_surface.h"
@@ -58,11 +57,6 @@ void printQuality(const MeshQuality& quality) {
             << "sign trusted         " << (quality.sign_trusted ? "yes" : "no") << std::endl;
 }
 
-DistanceField fieldOf(const TriangleMesh& mesh, const FieldOptions& options) {
-  ProgressBar bar("field");
-  return buildField(mesh, options, [&](double share) { bar(share); });
-}
-
 /// Prints what the file holds; returns its field if a slice of it is wanted.
 std::optional<DistanceField> inspect(const Arguments& arguments) {
   const std::string& file = arguments.file;
@@ -84,12 +78,12 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
               << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m³\nwithin "
               << describe(boundingBox(mesh)) << std::endl;
     if (!wants_field) return std::nullopt;
-    return fieldOf(mesh, arguments.resolution.fieldOptions(voxel_size / 2.0));
+    return buildWithBar("field", mesh, arguments.resolution.fieldOptions(voxel_size / 2.0));
   }
   const OrientedMesh oriented = orientOutward(loadMesh(file));
   printQuality(oriented.quality);
   if (!wants_field) return std::nullopt;
-  return fieldOf(oriented.mesh, arguments.resolution.fieldOptions());
+  return buildWithBar("field", oriented.mesh, arguments.resolution.fieldOptions());
 }
 
 void run(const Arguments& arguments) {

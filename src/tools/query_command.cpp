@@ -9,10 +9,10 @@
 #include <tbb/parallel_for.h>
 
 #include "commands.h"
+#include "field_builder.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "resolution_options.h"
-#include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/field_file.h"
 #include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
@@ -37,9 +37,7 @@ DistanceField fieldOf(const Arguments& arguments) {
   if (!arguments.field.empty()) return loadField(arguments.field);
   FieldOptions options = arguments.resolution.fieldOptions();
   options.band = std::max(options.band, std::abs(arguments.query.sigma));
-  const TriangleMesh mesh = orientOutward(loadMesh(arguments.mesh)).mesh;
-  ProgressBar bar("field");
-  return buildField(mesh, options, [&](double share) { bar(share); });
+  return buildWithBar("field", orientOutward(loadMesh(arguments.mesh)).mesh, options);
 }
 
 std::vector<Intervals> intervalsOf(const DistanceField& field, const std::vector<Segment>& segments,
