@@ -12,14 +12,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kStiffness = 1e7;
-
-MonitorOptions soft() {
-  MonitorOptions options;
-  options.contact.stiffness = kStiffness;
-  return options;
-}
-
 TEST(Monitor, GivesAllFourVerdicts) {
   const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
   Monitor monitor(scene, soft());

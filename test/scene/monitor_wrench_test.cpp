@@ -9,14 +9,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kStiffness = 1e7;
-
-MonitorOptions soft() {
-  MonitorOptions options;
-  options.contact.stiffness = kStiffness;
-  return options;
-}
-
 /// A ball pressed δ into a plate; the same for both orders of bodies, wherever in the world.
 struct Pressed {
   double R = 0.1, delta = 0.005;

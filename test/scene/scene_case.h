@@ -32,6 +32,15 @@ inline SceneOptions fine(double spacing = 0.01) {
   return options;
 }
 
+constexpr double kStiffness = 1e7;  // [N/m^3]
+
+/// A monitor's options for bodies as soft as that.
+inline MonitorOptions soft() {
+  MonitorOptions options;
+  options.contact.stiffness = kStiffness;
+  return options;
+}
+
 inline std::shared_ptr<const Scene> build(const SceneDescription& description, const SceneOptions& options = fine()) {
   return std::make_shared<const Scene>(buildScene(description, planScene(description), options));
 }
