@@ -12,8 +12,8 @@
 namespace sdf_ccd {
 namespace {
 
-std::vector<PairContact::Siblings> siblingsOf(const Scene& scene) {
-  std::vector<PairContact::Siblings> siblings(scene.bodies.size());
+std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
+  std::vector<ContactCollector::Siblings> siblings(scene.bodies.size());
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const std::vector<BodyPart>& parts = scene.bodies[b].parts;
     siblings[b].resize(parts.size());
@@ -72,7 +72,7 @@ int severity(Verdict verdict) {
 struct Monitor::Impl {
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
-  std::vector<PairContact::Siblings> siblings;
+  std::vector<ContactCollector::Siblings> siblings;
   std::vector<PairChecker> checkers;
   CycleResult result;
 

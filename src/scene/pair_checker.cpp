@@ -31,7 +31,7 @@ void clear(PairResult& result) {
 }  // namespace
 
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
-                         const std::vector<PairContact::Siblings>& siblings, const MonitorOptions& options)
+                         const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)
     : scene_(scene), pair_(pair), siblings_(siblings), options_(options) {
   const auto addRole = [&](int shell, int field) {
     if (scene.bodies[shell].shell.size() > 0 && !scene.bodies[field].parts.empty())
@@ -119,13 +119,13 @@ void PairChecker::cutRoles(double motion_error, PairResult& result) {
 }
 
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
-  contact_.begin(motion, pair_.body_a, pair_.body_b);
+  collector_.begin(motion, pair_.body_a, pair_.body_b);
   const double weight = 1.0 / double(roles_.size());
   for (PairRole& role : roles_) {
     const bool shell_is_a = role.fieldBody() == pair_.body_b;
-    contact_.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact, request.wrenches);
+    collector_.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact, request.wrenches);
   }
-  contact_.finish(request, result);
+  collector_.finish(request, result);
   const bool proven = !result.intervals.empty() && result.deepest.depth > result.error.point();
   result.verdict = proven ? Verdict::kContact : Verdict::kUncertain;
 }

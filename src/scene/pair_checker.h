@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "pair_contact.h"
+#include "contact_collector.h"
 #include "pair_role.h"
 
 namespace sdf_ccd {
@@ -11,7 +11,7 @@ namespace sdf_ccd {
 /// Checks one pair, cycle after cycle. Owns the memory that needs, so that a cycle like the last allocates nothing.
 class PairChecker {
  public:
-  PairChecker(const Scene& scene, const PlannedPair& pair, const std::vector<PairContact::Siblings>& siblings,
+  PairChecker(const Scene& scene, const PlannedPair& pair, const std::vector<ContactCollector::Siblings>& siblings,
               const MonitorOptions& options);
 
   /// Never throws for a motion that cannot be followed: the pair is NOT_CHECKED then.
@@ -33,11 +33,11 @@ class PairChecker {
 
   const Scene& scene_;
   const PlannedPair& pair_;
-  const std::vector<PairContact::Siblings>& siblings_;  // per body
+  const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
   std::vector<PairRole> roles_;  // one or two
   double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
-  PairContact contact_;
+  ContactCollector collector_;
 };
 
 }  // namespace sdf_ccd

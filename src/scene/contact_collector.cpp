@@ -1,4 +1,4 @@
-#include "pair_contact.h"
+#include "contact_collector.h"
 
 #include <algorithm>
 #include <tuple>
@@ -10,7 +10,7 @@ constexpr double kJoin = 1e-9;  // of the cycle: times that differ by rounding a
 
 }  // namespace
 
-void PairContact::begin(const CycleMotion& motion, int body_a, int body_b) {
+void ContactCollector::begin(const CycleMotion& motion, int body_a, int body_b) {
   motion_ = &motion;
   body_a_ = body_a;
   body_b_ = body_b;
@@ -20,7 +20,7 @@ void PairContact::begin(const CycleMotion& motion, int body_a, int body_b) {
   found_.clear();
 }
 
-void PairContact::setFieldPoses(const PairRole& role) {
+void ContactCollector::setFieldPoses(const PairRole& role) {
   const std::vector<Isometry3d>& X_WF = motion_->X_WB[role.fieldBody()];
   const auto inC = [this](Isometry3d X) {
     X.translation() -= p_WC_;
@@ -37,8 +37,8 @@ void PairContact::setFieldPoses(const PairRole& role) {
   }
 }
 
-void PairContact::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
-                      const ContactOptions& options, bool with_impulse) {
+void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
+                           const ContactOptions& options, bool with_impulse) {
   const Body& shell = role.shell();
   bool have_poses = false;
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
@@ -74,7 +74,7 @@ void PairContact::add(PairRole& role, bool shell_is_a, double weight, const Sibl
 }
 
 /// Makes one contact of what chords and parts have cut of one point's stay inside.
-void PairContact::join() {
+void ContactCollector::join() {
   if (found_.empty()) return;
   std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
     return std::tie(a.role, a.point, a.contact.enter, a.contact.exit, a.contact.depth) <
@@ -98,7 +98,7 @@ void PairContact::join() {
   found_.resize(last + 1);
 }
 
-void PairContact::finish(const CycleRequest& request, PairResult& result) {
+void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   const double cycle = motion_->times.back();
   mergeIntervals(intervals_, kJoin * cycle);
   result.intervals = intervals_;

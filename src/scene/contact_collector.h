@@ -7,11 +7,11 @@
 
 namespace sdf_ccd {
 
-/// Gathers the contacts of a pair over both roles and all parts: intervals, points, impulse.
+/// Collects the contacts of a pair over both roles and all parts: intervals, points, impulse.
 ///
 /// Works in frame C: the world's axes about body A's origin at t₁. Far from the world's origin, moments about that
 /// would lose what the lever about the bodies still has.
-class PairContact {
+class ContactCollector {
  public:
   using Siblings = std::vector<std::vector<SiblingField>>;  // per part of a body
 
