@@ -125,7 +125,7 @@ std::string summary(const MeshQuality& quality) {
   count(quality.non_manifold_edges, "non-manifold edge", "non-manifold edges");
   count(quality.misoriented_edges, "misoriented edge", "misoriented edges");
   count(quality.inverted_components, "inverted component turned round", "inverted components turned round");
-  text << ", volume " << quality.volume << " m³, sign " << (quality.sign_trusted ? "trusted" : "doubtful");
+  text << ", volume " << quality.volume << " m^3, sign " << (quality.sign_trusted ? "trusted" : "doubtful");
   return text.str();
 }
 

@@ -41,7 +41,8 @@ std::string aligned(const std::vector<Row>& rows, std::size_t left) {
   return text;
 }
 
-/// One line per kind and reason, with a few examples: "212 pairs, SRDF: Never: a – b, c – d, …".
+/// One line per kind and reason, with a few examples: "212 pairs, SRDF: Never: a - b, c - d, ...". ASCII, for logs
+/// in any locale.
 std::string leftOutLines(const std::vector<LeftOut>& left_out) {
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
   for (const LeftOut& item : left_out) {
@@ -55,7 +56,7 @@ std::string leftOutLines(const std::vector<LeftOut>& left_out) {
     text += "  " + std::to_string(names.size()) + " " + group.first + (names.size() == 1 ? "" : "s") + ", " +
             group.second + ": ";
     for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
-    text += names.size() > kNamed ? ", …\n" : "\n";
+    text += names.size() > kNamed ? ", ...\n" : "\n";
   }
   return text;
 }

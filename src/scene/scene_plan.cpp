@@ -109,7 +109,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       const BodyDescription& b = description.bodies[k];
       const std::string reason = whyLeftOut(a, b, disabled);
       if (!reason.empty()) {
-        plan.left_out.push_back({"pair " + a.name + " – " + b.name, reason});
+        plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason});
         continue;
       }
       const bool checkable = a.failure.empty() && b.failure.empty();

@@ -29,7 +29,7 @@ void requireRoom(double area, const ShellOptions& options) {
   const double least = area / (kPi * options.spacing * options.spacing);
   if (least <= static_cast<double>(options.max_points)) return;
   std::ostringstream message;
-  message << "a point every " << options.spacing << " m on " << area << " m² needs more than " << options.max_points
+  message << "a point every " << options.spacing << " m on " << area << " m^2 needs more than " << options.max_points
           << " points";
   throw std::length_error(message.str());
 }

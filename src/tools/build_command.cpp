@@ -136,7 +136,7 @@ void addBuildCommand(CLI::App& app) {
       "second mesh is NAME_2), else the file's name. package:// is looked up in ROS_PACKAGE_PATH.");
   auto* source = command->add_option_group("source");
   source->add_option("--urdf", arguments->urdf, "Robot; its links' collision meshes are taken");
-  source->add_option("--mesh", arguments->mesh, "Mesh file: STL, DAE, OBJ, OFF, PLY, …");
+  source->add_option("--mesh", arguments->mesh, "Mesh file: STL, DAE, OBJ, OFF, PLY, ...");
   source->add_option("--octomap", arguments->octomap, "World: .bt or .ot file; the default cell is half a voxel");
   source->require_option(1);
   command->add_option("--srdf", arguments->srdf, "With --urdf: pairs that need no check, for the count of pairs");

@@ -55,7 +55,7 @@ void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const 
 
 void FieldBuilder::addVoxels(const std::string& name, const TriangleMesh& mesh, double voxel_size) {
   std::cout << "  voxels " << voxel_size << " m, " << mesh.triangles.size() << " triangles, volume "
-            << signedVolume(mesh) << " m³\n";
+            << signedVolume(mesh) << " m^3\n";
   const auto start = std::chrono::steady_clock::now();
   const DistanceField field = buildWithBar("field of " + name, mesh, resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);

@@ -38,7 +38,7 @@ void printShell(const PointShell& shell) {
   double area = 0.0;
   for (const Vector3d& p : shell.points) box.extend(p);
   for (const double a : shell.areas) area += a;
-  std::cout << "shell: " << describe(shell) << ", area " << shortly(area) << " m²\n";
+  std::cout << "shell: " << describe(shell) << ", area " << shortly(area) << " m^2\n";
   if (shell.size() > 0) std::cout << "within " << describe(box) << std::endl;
 }
 
@@ -51,8 +51,8 @@ void printQuality(const MeshQuality& quality) {
             << "boundary edges       " << quality.boundary_edges << "\n"
             << "non-manifold edges   " << quality.non_manifold_edges << "\n"
             << "misoriented edges    " << quality.misoriented_edges << "\n"
-            << "volume               " << shortly(quality.volume) << " m³\n"
-            << "area                 " << shortly(quality.area) << " m²\n"
+            << "volume               " << shortly(quality.volume) << " m^3\n"
+            << "area                 " << shortly(quality.area) << " m^2\n"
             << "box                  " << describe(quality.box) << "\n"
             << "sign trusted         " << (quality.sign_trusted ? "yes" : "no") << std::endl;
 }
@@ -75,7 +75,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
     double voxel_size = 0.0;
     const TriangleMesh mesh = loadOctomapSurface(file, voxel_size);
     std::cout << "OctoMap: voxels of " << voxel_size << " m; the surface of the occupied ones has "
-              << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m³\nwithin "
+              << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m^3\nwithin "
               << describe(boundingBox(mesh)) << std::endl;
     if (!wants_field) return std::nullopt;
     return buildWithBar("field", mesh, arguments.resolution.fieldOptions(voxel_size / 2.0));

@@ -39,7 +39,7 @@ std::string describe(const AlignedBox3d& box) {
 std::string describe(const DistanceField& field) {
   const SparseGrid& grid = *field.grid();
   const Vector3i cells = grid.shape().cells();
-  return format("%d×%d×%d cells of %.4g m, %zu of them stored, ", cells.x(), cells.y(), cells.z(), grid.shape().cell,
+  return format("%dx%dx%d cells of %.4g m, %zu of them stored, ", cells.x(), cells.y(), cells.z(), grid.shape().cell,
                 grid.storedCells()) +
          format("%s, error at most %.3g m within %.3g m of the surface", megabytes(field.bytes()).c_str(),
                 field.errorBound(), field.band());

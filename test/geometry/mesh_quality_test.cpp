@@ -30,7 +30,7 @@ TEST(MeshQuality, AClosedMeshIsLeftAlone) {
   EXPECT_NEAR(result.quality.volume, 48, 1e-9);
   EXPECT_NEAR(result.quality.area, 88, 1e-9);
   EXPECT_TRUE(result.quality.sign_trusted);
-  EXPECT_EQ(summary(result.quality), "12 triangles, closed, volume 48 m³, sign trusted");
+  EXPECT_EQ(summary(result.quality), "12 triangles, closed, volume 48 m^3, sign trusted");
 }
 
 TEST(MeshQuality, InsideOutIsTurnedRound) {

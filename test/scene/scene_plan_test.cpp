@@ -32,7 +32,7 @@ TEST(ScenePlan, LeavesOutDisabledPairsInEitherOrder) {
   const ScenePlan plan = planScene({{body("a", kBall), body("b", kBall), body("c", kBall)},
                                     {{"b", "a", "SRDF: Never"}, {"c", "no such link", "SRDF: Never"}}});
   EXPECT_EQ(plan.pairs.size(), 2u);
-  EXPECT_EQ(reasonOf(plan, "pair a – b"), "SRDF: Never");
+  EXPECT_EQ(reasonOf(plan, "pair a - b"), "SRDF: Never");
 }
 
 TEST(ScenePlan, LeavesOutPairsThatCannotMove) {
@@ -40,8 +40,8 @@ TEST(ScenePlan, LeavesOutPairsThatCannotMove) {
                                          body("tool", kBall)};
   bodies[3].frame = "a";
   const ScenePlan plan = planScene({bodies, {}});
-  EXPECT_EQ(reasonOf(plan, "pair table – wall"), "both of the world");
-  EXPECT_EQ(reasonOf(plan, "pair a – tool"), "in the same frame");
+  EXPECT_EQ(reasonOf(plan, "pair table - wall"), "both of the world");
+  EXPECT_EQ(reasonOf(plan, "pair a - tool"), "in the same frame");
   EXPECT_EQ(plan.pairs.size(), 4u);
 }
 
@@ -57,7 +57,7 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   EXPECT_EQ(plan.needs_shell, (std::vector<bool>{false, true, false}));
   EXPECT_EQ(plan.needs_field, (std::vector<bool>{true, false, true}));
   EXPECT_EQ(reasonOf(plan, "field of arm"), "only ever a shell");
-  EXPECT_EQ(reasonOf(plan, "pair map – ground"), "neither can be covered with points");
+  EXPECT_EQ(reasonOf(plan, "pair map - ground"), "neither can be covered with points");
   EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
 }
 
@@ -84,7 +84,7 @@ TEST(ScenePlan, BodiesWithoutGeometryHaveNoPairs) {
   bodies[1].geometry.clear();
   const ScenePlan plan = planScene({bodies, {}});
   EXPECT_TRUE(plan.pairs.empty());
-  EXPECT_EQ(reasonOf(plan, "pair a – frame"), "without collision geometry");
+  EXPECT_EQ(reasonOf(plan, "pair a - frame"), "without collision geometry");
 }
 
 TEST(ScenePlan, RefusesAmbiguousNames) {

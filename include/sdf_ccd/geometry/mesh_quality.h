@@ -36,7 +36,7 @@ struct OrientedMesh {
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 OrientedMesh orientOutward(const TriangleMesh& mesh);
 
-/// One line for people: "300 triangles, closed, volume 1.2e-3 m³, sign trusted".
+/// One line for people: "300 triangles, closed, volume 1.2e-3 m^3, sign trusted".
 std::string summary(const MeshQuality& quality);
 
 }  // namespace sdf_ccd

@@ -16,7 +16,7 @@ struct PlannedPair {
 };
 
 struct LeftOut {
-  std::string what;  ///< "pair a – b", "shell of map", "field of ground"
+  std::string what;  ///< "pair a - b", "shell of map", "field of ground"
   std::string reason;
 };
 
