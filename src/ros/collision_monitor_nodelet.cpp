@@ -124,7 +124,7 @@ void CollisionMonitor::listen() {
   std::vector<TrackedBody> bodies;
   for (const Body& body : scene_->bodies) bodies.push_back({body.frame, body.X_frame_B, motionBall(body)});
   history_ = std::make_unique<TfHistory>(described_.fixed_frame);
-  tracker_ = std::make_unique<TfTracker>(*history_, bodies, parameters_.tf);
+  tracker_ = std::make_unique<TfTracker>(*history_, bodies, scene_->pairs, parameters_.tf);
   ros::NodeHandle node(getNodeHandle());
   node.setCallbackQueue(&tf_queue_);
   const auto listenTo = [&](const std::string& topic, bool is_static) {
@@ -177,6 +177,7 @@ void CollisionMonitor::publishState(const CycleResult& result) {
   health_.latency = (ros::Time::now() - cycle_.end).toSec();
   health_.run_time = result.run_time;
   health_.missing = reasons(*scene_, cycle_.motion.missing);
+  health_.pairs_delayed = result.delayed;
   health_.out_of_order = history_->outOfOrder();
 
   MonitorState state;
@@ -195,6 +196,8 @@ void CollisionMonitor::publishState(const CycleResult& result) {
   state.pairs_checked = result.checked;
   state.pairs_skipped = result.skipped;
   state.pairs_not_checked = result.not_checked;
+  state.pairs_delayed = result.delayed;
+  state.complete_until = cycle_.complete_until;
   state_publisher_.publish(state);
   diagnostics_->update(health_);
 }

@@ -87,6 +87,8 @@ PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
   message.body_b = cycle.scene.bodies[pair.body_b].name;
   message.verdict = static_cast<std::uint8_t>(pair.verdict);
   message.reason = pair.reason;
+  message.checked_from = cycle.start + ros::Duration(cycle.motion.times[pair.span.first]);
+  message.checked_until = cycle.start + ros::Duration(cycle.motion.times[pair.span.last]);
   for (const Interval& interval : pair.intervals) {
     TimeInterval times;
     times.start = cycle.start + ros::Duration(interval.enter);
@@ -103,8 +105,8 @@ PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
   for (const ContactPoint& point : pair.points) message.points.push_back(toPointContact(point, cycle.start));
   message.wrench_on_a = toWrench(pair.on_a_W);
   message.wrench_on_b = toWrench(pair.on_b_W);
-  message.origin_a = toPoint(cycle.motion.X_WB[pair.body_a].back().translation());
-  message.origin_b = toPoint(cycle.motion.X_WB[pair.body_b].back().translation());
+  message.origin_a = toPoint(cycle.motion.X_WB[pair.body_a][pair.span.last].translation());
+  message.origin_b = toPoint(cycle.motion.X_WB[pair.body_b][pair.span.last].translation());
   message.error_bound = pair.error.total();
   message.error_field = pair.error.field;
   message.error_chord = pair.error.chord;
@@ -116,14 +118,13 @@ PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
 std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleContext& cycle) {
   std::vector<PairContact> messages;
   for (const PairResult& pair : result.pairs) {
-    if (pair.verdict != Verdict::kClear) messages.push_back(toPairContact(pair, cycle));
+    if (pair.verdict != Verdict::kClear && !pair.span.empty()) messages.push_back(toPairContact(pair, cycle));
   }
   return messages;
 }
 
 ContactArray toContactArray(const CycleResult& result, const CycleContext& cycle) {
   ContactArray message;
-  message.cycle_start = cycle.start;
   message.run_time = result.run_time;
   message.verdict = static_cast<std::uint8_t>(result.verdict);
   message.error_bound = result.error_bound;
@@ -131,6 +132,7 @@ ContactArray toContactArray(const CycleResult& result, const CycleContext& cycle
   message.checked = result.checked;
   message.skipped = result.skipped;
   message.not_checked = result.not_checked;
+  message.delayed = result.delayed;
   return message;
 }
 

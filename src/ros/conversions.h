@@ -30,16 +30,16 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench);
 struct CycleContext {
   const Scene& scene;
   const CycleMotion& motion;
-  const std::vector<double>& samples;  ///< times of the recorded poses [s] from the start
-  ros::Time start;
+  const std::vector<double>& samples;  ///< times of the recorded poses [s] from the motion's start
+  ros::Time start;                     ///< of the motion
 };
 
 PairContact toPairContact(const PairResult& pair, const CycleContext& cycle);
 
-/// The pairs that are not clear.
+/// The pairs that are neither clear nor delayed.
 std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleContext& cycle);
 
-/// All but the header, which is the caller's.
+/// All but the header and the cycle's own times, which are the caller's.
 ContactArray toContactArray(const CycleResult& result, const CycleContext& cycle);
 
 }  // namespace sdf_ccd

@@ -51,6 +51,7 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
     status.summaryf(DiagnosticStatus::ERROR, "%zu bodies not known", health_.missing.size());
   }
   addLines("missing", health_.missing, status);
+  status.add("pairs delayed", health_.pairs_delayed);
   status.add("out of order", health_.out_of_order);
 }
 

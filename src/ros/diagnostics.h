@@ -21,6 +21,7 @@ struct MonitorHealth {
   std::vector<std::string> missing;     ///< "body: reason" of the last cycle
   std::vector<std::string> bad_bodies;  ///< "body: reason" of those without field or shell
   std::vector<std::string> warnings;    ///< from reading robot and world
+  int pairs_delayed = 0;                ///< in the last cycle, for late transforms
   long out_of_order = 0;                ///< transforms that came behind newer ones
 };
 

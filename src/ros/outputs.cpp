@@ -40,11 +40,13 @@ CycleRequest Outputs::request(int max_points) const {
 }
 
 void Outputs::publish(const CycleResult& result, const TrackedCycle& cycle) {
-  const CycleContext context{*scene_, cycle.motion, cycle.samples, cycle.start};
+  const CycleContext context{*scene_, cycle.motion, cycle.samples, cycle.origin};
   if (contacts_.getNumSubscribers() > 0) {
     ContactArray contacts = toContactArray(result, context);
     contacts.header.stamp = cycle.end;
     contacts.header.frame_id = fixed_frame_;
+    contacts.cycle_start = cycle.start;
+    contacts.complete_until = cycle.complete_until;
     contacts_.publish(contacts);
   }
   publishWrenches(result, cycle);

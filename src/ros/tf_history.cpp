@@ -126,6 +126,17 @@ bool TfHistory::chain(const std::string& frame, std::vector<const Edge*>& edges,
 
 TfHistory::Span TfHistory::span(const std::string& frame) const {
   const std::lock_guard<std::mutex> lock(mutex_);
+  return lockedSpan(frame);
+}
+
+std::vector<TfHistory::Span> TfHistory::spans(const std::vector<std::string>& frames) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<Span> spans;
+  for (const std::string& frame : frames) spans.push_back(lockedSpan(frame));
+  return spans;
+}
+
+TfHistory::Span TfHistory::lockedSpan(const std::string& frame) const {
   Span span;
   std::vector<const Edge*> edges;
   if (!chain(frame, edges, span.problem)) return span;

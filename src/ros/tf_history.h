@@ -45,6 +45,9 @@ class TfHistory {
   };
   Span span(const std::string& frame) const;
 
+  /// The same of several frames, all before or all after a message that is being added.
+  std::vector<Span> spans(const std::vector<std::string>& frames) const;
+
   /// Adds the times within (start, end) at which the way to the frame has a recorded transform that differs from its
   /// neighbours: between all others it rests.
   void recordedTimes(const std::string& frame, const ros::Time& start, const ros::Time& end,
@@ -77,6 +80,7 @@ class TfHistory {
   void addOne(const geometry_msgs::TransformStamped& transform, bool is_static);
   void record(Edge& edge, const geometry_msgs::TransformStamped& transform);
   void clear();
+  Span lockedSpan(const std::string& frame) const;
   bool chain(const std::string& frame, std::vector<const Edge*>& edges, std::string& problem) const;
   std::vector<const Edge*> edgesUpwards(const std::string& frame) const;
   std::string rootOf(const std::string& frame) const;

@@ -14,10 +14,12 @@ std::string seconds(double value) {
 
 }  // namespace
 
-TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies, const TfTrackerOptions& options)
-    : history_(history), bodies_(bodies), options_(options) {
+TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies, const std::vector<PlannedPair>& pairs,
+                     const TfTrackerOptions& options)
+    : history_(history), bodies_(bodies), pairs_(pairs), options_(options) {
   for (TrackedBody& body : bodies_) {
     body.frame = withoutLeadingSlash(body.frame);
+    frames_.push_back(body.frame);
     balls_.push_back(body.ball_B);
   }
 }
@@ -38,95 +40,150 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
 
   std::vector<std::string>& missing = cycle.motion.missing;
   missing.assign(bodies_.size(), "");
-  const ros::Time end = cycleEnd(now, missing);
-  if (last_end_.isZero() && !waited_enough && !allKnownAt(end, missing))
-    return Step::kWaiting;  // they may be on the way
-  if (end.isZero() || end <= last_end_) return waited_enough ? Step::kStalled : Step::kWaiting;
+  look(now, missing);
+  const bool is_first = last_end_.isZero();
+  const ros::Time end = is_first ? ros::Time() : foremostEnd(missing);
+  if (is_first ? !begin(waited_enough, missing) : end <= last_end_)
+    return waited_enough ? Step::kStalled : Step::kWaiting;
   waits_since_ = now;
-  const ros::Time start = last_end_;
-  last_end_ = end;
-  if (start.isZero()) return Step::kWaiting;  // the first cycle begins here
+  if (is_first) return Step::kWaiting;
 
-  cycle.start = start;
-  cycle.end = end;
+  cycle.start = last_end_;
+  cycle.end = last_end_ = end;
+  advancePairs(cycle);
   findGaps(cycle, missing);
   cycle.samples = recordedSamples(cycle);
-  const PosesAt poses_at = [&](double time, std::vector<Isometry3d>& X_WB) {
-    posesAt(start + ros::Duration(time), X_WB, missing);
+  const PosesAt poses_at = [&](double seconds, std::vector<Isometry3d>& X_WB) {
+    const ros::Time time = cycle.origin + ros::Duration(seconds);
+    X_WB.assign(bodies_.size(), Isometry3d::Identity());
+    for (std::size_t body = 0; body < bodies_.size(); ++body) {
+      // Where a body is not known yet, or not known any more, no pair needs it.
+      const ros::Time known = std::min(std::max(time, spans_[body].first), ends_[body]);
+      if (missing[body].empty()) poseAt(body, known, X_WB[body], missing[body]);
+    }
   };
   sampleMotion(cycle.samples, poses_at, balls_, options_.sampling, cycle.motion);
+  setSpans(cycle);
   return Step::kCycle;
 }
 
-ros::Time TfTracker::cycleEnd(const ros::Time& now, std::vector<std::string>& missing) {
-  spans_.clear();
+void TfTracker::look(const ros::Time& now, std::vector<std::string>& missing) {
+  spans_ = history_.spans(frames_);
   ros::Time newest;
-  for (const TrackedBody& body : bodies_) {
-    spans_.push_back(history_.span(body.frame));
-    newest = std::max(newest, spans_.back().last);
-  }
+  for (const TfHistory::Span& span : spans_) newest = std::max(newest, span.last);
   // Transforms may be stamped ahead of the clock, or come from a bag that is played without one.
-  const ros::Time reference = now.isZero() || newest.isZero() ? std::max(now, newest) : std::min(now, newest);
-  ros::Time end;
+  reference_ = now.isZero() || newest.isZero() ? std::max(now, newest) : std::min(now, newest);
+  ends_.assign(bodies_.size(), ros::TIME_MAX);
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const TfHistory::Span& span = spans_[body];
     if (!span.problem.empty()) {
       missing[body] = span.problem;
-    } else if (!span.is_static && reference - span.last > ros::Duration(options_.max_latency)) {
-      missing[body] = bodies_[body].frame + " is late by " + seconds((reference - span.last).toSec());
+    } else if (!span.is_static && reference_ - span.last > ros::Duration(options_.max_latency)) {
+      missing[body] = bodies_[body].frame + " is late by " + seconds((reference_ - span.last).toSec());
     } else if (!span.is_static) {
-      end = end.isZero() ? span.last : std::min(end, span.last);
+      ends_[body] = std::min(span.last, reference_);
     }
   }
-  return end.isZero() ? reference : end;
 }
 
-bool TfTracker::allKnownAt(const ros::Time& time, const std::vector<std::string>& missing) const {
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    if (!missing[body].empty() || (!spans_[body].is_static && spans_[body].first > time)) return false;
+/// The first cycle begins where all bodies are known, or, after some time, all but those that are missing.
+bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missing) {
+  const auto earliest = std::min_element(ends_.begin(), ends_.end());
+  const ros::Time start = earliest == ends_.end() || *earliest == ros::TIME_MAX ? reference_ : *earliest;
+  for (std::size_t body = 0; body < bodies_.size() && !waited_enough; ++body) {
+    if (!missing[body].empty() || spans_[body].first > start) return false;  // it may be on the way
   }
+  if (start.isZero()) return false;
+  last_end_ = start;
+  times_.assign(pairs_.size(), {start, start});
   return true;
+}
+
+ros::Time TfTracker::foremostEnd(const std::vector<std::string>& missing) const {
+  ros::Time foremost;
+  for (const PlannedPair& pair : pairs_) {
+    const ros::Time end = std::min(ends_[pair.body_a], ends_[pair.body_b]);
+    const bool is_known = missing[pair.body_a].empty() && missing[pair.body_b].empty();
+    if (is_known && end != ros::TIME_MAX) foremost = std::max(foremost, end);
+  }
+  return foremost.isZero() ? reference_ : foremost;
+}
+
+void TfTracker::advancePairs(TrackedCycle& cycle) {
+  const std::vector<std::string>& missing = cycle.motion.missing;
+  cycle.origin = cycle.start;
+  cycle.complete_until = cycle.end;
+  needed_from_.assign(bodies_.size(), cycle.end);
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const int a = pairs_[p].body_a, b = pairs_[p].body_b;
+    const bool is_known = missing[a].empty() && missing[b].empty();
+    const ros::Time from = times_[p].until;
+    const ros::Time until = is_known ? std::max(from, std::min({ends_[a], ends_[b], cycle.end})) : cycle.end;
+    times_[p] = {from, until};
+    cycle.complete_until = std::min(cycle.complete_until, until);
+    if (from == until) continue;
+    cycle.origin = std::min(cycle.origin, from);
+    for (const int body : {a, b}) needed_from_[body] = std::min(needed_from_[body], from);
+  }
 }
 
 void TfTracker::findGaps(const TrackedCycle& cycle, std::vector<std::string>& missing) const {
   const double length = (cycle.end - cycle.start).toSec();
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    if (!missing[body].empty() || spans_[body].is_static) continue;
+    const ros::Time& from = needed_from_[body];
+    if (!missing[body].empty() || spans_[body].is_static || from == cycle.end) continue;
     const std::string& frame = bodies_[body].frame;
     if (length > options_.max_cycle) {
       missing[body] = "no cycle for " + seconds(length);
-    } else if (spans_[body].first > cycle.start) {
-      missing[body] = frame + " is known only since " + seconds((spans_[body].first - cycle.start).toSec()) +
-                      " after the cycle's start";
+    } else if (spans_[body].first > from) {
+      missing[body] =
+          frame + " is known only since " + seconds((spans_[body].first - from).toSec()) + " after the cycle's start";
     } else {
-      const double gap = history_.longestGap(frame, cycle.start, cycle.end);
+      const double gap = history_.longestGap(frame, from, std::min(ends_[body], cycle.end));
       if (gap > options_.max_cycle) missing[body] = "no transforms of " + frame + " for " + seconds(gap);
     }
   }
 }
 
 std::vector<double> TfTracker::recordedSamples(const TrackedCycle& cycle) const {
-  std::vector<ros::Time> times = {cycle.start, cycle.end};
+  std::vector<ros::Time> times = {cycle.origin, cycle.end};
+  for (const PairTimes& pair : times_) {
+    if (pair.from < pair.until) times.insert(times.end(), {pair.from, pair.until});
+  }
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     if (cycle.motion.missing[body].empty() && !spans_[body].is_static) {
-      history_.recordedTimes(bodies_[body].frame, cycle.start, cycle.end, times);
+      history_.recordedTimes(bodies_[body].frame, needed_from_[body], cycle.end, times);
     }
   }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   std::vector<double> samples;
-  for (const ros::Time& time : times) samples.push_back((time - cycle.start).toSec());
+  for (const ros::Time& time : times) samples.push_back((time - cycle.origin).toSec());
   return samples;
+}
+
+void TfTracker::setSpans(TrackedCycle& cycle) const {
+  const std::vector<double>& times = cycle.motion.times;
+  const auto knotAt = [&](const ros::Time& time) {
+    const auto knot = std::lower_bound(times.begin(), times.end(), (time - cycle.origin).toSec());
+    return static_cast<std::size_t>(knot - times.begin());
+  };
+  cycle.motion.spans.clear();
+  for (const PairTimes& pair : times_) cycle.motion.spans.push_back({knotAt(pair.from), knotAt(pair.until)});
+}
+
+bool TfTracker::poseAt(std::size_t body, const ros::Time& time, Isometry3d& X_WB, std::string& problem) const {
+  Isometry3d X_WF;
+  if (!history_.lookup(bodies_[body].frame, time, X_WF, problem)) return false;
+  X_WB = X_WF * bodies_[body].X_frame_B;
+  return true;
 }
 
 void TfTracker::posesAt(const ros::Time& time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) const {
   X_WB.assign(bodies_.size(), Isometry3d::Identity());
   missing.resize(bodies_.size());
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    Isometry3d X_WF;
-    if (missing[body].empty() && history_.lookup(bodies_[body].frame, time, X_WF, missing[body])) {
-      X_WB[body] = X_WF * bodies_[body].X_frame_B;
-    }
+    if (missing[body].empty()) poseAt(body, time, X_WB[body], missing[body]);
   }
 }
 

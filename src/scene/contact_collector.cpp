@@ -6,15 +6,16 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kJoin = 1e-9;  // of the cycle: times that differ by rounding are the same
+constexpr double kJoin = 1e-9;  // of the span: times that differ by rounding are the same
 
 }  // namespace
 
-void ContactCollector::begin(const CycleMotion& motion, int body_a, int body_b) {
+void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair) {
   motion_ = &motion;
-  body_a_ = body_a;
-  body_b_ = body_b;
-  p_WC_ = motion.X_WB[body_a].back().translation();
+  span_ = pair.span;
+  body_a_ = pair.body_a;
+  body_b_ = pair.body_b;
+  p_WC_ = motion.X_WB[body_a_][span_.last].translation();
   impulse_on_a_C_ = {};
   intervals_.clear();
   found_.clear();
@@ -26,13 +27,14 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
     X.translation() -= p_WC_;
     return X;
   };
-  X_CF_.assign(1, inC(X_WF.front()));
+  X_CF_.assign(1, inC(X_WF[span_.first]));
   const std::vector<Chord>& chords = role.path().chords;
   for (std::size_t c = 0; c < chords.size();) {
-    const int knot = chords[c].knot;
+    const int chords_knot = chords[c].knot;
+    const std::size_t knot = span_.first + chords_knot;
     const double t0 = motion_->times[knot], t1 = motion_->times[knot + 1];
     const ScrewMotion screw(inC(X_WF[knot]), inC(X_WF[knot + 1]));
-    for (; c < chords.size() && chords[c].knot == knot; ++c)
+    for (; c < chords.size() && chords[c].knot == chords_knot; ++c)
       X_CF_.push_back(screw.pose(chords[c].t_end == t1 ? 1.0 : (chords[c].t_end - t0) / (t1 - t0)));
   }
 }
@@ -85,7 +87,7 @@ void ContactCollector::join() {
     ContactPoint& kept = found_[last].contact;
     const ContactPoint& next = found_[i].contact;
     const bool same = found_[i].role == found_[last].role && found_[i].point == found_[last].point &&
-                      next.enter <= kept.exit + kJoin * motion_->times.back();
+                      next.enter <= kept.exit + kJoin * duration();
     if (!same) {
       found_[++last] = found_[i];
       continue;
@@ -99,13 +101,14 @@ void ContactCollector::join() {
 }
 
 void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
-  const double cycle = motion_->times.back();
-  mergeIntervals(intervals_, kJoin * cycle);
+  const double same = kJoin * duration();
+  mergeIntervals(intervals_, same);
   result.intervals = intervals_;
   result.touches_at_sample = false;
-  for (const double t : motion_->times)
+  for (std::size_t k = span_.first; k <= span_.last; ++k)
     for (const Interval& interval : intervals_)
-      result.touches_at_sample |= t >= interval.enter - kJoin * cycle && t <= interval.exit + kJoin * cycle;
+      result.touches_at_sample |=
+          motion_->times[k] >= interval.enter - same && motion_->times[k] <= interval.exit + same;
 
   join();
   const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 1)));
@@ -117,8 +120,8 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   for (std::size_t i = 0; i < listed && request.max_points > 0; ++i) result.points.push_back(found_[i].contact);
 
   if (!request.wrenches) return;
-  result.on_a_W = (1.0 / cycle) * impulse_on_a_C_;  // Eq. 8, 9; C's origin is A's at t₁
-  const Vector3d p_AB = motion_->X_WB[body_b_].back().translation() - p_WC_;
+  result.on_a_W = (1.0 / duration()) * impulse_on_a_C_;  // Eq. 8, 9; C's origin is A's at the end
+  const Vector3d p_AB = motion_->X_WB[body_b_][span_.last].translation() - p_WC_;
   const Vector3d& force_on_a = result.on_a_W.force;
   result.on_b_W = {-force_on_a, p_AB.cross(force_on_a) - result.on_a_W.torque};
 }

@@ -9,13 +9,14 @@ namespace sdf_ccd {
 
 /// Collects the contacts of a pair over both roles and all parts: intervals, points, impulse.
 ///
-/// Works in frame C: the world's axes about body A's origin at t₁. Far from the world's origin, moments about that
-/// would lose what the lever about the bodies still has.
+/// Works in frame C: the world's axes about body A's origin at the span's end. Far from the world's origin, moments
+/// about that would lose what the lever about the bodies still has.
 class ContactCollector {
  public:
   using Siblings = std::vector<std::vector<SiblingField>>;  // per part of a body
 
-  void begin(const CycleMotion& motion, int body_a, int body_b);
+  /// @param pair  whose bodies and span of the motion it is about.
+  void begin(const CycleMotion& motion, const PairResult& pair);
 
   /// Adds the contacts of one role; its path must be cut.
   /// @param shell_is_a  the shell's body is the pair's body A.
@@ -36,7 +37,10 @@ class ContactCollector {
   void setFieldPoses(const PairRole& role);
   void join();
 
+  double duration() const { return motion_->times[span_.last] - motion_->times[span_.first]; }
+
   const CycleMotion* motion_ = nullptr;
+  KnotSpan span_;
   int body_a_ = -1, body_b_ = -1;
   Vector3d p_WC_ = Vector3d::Zero();
   Wrench impulse_on_a_C_;

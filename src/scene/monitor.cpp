@@ -37,6 +37,12 @@ void validate(const CycleMotion& motion, const Scene& scene) {
     if (!(last < time) || !std::isfinite(time))
       refuse("time " + std::to_string(last) + " s is followed by " + std::to_string(time));
   }
+  const std::size_t pairs = scene.pairs.size();
+  if (!motion.spans.empty() && motion.spans.size() != pairs)
+    refuse(std::to_string(motion.spans.size()) + " spans, the scene has " + std::to_string(pairs) + " pairs");
+  for (const KnotSpan& span : motion.spans)
+    if (span.first > span.last || span.last >= motion.times.size())
+      refuse("a span from time " + std::to_string(span.first) + " to " + std::to_string(span.last));
   const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
   if (motion.X_WB.size() != bodies || !fits(motion.missing.size()) || !fits(motion.motion_error.size()))
     refuse("made for " + std::to_string(motion.X_WB.size()) + " bodies, the scene has " + std::to_string(bodies));
@@ -79,8 +85,12 @@ struct Monitor::Impl {
   void summarise() {
     result.verdict = Verdict::kClear;
     result.error_bound = 0.0;
-    result.checked = result.skipped = result.not_checked = 0;
+    result.checked = result.skipped = result.not_checked = result.delayed = 0;
     for (const PairResult& pair : result.pairs) {
+      if (pair.span.empty()) {
+        ++result.delayed;
+        continue;
+      }
       if (severity(pair.verdict) > severity(result.verdict)) result.verdict = pair.verdict;
       if (pair.verdict == Verdict::kNotChecked) {
         ++result.not_checked;
@@ -117,8 +127,12 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
   const auto start = std::chrono::steady_clock::now();
   validate(motion, *impl_->scene);
   // A pair has its own memory and state, so its result is the same whichever thread it meets.
-  tbb::parallel_for(std::size_t{0}, impl_->checkers.size(),
-                    [&](std::size_t i) { impl_->checkers[i].run(motion, request, impl_->result.pairs[i]); });
+  const KnotSpan whole{0, motion.times.size() - 1};
+  tbb::parallel_for(std::size_t{0}, impl_->checkers.size(), [&](std::size_t i) {
+    PairResult& result = impl_->result.pairs[i];
+    result.span = motion.spans.empty() ? whole : motion.spans[i];
+    impl_->checkers[i].run(motion, request, result);
+  });
   impl_->summarise();
   impl_->result.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return impl_->result;

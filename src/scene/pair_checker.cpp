@@ -13,7 +13,7 @@ void setNotChecked(const std::string& reason, PairResult& result) {
   result.reason = reason;
 }
 
-/// As new, but with its memory.
+/// As new, but with its memory and its span.
 void clear(PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason.clear();
@@ -43,6 +43,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
 
 void PairChecker::run(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
   clear(result);
+  if (result.span.empty()) return setNotChecked("its transforms have not come yet", result);
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const std::string& failure = scene_.bodies[body].failure;
     const bool lost = !motion.missing.empty() && !motion.missing[body].empty();
@@ -67,7 +68,7 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
     motion_error = motion.motion_error[pair_.body_a] + motion.motion_error[pair_.body_b];
   double travel = std::numeric_limits<double>::infinity(), jump = travel;
   for (PairRole& role : roles_) {
-    role.setMotion(motion);
+    role.setMotion(motion, result.span);
     result.error.field = std::max(result.error.field, role.fieldError());
     result.error.gap = std::max(result.error.gap, role.gap());
     travel = std::min(travel, role.travel());
@@ -119,7 +120,7 @@ void PairChecker::cutRoles(double motion_error, PairResult& result) {
 }
 
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
-  collector_.begin(motion, pair_.body_a, pair_.body_b);
+  collector_.begin(motion, result);
   const double weight = 1.0 / double(roles_.size());
   for (PairRole& role : roles_) {
     const bool shell_is_a = role.fieldBody() == pair_.body_b;

@@ -14,7 +14,8 @@ class PairChecker {
   PairChecker(const Scene& scene, const PlannedPair& pair, const std::vector<ContactCollector::Siblings>& siblings,
               const MonitorOptions& options);
 
-  /// Never throws for a motion that cannot be followed: the pair is NOT_CHECKED then.
+  /// Checks the pair over `result.span`, and keeps what it knows if that is empty. Never throws for a motion that
+  /// cannot be followed: the pair is NOT_CHECKED then.
   void run(const CycleMotion& motion, const CycleRequest& request, PairResult& result);
 
   /// Forgets how far apart the bodies were.

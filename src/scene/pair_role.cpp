@@ -15,13 +15,15 @@ PairRole::PairRole(const Scene& scene, int shell_body, int field_body)
   for (const BodyPart& part : field_->parts) field_error_ = std::max(field_error_, part.field.errorBound());
 }
 
-void PairRole::setMotion(const CycleMotion& motion) {
+void PairRole::setMotion(const CycleMotion& motion, const KnotSpan& span) {
   const bool first = motion_.X_FP.empty();
   const Isometry3d last = first ? Isometry3d::Identity() : motion_.X_FP.back();
-  motion_.times = motion.times;
-  motion_.X_FP.resize(motion.times.size());
-  for (std::size_t k = 0; k < motion.times.size(); ++k)
-    motion_.X_FP[k] = relativePose(motion.X_WB[field_body_][k], motion.X_WB[shell_body_][k]);
+  motion_.times.assign(motion.times.begin() + span.first, motion.times.begin() + span.last + 1);
+  motion_.X_FP.resize(motion_.times.size());
+  for (std::size_t k = 0; k < motion_.times.size(); ++k) {
+    const std::size_t knot = span.first + k;
+    motion_.X_FP[k] = relativePose(motion.X_WB[field_body_][knot], motion.X_WB[shell_body_][knot]);
+  }
   const auto between = [&](const Isometry3d& from, const Isometry3d& to) {
     if (!first && from.matrix() == to.matrix()) return 0.0;  // most pairs of a standing robot; seen before, so valid
     return ScrewMotion(from, to).maxTravel(shell_->ball);

@@ -26,9 +26,9 @@ class PairRole {
   double gap() const { return shell_->shell.covering_radius; }
   double fieldError() const { return field_error_; }
 
-  /// Takes the relative motion of a cycle. Distances may have shrunk by travel() within it and by jump() between the
-  /// last cycle's end and its start.
-  void setMotion(const CycleMotion& motion);
+  /// Takes the relative motion over a part of a cycle. Distances may have shrunk by travel() within it and by jump()
+  /// between the last one's end and its start.
+  void setMotion(const CycleMotion& motion, const KnotSpan& span);
   /// Takes the next motion's start as unrelated to this one's end.
   void forget() { motion_.X_FP.clear(); }
   double travel() const { return travel_; }
@@ -41,11 +41,11 @@ class PairRole {
   /// The same path seen from a part's frame G. The reference is good until the next call.
   const ChordPath& partPath(const BodyPart& part);
 
-  /// Lower bound of the distance of the bodies' surfaces [m], from the shell's ball alone, at t₀ and t₁.
+  /// Lower bound of the distance of the bodies' surfaces [m], from the shell's ball alone, at both ends.
   double ballClearanceAtStart() const { return ballClearance(motion_.X_FP.front()); }
   double ballClearanceAtEnd() const { return ballClearance(motion_.X_FP.back()); }
 
-  /// The same from all points, at t₁, within `slack` [m] of what the fields know.
+  /// The same from all points, at the end, within `slack` [m] of what the fields know.
   double clearanceAtEnd(double slack) const;
 
   /// False only if no point of the shell comes nearer than `distance` [m] to any part: conservative at any distance.

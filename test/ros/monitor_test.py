@@ -160,6 +160,20 @@ class MonitorTest(unittest.TestCase):
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.ADD for x in m.markers)))
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETE for x in m.markers)))
 
+    def test_late_frame_delays_only_its_own_pairs(self):
+        for ball in (0.4, 0.6, 0.6):
+            self.send(ball, None)
+        message = self.contacts.find(self.touching)
+        self.assertIsNotNone(message, 'the ball waits for the other one')
+        self.assertGreater(message.delayed, 0)
+        self.assertEqual(message.not_checked, 0)
+        self.assertLess(message.complete_until, message.header.stamp)
+        self.contacts.clear()
+        self.send(0.0, 0.6)
+        message = self.contacts.find(lambda m: m.delayed == 0)
+        self.assertIsNotNone(message)
+        self.assertEqual(message.complete_until, message.header.stamp)
+
     def test_late_frame_costs_only_its_own_pairs(self):
         for _ in range(25):
             self.send(0.0, None)

@@ -29,6 +29,11 @@ class TfTrackerTest : public ::testing::Test {
     history_.add(message, is_static);
   }
 
+  /// When the pair's span begins and ends in the current cycle.
+  double spanStart(int pair) const { return spanTime(cycle_.motion.spans[pair].first); }
+  double spanEnd(int pair) const { return spanTime(cycle_.motion.spans[pair].last); }
+  double spanTime(std::size_t knot) const { return (cycle_.origin + ros::Duration(cycle_.motion.times[knot])).toSec(); }
+
   Step next(double now) { return tracker_.next(ros::Time(now), cycle_); }
 
   TfHistory history_{"/world"};
@@ -36,11 +41,12 @@ class TfTrackerTest : public ::testing::Test {
                      {{"/hand", Isometry3d::Identity(), {Vector3d::Zero(), 0.1}},
                       {"foot", Isometry3d::Identity(), {Vector3d::Zero(), 0.1}},
                       {"world", Isometry3d::Identity(), {Vector3d::Zero(), 1.0}}},
+                     {{0, 1, true, true}, {0, 2, true, true}, {1, 2, true, true}},
                      TfTrackerOptions()};
   TrackedCycle cycle_;
 };
 
-TEST_F(TfTrackerTest, CycleEndsAtTheNewestTimeAllFramesAreKnownAndHoldsEveryRecordedTransform) {
+TEST_F(TfTrackerTest, PairsGoAsFarAsBothFramesAreKnownAndHoldEveryRecordedTransform) {
   send(transform("/world", "/hand", 10.0, 0.0));
   send(transform("world", "foot", 10.0, 0.0));
   EXPECT_EQ(next(10.0), Step::kWaiting);  // the first cycle begins
@@ -51,8 +57,12 @@ TEST_F(TfTrackerTest, CycleEndsAtTheNewestTimeAllFramesAreKnownAndHoldsEveryReco
   send(transform("world", "foot", 10.07, 2.0));
   ASSERT_EQ(next(10.1), Step::kCycle);
   EXPECT_EQ(cycle_.start, ros::Time(10.0));
-  EXPECT_EQ(cycle_.end, ros::Time(10.07));
-  ASSERT_EQ(cycle_.samples.size(), 5u);
+  EXPECT_EQ(cycle_.origin, ros::Time(10.0));
+  EXPECT_EQ(cycle_.end, ros::Time(10.09));
+  EXPECT_EQ(cycle_.complete_until, ros::Time(10.07));
+  for (const int pair : {0, 1, 2}) EXPECT_NEAR(spanStart(pair), 10.0, 1e-9);
+  for (const int pair : {0, 1, 2}) EXPECT_NEAR(spanEnd(pair), pair == 1 ? 10.09 : 10.07, 1e-9);
+  ASSERT_EQ(cycle_.samples.size(), 6u);
   EXPECT_NEAR(cycle_.samples[1], 0.02, 1e-9);
   EXPECT_NEAR(cycle_.samples[2], 0.03, 1e-9);
   EXPECT_NEAR(cycle_.samples[3], 0.05, 1e-9);
@@ -79,17 +89,50 @@ TEST_F(TfTrackerTest, RestingFramesAddNoTimes) {
   EXPECT_NEAR(cycle_.samples[3], 0.06, 1e-9);
 }
 
-TEST_F(TfTrackerTest, WaitsForALateFrameThenGoesOnWithoutIt) {
+TEST_F(TfTrackerTest, ALateFrameDelaysOnlyItsOwnPairsAndIsCaughtUpOn) {
+  for (int i = 0; i <= 3; ++i) {
+    send(transform("world", "hand", 10.0 + 0.1 * i, 0.1 * i));
+    if (i <= 1) send(transform("world", "foot", 10.0 + 0.1 * i, 0.0));
+    ASSERT_EQ(next(10.0 + 0.1 * i), i == 0 ? Step::kWaiting : Step::kCycle);
+    if (i < 2) continue;
+    EXPECT_NEAR(cycle_.complete_until.toSec(), 10.1, 1e-9);
+    EXPECT_TRUE(cycle_.motion.spans[0].empty());
+    EXPECT_NEAR(spanStart(1), 10.0 + 0.1 * (i - 1), 1e-9);
+    EXPECT_NEAR(spanEnd(1), 10.0 + 0.1 * i, 1e-9);
+    EXPECT_TRUE(cycle_.motion.spans[2].empty());
+  }
+  send(transform("world", "foot", 10.25, 1.5));
+  send(transform("world", "hand", 10.4, 0.4));
+  ASSERT_EQ(next(10.4), Step::kCycle);
+  EXPECT_EQ(cycle_.start, ros::Time(10.3));
+  EXPECT_EQ(cycle_.end, ros::Time(10.4));
+  EXPECT_EQ(cycle_.origin, ros::Time(10.1));
+  EXPECT_EQ(cycle_.complete_until, ros::Time(10.25));
+  for (const int pair : {0, 2}) {
+    EXPECT_NEAR(spanStart(pair), 10.1, 1e-9);
+    EXPECT_NEAR(spanEnd(pair), 10.25, 1e-9);
+  }
+  EXPECT_NEAR(spanStart(1), 10.3, 1e-9);
+  EXPECT_NEAR(spanEnd(1), 10.4, 1e-9);
+  ASSERT_EQ(cycle_.samples.size(), 5u);  // 10.1, 10.2 (of the hand), 10.25, 10.3, 10.4
+  EXPECT_NEAR(cycle_.motion.X_WB[0][1].translation().x(), 0.2, 1e-9);
+  EXPECT_NEAR(cycle_.motion.X_WB[1][1].translation().x(), 1.0, 1e-9);
+  for (const std::string& missing : cycle_.motion.missing) EXPECT_EQ(missing, "");
+}
+
+TEST_F(TfTrackerTest, AFrameThatStaysAwayIsMissingAfterMaxLatency) {
   for (int i = 0; i <= 5; ++i) {
     send(transform("world", "hand", 10.0 + 0.1 * i, 0.01 * i));
     if (i <= 1) send(transform("world", "foot", 10.0 + 0.1 * i, 0.0));
-    const Step step = next(10.0 + 0.1 * i);
-    EXPECT_EQ(step, i == 1 ? Step::kCycle : Step::kWaiting) << i;
+    EXPECT_EQ(next(10.0 + 0.1 * i), i == 0 ? Step::kWaiting : Step::kCycle) << i;
   }
   send(transform("world", "hand", 10.7, 0.07));
   ASSERT_EQ(next(10.7), Step::kCycle);
-  EXPECT_EQ(cycle_.start, ros::Time(10.1));
+  EXPECT_EQ(cycle_.start, ros::Time(10.5));
   EXPECT_EQ(cycle_.end, ros::Time(10.7));
+  EXPECT_EQ(cycle_.complete_until, ros::Time(10.7));
+  EXPECT_NEAR(spanStart(0), 10.1, 1e-9);  // what is not checked
+  EXPECT_NEAR(spanEnd(0), 10.7, 1e-9);
   EXPECT_EQ(cycle_.motion.missing[0], "");
   EXPECT_EQ(cycle_.motion.missing[1], "foot is late by 0.60 s");
   // It comes back: the first cycle that it covers from its start is checked again.
@@ -122,7 +165,8 @@ TEST_F(TfTrackerTest, BeginsWhenTransformsAheadOfTheClockAreKnownAndMakesNobodyL
     EXPECT_EQ(cycle_.motion.missing[1], "") << i;
   }
   EXPECT_NEAR(first_start.toSec(), 10.21, 1e-9);
-  EXPECT_NEAR(cycle_.end.toSec(), 11.05, 1e-9);
+  EXPECT_NEAR(cycle_.end.toSec(), 11.2, 1e-9);  // the foot's, but not beyond the clock
+  EXPECT_NEAR(cycle_.complete_until.toSec(), 11.05, 1e-9);
 }
 
 TEST_F(TfTrackerTest, AGapIsMissingAndALongPauseToo) {

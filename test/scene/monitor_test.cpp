@@ -158,6 +158,42 @@ TEST(Monitor, MotionErrorsOfBothBodiesCount) {
   EXPECT_LE(chord, 0.03 + 1e-4);
 }
 
+TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
+  const auto scene = build(
+      {body("ground", ground(), true), body("ball", Primitive(Sphere{0.1})), body("other", Primitive(Sphere{0.1}))});
+  ASSERT_EQ(scene->pairs.size(), 3u);  // ground - ball, ground - other, ball - other
+  // The ball dips into the ground and comes out again, then the other one does.
+  const auto dip = [&](int deepest) {
+    std::vector<Isometry3d> X;
+    for (int k = 0; k < 5; ++k) X.push_back(translation({deepest, 0, k == deepest ? 0.09 : 0.3}));
+    return X;
+  };
+  CycleMotion motion = cycle(0.4, {still(Isometry3d::Identity(), 5), dip(1), dip(3)});
+  Monitor monitor(scene, soft()), whole(scene, soft());
+  const CycleResult& all = whole.run(motion, {true, 3});
+  EXPECT_EQ(all.pairs[0].verdict, Verdict::kContact);
+  EXPECT_EQ(all.pairs[1].verdict, Verdict::kContact);
+
+  motion.spans = {{0, 2}, {0, 0}, {0, 0}};
+  const CycleResult& first = monitor.run(motion, {true, 3});
+  EXPECT_EQ(first.verdict, Verdict::kContact);
+  EXPECT_EQ(first.delayed, 2);
+  EXPECT_EQ(first.checked + first.skipped, 1);
+  EXPECT_EQ(first.not_checked, 0);
+  EXPECT_NEAR(first.pairs[0].intervals[0].enter, all.pairs[0].intervals[0].enter, 1e-12);
+  EXPECT_LT((2.0 * all.pairs[0].on_a_W.force - first.pairs[0].on_a_W.force).norm(), 1e-9);  // half of the time
+  EXPECT_LT((2.0 * all.pairs[0].on_b_W.force - first.pairs[0].on_b_W.force).norm(), 1e-9);
+
+  motion.spans = {{2, 4}, {0, 2}, {2, 2}};
+  EXPECT_EQ(monitor.run(motion, {}).verdict, Verdict::kClear);
+  motion.spans = {{4, 4}, {2, 4}, {0, 4}};
+  const CycleResult& last = monitor.run(motion, {true, 3});
+  EXPECT_EQ(last.pairs[1].verdict, Verdict::kContact);
+  EXPECT_NEAR(last.pairs[1].intervals[0].exit, all.pairs[1].intervals[0].exit, 1e-12);
+  EXPECT_LT((2.0 * all.pairs[1].on_b_W.force - last.pairs[1].on_b_W.force).norm(), 1e-9);
+  EXPECT_LT((all.pairs[1].deepest.p_W - last.pairs[1].deepest.p_W).norm(), 1e-9);
+}
+
 TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
   Scene scene = *build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
   scene.bodies[1].shell.covering_radius = 0.2;
@@ -179,6 +215,12 @@ TEST(Monitor, RefusesMotionsThatDoNotFit) {
   EXPECT_THROW(monitor.run(cycle(0.1, {still2}), {}), std::invalid_argument);
   EXPECT_THROW(monitor.run(cycle(0.1, {still2, {}}), {}), std::invalid_argument);
   EXPECT_THROW(monitor.run(cycle(-0.1, {still2, still2}), {}), std::invalid_argument);
+  CycleMotion odd = cycle(0.1, {still2, still2});
+  for (const std::vector<KnotSpan>& spans :
+       {std::vector<KnotSpan>{{1, 0}}, std::vector<KnotSpan>{{0, 2}}, std::vector<KnotSpan>{{0, 1}, {0, 1}}}) {
+    odd.spans = spans;
+    EXPECT_THROW(monitor.run(odd, {}), std::invalid_argument);
+  }
   CycleMotion bad = cycle(0.1, {still2, still2});
   bad.X_WB[1][1].translation().x() = std::nan("");
   const CycleResult& result = monitor.run(bad, {});

@@ -10,12 +10,24 @@
 
 namespace sdf_ccd {
 
+/// A part of a motion, by the indices of its first and last time.
+struct KnotSpan {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  bool empty() const { return first == last; }
+};
+
 /// Where the bodies were during a cycle (t₀, t₁].
 struct CycleMotion {
   std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
   std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
   std::vector<std::string> missing;           ///< per body: why its poses are not known; empty if they are, or all are
   std::vector<double> motion_error;           ///< per body: distance of the true motion from X_WB's [m]; may be empty
+
+  /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
+  /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs may be anything.
+  std::vector<KnotSpan> spans;
 };
 
 /// What a cycle is asked for; what nobody reads is not computed.
@@ -39,24 +51,26 @@ struct PairResult {
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
   std::string reason;    ///< why it was not checked; empty if it was
+  KnotSpan span;         ///< the part of the motion that this is about; empty if the pair is delayed
   bool skipped = false;  ///< clear by the clearance left from an earlier cycle
   ErrorBound error;
-  double clearance = 0.0;           ///< a lower bound of the distance at t₁ [m]; negative if not known
+  double clearance = 0.0;           ///< a lower bound of the distance at the span's end [m]; negative if not known
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
   bool touches_at_sample = false;   ///< some interval holds one of CycleMotion::times: a check there would see it
   ContactPoint deepest;             ///< valid if intervals is not empty
-  Wrench on_a_W;                    ///< average over the cycle, world axes, about A's origin at t₁
-  Wrench on_b_W;                    ///< the same on B, about B's origin at t₁
+  Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
+  Wrench on_b_W;                    ///< the same on B, about B's origin
   std::vector<ContactPoint> points;
 };
 
 struct CycleResult {
   std::vector<PairResult> pairs;      ///< in the order of Scene::pairs
-  Verdict verdict = Verdict::kClear;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR
+  Verdict verdict = Verdict::kClear;  ///< worst of all pairs not delayed: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR
   double error_bound = 0.0;           ///< largest of the pairs checked [m]
   int checked = 0;
   int skipped = 0;
   int not_checked = 0;
+  int delayed = 0;
   double run_time = 0.0;  ///< [s]
 };
 
@@ -70,7 +84,7 @@ struct MonitorOptions {
 /// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is deeper than what the
 /// bound says of points, else UNCERTAIN. Both bodies' shells are tested where both exist, and their impulses halved, so
 /// that what both see counts once. Where the bound exceeds a field's band, the field's lower bounds decide about CLEAR.
-/// Wrenches are integrated in the world's axes about A's origin at t₁.
+/// Wrenches are integrated in the world's axes about A's origin at the end.
 ///
 /// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
 /// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
