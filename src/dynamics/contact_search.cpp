@@ -1,0 +1,76 @@
+#include "contact_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdf_ccd {
+namespace {
+
+/// X_FP; the origins are subtracted first.
+Isometry3d relativePose(const Isometry3d& X_OF, const Isometry3d& X_OP) {
+  Isometry3d X_FP = Isometry3d::Identity();
+  X_FP.linear() = X_OF.linear().transpose() * X_OP.linear();
+  X_FP.translation() = X_OF.linear().transpose() * (X_OP.translation() - X_OF.translation());
+  return X_FP;
+}
+
+/// Distance of the origin from a segment [m].
+double distanceOfOrigin(const Vector3d& start, const Vector3d& end) {
+  const Vector3d d = end - start;
+  const double along = d.squaredNorm();
+  const double s = along > 0.0 ? std::clamp(-start.dot(d) / along, 0.0, 1.0) : 0.0;
+  return (start + s * d).norm();
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const RigidWorld& world) : world_(world) {
+  const int count = static_cast<int>(world.bodies.size());
+  const auto canTest = [&](int shell, int field) {
+    return world.bodies[shell].shape->shell.size() > 0 && world.bodies[field].shape->field.has_value();
+  };
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      if (world.bodies[a].fixed && world.bodies[b].fixed) continue;
+      const bool both = canTest(a, b) && canTest(b, a);
+      if (canTest(a, b)) roles_.push_back({a, b, both ? 0.5 : 1.0});
+      if (canTest(b, a)) roles_.push_back({b, a, both ? 0.5 : 1.0});
+    }
+  }
+}
+
+bool ContactSearch::mayMeet(const Role& role, const StepMotion& motion) const {
+  const CollisionShape& shell = *world_.bodies[role.shell_body].shape;
+  const CollisionShape& field = *world_.bodies[role.field_body].shape;
+  const std::vector<Isometry3d>& X_OP = motion.X_OB[role.shell_body];
+  const std::vector<Isometry3d>& X_OF = motion.X_OB[role.field_body];
+  if (std::isinf(field.ball.radius)) {
+    // Fixed, and the shell's centre runs straight: its distance to a plane is least at an end.
+    const auto distance = [&](std::size_t k) {
+      return field.field->lowerBound(relativePose(X_OF[k], X_OP[k]).translation());
+    };
+    return std::min(distance(0), distance(X_OP.size() - 1)) <= shell.ball.radius;
+  }
+  return distanceOfOrigin(X_OP.front().translation() - X_OF.front().translation(),
+                          X_OP.back().translation() - X_OF.back().translation()) <=
+         shell.ball.radius + field.ball.radius;
+}
+
+void ContactSearch::run(const StepMotion& motion, const std::function<void(const RoleHits&)>& visit) {
+  for (const Role& role : roles_) {
+    if (!mayMeet(role, motion)) continue;
+    const CollisionShape& shell = *world_.bodies[role.shell_body].shape;
+    relative_.times = motion.times;
+    relative_.X_FP.resize(motion.times.size());
+    for (std::size_t k = 0; k < motion.times.size(); ++k) {
+      relative_.X_FP[k] = relativePose(motion.X_OB[role.field_body][k], motion.X_OB[role.shell_body][k]);
+    }
+    ChordOptions chords;
+    chords.tolerance = world_.chord_tolerance * std::max(shell.ball.radius, 1e-9);
+    cutIntoChords(relative_, shell.ball, chords, path_);
+    shellIntervals(*world_.bodies[role.field_body].shape->field, shell.shell, shell.tree, path_, {}, query_);
+    if (!query_.hits.empty()) visit({role.shell_body, role.field_body, role.weight, path_, query_.hits});
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sdf_ccd/dynamics/rigid_motion.h"
+#include "sdf_ccd/query/shell_query.h"
+
+namespace sdf_ccd {
+
+/// What one body's shell meets in another's field during a step.
+struct RoleHits {
+  int shell_body;
+  int field_body;
+  double weight;          ///< ½ where the other role sees the same contact too (design §3.7)
+  const ChordPath& path;  ///< X_FP
+  const std::vector<ShellHit>& hits;
+};
+
+/// Finds the contacts of all pairs of bodies during a step; pairs whose balls stay apart cost one comparison.
+class ContactSearch {
+ public:
+  /// `world` must outlive this.
+  explicit ContactSearch(const RigidWorld& world);
+
+  /// Calls `visit` for every role that has hits, always in the same order.
+  void run(const StepMotion& motion, const std::function<void(const RoleHits&)>& visit);
+
+ private:
+  struct Role {
+    int shell_body, field_body;
+    double weight;
+  };
+  bool mayMeet(const Role& role, const StepMotion& motion) const;
+
+  const RigidWorld& world_;
+  std::vector<Role> roles_;
+  RelativePath relative_;
+  ChordPath path_;
+  ShellQueryResult query_;
+};
+
+}  // namespace sdf_ccd

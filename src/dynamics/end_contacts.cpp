@@ -1,0 +1,117 @@
+#include "end_contacts.h"
+
+#include <algorithm>
+
+namespace sdf_ccd {
+namespace {
+
+/// Gradient of the interpolated field; far inside, where it knows none, the shell's inward normal.
+Vector3d slopeAt(const FieldSample& sample, const Vector3d& inward_F) {
+  return sample.gradient.norm() > 1e-9 ? sample.gradient : inward_F;
+}
+
+class EndContacts {
+ public:
+  EndContacts(const RigidWorld& world, const StepMotion& motion, const RoleHits& role)
+      : options_(world.contact),
+        role_(role),
+        shell_(world.bodies[role.shell_body].shape->shell),
+        field_(*world.bodies[role.field_body].shape->field),
+        R_OF_(motion.X_OB[role.field_body].back().linear()),
+        duration_(motion.times.back()) {}
+
+  /// Of one point, from its hits in the order of time.
+  PointContact operator()(const ShellHit* first, const ShellHit* last) const {
+    const Chord& end = role_.path.chords.back();
+    const int point = first->point;
+    const Vector3d p_F = end.X_FP_end * shell_.points[point];
+    const Vector3d r_P_F = end.X_FP_end.linear() * shell_.points[point];
+    const Vector3d inward_F = -(end.X_FP_end.linear() * shell_.normals[point]);
+    const double share = options_.stiffness_per == StiffnessPer::kArea ? shell_.areas[point] : 1.0;
+    const FieldSample at_end = field_.sample(p_F);
+
+    PointContact contact;
+    contact.stiffness = role_.weight * share * options_.stiffness;
+    contact.damping = role_.weight * share * options_.damping * timeInside(first, last);
+    contact.depth = std::min(at_end.value, 0.0);
+    contact.gap = contact.depth;
+    contact.inward = R_OF_ * inward_F;
+    contact.r_P = R_OF_ * r_P_F;
+    contact.r_F = R_OF_ * p_F;
+    Vector3d slope_F = slopeAt(at_end, inward_F);
+    const bool stood_still = end.X_FP_end.matrix() == role_.path.chords.front().X_FP_start.matrix();
+    if (!stood_still) {
+      const Vector3d entry_F = place(*first, first->interval.enter);
+      const FieldSample at_entry = field_.sample(entry_F);
+      const FieldSample at_exit = field_.sample(place(*last, last->interval.exit));
+      const Vector3d normal_F = slopeAt(at_entry, inward_F).normalized();
+      if (slopeAt(at_exit, inward_F).dot(normal_F) < 0.0) {
+        const double behind = std::min(at_entry.value, 0.0) + normal_F.dot(p_F - entry_F);
+        if (behind < contact.gap) {
+          contact.gap = behind;
+          slope_F = normal_F;
+        }
+      }
+    }
+    contact.slope = R_OF_ * slope_F;
+    return contact;
+  }
+
+ private:
+  Vector3d place(const ShellHit& hit, double s) const {
+    const Chord& chord = role_.path.chords[hit.chord];
+    const Vector3d& p_P = shell_.points[hit.point];
+    return (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);
+  }
+
+  double timeInside(const ShellHit* first, const ShellHit* last) const {
+    double time = 0.0;
+    for (const ShellHit* hit = first; hit <= last; ++hit) {
+      const Chord& chord = role_.path.chords[hit->chord];
+      time += (hit->interval.exit - hit->interval.enter) * (chord.t_end - chord.t_start);
+    }
+    return time / duration_;
+  }
+
+  const ContactOptions& options_;
+  const RoleHits& role_;
+  const PointShell& shell_;
+  const DistanceField& field_;
+  const Matrix3d R_OF_;
+  const double duration_;
+};
+
+}  // namespace
+
+void endContacts(const RigidWorld& world, const StepMotion& motion, ContactSearch& search,
+                 std::vector<PairContacts>& contacts) {
+  contacts.clear();
+  std::vector<ShellHit> hits;
+  search.run(motion, [&](const RoleHits& role) {
+    hits = role.hits;
+    std::stable_sort(hits.begin(), hits.end(), [](const ShellHit& a, const ShellHit& b) { return a.point < b.point; });
+    const EndContacts contactOf(world, motion, role);
+    PairContacts pair{role.shell_body,
+                      role.field_body,
+                      motion.X_OB[role.shell_body].back().translation(),
+                      motion.X_OB[role.field_body].back().translation(),
+                      {}};
+    for (std::size_t i = 0; i < hits.size();) {
+      std::size_t last = i;
+      while (last + 1 < hits.size() && hits[last + 1].point == hits[i].point) ++last;
+      pair.points.push_back(contactOf(&hits[i], &hits[last]));
+      i = last + 1;
+    }
+    contacts.push_back(std::move(pair));
+  });
+}
+
+double elasticEnergy(const std::vector<PairContacts>& contacts) {
+  double energy = 0.0;
+  for (const PairContacts& pair : contacts) {
+    for (const PointContact& point : pair.points) energy += 0.5 * point.stiffness * point.depth * point.depth;
+  }
+  return energy;
+}
+
+}  // namespace sdf_ccd

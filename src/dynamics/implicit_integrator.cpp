@@ -1,0 +1,165 @@
+#include <algorithm>
+
+#include "explicit_step.h"
+#include "velocity_system.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kMaxSolves = 20;
+constexpr int kMaxShortenings = 6;         // of one Newton step
+constexpr int kMaxHalvings = 8;            // of the time step
+constexpr double kConverged = 1e-20;       // of the energies at play, left to gain by another Newton step
+constexpr double kEnergyRounding = 1e-10;  // of the energies at play
+
+/// Backward Euler (see VelocitySystem). Because the energy of a pressed contact is convex in the penetration, a step
+/// to the minimum of Φ never ends with more energy than it began with: ΔU ≤ ∇U(x')·Δt v' = −(M Δv)·v' − Δt v'·D v'.
+/// Rotations and fields that are not convex break the premise, so the energy is checked, and the step halved if it
+/// grew.
+///
+/// A body in free flight falls by the midpoint of its velocities, which is exact; one in contact by the velocity at
+/// the end, which the proof needs.
+class ImplicitIntegrator : public Integrator {
+ public:
+  explicit ImplicitIntegrator(const RigidWorld& world)
+      : world_(world), search_(world), touched_(world.bodies.size(), false) {}
+
+  void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) override {
+    report = {};
+    report.impulses.resize(states.size());
+    if (!startsWhereLastEnded(states)) {
+      standStill(states, 1.0, motion_);
+      endContacts(world_, motion_, search_, contacts_);
+    }
+    elastic_energy_ = elasticEnergy(contacts_);
+    advancePart(duration, step, 0, states, report);
+    measure(contacts_, report);
+  }
+
+ private:
+  bool startsWhereLastEnded(const std::vector<BodyState>& states) const {
+    if (motion_.X_OB.size() != states.size()) return false;
+    for (std::size_t b = 0; b < states.size(); ++b) {
+      if (motion_.X_OB[b].back().matrix() != states[b].X_OB.matrix()) return false;
+    }
+    return true;
+  }
+
+  void advancePart(double duration, long step, int halvings, std::vector<BodyState>& states, StepReport& report) {
+    const std::vector<BodyState> start = states;
+    const double elastic_at_start = elastic_energy_;
+    std::vector<Wrench> impulses;
+    solveStep(duration, step, states, impulses, report);
+    const double elastic_at_end = elasticEnergy(contacts_);
+    double energies = elastic_at_start + elastic_at_end, growth = elastic_at_end - elastic_at_start;
+    for (std::size_t b = 0; b < states.size(); ++b) {
+      const RigidBody& body = world_.bodies[b];
+      if (body.fixed) continue;
+      const double before = kineticEnergy(body, start[b]), after = kineticEnergy(body, states[b]);
+      const Vector3d moved = states[b].X_OB.translation() - start[b].X_OB.translation();
+      const Vector3d turned = duration * (start[b].X_OB.linear() * states[b].spin_B);
+      const double work =
+          (body.mass * world_.gravity + body.applied.force).dot(moved) + body.applied.torque.dot(turned);
+      energies += before + after + std::abs(work);
+      growth += after - before - work;
+    }
+    if (growth > kEnergyRounding * energies) {
+      if (halvings < kMaxHalvings) {
+        states = start;
+        elastic_energy_ = elastic_at_start;
+        advancePart(0.5 * duration, step, halvings + 1, states, report);
+        advancePart(0.5 * duration, step, halvings + 1, states, report);
+        return;
+      }
+      report.energy_excess += growth;
+    }
+    elastic_energy_ = elastic_at_end;
+    for (std::size_t b = 0; b < states.size(); ++b) report.impulses[b] += impulses[b];
+  }
+
+  /// One step to the minimum of Φ, from `states`. Leaves the contacts at its end in contacts_, the motion in motion_.
+  void solveStep(double duration, long step, std::vector<BodyState>& states, std::vector<Wrench>& impulses,
+                 StepReport& report) {
+    const std::vector<BodyState> start = states;
+    const VelocitySystem system(world_, start, duration);
+    const Vector V0 = system.withoutContact(start);
+    // What one step of gravity is worth keeps the scale of a body at rest from zero.
+    const double scale = system.kineticEnergy(V0) + system.kineticEnergy(V0 - system.velocitiesOf(start));
+    std::vector<PairContacts> damped;
+    const auto move = [&](const Vector& V) {
+      states = start;
+      system.setVelocities(V, states);
+      std::vector<Vector3d> mean;
+      for (std::size_t b = 0; b < states.size(); ++b) {
+        const RigidBody& body = world_.bodies[b];
+        const Vector3d gained = duration * (world_.gravity + body.applied.force / (body.fixed ? 1.0 : body.mass));
+        mean.push_back(states[b].velocity - (touched_[b] ? 0.0 : 0.5) * gained);
+      }
+      drift(world_, mean, duration, step, states, motion_);
+    };
+    // Finds the contacts at the end of a step with velocities V. True if they touch a body that was thought free.
+    const auto moveTo = [&](const Vector& V) {
+      move(V);
+      endContacts(world_, motion_, search_, contacts_);
+      bool more = false;
+      for (const PairContacts& pair : contacts_) {
+        for (const int b : {pair.shell_body, pair.field_body}) {
+          more |= !touched_[b];
+          touched_[b] = true;
+        }
+      }
+      return more;
+    };
+    touched_.assign(states.size(), false);
+    Vector V = V0;
+    if (moveTo(V)) moveTo(V);
+    damped = contacts_;
+    double merit = system.merit(V, V0, contacts_, damped);
+    impulses.assign(states.size(), {});
+    for (int i = 0; i < kMaxSolves && !contacts_.empty(); ++i) {
+      const VelocitySystem::Solution solution = system.solve(V, V0, contacts_, damped);
+      ++report.solves;
+      impulses = solution.impulses;
+      if (solution.decrease <= kConverged * (scale + merit)) {
+        move(V + solution.change);
+        break;
+      }
+      double share = 1.0;
+      for (int k = 0; k <= kMaxShortenings; ++k, share *= 0.5) {
+        const Vector tried = V + share * solution.change;
+        const bool restart = moveTo(tried);
+        const double merit_tried = system.merit(tried, V0, contacts_, damped);
+        if (restart) {  // another body falls otherwise from now on, so Φ is another function
+          moveTo(V);
+          merit = system.merit(V, V0, contacts_, damped);
+          break;
+        }
+        if (merit_tried <= merit * (1.0 + 1e-12) || k == kMaxShortenings) {
+          V = tried;
+          merit = merit_tried;
+          break;
+        }
+      }
+    }
+  }
+
+  using Vector = VelocitySystem::Vector;
+
+  const RigidWorld& world_;
+  ContactSearch search_;
+  StepMotion motion_;
+  std::vector<PairContacts> contacts_;
+  std::vector<bool> touched_;  // bodies in contact during this step
+  double elastic_energy_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeImplicitIntegrator(const RigidWorld& world) {
+  if (world.contact.normal != NormalSource::kField) {
+    throw std::invalid_argument("integrator implicit: contact normals must be the field's");
+  }
+  return std::make_unique<ImplicitIntegrator>(world);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,98 @@
+#include "sdf_ccd/dynamics/mass_properties.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include <Eigen/Eigenvalues>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+void requireDensity(double density) {
+  if (!(density > 0.0) || !std::isfinite(density)) {
+    throw std::invalid_argument("mass: density must be finite and positive, got " + std::to_string(density));
+  }
+}
+
+/// Moments ∫ p pᵀ dm to the inertia tensor.
+Matrix3d inertiaOf(const Matrix3d& moments) {
+  return moments.trace() * Matrix3d::Identity() - moments;
+}
+
+struct Solid {
+  double volume;
+  Vector3d second;  ///< ∫ x², y², z² over the solid, divided by its volume [m²]
+};
+
+Solid solidOf(const Sphere& s) {
+  return {4.0 / 3.0 * kPi * std::pow(s.radius, 3), Vector3d::Constant(s.radius * s.radius / 5.0)};
+}
+Solid solidOf(const Box& b) {
+  return {8.0 * b.half_size.prod(), b.half_size.cwiseAbs2() / 3.0};
+}
+Solid solidOf(const Cylinder& c) {
+  const double across = c.radius * c.radius / 4.0;
+  return {2.0 * kPi * c.radius * c.radius * c.half_length, {across, across, c.half_length * c.half_length / 3.0}};
+}
+Solid solidOf(const HalfSpace&) {
+  throw std::invalid_argument("mass: a half-space has no finite mass");
+}
+
+}  // namespace
+
+MassProperties massProperties(const TriangleMesh& mesh, double density) {
+  requireDensity(density);
+  validate(mesh);
+  const AlignedBox3d box = boundingBox(mesh);
+  const Vector3d apex = box.center();
+  double volume = 0.0;
+  Vector3d first = Vector3d::Zero();   // ∫ p dV
+  Matrix3d second = Matrix3d::Zero();  // ∫ p pᵀ dV
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d a = mesh.vertices[t[0]] - apex, b = mesh.vertices[t[1]] - apex, c = mesh.vertices[t[2]] - apex;
+    const double v = a.dot(b.cross(c)) / 6.0;
+    const Vector3d sum = a + b + c;
+    volume += v;
+    first += v / 4.0 * sum;
+    // Over a tetrahedron with one corner at the apex: V/20 (Σ pᵢ pᵢᵀ + Σ pᵢ Σ pⱼᵀ).
+    second += v / 20.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+  }
+  if (!(volume > 1e-12 * box.sizes().prod()) || !(volume > 0.0)) {
+    std::ostringstream what;
+    what << "mass: the mesh encloses no volume (" << volume << " m³); give mass and inertia";
+    throw std::invalid_argument(what.str());
+  }
+  const Vector3d center = first / volume;
+  return {density * volume, apex + center, density * inertiaOf(second - volume * center * center.transpose())};
+}
+
+MassProperties massProperties(const Primitive& primitive, double density) {
+  requireDensity(density);
+  validate(primitive);
+  const Solid solid = std::visit([](const auto& shape) { return solidOf(shape); }, primitive);
+  const double mass = density * solid.volume;
+  return {mass, Vector3d::Zero(), inertiaOf(mass * Matrix3d(solid.second.asDiagonal()))};
+}
+
+void validateInertia(double mass, const Matrix3d& inertia) {
+  const auto refuse = [](const std::string& what, const auto& value) {
+    std::ostringstream message;
+    message << what << ", got " << value;
+    throw std::invalid_argument(message.str());
+  };
+  if (!(mass > 0.0) || !std::isfinite(mass)) refuse("mass must be finite and positive", mass);
+  const Eigen::IOFormat row(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ");
+  const auto given = inertia.format(row);
+  if (!inertia.allFinite()) refuse("inertia must be finite", given);
+  if (!inertia.isApprox(inertia.transpose(), 1e-9)) refuse("inertia must be symmetric", given);
+  const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(moments[0] > 0.0)) refuse("inertia must be positive definite", given);
+  if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9)) {
+    refuse("no solid has such an inertia (a principal moment exceeds the sum of the others)", given);
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,111 @@
+#include "sdf_ccd/dynamics/rigid_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kTurnPerSubstep = 0.1;  // [rad]
+constexpr double kTurnPerTime = 1.0;     // [rad], so that the shorter way between two poses is the way taken
+constexpr double kMaxTurn = 1e4;         // [rad] per step
+constexpr double kMaxDistance = 1e9;     // [m]
+
+Matrix3d skew(const Vector3d& v) {
+  Matrix3d S;
+  S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return S;
+}
+
+Matrix3d orthonormal(const Matrix3d& R) {
+  return Quaterniond(R).normalized().toRotationMatrix();
+}
+
+/// Midpoint spin Ω of 2 I (Ω − Ω₀) = h IΩ × Ω, by Newton's method.
+Vector3d midpointSpin(const Matrix3d& inertia, const Vector3d& spin, double h) {
+  Vector3d middle = spin;
+  for (int i = 0; i < 10; ++i) {
+    const Vector3d L = inertia * middle;
+    const Vector3d residual = 2.0 * inertia * (middle - spin) - h * L.cross(middle);
+    const Matrix3d slope = 2.0 * inertia - h * (skew(L) - skew(middle) * inertia);
+    const Vector3d change = slope.partialPivLu().solve(residual);
+    middle -= change;
+    if (change.norm() <= 1e-15 * spin.norm()) break;
+  }
+  return middle;
+}
+
+void requireBounded(const RigidBody& body, const BodyState& state, const Vector3d& velocity, double duration,
+                    long step) {
+  const auto refuse = [&](const char* what, double value, const char* unit) {
+    std::ostringstream reason;
+    reason << what << value << unit << "; shorten the step or lower the stiffness";
+    throw SimulationError(body.name, step, reason.str());
+  };
+  if (!velocity.allFinite() || !state.spin_B.allFinite() || !state.X_OB.matrix().allFinite()) {
+    throw SimulationError(body.name, step, "its state is no longer finite; shorten the step or lower the stiffness");
+  }
+  const double travel = duration * velocity.norm(), turn = duration * state.spin_B.norm();
+  if (!(travel <= kMaxDistance)) refuse("it would move ", travel, " m in one step");
+  if (!(turn <= kMaxTurn)) refuse("it would turn ", turn, " rad in one step");
+  const double distance = state.X_OB.translation().norm();
+  if (!(distance <= kMaxDistance)) refuse("it is away from the scene's origin by ", distance, " m");
+}
+
+}  // namespace
+
+void turnFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vector3d& spin_B) {
+  const double speed = spin_B.norm();
+  if (speed == 0.0 || duration == 0.0) return;
+  const Vector3d L = inertia_B * spin_B;
+  if (L.cross(spin_B).norm() <= 1e-14 * L.norm() * speed) {
+    R_OB = orthonormal(R_OB * Eigen::AngleAxisd(speed * duration, spin_B / speed).toRotationMatrix());
+    return;
+  }
+  const int substeps = std::max(1, int(std::ceil(speed * duration / kTurnPerSubstep)));
+  const double h = duration / substeps;
+  for (int i = 0; i < substeps; ++i) {
+    const Vector3d middle = midpointSpin(inertia_B, spin_B, h);
+    // cay(hΩ): the quaternion (1, hΩ/2), normalised.
+    const Vector3d half = 0.5 * h * middle;
+    R_OB = R_OB * Quaterniond(1.0, half.x(), half.y(), half.z()).normalized().toRotationMatrix();
+    spin_B = 2.0 * middle - spin_B;
+  }
+  R_OB = orthonormal(R_OB);
+}
+
+void standStill(const std::vector<BodyState>& states, double duration, StepMotion& motion) {
+  motion.times = {0.0, duration};
+  motion.X_OB.resize(states.size());
+  for (std::size_t b = 0; b < states.size(); ++b) motion.X_OB[b].assign(2, states[b].X_OB);
+}
+
+void drift(const RigidWorld& world, const std::vector<Vector3d>& velocities, double duration, long step,
+           std::vector<BodyState>& states, StepMotion& motion) {
+  double turn = 0.0;
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    if (world.bodies[b].fixed) continue;
+    requireBounded(world.bodies[b], states[b], velocities[b], duration, step);
+    turn = std::max(turn, duration * states[b].spin_B.norm());
+  }
+  const int pieces = std::max(1, int(std::ceil(turn / kTurnPerTime)));
+  motion.times.resize(pieces + 1);
+  for (int k = 0; k <= pieces; ++k) motion.times[k] = k == pieces ? duration : k * (duration / pieces);
+  motion.X_OB.resize(states.size());
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    BodyState& state = states[b];
+    motion.X_OB[b].assign(pieces + 1, state.X_OB);
+    if (world.bodies[b].fixed) continue;
+    const Vector3d start = state.X_OB.translation();
+    Matrix3d R_OB = state.X_OB.linear();
+    for (int k = 1; k <= pieces; ++k) {
+      turnFreely(world.bodies[b].inertia, motion.times[k] - motion.times[k - 1], R_OB, state.spin_B);
+      motion.X_OB[b][k].linear() = R_OB;
+      motion.X_OB[b][k].translation() = start + motion.times[k] * velocities[b];
+    }
+    state.X_OB = motion.X_OB[b].back();
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,224 @@
+#include "velocity_system.h"
+
+#include <array>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+
+namespace sdf_ccd {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr int kDenseUpTo = 90;  // unknowns; beyond, the few contacts per body make a sparse solve quicker
+
+Vector6d lever(const Vector3d& r, const Vector3d& direction) {
+  Vector6d j;
+  j << direction, r.cross(direction);
+  return j;
+}
+
+/// Blocks of one pair: shell-shell, shell-field, field-field.
+struct PairBlocks {
+  Matrix6d pp = Matrix6d::Zero(), pf = Matrix6d::Zero(), ff = Matrix6d::Zero();
+
+  void add(const Vector6d& j_P, const Vector6d& j_F, double factor) {
+    pp += factor * j_P * j_P.transpose();
+    pf -= factor * j_P * j_F.transpose();
+    ff += factor * j_F * j_F.transpose();
+  }
+};
+
+/// A symmetric matrix of 6×6 blocks, solved densely or sparsely by its size.
+class BlockMatrix {
+ public:
+  explicit BlockMatrix(int size) : size_(size) {
+    if (isDense()) dense_ = Eigen::MatrixXd::Zero(size, size);
+  }
+  void add(int row, int column, const Matrix6d& block) {
+    if (isDense()) {
+      dense_.block<6, 6>(row, column) += block;
+      return;
+    }
+    for (int i = 0; i < 6; ++i) {
+      for (int k = 0; k < 6; ++k) entries_.emplace_back(row + i, column + k, block(i, k));
+    }
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const {
+    if (isDense()) return dense_.ldlt().solve(right);
+    Eigen::SparseMatrix<double> sparse(size_, size_);
+    sparse.setFromTriplets(entries_.begin(), entries_.end());
+    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(sparse).solve(right);
+  }
+
+ private:
+  bool isDense() const { return size_ <= kDenseUpTo; }
+
+  int size_;
+  Eigen::MatrixXd dense_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+}  // namespace
+
+VelocitySystem::VelocitySystem(const RigidWorld& world, const std::vector<BodyState>& states, double duration)
+    : world_(world), duration_(duration), place_(states.size(), -1) {
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    R_OB_.push_back(states[b].X_OB.linear());
+    inertia_.push_back(R_OB_[b] * world.bodies[b].inertia * R_OB_[b].transpose());
+    if (world.bodies[b].fixed) continue;
+    place_[b] = size_;
+    size_ += 6;
+  }
+}
+
+VelocitySystem::Vector VelocitySystem::velocitiesOf(const std::vector<BodyState>& states) const {
+  Vector V(size_);
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    if (place_[b] >= 0) V.segment<6>(place_[b]) << states[b].velocity, R_OB_[b] * states[b].spin_B;
+  }
+  return V;
+}
+
+void VelocitySystem::setVelocities(const Vector& V, std::vector<BodyState>& states) const {
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    if (place_[b] < 0) continue;
+    states[b].velocity = V.segment<3>(place_[b]);
+    states[b].spin_B = R_OB_[b].transpose() * V.segment<3>(place_[b] + 3);
+  }
+}
+
+VelocitySystem::Vector VelocitySystem::withoutContact(const std::vector<BodyState>& states) const {
+  Vector V = velocitiesOf(states);
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    if (place_[b] < 0) continue;
+    const Wrench& applied = world_.bodies[b].applied;
+    V.segment<3>(place_[b]) += duration_ * (world_.gravity + applied.force / world_.bodies[b].mass);
+    V.segment<3>(place_[b] + 3) += duration_ * inertia_[b].ldlt().solve(applied.torque);
+  }
+  return V;
+}
+
+VelocitySystem::Vector VelocitySystem::timesMass(const Vector& V) const {
+  Vector result(size_);
+  for (std::size_t b = 0; b < place_.size(); ++b) {
+    if (place_[b] < 0) continue;
+    result.segment<3>(place_[b]) = world_.bodies[b].mass * V.segment<3>(place_[b]);
+    result.segment<3>(place_[b] + 3) = inertia_[b] * V.segment<3>(place_[b] + 3);
+  }
+  return result;
+}
+
+double VelocitySystem::kineticEnergy(const Vector& V) const {
+  return 0.5 * V.dot(timesMass(V));
+}
+
+Vector6d VelocitySystem::of(const Vector& V, int body) const {
+  return place_[body] < 0 ? Vector6d(Vector6d::Zero()) : Vector6d(V.segment<6>(place_[body]));
+}
+
+Vector3d VelocitySystem::relativeVelocity(const Vector& V, const PairContacts& pair, const PointContact& point) const {
+  const Vector6d P = of(V, pair.shell_body), F = of(V, pair.field_body);
+  return P.head<3>() + P.tail<3>().cross(point.r_P) - F.head<3>() - F.tail<3>().cross(point.r_F);
+}
+
+double VelocitySystem::merit(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
+                             const std::vector<PairContacts>& damped) const {
+  double value = kineticEnergy(V - V0);
+  for (const PairContacts& pair : contacts) {
+    for (const PointContact& point : pair.points) value += 0.5 * point.stiffness * point.gap * point.gap;
+  }
+  for (const PairContacts& pair : damped) {
+    for (const PointContact& point : pair.points) {
+      value += 0.5 * duration_ * point.damping * relativeVelocity(V, pair, point).squaredNorm();
+    }
+  }
+  return value;
+}
+
+VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0,
+                                               const std::vector<PairContacts>& contacts,
+                                               const std::vector<PairContacts>& damped) const {
+  BlockMatrix A(size_);
+  Vector downhill = timesMass(V0 - V);
+  for (std::size_t b = 0; b < place_.size(); ++b) {
+    if (place_[b] < 0) continue;
+    Matrix6d mass = Matrix6d::Zero();
+    mass.topLeftCorner<3, 3>() = world_.bodies[b].mass * Matrix3d::Identity();
+    mass.bottomRightCorner<3, 3>() = inertia_[b];
+    A.add(place_[b], place_[b], mass);
+  }
+  const auto addPair = [&](const PairContacts& pair, const PairBlocks& blocks, const Vector6d& push_P,
+                           const Vector6d& push_F) {
+    const int p = place_[pair.shell_body], f = place_[pair.field_body];
+    if (p >= 0) {
+      A.add(p, p, blocks.pp);
+      downhill.segment<6>(p) += push_P;
+    }
+    if (f >= 0) {
+      A.add(f, f, blocks.ff);
+      downhill.segment<6>(f) -= push_F;
+    }
+    if (p >= 0 && f >= 0) {
+      A.add(p, f, blocks.pf);
+      A.add(f, p, blocks.pf.transpose());
+    }
+  };
+  for (const PairContacts& pair : contacts) {
+    PairBlocks blocks;
+    Vector6d push_P = Vector6d::Zero(), push_F = Vector6d::Zero();
+    for (const PointContact& point : pair.points) {
+      if (point.gap == 0.0) continue;
+      const Vector6d j_P = lever(point.r_P, point.slope), j_F = lever(point.r_F, point.slope);
+      blocks.add(j_P, j_F, duration_ * duration_ * point.stiffness);
+      push_P -= duration_ * point.stiffness * point.gap * j_P;
+      push_F -= duration_ * point.stiffness * point.gap * j_F;
+    }
+    addPair(pair, blocks, push_P, push_F);
+  }
+  for (const PairContacts& pair : damped) {
+    PairBlocks blocks;
+    Vector6d push_P = Vector6d::Zero(), push_F = Vector6d::Zero();
+    for (const PointContact& point : pair.points) {
+      const double factor = duration_ * point.damping;
+      if (factor == 0.0) continue;
+      const Vector3d slide = relativeVelocity(V, pair, point);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d e = Vector3d::Unit(axis);
+        const Vector6d j_P = lever(point.r_P, e), j_F = lever(point.r_F, e);
+        blocks.add(j_P, j_F, factor);
+        push_P -= factor * slide[axis] * j_P;
+        push_F -= factor * slide[axis] * j_F;
+      }
+    }
+    addPair(pair, blocks, push_P, push_F);
+  }
+
+  Solution solution;
+  solution.change = A.solve(downhill);
+  solution.decrease = downhill.dot(solution.change);
+  solution.impulses.resize(place_.size());
+  const Vector V1 = V + solution.change;
+  const auto addImpulse = [&](const PairContacts& pair, const PointContact& point, const Vector3d& impulse) {
+    solution.impulses[pair.shell_body] += {impulse, (pair.p_OP + point.r_P).cross(impulse)};
+    solution.impulses[pair.field_body] += {-impulse, -(pair.p_OF + point.r_F).cross(impulse)};
+  };
+  for (const PairContacts& pair : contacts) {
+    for (const PointContact& point : pair.points) {
+      if (point.gap == 0.0) continue;
+      const double closing = point.slope.dot(relativeVelocity(solution.change, pair, point));
+      addImpulse(pair, point, -duration_ * point.stiffness * (point.gap + duration_ * closing) * point.slope);
+    }
+  }
+  for (const PairContacts& pair : damped) {
+    for (const PointContact& point : pair.points) {
+      if (point.damping != 0.0) {
+        addImpulse(pair, point, -duration_ * point.damping * relativeVelocity(V1, pair, point));
+      }
+    }
+  }
+  return solution;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "end_contacts.h"
+
+namespace sdf_ccd {
+
+/// The velocities of all bodies that move, as unknowns of one step: 6 each, v [m/s] and ω [rad/s] in O's axes.
+///
+/// Backward Euler is the minimum over V of Φ(V) = ½ (V−V₀)ᵀ M (V−V₀) + Σ ½ k gap(V)² + ½ Δt Vᵀ D V, V₀ the velocities
+/// without contact. Its slope is a momentum balance; its second derivative, without the terms of the gap's curvature,
+/// is M + Δt² Σ k jᵀj + Δt D: symmetric and positive definite whatever the stiffness.
+class VelocitySystem {
+ public:
+  using Vector = Eigen::VectorXd;
+
+  /// @param states  at the step's start: the inertias' axes.
+  VelocitySystem(const RigidWorld& world, const std::vector<BodyState>& states, double duration);
+
+  Vector velocitiesOf(const std::vector<BodyState>& states) const;
+  void setVelocities(const Vector& V, std::vector<BodyState>& states) const;
+
+  /// V₀: gravity and applied forces added.
+  Vector withoutContact(const std::vector<BodyState>& states) const;
+
+  /// Φ(V); `damped` holds the points that damp, which do not change during the step.
+  double merit(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
+               const std::vector<PairContacts>& damped) const;
+
+  struct Solution {
+    Vector change;                 ///< Newton's step from V
+    double decrease;               ///< of Φ that it promises, twice [J]
+    std::vector<Wrench> impulses;  ///< of contact at V + change, per body about O's origin
+  };
+
+  /// One Newton step from V, where the contacts are `contacts`.
+  Solution solve(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
+                 const std::vector<PairContacts>& damped) const;
+
+  /// ½ Vᵀ M V.
+  double kineticEnergy(const Vector& V) const;
+
+ private:
+  Vector timesMass(const Vector& V) const;
+  Eigen::Matrix<double, 6, 1> of(const Vector& V, int body) const;
+  Vector3d relativeVelocity(const Vector& V, const PairContacts& pair, const PointContact& point) const;
+
+  const RigidWorld& world_;
+  const double duration_;
+  std::vector<int> place_;         // of a body's unknowns; -1 if it is fixed
+  std::vector<Matrix3d> inertia_;  // per body, O's axes
+  std::vector<Matrix3d> R_OB_;     // at the start
+  int size_ = 0;
+};
+
+}  // namespace sdf_ccd

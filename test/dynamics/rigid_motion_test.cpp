@@ -1,0 +1,79 @@
+#include "sdf_ccd/dynamics/rigid_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "oracle/bodies.h"
+#include "oracle/random.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+const Matrix3d kUneven = Vector3d(1.0, 2.0, 2.5).asDiagonal();
+
+TEST(RigidMotion, FreeTurnsKeepEnergyAndAngularMomentum) {
+  Random random(5);
+  for (const double turn : {1e-6, 0.3, 20.0, 3000.0}) {
+    Matrix3d R = Matrix3d::Identity();
+    Vector3d spin = direction(random) * turn;
+    const Vector3d L = kUneven * spin;
+    const double energy = spin.dot(L);
+    for (int i = 0; i < 20; ++i) turnFreely(kUneven, 1.0, R, spin);
+    EXPECT_NEAR(spin.dot(kUneven * spin), energy, 1e-10 * energy) << turn;
+    EXPECT_LT((R * (kUneven * spin) - L).norm(), 1e-10 * L.norm()) << turn;
+  }
+}
+
+TEST(RigidMotion, SpinAboutAPrincipalAxisIsExact) {
+  Matrix3d R = Matrix3d::Identity();
+  Vector3d spin(0, 0, 7.0);
+  turnFreely(kUneven, 2.0, R, spin);
+  EXPECT_LT((R - Eigen::AngleAxisd(14.0, Vector3d::UnitZ()).toRotationMatrix()).norm(), 1e-12);
+  EXPECT_EQ(spin, Vector3d(0, 0, 7.0));
+}
+
+TEST(RigidMotion, DiscPrecessesAtItsClosedFormRate) {
+  // I = (A, A, C): the symmetry axis goes round L at |L| / A.
+  const Matrix3d disc = Vector3d(1.0, 1.0, 2.0).asDiagonal();
+  Matrix3d R = Matrix3d::Identity();
+  Vector3d spin(0.3, 0.0, 4.0);
+  const Vector3d L = disc * spin;
+  const double T = 1.7;
+  const Vector3d expected = Eigen::AngleAxisd(L.norm() * T, L.normalized()) * Vector3d::UnitZ();
+  turnFreely(disc, T, R, spin);
+  EXPECT_LT((R.col(2) - expected).norm(), 2e-3);  // second order in the tenth of a radian of a substep
+}
+
+TEST(RigidMotion, FastSpinsAreCutSoThatNoPieceTurnsMoreThanARadian) {
+  RigidWorld world;
+  world.bodies = {pointBody("point", 1.0)};
+  std::vector<BodyState> states = {at(Vector3d::Zero(), Vector3d::Zero(), {0, 0, 10.5})};
+  StepMotion motion;
+  drift(world, {Vector3d(3, 0, 0)}, 1.0, 1, states, motion);
+  ASSERT_EQ(motion.times.size(), 12u);
+  EXPECT_EQ(motion.times.back(), 1.0);
+  EXPECT_LT((motion.X_OB[0].back().translation() - Vector3d(3, 0, 0)).norm(), 1e-15);
+}
+
+TEST(RigidMotion, WhatCannotBeComputedNamesBodyStepAndReason) {
+  RigidWorld world;
+  world.bodies = {pointBody("runaway", 1.0)};
+  StepMotion motion;
+  const auto messageOf = [&](const Vector3d& velocity, const Vector3d& spin) {
+    std::vector<BodyState> states = {at(Vector3d::Zero(), velocity, spin)};
+    try {
+      drift(world, {velocity}, 1.0, 42, states, motion);
+    } catch (const SimulationError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(messageOf({1e10, 0, 0}, Vector3d::Zero()).find("body `runaway`, step 42: it would move 1e+10 m"),
+            std::string::npos);
+  EXPECT_NE(messageOf(Vector3d::Zero(), {2e4, 0, 0}).find("turn 20000 rad"), std::string::npos);
+  EXPECT_NE(messageOf({std::nan(""), 0, 0}, Vector3d::Zero()).find("no longer finite"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

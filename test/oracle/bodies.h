@@ -1,0 +1,68 @@
+#pragma once
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/dynamics/mass_properties.h"
+#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+
+/// Rigid bodies for tests and studies.
+namespace sdf_ccd::test {
+
+/// All below z = 0.
+inline RigidBody groundBody() {
+  RigidBody ground;
+  ground.name = "ground";
+  ground.fixed = true;
+  ground.shape =
+      std::make_shared<CollisionShape>(makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), ShellOptions{}));
+  return ground;
+}
+
+/// A point of unit area, with mass, and an inertia that a contact through it never uses.
+inline RigidBody pointBody(const std::string& name, double mass) {
+  RigidBody body;
+  body.name = name;
+  body.mass = mass;
+  body.inertia = mass * Matrix3d::Identity();
+  body.shape =
+      std::make_shared<CollisionShape>(makeShape(PointShell{{Vector3d::Zero()}, {-Vector3d::UnitZ()}, {1.0}, 0.0}));
+  return body;
+}
+
+inline RigidBody primitiveBody(const std::string& name, const Primitive& primitive, double density, double spacing) {
+  RigidBody body;
+  body.name = name;
+  const MassProperties mass = massProperties(primitive, density);
+  body.mass = mass.mass;
+  body.inertia = mass.inertia;
+  ShellOptions shell;
+  shell.spacing = spacing;
+  body.shape = std::make_shared<CollisionShape>(makeShape(primitive, shell));
+  return body;
+}
+
+inline RigidBody meshBody(const std::string& name, const TriangleMesh& mesh, double density, int cells,
+                          double spacing) {
+  RigidBody body;
+  body.name = name;
+  const MassProperties mass = massProperties(mesh, density);
+  body.mass = mass.mass;
+  body.inertia = mass.inertia;
+  FieldOptions field;
+  field.cells = cells;
+  ShellOptions shell;
+  shell.spacing = spacing;
+  body.shape = std::make_shared<CollisionShape>(makeShape(translated(mesh, -mass.center), field, shell));
+  return body;
+}
+
+inline BodyState at(const Vector3d& place, const Vector3d& velocity = Vector3d::Zero(),
+                    const Vector3d& spin_B = Vector3d::Zero()) {
+  BodyState state;
+  state.X_OB.translation() = place;
+  state.velocity = velocity;
+  state.spin_B = spin_B;
+  return state;
+}
+
+}  // namespace sdf_ccd::test
