@@ -1,0 +1,62 @@
+#include "study.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+
+namespace sdf_ccd::benchmark {
+
+bool isWanted(const std::vector<std::string>& wanted, const std::string& name) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+}
+
+std::vector<NamedMesh> studyMeshes(const StudyOptions& options) {
+  std::vector<NamedMesh> meshes;
+  for (const std::string& argument : options.mesh_files) {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos) throw std::invalid_argument("--mesh " + argument + ": NAME=FILE is wanted");
+    const std::string name = argument.substr(0, equals);
+    if (!isWanted(options.meshes, name)) continue;
+    meshes.push_back({name, orientOutward(loadMesh(argument.substr(equals + 1))).mesh});
+  }
+  if (meshes.empty()) {
+    meshes.push_back({"torus", test::torusMesh(0.2, 0.08, 128, 64)});
+    meshes.push_back({"box", test::boxMesh({0.2, 0.15, 0.1})});
+  }
+  return meshes;
+}
+
+int runStudy(int argc, char** argv, const std::string& description, const StudyOptions& full, const StudyOptions& quick,
+             const std::function<void(const StudyOptions&)>& study) {
+  const bool is_quick = std::any_of(argv, argv + argc, [](const char* a) { return std::strcmp(a, "--quick") == 0; });
+  StudyOptions options = is_quick ? quick : full;
+  CLI::App app{description};
+  app.add_flag("--quick", "coarse fields and small sets");
+  app.add_option("--mesh", options.mesh_files, "NAME=FILE, as often as wanted; without any, shapes of our own");
+  app.add_option("--meshes", options.meshes, "only those names")->delimiter(',');
+  app.add_option("--cells", options.cells, "uniform fields: cells along the longest side")->delimiter(',');
+  app.add_option("--errors", options.errors, "fields to a maximum error, in box sides")->delimiter(',');
+  app.add_option("--cases", options.cases, "only those (segment: A, B1, …; shell: random, small, …)")->delimiter(',');
+  app.add_option("--paper", options.paper_meshes, "meshes that get the paper's dense grids too")->delimiter(',');
+  app.add_option("--segments", options.segments, "per case")->check(CLI::Range(1000, 100'000'000));
+  app.add_option("--pairs", options.pairs, "pose pairs per case")->check(CLI::Range(10, 1'000'000));
+  app.add_option("--runs", options.measure.runs, "per system")->check(CLI::Range(1, 1000));
+  app.add_option("--seconds", options.measure.seconds, "a run lasts at least so long");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    study(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+    return 2;
+  }
+  return 0;
+}
+
+}  // namespace sdf_ccd::benchmark
