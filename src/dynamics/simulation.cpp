@@ -45,6 +45,7 @@ const StepRecord& Simulation::advance() {
                             "its state is no longer finite; shorten the step or lower the stiffness");
     }
   }
+  torque_work_ += workOfTorques(states_, states);
   states_ = std::move(states);
   ++record_.step;
   measure();
@@ -52,9 +53,19 @@ const StepRecord& Simulation::advance() {
   return record_;
 }
 
+double Simulation::workOfTorques(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const {
+  double work = 0.0;
+  for (std::size_t b = 0; b < after.size(); ++b) {
+    const RigidBody& body = world_->bodies[b];
+    if (!body.fixed) work += step_ * body.applied.torque.dot(before[b].X_OB.linear() * after[b].spin_B);
+  }
+  return work;
+}
+
 void Simulation::measure() {
   record_.time = double(record_.step) * step_;
-  record_.kinetic = record_.potential = 0.0;
+  record_.kinetic = 0.0;
+  record_.potential = -torque_work_;
   for (std::size_t b = 0; b < states_.size(); ++b) {
     const RigidBody& body = world_->bodies[b];
     if (body.fixed) continue;

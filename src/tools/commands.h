@@ -8,6 +8,7 @@ namespace sdf_ccd::tools {
 void addBuildCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addQueryCommand(CLI::App& app);
+void addSimulateCommand(CLI::App& app);
 
 /// Some of what was asked for was done, the rest was reported: exit code 1.
 struct PartlyDone {};

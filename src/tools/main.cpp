@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   sdf_ccd::tools::addBuildCommand(app);
   sdf_ccd::tools::addInfoCommand(app);
   sdf_ccd::tools::addQueryCommand(app);
+  sdf_ccd::tools::addSimulateCommand(app);
   try {
     app.parse(argc, argv);
     return 0;

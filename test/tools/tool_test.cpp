@@ -1,6 +1,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -93,7 +94,7 @@ class Tool : public ::testing::Test {
 };
 
 TEST_F(Tool, HelpIsEverywhere) {
-  for (const char* arguments : {"--help", "build --help", "info --help", "query --help"}) {
+  for (const char* arguments : {"--help", "build --help", "info --help", "query --help", "simulate --help"}) {
     const ToolRun result = run(arguments);
     EXPECT_EQ(result.exit_code, kDone);
     EXPECT_NE(result.out.find("Usage"), std::string::npos);
@@ -275,6 +276,36 @@ TEST_F(Tool, RobotIsBuiltLinkByLink) {
   for (const char* name : {"a.field", "a.shell", "a_2.field", "a_2.shell"})
     EXPECT_TRUE(fs::exists(path("made") / name));
   EXPECT_EQ(std::distance(fs::directory_iterator(path("made")), fs::directory_iterator()), 4);
+}
+
+TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {
+  write("scene.yaml",
+        "step: 0.001\nduration: 0.2\nshapes: {ball: {type: sphere, radius: 0.1}, ground: {type: plane}}\n"
+        "bodies: [{name: ground, shape: ground, fixed: true}, {name: ball, shape: ball, xyz: [0, 0, 0.11]}]\n");
+  const ToolRun result = run("simulate scene.yaml --out made --frames 10");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find("steps            200 (0.2 s)"), std::string::npos) << result.out;
+  EXPECT_EQ(readText(path("made/summary.txt")), result.out);
+  const std::string steps = readText(path("made/steps.csv")), poses = readText(path("made/poses.csv"));
+  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 202);
+  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 1 + 2 * 3);
+  EXPECT_EQ((steps + poses).find("nan"), std::string::npos);
+  expectRefused("simulate no.yaml --out no", "no.yaml: cannot be read");
+  expectRefused("simulate scene.yaml --out no --integrator leapfrog", "leapfrog");
+  expectRefused("simulate scene.yaml --out no --step -1", "time step");
+}
+
+TEST_F(Tool, SimulationThatExplodesStopsWithBodyStepAndReason) {
+  write("scene.yaml",
+        "step: 0.01\nduration: 100\nintegrator: discrete\ncontact: {stiffness: 1.0e+12}\n"
+        "shapes: {box: {type: box, size: [0.1, 0.2, 0.3]}, ground: {type: plane}}\n"
+        "bodies: [{name: ground, shape: ground, fixed: true},"
+        " {name: brick, shape: box, xyz: [0, 0, 0.14], spin: [1, 2, 3]}]\n");
+  const ToolRun result = run("simulate scene.yaml --out made");
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("body `brick`, step "), std::string::npos) << result.error;
+  EXPECT_EQ(readText(path("made/steps.csv")).find("nan"), std::string::npos);
+  EXPECT_EQ(readText(path("made/steps.csv")).find("inf"), std::string::npos);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ struct StepRecord {
   long step = 0;
   double time = 0.0;            ///< [s]
   double kinetic = 0.0;         ///< [J]
-  double potential = 0.0;       ///< of gravity and applied forces, about O's origin [J]
+  double potential = 0.0;       ///< of gravity and applied forces, about O's origin, less what applied torques did [J]
   double elastic = 0.0;         ///< of contact [J]
   Wrench momentum;              ///< of all moving bodies, about O's origin [N·s, N·m·s]
   double reaction_error = 0.0;  ///< |Σ contact impulses and moments over all bodies| / Σ |…|; 0 up to rounding
@@ -40,11 +40,13 @@ class Simulation {
 
  private:
   void measure();
+  double workOfTorques(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const;
 
   std::unique_ptr<const RigidWorld> world_;  // the integrator holds on to it
   std::vector<BodyState> states_;
   std::unique_ptr<Integrator> integrator_;
   double step_;
+  double torque_work_ = 0.0;  // so far [J]
   StepReport report_;
   StepRecord record_;
 };

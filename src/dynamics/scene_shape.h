@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "sdf_ccd/dynamics/mass_properties.h"
+#include "sdf_ccd/dynamics/rigid_body.h"
+#include "yaml_map.h"
+
+namespace sdf_ccd {
+
+/// A shape of a scene file, built.
+struct SceneShape {
+  std::shared_ptr<const CollisionShape> collision;
+  std::shared_ptr<const TriangleMesh> mesh_B;  ///< null for a half-space
+  std::optional<MassProperties> unit;          ///< at 1 kg/m³; none where the geometry has no volume
+  Vector3d center = Vector3d::Zero();          ///< of mass, in the frame that the geometry was given in [m]
+};
+
+/// Reads and builds one entry of `shapes`.
+SceneShape buildSceneShape(YamlMap shape, const std::string& directory);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "commands.h"
+#include "output_file.h"
+#include "print.h"
+#include "progress_bar.h"
+#include "sdf_ccd/dynamics/simulation_file.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+struct Arguments {
+  std::string scene;
+  std::string out;
+  std::string integrator;
+  double step = 0.0;
+  double duration = 0.0;
+  double frames = 30.0;  // per second
+};
+
+/// What is said of a run when it is over.
+struct Summary {
+  double highest_rise = 0.0;  // of the energy from one step to the next [J]
+  double deepest = 0.0;
+  double reaction_error = 0.0;
+  double energy_excess = 0.0;
+  double run_time = 0.0;
+  long contact_steps = 0;
+
+  void add(const StepRecord& before, const StepRecord& now) {
+    highest_rise = std::max(highest_rise, now.energy() - before.energy());
+    deepest = std::max(deepest, now.deepest);
+    reaction_error = std::max(reaction_error, now.reaction_error);
+    energy_excess += now.energy_excess;
+    run_time += now.run_time;
+    contact_steps += now.contacts > 0;
+  }
+};
+
+void writeStep(const StepRecord& r, std::ostream& stream) {
+  char row[512];
+  std::snprintf(row, sizeof row, "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.3g,%.9g,%d,%.6g\n",
+                r.step, r.time, r.kinetic, r.potential, r.elastic, r.energy(), r.momentum.force.x(),
+                r.momentum.force.y(), r.momentum.force.z(), r.momentum.torque.x(), r.momentum.torque.y(),
+                r.momentum.torque.z(), r.reaction_error, r.deepest, r.contacts, r.run_time);
+  stream << row;
+}
+
+void writePoses(const Simulation& simulation, std::ostream& stream) {
+  for (std::size_t b = 0; b < simulation.states().size(); ++b) {
+    const Isometry3d& X = simulation.states()[b].X_OB;
+    const Vector3d p_W = simulation.world().origin_W + X.translation();
+    const Quaterniond q(X.linear());
+    char row[512];
+    std::snprintf(row, sizeof row, "%.9g,%s,%.15g,%.15g,%.15g,%.9g,%.9g,%.9g,%.9g\n", simulation.last().time,
+                  simulation.world().bodies[b].name.c_str(), p_W.x(), p_W.y(), p_W.z(), q.x(), q.y(), q.z(), q.w());
+    stream << row;
+  }
+}
+
+std::string report(const Arguments& arguments, const SimulationSetup& setup, const StepRecord& start,
+                   const StepRecord& end, const Summary& summary) {
+  std::ostringstream text;
+  std::size_t moving = 0;
+  for (const RigidBody& body : setup.world.bodies) moving += !body.fixed;
+  text << "scene            " << arguments.scene << "\n"
+       << "integrator       " << toString(setup.scheme) << ", step " << setup.step << " s\n"
+       << "bodies           " << setup.world.bodies.size() << ", of which " << moving << " move\n"
+       << "steps            " << end.step << " (" << end.time << " s), with contact in " << summary.contact_steps
+       << "\n"
+       << "energy           " << shortly(start.energy()) << " J at the start, " << shortly(end.energy())
+       << " J at the end; kinetic " << shortly(end.kinetic) << " J\n"
+       << "highest rise     " << shortly(summary.highest_rise) << " J in one step\n"
+       << "deepest point    " << shortly(summary.deepest) << " m\n"
+       << "reaction error   " << shortly(summary.reaction_error) << " of the contact impulses\n"
+       << "run time         " << shortly(summary.run_time) << " s, "
+       << shortly(1e3 * summary.run_time / std::max(1L, end.step)) << " ms a step\n";
+  if (summary.energy_excess > 0.0) text << "energy excess    " << shortly(summary.energy_excess) << " J\n";
+  return text.str();
+}
+
+void run(const Arguments& arguments) {
+  if (!(arguments.frames > 0.0) || !std::isfinite(arguments.frames)) {
+    throw std::runtime_error("--frames must be positive");
+  }
+  SimulationSetup setup = loadSimulation(arguments.scene);
+  if (!arguments.integrator.empty()) setup.scheme = schemeOf(arguments.integrator);
+  if (arguments.step != 0.0) setup.step = arguments.step;
+  if (arguments.duration != 0.0) setup.duration = arguments.duration;
+  Simulation simulation(setup.world, setup.states, setup.scheme, setup.step);
+  const double wanted = std::ceil(setup.duration / setup.step - 1e-9);
+  if (!(wanted >= 1.0) || !(wanted <= 1e9)) {
+    throw std::runtime_error("duration / step must be 1 to 1e9 steps, got " + std::to_string(wanted));
+  }
+  OutputDirectory out(arguments.out);
+  OutputFile steps(out.file("steps.csv")), poses(out.file("poses.csv")), text(out.file("summary.txt"));
+  steps.stream() << "step,time,kinetic,potential,elastic,energy,px,py,pz,lx,ly,lz,reaction_error,deepest,contacts,"
+                    "run_time\n";
+  poses.stream() << "time,body,x,y,z,qx,qy,qz,qw\n";
+  const StepRecord start = simulation.last();
+  writeStep(start, steps.stream());
+  writePoses(simulation, poses.stream());
+  Summary summary;
+  std::string failure;
+  double next_frame = 1.0 / arguments.frames;
+  ProgressBar bar("simulation");
+  for (long i = 0; i < long(wanted); ++i) {
+    const StepRecord before = simulation.last();
+    try {
+      summary.add(before, simulation.advance());
+    } catch (const SimulationError& error) {
+      failure = error.what();
+      break;
+    }
+    writeStep(simulation.last(), steps.stream());
+    if (simulation.last().time + 0.5 * setup.step >= next_frame) {
+      writePoses(simulation, poses.stream());
+      next_frame = std::max(next_frame + 1.0 / arguments.frames, simulation.last().time);
+    }
+    bar(double(i + 1) / wanted);
+  }
+  std::string said = report(arguments, setup, start, simulation.last(), summary);
+  if (!failure.empty()) said += "stopped          " + failure + "\n";
+  std::cout << said << std::flush;
+  text.stream() << said;
+  for (OutputFile* file : {&steps, &poses, &text}) file->commit();
+  if (failure.empty()) return;
+  std::cerr << "sdf_ccd: " << failure << std::endl;
+  throw PartlyDone();
+}
+
+}  // namespace
+
+void addSimulateCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("simulate", "Rigid bodies under the contact model");
+  command->footer(
+      "Writes steps.csv (per step: energies [J], momentum [N s] and angular momentum [N m s] about the scene's origin, "
+      "error of action against reaction, deepest point [m], points in contact, run time [s]), poses.csv and "
+      "summary.txt. A run that cannot go on says which body stopped it, at which step and why, keeps what it has, and "
+      "exits with 1.");
+  command->add_option("scene", arguments->scene, "YAML file, as those in config/scenes")->required();
+  command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
+  command->add_option("--integrator", arguments->integrator, "continuous, discrete or implicit; default the scene's");
+  command->add_option("--step", arguments->step, "Time step [s]; default the scene's");
+  command->add_option("--duration", arguments->duration, "Time to simulate [s]; default the scene's");
+  command->add_option("--frames", arguments->frames, "Poses written per second; default 30");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sdf_ccd::tools
