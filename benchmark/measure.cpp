@@ -1,9 +1,11 @@
 #include "measure.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
 
 namespace sdf_ccd::benchmark {
 namespace {
@@ -53,6 +55,8 @@ std::vector<Spread> measure(const std::vector<Task>& tasks, const MeasureOptions
     benchmark->Repetitions(options.runs)->MinTime(options.seconds);
     if (options.wall_clock) benchmark->UseRealTime();
   }
+  std::optional<tbb::global_control> one_thread;
+  if (!options.wall_clock) one_thread.emplace(tbb::global_control::max_allowed_parallelism, 1);
   Collector collector(options, tasks.size());
   ::benchmark::RunSpecifiedBenchmarks(&collector, "all");
   ::benchmark::ClearRegisteredBenchmarks();

@@ -17,7 +17,7 @@ struct Task {
 struct MeasureOptions {
   int runs = 7;
   double seconds = 0.03;    ///< at least this long per run
-  bool wall_clock = false;  ///< for work on several threads; else the thread's own time
+  bool wall_clock = false;  ///< for work on all threads; else one thread and its own time
 };
 
 /// Seconds per unit of each task over its runs.

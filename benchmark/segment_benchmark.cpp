@@ -5,10 +5,9 @@
 
 #include "measure.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
 #include "segment_cases.h"
 #include "segment_system.h"
-#include "study.h"
+#include "study_fields.h"
 
 namespace sdf_ccd::benchmark {
 namespace {
@@ -69,25 +68,17 @@ void studyField(const std::string& name, const FieldSubject& subject, const Segm
 }
 
 void study(const NamedMesh& named, const StudyOptions& options) {
-  const TriangleMesh& mesh = named.mesh;
   std::vector<SegmentCase> cases;
-  for (SegmentCase& c : segmentCases(mesh, options.segments)) {
+  for (SegmentCase& c : segmentCases(named.mesh, options.segments)) {
     if (isWanted(options.cases, c.name)) cases.push_back(std::move(c));
   }
   SegmentSystems mesh_systems;
-  for (const MeshFactory& factory : meshFactories()) factory(mesh, mesh_systems);
+  for (const MeshFactory& factory : meshFactories()) factory(named.mesh, mesh_systems);
   const bool paper = isWanted(options.paper_meshes, named.name);
-  for (const int cells : options.cells) {
-    FieldOptions field_options;
-    field_options.cells = cells;
-    const DistanceField field = buildField(mesh, field_options);
-    studyField(named.name + "/" + std::to_string(cells), {mesh, field, cells, paper}, mesh_systems, cases, options);
-  }
-  for (const std::string& error : options.errors) {
-    FieldOptions field_options;
-    field_options.max_error = std::stod(error) * boundingBox(mesh).sizes().maxCoeff();
-    const DistanceField field = buildField(mesh, field_options);
-    studyField(named.name + "/" + error, {mesh, field, 0, false}, mesh_systems, cases, options);
+  for (const StudyField& wanted : studyFields(named, options)) {
+    withField(named, wanted, [&](const DistanceField& field) {
+      studyField(wanted.name, {named.mesh, field, wanted.cells, paper}, mesh_systems, cases, options);
+    });
   }
 }
 

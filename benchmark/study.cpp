@@ -37,6 +37,7 @@ int runStudy(int argc, char** argv, const std::string& description, const StudyO
              const std::function<void(const StudyOptions&)>& study) {
   const bool is_quick = std::any_of(argv, argv + argc, [](const char* a) { return std::strcmp(a, "--quick") == 0; });
   StudyOptions options = is_quick ? quick : full;
+  options.quick = is_quick;
   CLI::App app{description};
   app.add_flag("--quick", "coarse fields and small sets");
   app.add_option("--mesh", options.mesh_files, "NAME=FILE, as often as wanted; without any, shapes of our own");

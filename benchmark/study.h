@@ -12,6 +12,7 @@ namespace sdf_ccd::benchmark {
 
 /// What the command line of every study can set; a study takes what concerns it.
 struct StudyOptions {
+  bool quick = false;
   std::vector<std::string> mesh_files;                        ///< NAME=FILE
   std::vector<std::string> meshes;                            ///< names; only those, all if empty
   std::vector<std::string> paper_meshes{"bunny3k", "torus"};  ///< those that the paper's dense grids are built for

@@ -1,0 +1,64 @@
+#include "shell_system.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+ChordPath straight(const PosePair& pair) {
+  return {{{0.0, 1.0, pair.X_FP_start, pair.X_FP_end, 0}}, 0.0};
+}
+
+/// Every point of the shell against the field.
+class Linear : public ShellSystem {
+ public:
+  explicit Linear(const ShellSubject& subject) : subject_(subject) {}
+
+  std::string name() const override { return "linear"; }
+
+  ShellAnswer run(const PosePair* pairs, std::size_t count) override {
+    ShellAnswer answer;
+    for (std::size_t i = 0; i < count; ++i) {
+      long contacts = 0;
+      for (const Vector3d& p : subject_.shell.points) {
+        segmentIntervals(subject_.field, {pairs[i].X_FP_start * p, pairs[i].X_FP_end * p}, {}, intervals_);
+        contacts += long(intervals_.size());
+      }
+      answer.contacts += contacts;
+      answer.pairs_in_contact += contacts > 0;
+    }
+    return answer;
+  }
+
+ private:
+  ShellSubject subject_;
+  Intervals intervals_;
+};
+
+/// Through the tree of spheres.
+class Tree : public ShellSystem {
+ public:
+  explicit Tree(const ShellSubject& subject) : subject_(subject) {}
+
+  std::string name() const override { return "tree"; }
+
+  ShellAnswer run(const PosePair* pairs, std::size_t count) override {
+    ShellAnswer answer;
+    for (std::size_t i = 0; i < count; ++i) {
+      shellIntervals(subject_.field, subject_.shell, subject_.tree, straight(pairs[i]), {}, result_);
+      answer.contacts += long(result_.hits.size());
+      answer.pairs_in_contact += !result_.hits.empty();
+    }
+    return answer;
+  }
+
+ private:
+  ShellSubject subject_;
+  ShellQueryResult result_;
+};
+
+const RegisteredShell kShells{[](const ShellSubject& subject, ShellSystems& systems) {
+  systems.push_back(std::make_unique<Linear>(subject));
+  systems.push_back(std::make_unique<Tree>(subject));
+}};
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark
