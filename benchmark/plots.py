@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Draws results.csv with gnuplot.
+
+usage: plots.py RESULTS.csv DIRECTORY
+
+Writes those of segment_cells.svg, segment_meshes.svg, shell.svg and scaling_points.svg that the results have data for.
+"""
+import os
+import re
+import subprocess
+import sys
+
+from results import Results
+
+HEAD = """set terminal svg size 760,460 font 'sans,13' background '#ffffff'
+set output '%(file)s'
+set title '%(title)s'
+set xlabel '%(x)s'
+set ylabel '%(y)s'
+set logscale xy
+set grid
+set key outside right
+"""
+
+
+def draw(file, title, axes, lines):
+    """One plot of lines {name: [(x, low, median, high), …]}, on logarithmic axes, with the spread as bars."""
+    lines = {name: sorted(points) for name, points in lines.items() if points}
+    if not lines:
+        return
+    script = HEAD % {'file': file, 'title': title, 'x': axes[0], 'y': axes[1]}
+    for i, points in enumerate(lines.values()):
+        script += '$d%d << EOD\n%s\nEOD\n' % (i, '\n'.join('%g %g %g %g' % (x, m, l, h) for x, l, m, h in points))
+    script += 'plot ' + ', '.join("$d%d using 1:2:3:4 with yerrorlines linewidth 1.5 title '%s' noenhanced" % (i, name)
+                                  for i, name in enumerate(lines)) + '\n'
+    subprocess.run(['gnuplot'], input=script, text=True, check=True)
+    print(file)
+
+
+def point(results, key, metric, x):
+    values = [results.get(*key, metric + ending) for ending in ('_min', '', '_max')]
+    return [] if None in values else [(x, *values)]
+
+
+def lines(results, study, pattern, metric):
+    """Per system, a point for each case that matches; the pattern's group is x."""
+    found = {}
+    for case in results.cases(study):
+        match = re.fullmatch(pattern, case)
+        for system in results.systems(study, case) if match else []:
+            found.setdefault(system, []).extend(point(results, (study, case, system), metric, float(match.group(1))))
+    return found
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit('usage: plots.py RESULTS.csv DIRECTORY')
+    results, directory = Results(sys.argv[1]), sys.argv[2]
+
+    def path(name):
+        return os.path.join(directory, name)
+
+    draw(path('segment_cells.svg'), 'Random segments through the bunny (A), first contact',
+         ('cells along the longest side', 'ns per segment'),
+         lines(results, 'segment', r'bunny3k/(\d+)/A/first', 'ns_per_segment'))
+    triangles = {'bunny3k': 3674, 'bunny75k': 75408, 'dragon871k': 871414}
+    meshes = {}
+    for case in results.cases('segment'):
+        match = re.fullmatch(r'(\w+)/1e-3/A/first', case)
+        if match and match.group(1) in triangles:
+            for system in results.systems('segment', case):
+                meshes.setdefault(system, []).extend(
+                    point(results, ('segment', case, system), 'ns_per_segment', triangles[match.group(1)]))
+    draw(path('segment_meshes.svg'), 'Random segments (A), first contact, fields to 1e-3 of the side',
+         ('triangles', 'ns per segment'), meshes)
+    shells = {}
+    for case in results.cases('shell'):
+        shell, motion = case.split('/')
+        points = results.get('shell', case, 'sdf_ccd', 'points')
+        for system in results.systems('shell', case):
+            if points and motion in ('random', 'small'):
+                shells.setdefault('%s, %s' % (system, motion), []).extend(
+                    point(results, ('shell', case, system), 'us_per_pair', points))
+    draw(path('shell.svg'), 'Moving shells', ('points', 'us per pose pair'), shells)
+    scaling = {}
+    for motion in ('random', 'small'):
+        for system, points in lines(results, 'scaling', r'\w+/points(\d+)/' + motion, 'us_per_pair').items():
+            scaling['%s, %s' % (system, motion)] = points
+    draw(path('scaling_points.svg'), 'Shells over their points', ('points', 'us per pose pair'), scaling)
+
+
+if __name__ == '__main__':
+    main()
