@@ -1,15 +1,14 @@
 #include "sdf_ccd/field/build_field.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
 
 #include <tbb/parallel_for.h>
 
+#include "build_adaptive.h"
+#include "progress_counter.h"
 #include "sdf_ccd/geometry/triangle_tree.h"
 
 namespace sdf_ccd {
@@ -17,23 +16,8 @@ namespace {
 
 constexpr double kSqrt3 = 1.7320508075688772;
 
-/// True if every edge is run along as often one way as the other: then the winding number is an integer wherever it
-/// is defined, and the sign can change only across a triangle.
-bool isClosed(const TriangleMesh& mesh) {
-  std::unordered_map<std::uint64_t, int> balance;
-  balance.reserve(mesh.triangles.size() * 2);
-  for (const Vector3i& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const auto a = std::uint64_t(t[k]), b = std::uint64_t(t[(k + 1) % 3]);
-      balance[std::min(a, b) << 32 | std::max(a, b)] += a < b ? 1 : -1;
-    }
-  }
-  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
-}
-
 double cellSize(const FieldOptions& options, const AlignedBox3d& surface_box) {
   if (options.cell_size) return *options.cell_size;
-  if (options.max_error) return *options.max_error * 2.0 / kSqrt3;
   return surface_box.sizes().maxCoeff() / *options.cells;
 }
 
@@ -104,25 +88,6 @@ class Sampler {
   bool closed_;
 };
 
-/// Share done, reported by whichever thread gets there.
-class ProgressCounter {
- public:
-  ProgressCounter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
-  void add() {
-    const std::size_t done = ++done_;
-    if (!progress_) return;
-    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
-    if (lock && done > reported_) progress_(double(reported_ = done) / double(total_));
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t total_;
-  std::atomic<std::size_t> done_{0};
-  std::size_t reported_ = 0;
-  std::mutex mutex_;
-};
-
 /// Bricks that need samples: the distance at the centre, or a sign that changes between the corners, says that
 /// |φ| ≤ band (and its interpolation error) may be met inside.
 bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vector<float>& corners,
@@ -148,6 +113,7 @@ bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vec
 DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress) {
   validate(mesh);
   validate(options);
+  if (options.max_error) return DistanceField(buildAdaptive(mesh, options, progress));
   const GridShape shape = shapeFor(mesh, options);
   const std::size_t bricks = shape.brickCount();
   const std::size_t coarse_bytes = shape.cornerCount() * sizeof(float) + bricks * sizeof(std::int32_t);

@@ -7,9 +7,16 @@
 
 namespace sdf_ccd {
 
+namespace {
+
+/// Counts what the same options have meant: a field of an earlier meaning must not be taken for one of today's.
+constexpr double kMeaning = 2;
+
+}  // namespace
+
 std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options) {
   return contentHash(mesh, {double(options.cells.value_or(0)), options.cell_size.value_or(0.0),
-                            options.max_error.value_or(0.0), options.band}) +
+                            options.max_error.value_or(0.0), options.band, kMeaning}) +
          ".field";
 }
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "adaptive_file.h"
 #include "sdf_ccd/field/checked_file.h"
 
 namespace sdf_ccd {
@@ -24,6 +25,7 @@ static_assert(sizeof(ShapeRecord) == 104, "the file's layout must not depend on 
 }  // namespace
 
 void saveField(const DistanceField& field, const std::string& path) {
+  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, path);
   const SparseGrid* grid = field.grid();
   if (!grid) throw std::invalid_argument(path + ": the field of a primitive is exact and needs no file");
   const GridShape& shape = grid->shape();
@@ -44,7 +46,12 @@ void saveField(const DistanceField& field, const std::string& path) {
                     {grid->samples().data, grid->samples().size * sizeof(float)}});
 }
 
+bool isFieldFile(const std::string& path) {
+  return isCheckedFile(path, kKind) || isCheckedFile(path, kAdaptiveFileKind);
+}
+
 DistanceField loadField(const std::string& path) {
+  if (isCheckedFile(path, kAdaptiveFileKind)) return DistanceField(loadAdaptive(path));
   const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kKind, kVersion);
   std::size_t records = 0;
   const auto* record = file->section<ShapeRecord>(0, records);

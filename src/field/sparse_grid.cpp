@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kHalfSqrt3 = 0.8660254037844386;
 
-template <class T>
-View<T> viewOf(const std::vector<T>& values) {
-  return {values.data(), values.size()};
-}
-
 }  // namespace
 
 SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {

@@ -22,6 +22,13 @@ std::vector<EdgeUse> edgeUses(const TriangleMesh& mesh) {
   return uses;
 }
 
+bool isClosed(const TriangleMesh& mesh) {
+  bool closed = true;
+  forEachEdge(edgeUses(mesh),
+              [&](const EdgeUse* first, const EdgeUse* last) { closed = closed && imbalance(first, last) == 0; });
+  return closed;
+}
+
 TriangleSets::TriangleSets(std::size_t count) : parent_(count) {
   std::iota(parent_.begin(), parent_.end(), 0);
 }

@@ -29,6 +29,14 @@ void forEachEdge(const std::vector<EdgeUse>& uses, Visit visit) {
   }
 }
 
+/// How much more often an edge is run along one way than the other, of its uses [first, last): 0 where its triangles
+/// agree about the outside.
+inline int imbalance(const EdgeUse* first, const EdgeUse* last) {
+  int sum = 0;
+  for (; first != last; ++first) sum += first->forward ? 1 : -1;
+  return sum;
+}
+
 /// Disjoint sets of triangles (Galler & Fischer 1964, with path halving).
 class TriangleSets {
  public:

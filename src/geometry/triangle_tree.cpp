@@ -58,6 +58,27 @@ TriangleTree::ClosestPoint TriangleTree::closestPoint(const Vector3d& p, double 
   return best;
 }
 
+void TriangleTree::trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const {
+  triangles.clear();
+  const double radius2 = radius * radius;
+  std::array<std::int32_t, kStackSize> stack;
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (squaredDistance(node.box, p) > radius2) continue;
+    if (node.count == 0) {
+      stack[size++] = node.first;
+      stack[size++] = node.first + 1;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const Vector3d q = closestOnTriangle(triangles_[i].a, triangles_[i].b, triangles_[i].c, p);
+      if ((q - p).squaredNorm() <= radius2) triangles.push_back(ids_[i]);
+    }
+  }
+}
+
 double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
   const double accuracy2 = accuracy * accuracy;
   double sum = 0;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cell_cubic.h"
+#include "cell_spans.h"
 #include "grid_walk.h"
 #include "representation_queries.h"
 
@@ -17,31 +17,12 @@ Side sideOf(const DistanceRange& range, double sigma) {
   return range.max <= sigma ? Side::kInside : Side::kBoth;
 }
 
-Side sideOf(const std::array<double, 8>& corners, double sigma) {
-  const auto [low, high] = std::minmax_element(corners.begin(), corners.end());
-  if (*low > sigma) return Side::kOutside;
-  return *high <= sigma ? Side::kInside : Side::kBoth;
-}
-
-/// A cell that the isosurface may pass through.
-void cellSpans(const std::array<double, 8>& corners, const GridWalk& walk, double t_exit, double sigma,
-               Intervals& intervals) {
-  const auto unit = [](const Vector3d& u) { return Vector3d(u.array().max(0.0).min(1.0)); };
-  const Vector3d from = unit(walk.local(walk.t(), walk.cell())), to = unit(walk.local(t_exit, walk.cell()));
-  const CellIntervals found = nonPositive(cellCubic(corners, from, to, sigma));
-  const double length = t_exit - walk.t();
-  for (int i = 0; i < found.count; ++i) {
-    const Interval& span = found.interval[i];
-    appendSpan(intervals, walk.t() + span.enter * length, span.exit == 1.0 ? t_exit : walk.t() + span.exit * length);
-  }
-}
-
 }  // namespace
 
 void gridIntervals(const SparseGrid& grid, const Segment& segment, const SegmentOptions& options,
                    Intervals& intervals) {
   const double sigma = options.sigma;
-  GridWalk walk(grid.shape(), segment);
+  GridWalk walk({grid.shape().origin, grid.shape().cell, grid.shape().cells()}, segment);
   const auto firstFound = [&] {
     return options.first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin;
   };
@@ -63,11 +44,8 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
     const std::int32_t slot = grid.slot(brick);
     const Vector3i first = kBrick * brick;
     while (walk.inside() && walk.cell() / kBrick == brick && !firstFound()) {
-      const auto corners = grid.cellCorners(slot, walk.cell() - first);
       const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
-      const Side cell_side = sideOf(corners, sigma);
-      if (cell_side == Side::kInside) appendSpan(intervals, walk.t(), t_exit);
-      if (cell_side == Side::kBoth) cellSpans(corners, walk, t_exit, sigma, intervals);
+      appendCellSpans(grid.cellCorners(slot, walk.cell() - first), walk, {walk.cell(), 1, t_exit}, sigma, intervals);
       walk.advance();
     }
   }

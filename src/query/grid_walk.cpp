@@ -5,10 +5,10 @@
 
 namespace sdf_ccd {
 
-GridWalk::GridWalk(const GridShape& shape, const Segment& segment)
-    : size_(shape.cells()),
-      start_((segment.start - shape.origin) / shape.cell),
-      step_((segment.end - segment.start) / shape.cell) {
+GridWalk::GridWalk(const CellLattice& lattice, const Segment& segment)
+    : size_(lattice.size),
+      start_((segment.start - lattice.origin) / lattice.cell),
+      step_((segment.end - segment.start) / lattice.cell) {
   for (int k = 0; k < 3; ++k) {
     const double n = size_[k];
     if (step_[k] == 0.0) {
@@ -20,10 +20,14 @@ GridWalk::GridWalk(const GridShape& shape, const Segment& segment)
     t_end_ = std::min(t_end_, std::max(at_low, at_high));
   }
   if (t_ > t_end_) return;
+  findCell();
+  inside_ = true;
+}
+
+void GridWalk::findCell() {
   for (int k = 0; k < 3; ++k) {
     cell_[k] = static_cast<int>(std::clamp(std::floor(start_[k] + t_ * step_[k]), 0.0, double(size_[k] - 1)));
   }
-  inside_ = true;
 }
 
 double GridWalk::exit(const Vector3i& low, const Vector3i& high) {
@@ -42,6 +46,12 @@ double GridWalk::exit(const Vector3i& low, const Vector3i& high) {
   }
   t_exit_ = std::max(t_exit_, t_);
   return t_exit_;
+}
+
+void GridWalk::skipTo(double t) {
+  inside_ = t < t_end_;
+  t_ = std::min(t, t_end_);
+  findCell();
 }
 
 void GridWalk::advance() {

@@ -1,9 +1,16 @@
 #pragma once
 
-#include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/geometry/eigen_types.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {
+
+/// A lattice of cubic cells.
+struct CellLattice {
+  Vector3d origin;  ///< first corner of the first cell [m]
+  double cell;      ///< [m]
+  Vector3i size;    ///< cells per axis
+};
 
 /// Follows a segment through the cells of a grid, block by block.
 ///
@@ -11,7 +18,7 @@ namespace sdf_ccd {
 /// is set, not computed: so no cell is met twice and none is left out, however the segment runs along faces.
 class GridWalk {
  public:
-  GridWalk(const GridShape& shape, const Segment& segment);
+  GridWalk(const CellLattice& lattice, const Segment& segment);
 
   /// False once the segment has ended or left the grid (or if it never meets it).
   bool inside() const { return inside_; }
@@ -21,6 +28,9 @@ class GridWalk {
   /// Parameter at which the current block was entered.
   double t() const { return t_; }
 
+  /// Parameter at which the segment ends or leaves the grid.
+  double end() const { return t_end_; }
+
   /// Parameter at which the block of cells [low, high) around the current cell is left, at most the segment's end;
   /// remembers through which face.
   double exit(const Vector3i& low, const Vector3i& high);
@@ -28,12 +38,17 @@ class GridWalk {
   /// Steps through the face that exit() found.
   void advance();
 
+  /// Leaves out all that lies before t, which is not before exit() and at most the segment's end.
+  void skipTo(double t);
+
   /// The segment's place at t, in cells from `origin_cell`'s first corner.
   Vector3d local(double t, const Vector3i& origin_cell) const {
     return start_ + t * step_ - origin_cell.cast<double>();
   }
 
  private:
+  void findCell();
+
   Vector3i size_;
   Vector3d start_, step_;  // in cells
   Vector3i cell_ = Vector3i::Zero();

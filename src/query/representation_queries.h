@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "sdf_ccd/field/adaptive_grid.h"
 #include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/query/segment_query.h"
@@ -24,6 +25,11 @@ inline void appendSpan(Intervals& intervals, double enter, double exit) {
 
 void gridIntervals(const SparseGrid& grid, const Segment& segment, const SegmentOptions& options, Intervals& intervals);
 void gridPieces(const SparseGrid& grid, const Segment& segment, const Interval& interval, std::vector<double>& breaks);
+
+void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const SegmentOptions& options,
+                       Intervals& intervals);
+void adaptivePieces(const AdaptiveGrid& grid, const Segment& segment, const Interval& interval,
+                    std::vector<double>& breaks);
 
 void primitiveIntervals(const Primitive& primitive, const Segment& segment, const SegmentOptions& options,
                         Intervals& intervals);

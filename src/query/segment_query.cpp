@@ -20,6 +20,8 @@ void segmentIntervals(const DistanceField& field, const Segment& segment, const 
   }
   if (const Primitive* primitive = field.primitive()) {
     primitiveIntervals(*primitive, segment, options, intervals);
+  } else if (const AdaptiveGrid* adaptive = field.adaptive()) {
+    adaptiveIntervals(*adaptive, segment, options, intervals);
   } else {
     gridIntervals(*field.grid(), segment, options, intervals);
   }
@@ -50,11 +52,18 @@ bool mayTouch(const DistanceField& field, const Segment& segment, double radius)
   return true;
 }
 
+bool surelyInside(const DistanceField& field, const Segment& segment, double depth) {
+  const Vector3d d = segment.end - segment.start;
+  return field.bounds(segment.start + 0.5 * d).high < -(depth + 0.5 * d.norm());
+}
+
 void smoothPieces(const DistanceField& field, const Segment& segment, const Interval& interval,
                   std::vector<double>& breaks) {
   breaks.clear();
   if (const Primitive* primitive = field.primitive()) {
     primitivePieces(*primitive, segment, interval, breaks);
+  } else if (const AdaptiveGrid* adaptive = field.adaptive()) {
+    adaptivePieces(*adaptive, segment, interval, breaks);
   } else {
     gridPieces(*field.grid(), segment, interval, breaks);
   }

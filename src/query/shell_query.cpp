@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sdf_ccd/query/segment_batch.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -17,6 +19,47 @@ Segment along(const Chord& chord, const Vector3d& p_P) {
   return {chord.X_FP_start * p_P, chord.X_FP_end * p_P};
 }
 
+/// Points whose segments are asked together, on fields that answer batches faster.
+class PointBatch {
+ public:
+  PointBatch(const DistanceField& field, double sigma, std::vector<ShellHit>& hits)
+      : field_(field), options_{sigma, SegmentMode::kAll}, hits_(hits) {
+    segments_.clear();
+    points_.clear();
+  }
+
+  void add(int point, int chord, const Segment& segment) {
+    chord_ = chord;
+    points_.push_back(point);
+    segments_.push_back(segment);
+    if (segments_.size() == kMost) ask();
+  }
+
+  void ask() {
+    segmentIntervals(field_, segments_.data(), segments_.size(), options_, found_);
+    for (const SegmentHit& hit : found_.hits) {
+      hits_.push_back({points_[hit.segment], chord_, {double(hit.enter), double(hit.exit)}});
+    }
+    segments_.clear();
+    points_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16384;
+  const DistanceField& field_;
+  BatchOptions options_;
+  std::vector<ShellHit>& hits_;
+  int chord_ = 0;
+  // Kept by each thread, as above.
+  static thread_local std::vector<Segment> segments_;
+  static thread_local std::vector<int> points_;
+  static thread_local BatchResult found_;
+};
+
+thread_local std::vector<Segment> PointBatch::segments_;
+thread_local std::vector<int> PointBatch::points_;
+thread_local BatchResult PointBatch::found_;
+
 }  // namespace
 
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
@@ -26,30 +69,47 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
   result.points_tested = 0;
   if (tree.nodes.empty()) return;
   // A point's roots are those of the interpolated field, the node's test is about the true distance.
-  const double margin = options.sigma + field.errorBound();
+  const double outside_margin = options.sigma + field.errorBound(), inside_margin = field.errorBound() - options.sigma;
   const SegmentOptions segment_options{options.sigma, options.any};
+  const bool batched = field.adaptive() != nullptr && !options.any;
+  PointBatch batch(field, options.sigma, result.hits);
   thread_local Intervals intervals;
   std::vector<std::int32_t>& stack = nodeStack();
   for (std::size_t c = 0; c < path.chords.size(); ++c) {
     const Chord& chord = path.chords[c];
+    const int chord_index = static_cast<int>(c);
     stack.push_back(0);
     while (!stack.empty()) {
       const SphereTree::Node& node = tree.nodes[stack.back()];
       stack.pop_back();
       ++result.nodes_visited;
       // Points run straight between the chord's ends, so a point stays within the radius of the centre's segment.
-      if (!mayTouch(field, along(chord, node.center), node.radius + margin)) continue;
+      const Segment center = along(chord, node.center);
+      if (!mayTouch(field, center, node.radius + outside_margin)) continue;
+      if (surelyInside(field, center, node.radius + inside_margin)) {
+        for (std::int32_t i = node.begin; i < node.end; ++i) {
+          result.hits.push_back({i, chord_index, {0.0, 1.0}});
+          if (options.any) return;
+        }
+        continue;
+      }
       if (node.first_child >= 0) {
         for (std::int32_t i = node.child_count; i-- > 0;) stack.push_back(node.first_child + i);
         continue;
       }
+      result.points_tested += node.end - node.begin;
       for (std::int32_t i = node.begin; i < node.end; ++i) {
-        ++result.points_tested;
-        segmentIntervals(field, along(chord, shell.points[i]), segment_options, intervals);
-        for (const Interval& interval : intervals) result.hits.push_back({i, static_cast<int>(c), interval});
+        const Segment segment = along(chord, shell.points[i]);
+        if (batched) {
+          batch.add(i, chord_index, segment);
+          continue;
+        }
+        segmentIntervals(field, segment, segment_options, intervals);
+        for (const Interval& interval : intervals) result.hits.push_back({i, chord_index, interval});
         if (options.any && !result.hits.empty()) return;
       }
     }
+    if (batched) batch.ask();
   }
 }
 

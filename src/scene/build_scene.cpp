@@ -63,7 +63,7 @@ class BodyBuilder {
       built |= made.now && !made.outcome.from_cache;
       cached |= made.outcome.from_cache;
       if (made.now) report_.field_bytes += field.bytes();
-      report_.cells += field.grid()->storedCells();
+      report_.cells += field.cells();
       report_.field_error = std::max(report_.field_error, field.errorBound());
       note(made.outcome);
     }

@@ -35,7 +35,7 @@ FieldBuilder::Made FieldBuilder::make(const std::string& name, const TriangleMes
   DistanceField field = buildWithBar("field of " + name, oriented.mesh, resolution_.fieldOptions());
   const double field_seconds = secondsSince(start);
   ShellOptions options;
-  options.spacing = spacing_.value_or(2.0 * field.grid()->shape().cell);
+  options.spacing = spacing_.value_or(2.3 * field.errorBound());
   PointShell shell = sampleSurface(oriented.mesh, options);
   return {field, std::move(shell), summary(oriented.quality), field_seconds, secondsSince(start) - field_seconds};
 }

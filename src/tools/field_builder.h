@@ -20,7 +20,7 @@ DistanceField buildWithBar(const std::string& title, const TriangleMesh& mesh, c
 /// Makes fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {
  public:
-  /// @param spacing  of the shells [m]; none: two cells of the field.
+  /// @param spacing  of the shells [m]; none: 2.3 times the field's error bound, two cells of an even grid.
   FieldBuilder(OutputDirectory& out, const ResolutionOptions& resolution, std::optional<double> spacing)
       : out_(out), resolution_(resolution), spacing_(spacing) {}
 

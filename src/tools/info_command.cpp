@@ -30,7 +30,7 @@ struct Arguments {
 
 void printField(const DistanceField& field) {
   std::cout << "field: " << describe(field) << "\nsurface within " << describe(field.surfaceBox())
-            << "\nsamples within " << describe(field.grid()->shape().box()) << std::endl;
+            << "\nsamples within " << describe(field.box()) << std::endl;
 }
 
 void printShell(const PointShell& shell) {
@@ -61,7 +61,7 @@ void printQuality(const MeshQuality& quality) {
 std::optional<DistanceField> inspect(const Arguments& arguments) {
   const std::string& file = arguments.file;
   const bool wants_field = !arguments.slice.empty();
-  if (isCheckedFile(file, "field")) {
+  if (isFieldFile(file)) {
     const DistanceField field = loadField(file);
     printField(field);
     return field;

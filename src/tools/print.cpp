@@ -37,12 +37,18 @@ std::string describe(const AlignedBox3d& box) {
 }
 
 std::string describe(const DistanceField& field) {
-  const SparseGrid& grid = *field.grid();
-  const Vector3i cells = grid.shape().cells();
-  return format("%dx%dx%d cells of %.4g m, %zu of them stored, ", cells.x(), cells.y(), cells.z(), grid.shape().cell,
-                grid.storedCells()) +
-         format("%s, error at most %.3g m within %.3g m of the surface", megabytes(field.bytes()).c_str(),
-                field.errorBound(), field.band());
+  const std::string accuracy = format("%s, error at most %.3g m within %.3g m of the surface",
+                                      megabytes(field.bytes()).c_str(), field.errorBound(), field.band());
+  if (const AdaptiveGrid* adaptive = field.adaptive()) {
+    const Vector3i size = adaptive->shape().size;
+    return format("%d×%d×%d cells of %.4g m, divided into %zu where needed, ", size.x(), size.y(), size.z(),
+                  adaptive->shape().cell, field.cells()) +
+           accuracy;
+  }
+  const Vector3i cells = field.grid()->shape().cells();
+  return format("%d×%d×%d cells of %.4g m, %zu of them stored, ", cells.x(), cells.y(), cells.z(),
+                field.grid()->shape().cell, field.cells()) +
+         accuracy;
 }
 
 std::string describe(const PointShell& shell) {

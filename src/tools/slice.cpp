@@ -51,7 +51,7 @@ struct Raster {
 };
 
 Raster rasterOf(const DistanceField& field, const Slice& slice) {
-  const AlignedBox3d box = field.grid()->shape().box();
+  const AlignedBox3d box = field.box();
   if (!(slice.place >= box.min()[slice.axis] && slice.place <= box.max()[slice.axis])) {
     throw std::invalid_argument("the slice at " + shortly(slice.place) + " m misses the field's box, " + describe(box));
   }

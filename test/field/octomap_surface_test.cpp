@@ -15,7 +15,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Every directed edge of a closed surface has as many opposite ones.
-bool isClosed(const TriangleMesh& mesh) {
+bool edgesBalance(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> balance;
   for (const Vector3i& t : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
@@ -89,7 +89,7 @@ TEST_F(OctomapFile, OneVoxelIsACubeOnTheGrid) {
   EXPECT_EQ(resolution, 0.25);
   EXPECT_EQ(mesh.triangles.size(), 12u);
   EXPECT_EQ(mesh.vertices.size(), 8u);
-  EXPECT_TRUE(isClosed(mesh));
+  EXPECT_TRUE(edgesBalance(mesh));
   EXPECT_DOUBLE_EQ(signedVolume(mesh), std::pow(0.25, 3));
   EXPECT_EQ(boundingBox(mesh).min(), Vector3d(0, 0, 0));
   EXPECT_EQ(boundingBox(mesh).max(), Vector3d(0.25, 0.25, 0.25));
@@ -101,7 +101,7 @@ TEST_F(OctomapFile, LargeLeafHasFacesOfTheFinestSize) {
   const TriangleMesh mesh =
       loadOctomapSurface(write(head(15) + branch(node({2, 0, 0, 0, 0, 0, 0, 0}), 14)), resolution);
   EXPECT_EQ(mesh.triangles.size(), 6u * 16u * 2u);
-  EXPECT_TRUE(isClosed(mesh));
+  EXPECT_TRUE(edgesBalance(mesh));
   EXPECT_DOUBLE_EQ(signedVolume(mesh), 1.0);
 }
 
@@ -112,7 +112,7 @@ TEST_F(OctomapFile, LeavesOfDifferentSizeShareNoInnerFace) {
   double resolution = 0.0;
   const TriangleMesh mesh = loadOctomapSurface(write(head(25) + branch(last, 15)), resolution);
   EXPECT_EQ(mesh.triangles.size(), 2u * (6 * 4 + 6 - 2));
-  EXPECT_TRUE(isClosed(mesh));
+  EXPECT_TRUE(edgesBalance(mesh));
   EXPECT_DOUBLE_EQ(signedVolume(mesh), 9.0 * std::pow(0.25, 3));
 }
 
@@ -122,7 +122,7 @@ TEST_F(OctomapFile, VoxelsThatTouchAtAnEdgeStayClosed) {
       loadOctomapSurface(write(head(18) + branch(node({2, 0, 0, 2, 0, 0, 0, 0}), 16)), resolution);
   EXPECT_EQ(mesh.triangles.size(), 24u);
   EXPECT_EQ(mesh.vertices.size(), 14u);
-  EXPECT_TRUE(isClosed(mesh));
+  EXPECT_TRUE(edgesBalance(mesh));
 }
 
 TEST_F(OctomapFile, FormatOf2010NeedsNoHeader) {
@@ -165,7 +165,7 @@ TEST_F(OctomapFile, RealMapIsClosedInBothFormats) {
   const TriangleMesh binary = loadOctomapSurface(test::dataPath("octomaps/geb079.bt"), resolution);
   EXPECT_NEAR(resolution, 0.08, 1e-12);
   EXPECT_EQ(binary.triangles.size(), 714020u);
-  EXPECT_TRUE(isClosed(binary));
+  EXPECT_TRUE(edgesBalance(binary));
   EXPECT_NEAR(signedVolume(binary) / std::pow(resolution, 3), 185673.0, 1e-3);
   for (const Vector3d& p : binary.vertices) {
     for (int i = 0; i < 3; ++i) ASSERT_EQ(p[i], std::round(p[i] / resolution) * resolution);
@@ -181,7 +181,7 @@ TEST_F(OctomapFile, RealMapOf2010) {
   double resolution = 0.0;
   const TriangleMesh mesh = loadOctomapSurface(test::dataPath("octomaps/simple_2010.bt"), resolution);
   EXPECT_EQ(mesh.triangles.size(), 4800u);
-  EXPECT_TRUE(isClosed(mesh));
+  EXPECT_TRUE(edgesBalance(mesh));
 }
 
 }  // namespace

@@ -10,6 +10,43 @@
 
 namespace sdf_ccd::test {
 
+/// The cells of a grid as the oracle sees them: unit cubes, each with the values of the cell it belongs to.
+struct Lattice {
+  Vector3d origin;
+  double cell;  ///< side of a unit cube [m]
+  Vector3i size;
+
+  AlignedBox3d box() const { return {origin, origin + cell * size.cast<double>()}; }
+};
+
+inline Lattice latticeOf(const DistanceField& field) {
+  if (const AdaptiveGrid* grid = field.adaptive()) {
+    return {grid->shape().origin, grid->shape().unit(), grid->shape().units()};
+  }
+  return {field.grid()->shape().origin, field.grid()->shape().cell, field.grid()->shape().cells()};
+}
+
+/// The cell that a unit cube belongs to.
+struct LatticeCell {
+  Vector3i low;  ///< [unit cubes]
+  int side;
+  bool sampled;  ///< false: all of it is far, with the sign of corners[0]
+  std::array<double, 8> corners;
+};
+
+inline LatticeCell latticeCell(const DistanceField& field, const Vector3i& c) {
+  if (const AdaptiveGrid* grid = field.adaptive()) {
+    const AdaptiveBlock block = grid->block(c);
+    if (!block.leaf) return {block.low, block.side, false, {block.distance}};
+    return {block.low, block.side, true, grid->corners(block)};
+  }
+  const SparseGrid& grid = *field.grid();
+  const Vector3i brick = c / GridShape::kBrick;
+  const std::int32_t slot = grid.slot(brick);
+  if (slot == SparseGrid::kFar) return {c, 1, false, grid.brickCorners(brick)};
+  return {c, 1, true, grid.cellCorners(slot, c - GridShape::kBrick * brick)};
+}
+
 /// The segment query done slowly and plainly: every cell that the segment meets, one after the other, in long double;
 /// in each the cubic through four of its values, its extrema, and 120 halvings per root. No hierarchy, no skipping.
 class UniformWalk {
@@ -18,16 +55,15 @@ class UniformWalk {
     long double enter, exit, lowest;  ///< `lowest` is the least φ − σ met [m]
   };
 
-  UniformWalk(const SparseGrid& grid, const Segment& segment, double sigma)
-      : grid_(grid), segment_(segment), sigma_(sigma) {}
+  UniformWalk(const DistanceField& field, const Segment& segment, double sigma)
+      : field_(field), lattice_(latticeOf(field)), segment_(segment), sigma_(sigma) {}
 
   std::vector<Span> spans() const {
     std::vector<long double> cuts{0.0L, 1.0L};
-    const GridShape& shape = grid_.shape();
     for (int k = 0; k < 3; ++k) {
       const long double a = place(0.0L)[k], b = place(1.0L)[k];
       if (a == b) continue;
-      const int first = int(std::max(0.0L, std::floor(std::min(a, b)))), last = shape.cells()[k];
+      const int first = int(std::max(0.0L, std::floor(std::min(a, b)))), last = lattice_.size[k];
       for (int plane = first; plane <= last && plane <= std::ceil(std::max(a, b)); ++plane) {
         const long double t = (plane - a) / (b - a);
         if (t > 0.0L && t < 1.0L) cuts.push_back(t);
@@ -52,7 +88,7 @@ class UniformWalk {
     Place p;
     for (int k = 0; k < 3; ++k) {
       const long double a = segment_.start[k], b = segment_.end[k];
-      p[k] = (a + t * (b - a) - grid_.shape().origin[k]) / grid_.shape().cell;
+      p[k] = (a + t * (b - a) - lattice_.origin[k]) / lattice_.cell;
     }
     return p;
   }
@@ -62,25 +98,23 @@ class UniformWalk {
     Vector3i c;
     for (int k = 0; k < 3; ++k) c[k] = int(std::floor(p[k]));
     for (int k = 0; k < 3; ++k) {
-      if (p[k] == grid_.shape().cells()[k]) --c[k];  // the last plane belongs to the last cell
+      if (p[k] == lattice_.size[k]) --c[k];  // the last plane belongs to the last cell
     }
     return c;
   }
 
   long double valueIn(const Place& p, const Vector3i& c) const {
-    if (c.minCoeff() < 0 || (grid_.shape().cells() - c).minCoeff() < 1) return 1.0L;
-    const Vector3i brick = c / GridShape::kBrick;
-    const std::int32_t slot = grid_.slot(brick);
-    if (slot == SparseGrid::kFar) return grid_.brickCorners(brick)[0] > 0.0 ? 1.0L : -1.0L;
-    const auto corners = grid_.cellCorners(slot, c - GridShape::kBrick * brick);
+    if (c.minCoeff() < 0 || (lattice_.size - c).minCoeff() < 1) return 1.0L;
+    const LatticeCell cell = latticeCell(field_, c);
+    if (!cell.sampled) return cell.corners[0] > 0.0 ? 1.0L : -1.0L;
     long double sum = -static_cast<long double>(sigma_);
     for (int k = 0; k < 8; ++k) {
       long double weight = 1.0L;
       for (int axis = 0; axis < 3; ++axis) {
-        const long double u = p[axis] - c[axis];
+        const long double u = (p[axis] - cell.low[axis]) / cell.side;
         weight *= (k >> axis) & 1 ? u : 1.0L - u;
       }
-      sum += weight * corners[k];
+      sum += weight * cell.corners[k];
     }
     return sum;
   }
@@ -128,7 +162,8 @@ class UniformWalk {
     }
   }
 
-  const SparseGrid& grid_;
+  const DistanceField& field_;
+  Lattice lattice_;
   Segment segment_;
   double sigma_;
 };

@@ -70,6 +70,34 @@ std::vector<Scene> scenes() {
   return all;
 }
 
+TEST(ShellQuery, EqualsLinearScanOnAdaptiveField) {
+  FieldOptions options;
+  options.max_error = 0.001;
+  const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);
+  const DistanceField field = buildField(torus, options);
+  PointShell shell = sampleSurface(torus, {});
+  const SphereTree tree = buildSphereTree(shell);
+  Random random(8);
+  long hits = 0, grazing = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Isometry3d start = test::pose(random, 3.0, i % 2 ? 0.3 : 0.02);
+    ChordPath path;
+    path.chords.emplace_back();
+    path.chords[0].X_FP_start = start;
+    path.chords[0].X_FP_end = test::pose(random, 0.3, 0.1) * start;
+    ShellQueryResult result;
+    shellIntervals(field, shell, tree, path, {}, result);
+    std::map<int, double> inside;  // time by point
+    for (const ShellHit& hit : result.hits) inside[hit.point] += hit.interval.exit - hit.interval.enter;
+    hits += long(result.hits.size());
+    for (const ShellHit& hit : linearScan(field, shell, path, 0.0))
+      inside[hit.point] -= hit.interval.exit - hit.interval.enter;
+    for (const auto& [point, difference] : inside) grazing += std::abs(difference) > 1e-5;
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_LE(grazing, hits / 1000);  // single precision, at leaves' faces
+}
+
 TEST(ShellQuery, EqualsLinearScanOnEveryPoint) {
   Random random(1);
   long hits = 0, visits = 0, points = 0;

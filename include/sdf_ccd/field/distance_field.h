@@ -4,6 +4,7 @@
 #include <memory>
 #include <variant>
 
+#include "sdf_ccd/field/adaptive_grid.h"
 #include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/primitive.h"
 
@@ -16,7 +17,14 @@ struct FieldSample {
   Vector3d gradient;  ///< of `value`, pointing out, not normalised; zero where nothing is known of it
 };
 
-/// Signed distance to the surface of one solid, in its frame F: of a primitive (exact) or of a mesh (sampled).
+/// The true distance at one place lies between [m].
+struct DistanceBounds {
+  double low;
+  double high;
+};
+
+/// Signed distance to the surface of one solid, in its frame F: of a primitive (exact) or of a mesh (sampled in cells
+/// of one size, or of sizes that follow the shape).
 ///
 /// A value type: copies share the samples, which never change.
 /// Sampled fields hold samples of the true distance in a band around the surface and bounds of it everywhere else,
@@ -25,12 +33,14 @@ class DistanceField {
  public:
   explicit DistanceField(const Primitive& primitive);
   explicit DistanceField(std::shared_ptr<const SparseGrid> grid);
+  explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid);
 
   /// Value, bound on its error and gradient at a finite point p_F [m], anywhere.
   FieldSample sample(const Vector3d& p_F) const;
 
-  /// A number that the true distance is not below [m], anywhere; cheaper than sample().
-  double lowerBound(const Vector3d& p_F) const;
+  /// What the true distance lies between [m], anywhere; cheaper than sample(). Outside the grid `high` is infinite.
+  DistanceBounds bounds(const Vector3d& p_F) const;
+  double lowerBound(const Vector3d& p_F) const { return bounds(p_F).low; }
 
   /// Where |φ| ≤ band() the error is at most errorBound() [m]. Infinity for primitives.
   double band() const;
@@ -43,12 +53,19 @@ class DistanceField {
 
   std::size_t bytes() const;
 
-  /// The representation, for queries: one of the two is not null.
+  /// Cells that hold samples; 0 for primitives.
+  std::size_t cells() const;
+
+  /// Beyond this box [m] only bounds are known: that of a grid; the surface's for a primitive.
+  AlignedBox3d box() const;
+
+  /// The representation, for queries: one of the three is not null.
   const Primitive* primitive() const;
   const SparseGrid* grid() const;
+  const AdaptiveGrid* adaptive() const;
 
  private:
-  std::variant<Primitive, std::shared_ptr<const SparseGrid>> representation_;
+  std::variant<Primitive, std::shared_ptr<const SparseGrid>, std::shared_ptr<const AdaptiveGrid>> representation_;
   AlignedBox3d surface_box_;
 };
 

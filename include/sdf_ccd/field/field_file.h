@@ -14,4 +14,7 @@ void saveField(const DistanceField& field, const std::string& path);
 /// @throws std::runtime_error naming the path and what is wrong with the file.
 DistanceField loadField(const std::string& path);
 
+/// True if the file begins like one of saveField().
+bool isFieldFile(const std::string& path);
+
 }  // namespace sdf_ccd

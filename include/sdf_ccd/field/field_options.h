@@ -10,8 +10,8 @@ namespace sdf_ccd {
 struct FieldOptions {
   std::optional<int> cells;         ///< cells along the longest side of the surface's box
   std::optional<double> cell_size;  ///< [m]
-  std::optional<double> max_error;  ///< |interpolated − true distance| in the band [m]; cell = 2/√3 of it
-  double band = 0.0;                ///< accurate where |φ| ≤ band [m]; at least two cells are taken
+  std::optional<double> max_error;  ///< |interpolated − true distance| in the band [m]; cells of several sizes
+  double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken
   std::size_t max_bytes = std::size_t{4} << 30;  ///< larger fields are refused, with the cell size that would fit
 };
 

@@ -6,18 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "sdf_ccd/field/view.h"
 #include "sdf_ccd/geometry/eigen_types.h"
 
 namespace sdf_ccd {
-
-/// A run of values that somebody else owns.
-template <class T>
-struct View {
-  const T* data = nullptr;
-  std::size_t size = 0;
-
-  const T& operator[](std::size_t i) const { return data[i]; }
-};
 
 /// Place and size of a grid. Cells are cubes; 8×8×8 of them make a brick.
 struct GridShape {

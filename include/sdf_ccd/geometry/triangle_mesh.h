@@ -22,6 +22,10 @@ AlignedBox3d boundingBox(const TriangleMesh& mesh);
 /// Vector normal of a triangle: twice its area long, pointing outside [m²]. Zero for a degenerate triangle.
 Vector3d areaNormal(const TriangleMesh& mesh, int triangle);
 
+/// True if every edge is run along as often one way as the other: then the winding number is a whole number wherever
+/// it is defined, and changes only across a triangle.
+bool isClosed(const TriangleMesh& mesh);
+
 /// Total area [m²].
 double surfaceArea(const TriangleMesh& mesh);
 

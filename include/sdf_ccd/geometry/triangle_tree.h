@@ -27,6 +27,10 @@ class TriangleTree {
   /// Closest point of the mesh to p, if nearer than `max_distance`; triangle is -1 (distance `max_distance`) if not.
   ClosestPoint closestPoint(const Vector3d& p, double max_distance = kInfinity) const;
 
+  /// Triangles with a place nearer than `radius` to p or as near: replaces `triangles` by their indices in the mesh, in
+  /// no order.
+  void trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const;
+
   /// Generalised winding number (Jacobson 2013): 1 inside and 0 outside a closed mesh. Hierarchical (Barill et al.
   /// 2018): far clusters are replaced by their expansion, with an error well below the 0.5 that decides the sign.
   /// @param accuracy  clusters nearer than accuracy × their radius are opened; infinity sums every triangle.

@@ -37,6 +37,10 @@ Intervals segmentIntervals(const DistanceField& field, const Segment& segment, c
 /// conservative. Steps from ball to ball by field.lowerBound(). Also for segments outside the field's box.
 bool mayTouch(const DistanceField& field, const Segment& segment, double radius);
 
+/// True only if the true distance is below −`depth` at every place of the segment: conservative. One ball about the
+/// middle, as for segments that are short beside what they are in.
+bool surelyInside(const DistanceField& field, const Segment& segment, double depth);
+
 /// Parameters in (enter, exit), increasing, where the segment passes from one cell of the field to the next:
 /// between them the interpolated field is a cubic of the parameter (a quadrature that is exact for it, design §3.9).
 /// For a primitive: where the distance may have a kink, or a few evenly spaced for curved ones.

@@ -23,7 +23,7 @@ struct ShellQueryOptions {
 };
 
 struct ShellQueryResult {
-  std::vector<ShellHit> hits;  ///< by chord, then by point as the tree meets them, then by time
+  std::vector<ShellHit> hits;  ///< by chord, then as the tree meets their points; those of one point by time
   long nodes_visited = 0;
   long points_tested = 0;
 };
@@ -31,12 +31,14 @@ struct ShellQueryResult {
 /// All intervals in which points of a shell are on or inside the isosurface φ = σ while they run along a path.
 ///
 /// Source: Xu & Barbič 2014, §3.3. A node of the sphere tree is skipped if its centre's segment stays farther than
-/// radius + σ + the field's error from the surface; the result equals that of testing every point.
+/// radius + σ + the field's error from the surface, and one that stays deeper than that is inside all the time; the
+/// result equals that of testing every point. Points meet an adaptive field in batches (see segment_batch.h for the
+/// tolerance, and for the threads of large shells).
 /// Reuses the memory of `result`.
 /// @param shell, tree  frame P; the tree was built over the shell.
 /// @param path         X_FP, as chords.
-void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
-                    const ChordPath& path, const ShellQueryOptions& options, ShellQueryResult& result);
+void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
+                    const ShellQueryOptions& options, ShellQueryResult& result);
 
 /// A number that the distance of every shell point to the field's surface is not below [m], at one pose; within
 /// `slack` [m] of the best that the field's bounds allow.

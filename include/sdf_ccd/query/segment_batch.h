@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/query/segment_query.h"
+
+namespace sdf_ccd {
+
+enum class SegmentMode {
+  kFirst,  ///< the first place on or inside the isosurface
+  kAll,    ///< all intervals
+  kAny,    ///< whether there is one
+};
+
+struct BatchOptions {
+  double sigma = 0.0;  ///< isovalue [m]
+  SegmentMode mode = SegmentMode::kFirst;
+};
+
+/// An interval of one segment, of its parameter in [0, 1].
+struct SegmentHit {
+  std::uint32_t segment;
+  float enter;
+  float exit;  ///< as `enter` for kFirst and kAny, which do not follow the segment further
+};
+
+struct BatchResult {
+  std::vector<SegmentHit> hits;  ///< by segment, then by time
+};
+
+/// segmentIntervals() for many segments at once, several to an instruction, on all threads of the caller's TBB arena.
+///
+/// Fields of a maximum error are asked in single precision: a time is right to 1e-6 of the grid's longest side along
+/// the segment's way, and a segment that grazes the isosurface closer than that may be given as a hit or as none.
+/// Other fields are asked one by one. The result does not depend on the number of threads; between processors with
+/// other vector instructions it may differ within the tolerance.
+/// @param segments  finite; `count` of them, at most 2³² − 1.
+/// @param options   |sigma| ≤ field.band().
+/// @param result    replaced; its memory is reused.
+/// @throws std::invalid_argument if a segment is not finite (naming the first) or sigma lies outside the band.
+void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
+                      const BatchOptions& options, BatchResult& result);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,170 @@
+#include "sdf_ccd/field/adaptive_grid.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace sdf_ccd {
+
+namespace top_word {
+
+std::uint32_t far(double distance) {
+  const float value = static_cast<float>(distance * (1.0 - 1e-6));
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits & ~kKind;
+}
+
+float distance(std::uint32_t word) {
+  word &= ~kKind;
+  float value = 0.0F;
+  std::memcpy(&value, &word, sizeof value);
+  return value;
+}
+
+}  // namespace top_word
+
+LeafWord LeafScale::encode(const std::array<double, 8>& corners) const {
+  const auto [low, high] = std::minmax_element(corners.begin(), corners.end());
+  const double middle = std::clamp(std::round(0.5 * (*low + *high) / offset), -127.0, 127.0);
+  const double base = middle * offset - 63.5 * corner;
+  const auto top_bits = static_cast<std::uint8_t>(static_cast<std::int8_t>(middle));
+  LeafWord word = 0;
+  for (int k = 0; k < 8; ++k) {
+    const double steps = std::clamp(std::round((corners[k] - base) / corner), 0.0, 127.0);
+    const auto byte = static_cast<LeafWord>(steps) | LeafWord((top_bits >> k) & 1) << 7;
+    word |= byte << (8 * k);
+  }
+  return word;
+}
+
+AdaptiveGrid::AdaptiveGrid(const AdaptiveShape& shape, AdaptiveData data) : shape_(shape) {
+  const auto owner = std::make_shared<const AdaptiveData>(std::move(data));
+  arrays_ = {viewOf(owner->top), viewOf(owner->nodes), viewOf(owner->bases), viewOf(owner->leaves),
+             viewOf(owner->splits)};
+  owner_ = owner;
+  check();
+  setScales();
+}
+
+AdaptiveGrid::AdaptiveGrid(const AdaptiveShape& shape, const Arrays& arrays, std::shared_ptr<const void> owner)
+    : shape_(shape), arrays_(arrays), owner_(std::move(owner)) {
+  check();
+  setScales();
+}
+
+void AdaptiveGrid::setScales() {
+  double side = shape_.cell;
+  for (double& step : far_steps_) {
+    step = farStepFor(side, shape_.band);
+    side /= 4.0;
+  }
+  side = shape_.unit();
+  for (LeafScale& scale : scales_) {
+    scale = leafScaleFor(side, shape_.band);
+    side *= 2.0;
+  }
+}
+
+void AdaptiveGrid::check() const {
+  const auto fail = [](const std::string& what) { throw std::invalid_argument("adaptive grid: " + what); };
+  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
+  if (!positive(shape_.cell)) fail("cell size " + std::to_string(shape_.cell));
+  if (!shape_.origin.allFinite()) fail("origin is not finite");
+  if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("band " + std::to_string(shape_.band));
+  if (!(shape_.error_bound >= 0.0) || !std::isfinite(shape_.error_bound)) fail("error bound is not a length");
+  if (shape_.size.minCoeff() < 1 || shape_.size.maxCoeff() > 1024) fail("top cells out of 1 to 1024 per axis");
+  if (arrays_.top.size != shape_.count()) fail(std::to_string(arrays_.top.size) + " words do not fit the top cells");
+  if (arrays_.bases.size != arrays_.nodes.size) fail("bases do not fit the nodes");
+  const auto inside = [&](std::size_t i, std::size_t count) {
+    if (i >= count) fail("an index leads outside");
+  };
+
+  // A node is reached from one place only, at a depth below the last: walked from the top, each must be met once.
+  std::vector<std::uint8_t> depth(arrays_.nodes.size, 0);
+  const auto reach = [&](std::size_t node, int d) {
+    inside(node, arrays_.nodes.size);
+    if (depth[node] != 0) fail("a node is met twice");
+    if (d > AdaptiveShape::kMaxDepth) fail("nodes are too deep");
+    depth[node] = static_cast<std::uint8_t>(d);
+  };
+  std::vector<std::uint32_t> pending;
+  for (std::size_t i = 0; i < arrays_.top.size; ++i) {
+    const std::uint32_t word = arrays_.top[i], index = word >> 2;
+    switch (word & top_word::kKind) {
+      case top_word::kFar:
+        if (!std::isfinite(top_word::distance(word))) fail("a distance is not finite");
+        break;
+      case top_word::kLeaf:
+        inside(index, arrays_.leaves.size);
+        break;
+      case top_word::kSplit:
+        inside(index, arrays_.splits.size);
+        break;
+      default:
+        reach(index, 1);
+        pending.push_back(index);
+    }
+  }
+  while (!pending.empty()) {
+    const std::uint32_t node = pending.back();
+    pending.pop_back();
+    const NodeBases& bases = arrays_.bases[node];
+    for (const std::uint8_t code : arrays_.nodes[node].codes) {
+      if (code >= node_code::kFar) continue;
+      if (code < node_code::kNode) {
+        inside(std::size_t(bases.leaf) + code, arrays_.leaves.size);
+      } else if (code >= node_code::kSplit) {
+        inside(std::size_t(bases.split) + (code - node_code::kSplit), arrays_.splits.size);
+      } else {
+        const std::size_t child = std::size_t(bases.node) + (code - node_code::kNode);
+        reach(child, depth[node] + 1);
+        pending.push_back(static_cast<std::uint32_t>(child));
+      }
+    }
+  }
+}
+
+AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
+  int side = AdaptiveShape::kUnits;
+  const Vector3i cell = unit / side;
+  Vector3i low = side * cell;
+  const std::uint32_t word =
+      arrays_.top[(std::size_t(cell.z()) * shape_.size.y() + cell.y()) * shape_.size.x() + cell.x()];
+  std::uint32_t index = word >> 2;
+  const auto splitBlock = [&](std::uint32_t split) {
+    side /= 2;
+    const Vector3i half = (unit - low) / side;
+    const int k = half.x() + 2 * half.y() + 4 * half.z();
+    return AdaptiveBlock{low + side * half, side, true, arrays_.splits[split].leaves[k], 0.0};
+  };
+  switch (word & top_word::kKind) {
+    case top_word::kFar:
+      return {low, side, false, 0, top_word::distance(word)};
+    case top_word::kLeaf:
+      return {low, side, true, arrays_.leaves[index], 0.0};
+    case top_word::kSplit:
+      return splitBlock(index);
+    default:
+      break;
+  }
+  for (int depth = 0;; ++depth) {
+    side /= 4;
+    const Vector3i child = (unit - low) / side;
+    low += side * child;
+    const std::uint8_t code = arrays_.nodes[index].codes[child.x() + 4 * child.y() + 16 * child.z()];
+    const NodeBases& bases = arrays_.bases[index];
+    if (code >= node_code::kFar) return {low, side, false, 0, node_code::steps(code) * far_steps_[depth]};
+    if (code < node_code::kNode) return {low, side, true, arrays_.leaves[bases.leaf + code], 0.0};
+    if (code >= node_code::kSplit) return splitBlock(bases.split + (code - node_code::kSplit));
+    index = bases.node + (code - node_code::kNode);
+  }
+}
+
+std::size_t AdaptiveGrid::bytes() const {
+  return arrays_.top.size * sizeof(std::uint32_t) + arrays_.nodes.size * (sizeof(AdaptiveNode) + sizeof(NodeBases)) +
+         arrays_.leaves.size * sizeof(LeafWord) + arrays_.splits.size * sizeof(SplitLeaves);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,250 @@
+#include "build_adaptive.h"
+
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <tbb/parallel_for.h>
+
+#include "cell_fit.h"
+#include "near_triangles.h"
+#include "progress_counter.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kHalfSqrt3 = 0.8660254037844386;
+
+/// What stands in a cell's place.
+struct BuiltCell {
+  enum Kind { kFar, kLeaf, kSplit, kNode } kind = kFar;
+  double distance = 0.0;  ///< far: at the centre
+  LeafWord leaf = 0;
+  SplitLeaves split{};
+  std::unique_ptr<std::array<BuiltCell, 64>> children;
+};
+
+class AdaptiveBuilder {
+ public:
+  AdaptiveBuilder(const TriangleMesh& mesh, const AdaptiveShape& shape, const FieldOptions& options)
+      : surface_(mesh), shape_(shape), error_(shape.error_bound), max_bytes_(options.max_bytes) {}
+
+  AdaptiveGrid build(const Progress& progress);
+
+ private:
+  Vector3d topCenter(const Vector3i& i) const {
+    return shape_.origin + shape_.cell * (i.cast<double>().array() + 0.5).matrix();
+  }
+  void measureCenters();
+  BuiltCell cell(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth);
+  BuiltCell divide(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth);
+  void count(std::size_t bytes);
+  void flatten(const BuiltCell& cell, std::size_t node, int depth);
+
+  SurfaceIndex surface_;
+  AdaptiveShape shape_;
+  double error_;
+  std::size_t max_bytes_;
+  std::vector<double> centers_;  ///< signed distances at the top cells' centres [m]
+  std::atomic<std::size_t> bytes_{0};
+  std::atomic<bool> capped_{false};  ///< a leaf at the last depth is not proved
+  AdaptiveData data_;
+};
+
+void AdaptiveBuilder::count(std::size_t bytes) {
+  if ((bytes_ += bytes) > max_bytes_) {
+    throw std::length_error("field: a maximum error of " + std::to_string(error_) + " m needs more than the " +
+                            std::to_string(max_bytes_ >> 20) + " MB allowed; allow a larger error");
+  }
+}
+
+void AdaptiveBuilder::measureCenters() {
+  centers_.resize(shape_.count());
+  const double cell = shape_.cell;
+  const auto inside = [&](const Vector3d& p) { return surface_.inside(p); };
+  tbb::parallel_for(0, shape_.size.z(), [&](int z) {
+    for (int y = 0; y < shape_.size.y(); ++y) {
+      double last = 0.0;
+      for (int x = 0; x < shape_.size.x(); ++x) {
+        const Vector3d p = topCenter({x, y, z});
+        const double limit = x == 0 ? TriangleTree::kInfinity : (std::abs(last) + cell) * (1.0 + 1e-9);
+        const double d = surface_.tree().closestPoint(p, limit).distance;
+        // The balls without surface about two neighbours meet: the sign is the same.
+        const bool same = x > 0 && surface_.closed() && d + std::abs(last) > cell * (1.0 + 1e-9);
+        last = (same ? last < 0.0 : inside(p)) ? -d : d;
+        centers_[(std::size_t(z) * shape_.size.y() + y) * shape_.size.x() + x] = last;
+      }
+    }
+  });
+}
+
+BuiltCell AdaptiveBuilder::cell(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth) {
+  const double side = shape_.cell / double(1 << (2 * depth));
+  BuiltCell built;
+  if (fit.leaf({Vector3i::Zero(), CellFit::kSteps}, AdaptiveGrid::leafScaleFor(side, shape_.band), error_,
+               built.leaf)) {
+    built.kind = BuiltCell::kLeaf;
+    count(sizeof(LeafWord));
+    return built;
+  }
+  const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * side, shape_.band);
+  const bool last = depth == AdaptiveShape::kMaxDepth;
+  bool fits = true;
+  for (int k = 0; k < 8 && (fits || last); ++k) {
+    const CellFit::Cube cube{CellFit::kSteps / 2 * Vector3i(k & 1, (k >> 1) & 1, k >> 2), CellFit::kSteps / 2};
+    fits = fit.leaf(cube, half_scale, error_, built.split.leaves[k]) && fits;
+    if (last && !fits) built.split.leaves[k] = fit.roundedLeaf(cube, half_scale);
+  }
+  if (!fits && !last) return divide(near, fit, low, depth);
+  if (!fits) capped_ = true;
+  built.kind = BuiltCell::kSplit;
+  count(sizeof(SplitLeaves));
+  return built;
+}
+
+BuiltCell AdaptiveBuilder::divide(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth) {
+  BuiltCell built;
+  built.kind = BuiltCell::kNode;
+  built.children = std::make_unique<std::array<BuiltCell, 64>>();
+  count(sizeof(AdaptiveNode) + sizeof(NodeBases));
+  const double side = shape_.cell / double(1 << (2 * depth + 2)), radius = kHalfSqrt3 * side;
+  for (int i = 0; i < 64; ++i) {
+    const Vector3i c(i & 3, (i >> 2) & 3, i >> 4);
+    const Vector3d child_low = low + side * c.cast<double>();
+    const Vector3d center = child_low.array() + 0.5 * side;
+    const double distance = near.signedDistance(center);
+    BuiltCell& child = (*built.children)[i];
+    if (std::abs(distance) > shape_.band + radius * (1.0 + 1e-9)) {
+      child.distance = distance;
+      continue;
+    }
+    const NearTriangles child_near(near, {center, radius}, distance);
+    CellFit child_fit(child_near, child_low, side);
+    for (int k = 0; k < 8; ++k) {
+      const Vector3i corner(k & 1, (k >> 1) & 1, k >> 2);
+      child_fit.set(CellFit::kSteps * corner, fit.at(CellFit::kSteps / 4 * (c + corner)));
+    }
+    child_fit.set(Vector3i::Constant(CellFit::kSteps / 2), distance);
+    child = cell(child_near, child_fit, child_low, depth + 1);
+  }
+  return built;
+}
+
+void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth) {
+  NodeBases& bases = data_.bases[node];
+  bases = {static_cast<std::uint32_t>(data_.leaves.size()), static_cast<std::uint32_t>(data_.splits.size()),
+           static_cast<std::uint32_t>(data_.nodes.size())};
+  const double step = AdaptiveGrid::farStepFor(shape_.cell / double(1 << (2 * depth)), shape_.band);
+  int leaves = node_code::kLeaf, splits = node_code::kSplit, nodes = node_code::kNode;
+  for (int i = 0; i < 64; ++i) {
+    const BuiltCell& child = (*cell.children)[i];
+    int code = 0;
+    switch (child.kind) {
+      case BuiltCell::kFar:
+        code = node_code::far(child.distance / step);
+        break;
+      case BuiltCell::kLeaf:
+        data_.leaves.push_back(child.leaf);
+        code = leaves++;
+        break;
+      case BuiltCell::kSplit:
+        data_.splits.push_back(child.split);
+        code = splits++;
+        break;
+      case BuiltCell::kNode:
+        code = nodes++;
+        break;
+    }
+    data_.nodes[node].codes[i] = static_cast<std::uint8_t>(code);
+  }
+  std::size_t next = bases.node;
+  data_.nodes.resize(data_.nodes.size() + (nodes - node_code::kNode));
+  data_.bases.resize(data_.nodes.size());
+  for (const BuiltCell& child : *cell.children) {
+    if (child.kind == BuiltCell::kNode) flatten(child, next++, depth + 1);
+  }
+}
+
+AdaptiveGrid AdaptiveBuilder::build(const Progress& progress) {
+  count(shape_.count() * sizeof(std::uint32_t));
+  measureCenters();
+  const double radius = kHalfSqrt3 * shape_.cell;
+  std::vector<std::size_t> near_cells;
+  data_.top.resize(shape_.count());
+  for (std::size_t i = 0; i < centers_.size(); ++i) {
+    data_.top[i] = top_word::far(centers_[i]);
+    if (std::abs(centers_[i]) <= shape_.band + radius * (1.0 + 1e-9)) near_cells.push_back(i);
+  }
+
+  std::vector<BuiltCell> built(near_cells.size());
+  ProgressCounter counter(progress, near_cells.size());
+  tbb::parallel_for(std::size_t{0}, near_cells.size(), [&](std::size_t i) {
+    const std::size_t cell_index = near_cells[i];
+    const auto nx = std::size_t(shape_.size.x()), ny = std::size_t(shape_.size.y());
+    const Vector3i c(int(cell_index % nx), int(cell_index / nx % ny), int(cell_index / nx / ny));
+    const Vector3d low = shape_.origin + shape_.cell * c.cast<double>();
+    const NearTriangles near(surface_, {topCenter(c), radius}, centers_[cell_index]);
+    CellFit fit(near, low, shape_.cell);
+    fit.set(Vector3i::Constant(CellFit::kSteps / 2), centers_[cell_index]);
+    built[i] = cell(near, fit, low, 0);
+    counter.add();
+  });
+
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    std::uint32_t& word = data_.top[near_cells[i]];
+    switch (built[i].kind) {
+      case BuiltCell::kLeaf:
+        word = static_cast<std::uint32_t>(data_.leaves.size() << 2) | top_word::kLeaf;
+        data_.leaves.push_back(built[i].leaf);
+        break;
+      case BuiltCell::kSplit:
+        word = static_cast<std::uint32_t>(data_.splits.size() << 2) | top_word::kSplit;
+        data_.splits.push_back(built[i].split);
+        break;
+      default:
+        word = static_cast<std::uint32_t>(data_.nodes.size() << 2) | top_word::kNode;
+        data_.nodes.emplace_back();
+        data_.bases.emplace_back();
+        flatten(built[i], data_.nodes.size() - 1, 0);
+        built[i].children.reset();
+        break;
+    }
+  }
+  if (capped_) {
+    // Leaves of the last depth that are not proved: what holds for any 1-Lipschitz function.
+    const double side = shape_.unit();
+    shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
+  }
+  return {shape_, std::move(data_)};
+}
+
+/// Top cells along the longest side. Measured on scans and robot links: 30/√error (in box sides) is near the least
+/// memory from 1e-2 to 1e-5 of the box, and the coarsest grid that is.
+int topCells(double relative_error) {
+  return static_cast<int>(std::clamp(std::round(0.64 / std::sqrt(relative_error)), 8.0, 64.0));
+}
+
+}  // namespace
+
+std::shared_ptr<const AdaptiveGrid> buildAdaptive(const TriangleMesh& mesh, const FieldOptions& options,
+                                                  const Progress& progress) {
+  AdaptiveShape shape;
+  shape.surface_box = boundingBox(mesh);
+  const double longest = shape.surface_box.sizes().maxCoeff();
+  shape.error_bound = *options.max_error;
+  shape.cell = longest / topCells(*options.max_error / longest);
+  shape.band = std::max(options.band, 2.0 * *options.max_error);
+  // Padded so that no place with |φ| ≤ band lies on the grid's boundary, where a query would miss what is beyond it.
+  const double padding = 1.01 * shape.band + 0.01 * shape.cell;
+  const Vector3d cells = ((shape.surface_box.sizes().array() + 2.0 * padding) / shape.cell).ceil();
+  if (cells.maxCoeff() > 1024.0) {
+    throw std::length_error("field: a band of " + std::to_string(shape.band) +
+                            " m is too wide for a maximum error of " + std::to_string(*options.max_error) + " m");
+  }
+  shape.size = cells.cast<int>();
+  shape.origin = shape.surface_box.center() - 0.5 * shape.cell * cells;
+  return std::make_shared<const AdaptiveGrid>(AdaptiveBuilder(mesh, shape, options).build(progress));
+}
+
+}  // namespace sdf_ccd

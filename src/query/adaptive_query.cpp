@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+
+#include "cell_spans.h"
+#include "grid_walk.h"
+#include "representation_queries.h"
+
+namespace sdf_ccd {
+namespace {
+
+GridWalk walkThrough(const AdaptiveGrid& grid, const Segment& segment) {
+  return {{grid.shape().origin, grid.shape().unit(), grid.shape().units()}, segment};
+}
+
+/// Where a segment leaves a ball that it is in at t; t if it is not.
+class BallExit {
+ public:
+  explicit BallExit(const Segment& segment)
+      : start_(segment.start), step_(segment.end - segment.start), length2_(step_.squaredNorm()) {}
+
+  double operator()(const Vector3d& center, double radius, double t) const {
+    if (!(radius > 0.0) || !(length2_ > 0.0)) return t;
+    const Vector3d from = start_ - center;
+    const double half_b = from.dot(step_), c = from.squaredNorm() - radius * radius;
+    const double discriminant = half_b * half_b - length2_ * c;
+    if (!(discriminant > 0.0)) return t;
+    const double root = std::sqrt(discriminant), enter = (-half_b - root) / length2_;
+    return enter <= t ? std::max(t, (root - half_b) / length2_) : t;
+  }
+
+ private:
+  Vector3d start_, step_;
+  double length2_;
+};
+
+}  // namespace
+
+void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const SegmentOptions& options,
+                       Intervals& intervals) {
+  const AdaptiveShape& shape = grid.shape();
+  GridWalk walk = walkThrough(grid, segment);
+  const BallExit ball_exit(segment);
+  while (walk.inside()) {
+    const AdaptiveBlock block = grid.block(walk.cell());
+    const double t_exit = walk.exit(block.low, block.low.array() + block.side);
+    if (block.leaf) {
+      appendCellSpans(grid.corners(block), walk, {block.low, block.side, t_exit}, options.sigma, intervals);
+      walk.advance();
+    } else {
+      // All of the block is on one side, and so is the ball about its centre that reaches to the isosurface. Less a
+      // little: the ball is measured in metres and the walk in units.
+      const Vector3d center =
+          shape.origin + shape.unit() * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
+      const double radius = (std::abs(block.distance) - std::abs(options.sigma)) * (1.0 - 1e-9);
+      const double t_ball = ball_exit(center, radius, t_exit);
+      if (block.distance < 0.0) appendSpan(intervals, walk.t(), std::min(t_ball, walk.end()));
+      if (t_ball > t_exit) {
+        walk.skipTo(t_ball);
+      } else {
+        walk.advance();
+      }
+    }
+    // Complete once something else follows it.
+    if (options.first_only && !intervals.empty() && intervals.back().exit < walk.t()) break;
+  }
+  if (options.first_only && intervals.size() > 1) intervals.resize(1);
+}
+
+void adaptivePieces(const AdaptiveGrid& grid, const Segment& segment, const Interval& interval,
+                    std::vector<double>& breaks) {
+  GridWalk walk = walkThrough(grid, segment);
+  if (interval.enter > walk.t()) walk.skipTo(interval.enter);
+  while (walk.inside() && walk.t() < interval.exit) {
+    if (walk.t() > interval.enter) breaks.push_back(walk.t());
+    const AdaptiveBlock block = grid.block(walk.cell());
+    walk.exit(block.low, block.low.array() + block.side);
+    walk.advance();
+  }
+}
+
+}  // namespace sdf_ccd

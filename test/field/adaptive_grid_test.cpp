@@ -1,0 +1,192 @@
+#include "sdf_ccd/field/adaptive_grid.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "oracle/test_data.h"
+#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+
+FieldOptions maxError(double error, double band = 0.0) {
+  FieldOptions options;
+  options.max_error = error;
+  options.band = band;
+  return options;
+}
+
+TEST(LeafScale, HoldsCornersToHalfAStep) {
+  Random random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const double h = test::uniform(random, 0.001, 1.0), band = test::uniform(random, 0.0, 5.0 * h);
+    const LeafScale scale = AdaptiveGrid::leafScaleFor(h, band);
+    // A plane's distances: corners that differ as much as a 1-Lipschitz function's can.
+    const Vector3d normal = test::direction(random);
+    const double middle = test::uniform(random, -band - 2.6 * h, band + 2.6 * h);
+    std::array<double, 8> corners;
+    for (int k = 0; k < 8; ++k) {
+      corners[k] = middle + h * normal.dot(Vector3d(k & 1, (k >> 1) & 1, k >> 2) - Vector3d::Constant(0.5));
+    }
+    const std::array<double, 8> decoded = scale.decode(scale.encode(corners));
+    for (int k = 0; k < 8; ++k) ASSERT_NEAR(decoded[k], corners[k], scale.rounding() * (1.0 + 1e-9));
+    ASSERT_LE(scale.rounding(), 0.0072 * h + 3.2e-5 * (band + 3.5 * h));
+  }
+}
+
+TEST(NodeCode, FarDistancesAreRoundedTowardsZero) {
+  for (const double steps : {1.0, 1.9, -1.1, 30.99, -31.0, 500.0}) {
+    const double held = node_code::steps(node_code::far(steps));
+    EXPECT_EQ(std::signbit(held), std::signbit(steps));
+    EXPECT_LE(std::abs(held), std::abs(steps));
+    EXPECT_GT(std::abs(held) + 1.0, std::min(std::abs(steps), 31.0));
+  }
+}
+
+TEST(TopWord, FarDistancesAreRoundedTowardsZero) {
+  for (const double distance : {1e-6, -0.3, 12.0, -1e4}) {
+    const std::uint32_t word = top_word::far(distance);
+    EXPECT_EQ(word & top_word::kKind, top_word::kFar);
+    EXPECT_LE(std::abs(top_word::distance(word)), std::abs(distance));
+    EXPECT_NEAR(top_word::distance(word), distance, 3e-6 * std::abs(distance));
+  }
+}
+
+/// Compares a field with the exact distance at random places near the surface and all over its box.
+/// @return the largest error in a leaf.
+double expectHonest(const DistanceField& field, const TriangleMesh& mesh, int count) {
+  const TriangleTree tree(mesh);
+  const AlignedBox3d box = field.box();
+  Random random(3);
+  double largest = 0.0;
+  int in_band = 0;
+  for (int i = 0; i < count; ++i) {
+    Vector3d p = test::uniformIn(random, {box.min() - 0.1 * box.sizes(), box.max() + 0.1 * box.sizes()});
+    if (i % 2 == 0) {
+      const Vector3i& t = mesh.triangles[random() % mesh.triangles.size()];
+      const Vector3d weights = test::uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
+      p = (weights[0] * mesh.vertices[t[0]] + weights[1] * mesh.vertices[t[1]] + weights[2] * mesh.vertices[t[2]]) /
+              weights.sum() +
+          test::uniform(random, 0.0, field.band()) * test::direction(random);
+    }
+    const double distance = tree.closestPoint(p).distance;
+    const double exact = tree.windingNumber(p) > 0.5 ? -distance : distance;
+    const FieldSample sample = field.sample(p);
+    EXPECT_LE(std::abs(sample.value - exact), sample.error * (1.0 + 1e-9)) << p.transpose();
+    EXPECT_LE(field.lowerBound(p), exact + 1e-9) << p.transpose();
+    if (distance <= field.band()) {
+      ++in_band;
+      EXPECT_LE(sample.error, field.errorBound()) << p.transpose();
+      largest = std::max(largest, std::abs(sample.value - exact));
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(in_band, count / 4);
+  return largest;
+}
+
+/// The bound is kept, and not by a wide margin.
+void expectBoundHolds(const TriangleMesh& mesh, double error) {
+  const DistanceField field = buildField(mesh, maxError(error, 2.5 * error));
+  ASSERT_NE(field.adaptive(), nullptr);
+  EXPECT_EQ(field.errorBound(), error);
+  const double largest = expectHonest(field, mesh, 20000);
+  EXPECT_GT(largest, 0.2 * error);
+}
+
+TEST(AdaptiveGrid, BoundHoldsOnSphere) {
+  expectBoundHolds(test::icosphere(0.3, 4), 0.0006);
+}
+
+TEST(AdaptiveGrid, BoundHoldsOnTorus) {
+  expectBoundHolds(test::torusMesh(0.2, 0.08, 32, 16), 0.001);
+}
+
+TEST(AdaptiveGrid, BoundHoldsOnSharpEdges) {
+  expectBoundHolds(test::boxMesh({0.2, 0.15, 0.1}), 0.001);
+}
+
+TEST(AdaptiveGrid, BoundHoldsOnPlateThinnerThanTheError) {
+  expectBoundHolds(test::boxMesh({0.2, 0.15, 0.0003}), 0.002);
+}
+
+TEST(AdaptiveGrid, BoundHoldsWhereSolidsOverlap) {
+  // Walls within the solid are surface too, and the distance does not change sign there.
+  const TriangleMesh mesh =
+      merged(test::boxMesh({0.2, 0.1, 0.1}), test::translated(test::boxMesh({0.1, 0.05, 0.2}), {0.05, 0.03, 0.02}));
+  expectBoundHolds(mesh, 0.002);
+}
+
+TEST(AdaptiveGrid, BoundHoldsInsideOut) {
+  // A cavity: the inner sphere's outside is the solid.
+  const TriangleMesh mesh = merged(test::icosphere(0.3, 3), test::flipped(test::icosphere(0.15, 3)));
+  expectBoundHolds(mesh, 0.001);
+}
+
+TEST(AdaptiveGrid, BoundHoldsOnScans) {
+  SDF_CCD_NEEDS_DATA("meshes/bunny_lowres_npm.off");
+  const TriangleMesh mesh = orientOutward(loadMesh(test::dataPath("meshes/bunny_lowres_npm.off"))).mesh;
+  expectBoundHolds(mesh, 1e-3 * boundingBox(mesh).sizes().maxCoeff());
+}
+
+TEST(AdaptiveGrid, DoesNotDependOnThreads) {
+  const TriangleMesh mesh = test::torusMesh(0.2, 0.08, 32, 16);
+  const DistanceField many = buildField(mesh, maxError(0.001));
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const DistanceField single = buildField(mesh, maxError(0.001));
+  ASSERT_EQ(many.bytes(), single.bytes());
+  for (std::size_t i = 0; i < many.adaptive()->arrays().leaves.size; ++i) {
+    ASSERT_EQ(many.adaptive()->arrays().leaves[i], single.adaptive()->arrays().leaves[i]);
+  }
+}
+
+TEST(AdaptiveGrid, FlatSurfaceCostsLittle) {
+  // As fine as a grid of 250 cells along the side, but only along the edges.
+  const DistanceField box = buildField(test::boxMesh({0.2, 0.2, 0.2}), maxError(0.0016));
+  FieldOptions uniform;
+  uniform.cell_size = 0.0016 * 2.0 / std::sqrt(3.0);
+  EXPECT_LT(10 * box.bytes(), buildField(test::boxMesh({0.2, 0.2, 0.2}), uniform).bytes());
+}
+
+TEST(AdaptiveGrid, MemoryLimitIsKept) {
+  FieldOptions options = maxError(0.0001);
+  options.max_bytes = 100000;
+  EXPECT_THROW(buildField(test::torusMesh(0.2, 0.08, 32, 16), options), std::length_error);
+}
+
+TEST(AdaptiveGrid, DamagedIndicesAreRefused) {
+  const AdaptiveShape shape = [] {
+    AdaptiveShape s;
+    s.cell = 1.0;
+    s.size = {1, 1, 2};
+    return s;
+  }();
+  AdaptiveData far;
+  far.top = {top_word::far(2.0), top_word::far(-2.0)};
+  EXPECT_EQ(AdaptiveGrid(shape, far).block({5, 6, 200}).distance, top_word::distance(top_word::far(-2.0)));
+  AdaptiveData lost = far;
+  lost.top[1] = 7 << 2 | top_word::kLeaf;
+  EXPECT_THROW(AdaptiveGrid(shape, lost), std::invalid_argument);
+  AdaptiveData twice = far;
+  twice.top = {0 << 2 | top_word::kNode, 0 << 2 | top_word::kNode};
+  twice.nodes.resize(1);
+  twice.nodes[0].codes.fill(node_code::far(3));
+  twice.bases.resize(1);
+  EXPECT_THROW(AdaptiveGrid(shape, twice), std::invalid_argument);
+  AdaptiveData loop = far;
+  loop.top[0] = 0 << 2 | top_word::kNode;
+  loop.nodes.resize(1);
+  loop.nodes[0].codes.fill(node_code::kNode);
+  loop.bases = {{0, 0, 0}};
+  EXPECT_THROW(AdaptiveGrid(shape, loop), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

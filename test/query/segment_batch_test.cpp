@@ -1,0 +1,208 @@
+#include "sdf_ccd/query/segment_batch.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#ifdef SDF_CCD_HIGHWAY
+#include <hwy/targets.h>
+#endif
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "sdf_ccd/field/build_field.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+
+DistanceField torus() {
+  FieldOptions options;
+  options.max_error = 0.001;
+  options.band = 0.004;
+  return buildField(test::torusMesh(0.2, 0.08, 48, 24), options);
+}
+
+/// Long, short, axis-parallel, of no length, far outside.
+std::vector<Segment> randomSegments(const DistanceField& field, int count) {
+  Random random(21);
+  const AlignedBox3d box = field.box();
+  const AlignedBox3d wide{box.min() - 0.2 * box.sizes(), box.max() + 0.2 * box.sizes()};
+  std::vector<Segment> segments;
+  for (int i = 0; i < count; ++i) {
+    Segment s{test::uniformIn(random, wide), test::uniformIn(random, wide)};
+    if (i % 8 == 1) s.end = s.start + 0.01 * test::direction(random);
+    if (i % 8 == 2) s.end.x() = s.start.x();
+    if (i % 8 == 3) s.end.head<2>() = s.start.head<2>();
+    if (i % 8 == 4) s.end = s.start;
+    if (i % 8 == 5) s.start += 1e6 * (s.start - s.end);
+    segments.push_back(s);
+  }
+  return segments;
+}
+
+/// Of the interpolated field minus sigma: how far from a hit or a gap time t is [m].
+double valueAt(const DistanceField& field, const Segment& s, double t, double sigma) {
+  return field.sample(s.start + t * (s.end - s.start)).value - sigma;
+}
+
+/// Where both differ, the segment must graze: the field along the difference stays within the tolerance of sigma.
+void expectSame(const DistanceField& field, const Segment& s, const Intervals& exact, const Intervals& batch,
+                double sigma) {
+  // Leaves jump by up to twice the error where they meet, and single precision may cut a corner of a leaf.
+  const double tolerance = 2.0 * field.errorBound() + 2e-6 * field.box().sizes().maxCoeff();
+  const auto covers = [](const Intervals& intervals, double t) {
+    for (const Interval& i : intervals)
+      if (i.enter <= t && t <= i.exit) return true;
+    return false;
+  };
+  std::vector<double> times{0.0, 1.0};
+  for (const Intervals* intervals : {&exact, &batch})
+    for (const Interval& i : *intervals) times.insert(times.end(), {i.enter, i.exit});
+  std::sort(times.begin(), times.end());
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    const double t = 0.5 * (times[k] + times[k + 1]);
+    if (covers(exact, t) == covers(batch, t)) continue;
+    const double length = (times[k + 1] - times[k]) * (s.end - s.start).norm();
+    const double resolution = 3e-7 * ((s.end - s.start).norm() + field.box().sizes().maxCoeff());
+    if (length <= resolution) continue;
+    ASSERT_LE(std::abs(valueAt(field, s, t, sigma)), tolerance)
+        << "from " << s.start.transpose() << " to " << s.end.transpose() << " at " << t << ", sigma " << sigma;
+  }
+}
+
+struct Compared {
+  long hits = 0;
+  long differing = 0;  ///< segments with another number of intervals
+};
+
+Compared compare(const DistanceField& field, const std::vector<Segment>& segments, double sigma) {
+  BatchResult all, first;
+  segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kAll}, all);
+  segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kFirst}, first);
+  std::vector<Intervals> batch(segments.size());
+  std::uint32_t last = 0;
+  for (const SegmentHit& hit : all.hits) {
+    EXPECT_GE(hit.segment, last);
+    EXPECT_LE(hit.enter, hit.exit);
+    last = hit.segment;
+    batch[hit.segment].push_back({hit.enter, hit.exit});
+  }
+  Compared compared;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Intervals exact = segmentIntervals(field, segments[i], {sigma, false});
+    expectSame(field, segments[i], exact, batch[i], sigma);
+    compared.hits += !exact.empty();
+    compared.differing += exact.size() != batch[i].size();
+    const bool has_first = next < first.hits.size() && first.hits[next].segment == i;
+    EXPECT_EQ(has_first, !batch[i].empty());
+    if (has_first && !batch[i].empty()) {
+      EXPECT_EQ(first.hits[next].enter, float(batch[i][0].enter));
+    }
+    next += has_first;
+    if (testing::Test::HasFailure()) break;
+  }
+  return compared;
+}
+
+TEST(SegmentBatch, EqualsSingleQueries) {
+  const DistanceField field = torus();
+  const std::vector<Segment> segments = randomSegments(field, 30000);
+  for (const double sigma : {0.0, 0.004, -0.004}) {
+    const Compared compared = compare(field, segments, sigma);
+    EXPECT_GT(compared.hits, 3000);
+    EXPECT_LT(compared.differing, 30);  // grazing, or two leaves whose values differ at their face
+  }
+}
+
+#ifdef SDF_CCD_HIGHWAY
+TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
+  const DistanceField field = torus();
+  const std::vector<Segment> segments = randomSegments(field, 4000);
+  int kinds = 0;
+  for (std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS; targets != 0; targets &= targets - 1) {
+    const std::int64_t target = targets & -targets;
+    SCOPED_TRACE(hwy::TargetName(static_cast<decltype(HWY_TARGET)>(target)));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_GT(compare(field, segments, 0.0).hits, 300);
+    ++kinds;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  EXPECT_GE(kinds, 1);
+}
+#endif
+
+TEST(SegmentBatch, OtherFieldsGiveTheSingleQuerysIntervals) {
+  FieldOptions options;
+  options.cells = 32;
+  for (const DistanceField& field :
+       {DistanceField(Primitive(Sphere{0.3})), buildField(test::torusMesh(0.2, 0.08, 48, 24), options)}) {
+    const AlignedBox3d box{Vector3d::Constant(-0.4), Vector3d::Constant(0.4)};
+    Random random(3);
+    std::vector<Segment> segments;
+    for (int i = 0; i < 5000; ++i) segments.push_back({test::uniformIn(random, box), test::uniformIn(random, box)});
+    BatchResult result;
+    segmentIntervals(field, segments.data(), segments.size(), {0.01, SegmentMode::kAll}, result);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      for (const Interval& interval : segmentIntervals(field, segments[i], {0.01, false})) {
+        ASSERT_LT(next, result.hits.size());
+        ASSERT_EQ(result.hits[next].segment, i);
+        ASSERT_EQ(result.hits[next].enter, float(interval.enter));
+        ASSERT_EQ(result.hits[next++].exit, float(interval.exit));
+      }
+    }
+    EXPECT_EQ(next, result.hits.size());
+    EXPECT_GT(next, 1000U);
+  }
+}
+
+TEST(SegmentBatch, DoesNotDependOnThreads) {
+  const DistanceField field = torus();
+  const std::vector<Segment> segments = randomSegments(field, 20000);
+  BatchResult many, single;
+  segmentIntervals(field, segments.data(), segments.size(), {0.0, SegmentMode::kAll}, many);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  segmentIntervals(field, segments.data(), segments.size(), {0.0, SegmentMode::kAll}, single);
+  ASSERT_EQ(many.hits.size(), single.hits.size());
+  for (std::size_t i = 0; i < many.hits.size(); ++i) {
+    ASSERT_EQ(many.hits[i].segment, single.hits[i].segment);
+    ASSERT_EQ(many.hits[i].enter, single.hits[i].enter);
+    ASSERT_EQ(many.hits[i].exit, single.hits[i].exit);
+  }
+}
+
+TEST(SegmentBatch, DefinedForNoSegmentsNoLengthAndNoGrid) {
+  const DistanceField field = torus();
+  BatchResult result;
+  segmentIntervals(field, nullptr, 0, {}, result);
+  EXPECT_TRUE(result.hits.empty());
+  const Vector3d in_tube(0.2, 0, 0), far(1e9, 0, 0);
+  const std::vector<Segment> segments{{in_tube, in_tube}, {far, far}, {-far, far}, {far, 2.0 * far}, {in_tube, far}};
+  segmentIntervals(field, segments.data(), segments.size(), {0.0, SegmentMode::kAll}, result);
+  ASSERT_EQ(result.hits.size(), 4U);
+  EXPECT_EQ(result.hits[0].segment, 0U);
+  EXPECT_EQ(result.hits[0].enter, 0.0F);
+  EXPECT_EQ(result.hits[0].exit, 1.0F);
+  EXPECT_EQ(result.hits[1].segment, 2U);  // twice through the tube
+  EXPECT_EQ(result.hits[2].segment, 2U);
+  EXPECT_EQ(result.hits[3].segment, 4U);
+  EXPECT_EQ(result.hits[3].enter, 0.0F);
+}
+
+TEST(SegmentBatch, RefusesWhatIsNotFiniteOrOutsideTheBand) {
+  const DistanceField field = torus();
+  std::vector<Segment> segments(3, Segment{Vector3d::Zero(), Vector3d::Ones()});
+  BatchResult result;
+  EXPECT_THROW(segmentIntervals(field, segments.data(), 3, {1.0, SegmentMode::kAll}, result), std::invalid_argument);
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    segments[1].end.y() = bad;
+    EXPECT_THROW(segmentIntervals(field, segments.data(), 3, {}, result), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
