@@ -9,7 +9,7 @@ namespace {
 constexpr int kMaxSolves = 20;
 constexpr int kMaxShortenings = 6;         // of one Newton step
 constexpr int kMaxHalvings = 8;            // of the time step
-constexpr double kConverged = 1e-20;       // of the energies at play, left to gain by another Newton step
+constexpr double kConverged = 1e-13;       // of the energies at play, left to gain by another Newton step
 constexpr double kEnergyRounding = 1e-10;  // of the energies at play
 
 /// Backward Euler (see VelocitySystem). Because the energy of a pressed contact is convex in the penetration, a step
@@ -124,22 +124,24 @@ class ImplicitIntegrator : public Integrator {
         move(V + solution.change);
         break;
       }
+      bool lower = false;
       double share = 1.0;
-      for (int k = 0; k <= kMaxShortenings; ++k, share *= 0.5) {
+      for (int k = 0; k <= kMaxShortenings && !lower; ++k, share *= 0.5) {
         const Vector tried = V + share * solution.change;
-        const bool restart = moveTo(tried);
+        const bool other = moveTo(tried);
         const double merit_tried = system.merit(tried, V0, contacts_, damped);
-        if (restart) {  // another body falls otherwise from now on, so Φ is another function
+        lower = other || merit_tried <= merit;
+        if (other) {  // another body falls otherwise from now on, so Φ is another function
           moveTo(V);
           merit = system.merit(V, V0, contacts_, damped);
-          break;
-        }
-        if (merit_tried <= merit * (1.0 + 1e-12) || k == kMaxShortenings) {
+        } else if (lower) {
           V = tried;
           merit = merit_tried;
-          break;
         }
       }
+      if (lower) continue;
+      moveTo(V);  // on an edge of the field, where its slope jumps, there is nothing lower to be found
+      break;
     }
   }
 

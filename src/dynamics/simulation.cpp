@@ -78,6 +78,7 @@ void Simulation::measure() {
   record_.energy_excess = report_.energy_excess;
   record_.deepest = report_.deepest;
   record_.contacts = report_.contacts;
+  record_.solves = report_.solves;
 }
 
 }  // namespace sdf_ccd

@@ -72,6 +72,9 @@ void readMass(YamlMap& entry, const SceneShape& shape, RigidBody& body) {
     body.mass = entry.get("mass", density * shape.unit->mass);
     body.inertia = body.mass / shape.unit->mass * shape.unit->inertia;
   } else if (!body.fixed) {
+    if (!entry.has("mass") || !entry.has("inertia")) {
+      throw SimulationError(body.name, 0, "its shape encloses no volume; give mass and inertia");
+    }
     body.mass = entry.get<double>("mass");
   }
   if (entry.has("inertia")) body.inertia = entry.vector("inertia").asDiagonal();

@@ -44,10 +44,11 @@ struct Summary {
 
 void writeStep(const StepRecord& r, std::ostream& stream) {
   char row[512];
-  std::snprintf(row, sizeof row, "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.3g,%.9g,%d,%.6g\n",
-                r.step, r.time, r.kinetic, r.potential, r.elastic, r.energy(), r.momentum.force.x(),
-                r.momentum.force.y(), r.momentum.force.z(), r.momentum.torque.x(), r.momentum.torque.y(),
-                r.momentum.torque.z(), r.reaction_error, r.deepest, r.contacts, r.run_time);
+  std::snprintf(row, sizeof row,
+                "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.3g,%.9g,%d,%d,%.6g\n", r.step, r.time,
+                r.kinetic, r.potential, r.elastic, r.energy(), r.momentum.force.x(), r.momentum.force.y(),
+                r.momentum.force.z(), r.momentum.torque.x(), r.momentum.torque.y(), r.momentum.torque.z(),
+                r.reaction_error, r.deepest, r.contacts, r.solves, r.run_time);
   stream << row;
 }
 
@@ -99,8 +100,9 @@ void run(const Arguments& arguments) {
   }
   OutputDirectory out(arguments.out);
   OutputFile steps(out.file("steps.csv")), poses(out.file("poses.csv")), text(out.file("summary.txt"));
-  steps.stream() << "step,time,kinetic,potential,elastic,energy,px,py,pz,lx,ly,lz,reaction_error,deepest,contacts,"
-                    "run_time\n";
+  steps.stream()
+      << "step,time,kinetic,potential,elastic,energy,px,py,pz,lx,ly,lz,reaction_error,deepest,contacts,solves,"
+         "run_time\n";
   poses.stream() << "time,body,x,y,z,qx,qy,qz,qw\n";
   const StepRecord start = simulation.last();
   writeStep(start, steps.stream());
@@ -141,7 +143,8 @@ void addSimulateCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "Rigid bodies under the contact model");
   command->footer(
       "Writes steps.csv (per step: energies [J], momentum [N s] and angular momentum [N m s] about the scene's origin, "
-      "error of action against reaction, deepest point [m], points in contact, run time [s]), poses.csv and "
+      "error of action against reaction, deepest point [m], points in contact, linear solves, run time [s]), poses.csv "
+      "and "
       "summary.txt. A run that cannot go on says which body stopped it, at which step and why, keeps what it has, and "
       "exits with 1.");
   command->add_option("scene", arguments->scene, "YAML file, as those in config/scenes")->required();

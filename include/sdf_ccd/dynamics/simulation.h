@@ -19,6 +19,7 @@ struct StepRecord {
   double energy_excess = 0.0;   ///< see StepReport [J]
   double deepest = 0.0;         ///< contact point [m]
   int contacts = 0;             ///< points inside a field
+  int solves = 0;               ///< linear systems solved, see StepReport
   double run_time = 0.0;        ///< [s]
 
   double energy() const { return kinetic + potential + elastic; }
