@@ -3,7 +3,8 @@
 
 usage: plots.py RESULTS.csv DIRECTORY
 
-Writes those of segment_cells.svg, segment_meshes.svg, shell.svg and scaling_points.svg that the results have data for.
+Writes those of segment_cells.svg, segment_meshes.svg, shell.svg, scaling_points.svg and stability.svg that the results
+have data for.
 """
 import os
 import re
@@ -87,6 +88,10 @@ def main():
         for system, points in lines(results, 'scaling', r'\w+/points(\d+)/' + motion, 'us_per_pair').items():
             scaling['%s, %s' % (system, motion)] = points
     draw(path('scaling_points.svg'), 'Shells over their points', ('points', 'us per pose pair'), scaling)
+    if any(case.startswith('zeta=') for case in results.cases('stability')):
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'stability.gp')
+        subprocess.run(['gnuplot', '-e', "csv='%s'; svg='%s'" % (sys.argv[1], path('stability.svg')), script], check=True)
+        print(path('stability.svg'))
 
 
 if __name__ == '__main__':

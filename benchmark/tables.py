@@ -10,6 +10,7 @@ import argparse
 import re
 import sys
 
+import dynamics_tables
 from results import Results
 
 SEGMENT_SYSTEMS = ['paper_uniform', 'paper_octree', 'sdf_ccd', 'sdf_ccd_batch', 'openvdb', 'embree', 'embree16',
@@ -160,7 +161,8 @@ def scaling(results):
 
 
 TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree, 'segments': segments, 'build': build,
-          'shells': shells, 'scaling': scaling}
+          'shells': shells, 'scaling': scaling,
+          **{name: lambda results, make=make: table(*make(results)) for name, make in dynamics_tables.TABLES.items()}}
 
 
 def main():
