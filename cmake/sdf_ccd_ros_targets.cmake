@@ -12,6 +12,10 @@ if(SDF_CCD_ROS_SOURCES)
   install(TARGETS sdf_ccd_ros LIBRARY DESTINATION ${SDF_CCD_LIB_DIR})
 endif()
 
+# The command line tool writes bags where ROS is there.
+target_link_libraries(sdf_ccd_tool sdf_ccd_ros)
+target_compile_definitions(sdf_ccd_tool PRIVATE SDF_CCD_WITH_ROS)
+
 foreach(source ${SDF_CCD_NODE_SOURCES})
   get_filename_component(node ${source} NAME_WE)
   string(REGEX REPLACE "_node$" "" node ${node})

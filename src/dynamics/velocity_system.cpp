@@ -1,7 +1,5 @@
 #include "velocity_system.h"
 
-#include <array>
-
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
@@ -19,11 +17,14 @@ Vector6d lever(const Vector3d& r, const Vector3d& direction) {
   return j;
 }
 
-/// Blocks of one pair: shell-shell, shell-field, field-field.
+/// Blocks of one pair: shell-shell, shell-field, field-field; and the impulses on both at V.
 struct PairBlocks {
   Matrix6d pp = Matrix6d::Zero(), pf = Matrix6d::Zero(), ff = Matrix6d::Zero();
+  Vector6d push_P = Vector6d::Zero(), push_F = Vector6d::Zero();
 
-  void add(const Vector6d& j_P, const Vector6d& j_F, double factor) {
+  void add(const Vector6d& j_P, const Vector6d& j_F, double factor, double push) {
+    push_P += push * j_P;
+    push_F += push * j_F;
     pp += factor * j_P * j_P.transpose();
     pf -= factor * j_P * j_F.transpose();
     ff += factor * j_F * j_F.transpose();
@@ -137,6 +138,31 @@ double VelocitySystem::merit(const Vector& V, const Vector& V0, const std::vecto
   return value;
 }
 
+std::vector<VelocitySystem::PairRows> VelocitySystem::rowsOf(const Vector& V, const std::vector<PairContacts>& contacts,
+                                                             const std::vector<PairContacts>& damped) const {
+  std::vector<PairRows> all;
+  for (const PairContacts& pair : contacts) {
+    all.push_back({&pair, {}});
+    for (const PointContact& point : pair.points) {
+      if (point.gap == 0.0) continue;
+      const double k = duration_ * point.stiffness;
+      all.back().rows.push_back({&point, point.slope, duration_ * k, -k * point.gap});
+    }
+  }
+  for (const PairContacts& pair : damped) {
+    all.push_back({&pair, {}});
+    for (const PointContact& point : pair.points) {
+      const double d = duration_ * point.damping;
+      if (d == 0.0) continue;
+      const Vector3d slide = relativeVelocity(V, pair, point);
+      for (int axis = 0; axis < 3; ++axis) {
+        all.back().rows.push_back({&point, Vector3d::Unit(axis), d, -d * slide[axis]});
+      }
+    }
+  }
+  return all;
+}
+
 VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0,
                                                const std::vector<PairContacts>& contacts,
                                                const std::vector<PairContacts>& damped) const {
@@ -149,73 +175,37 @@ VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0
     mass.bottomRightCorner<3, 3>() = inertia_[b];
     A.add(place_[b], place_[b], mass);
   }
-  const auto addPair = [&](const PairContacts& pair, const PairBlocks& blocks, const Vector6d& push_P,
-                           const Vector6d& push_F) {
-    const int p = place_[pair.shell_body], f = place_[pair.field_body];
+  const std::vector<PairRows> all = rowsOf(V, contacts, damped);
+  for (const auto& [pair, rows] : all) {
+    PairBlocks blocks;
+    for (const Row& row : rows) {
+      blocks.add(lever(row.point->r_P, row.direction), lever(row.point->r_F, row.direction), row.factor, row.push);
+    }
+    const int p = place_[pair->shell_body], f = place_[pair->field_body];
     if (p >= 0) {
       A.add(p, p, blocks.pp);
-      downhill.segment<6>(p) += push_P;
+      downhill.segment<6>(p) += blocks.push_P;
     }
     if (f >= 0) {
       A.add(f, f, blocks.ff);
-      downhill.segment<6>(f) -= push_F;
+      downhill.segment<6>(f) -= blocks.push_F;
     }
     if (p >= 0 && f >= 0) {
       A.add(p, f, blocks.pf);
       A.add(f, p, blocks.pf.transpose());
     }
-  };
-  for (const PairContacts& pair : contacts) {
-    PairBlocks blocks;
-    Vector6d push_P = Vector6d::Zero(), push_F = Vector6d::Zero();
-    for (const PointContact& point : pair.points) {
-      if (point.gap == 0.0) continue;
-      const Vector6d j_P = lever(point.r_P, point.slope), j_F = lever(point.r_F, point.slope);
-      blocks.add(j_P, j_F, duration_ * duration_ * point.stiffness);
-      push_P -= duration_ * point.stiffness * point.gap * j_P;
-      push_F -= duration_ * point.stiffness * point.gap * j_F;
-    }
-    addPair(pair, blocks, push_P, push_F);
-  }
-  for (const PairContacts& pair : damped) {
-    PairBlocks blocks;
-    Vector6d push_P = Vector6d::Zero(), push_F = Vector6d::Zero();
-    for (const PointContact& point : pair.points) {
-      const double factor = duration_ * point.damping;
-      if (factor == 0.0) continue;
-      const Vector3d slide = relativeVelocity(V, pair, point);
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vector3d e = Vector3d::Unit(axis);
-        const Vector6d j_P = lever(point.r_P, e), j_F = lever(point.r_F, e);
-        blocks.add(j_P, j_F, factor);
-        push_P -= factor * slide[axis] * j_P;
-        push_F -= factor * slide[axis] * j_F;
-      }
-    }
-    addPair(pair, blocks, push_P, push_F);
   }
 
   Solution solution;
   solution.change = A.solve(downhill);
   solution.decrease = downhill.dot(solution.change);
   solution.impulses.resize(place_.size());
-  const Vector V1 = V + solution.change;
-  const auto addImpulse = [&](const PairContacts& pair, const PointContact& point, const Vector3d& impulse) {
-    solution.impulses[pair.shell_body] += {impulse, (pair.p_OP + point.r_P).cross(impulse)};
-    solution.impulses[pair.field_body] += {-impulse, -(pair.p_OF + point.r_F).cross(impulse)};
-  };
-  for (const PairContacts& pair : contacts) {
-    for (const PointContact& point : pair.points) {
-      if (point.gap == 0.0) continue;
-      const double closing = point.slope.dot(relativeVelocity(solution.change, pair, point));
-      addImpulse(pair, point, -duration_ * point.stiffness * (point.gap + duration_ * closing) * point.slope);
-    }
-  }
-  for (const PairContacts& pair : damped) {
-    for (const PointContact& point : pair.points) {
-      if (point.damping != 0.0) {
-        addImpulse(pair, point, -duration_ * point.damping * relativeVelocity(V1, pair, point));
-      }
+  for (const auto& [pair, rows] : all) {
+    for (const Row& row : rows) {
+      const double more = row.factor * row.direction.dot(relativeVelocity(solution.change, *pair, *row.point));
+      const Vector3d impulse = (row.push - more) * row.direction;
+      solution.impulses[pair->shell_body] += {impulse, (pair->p_OP + row.point->r_P).cross(impulse)};
+      solution.impulses[pair->field_body] += {-impulse, -(pair->p_OF + row.point->r_F).cross(impulse)};
     }
   }
   return solution;

@@ -44,6 +44,20 @@ class VelocitySystem {
   double kineticEnergy(const Vector& V) const;
 
  private:
+  /// A point's impulse along one direction: `push` at V, less `factor` times how much faster it moves that way.
+  struct Row {
+    const PointContact* point;
+    Vector3d direction;
+    double factor;  // [kg]
+    double push;    // [N·s]
+  };
+  struct PairRows {
+    const PairContacts* pair;
+    std::vector<Row> rows;
+  };
+  std::vector<PairRows> rowsOf(const Vector& V, const std::vector<PairContacts>& contacts,
+                               const std::vector<PairContacts>& damped) const;
+
   Vector timesMass(const Vector& V) const;
   Eigen::Matrix<double, 6, 1> of(const Vector& V, int body) const;
   Vector3d relativeVelocity(const Vector& V, const PairContacts& pair, const PointContact& point) const;

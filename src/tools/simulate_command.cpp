@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <sstream>
 
 #include "commands.h"
-#include "output_file.h"
 #include "print.h"
 #include "progress_bar.h"
-#include "sdf_ccd/dynamics/simulation_file.h"
+#include "simulation_output.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -41,28 +39,6 @@ struct Summary {
     contact_steps += now.contacts > 0;
   }
 };
-
-void writeStep(const StepRecord& r, std::ostream& stream) {
-  char row[512];
-  std::snprintf(row, sizeof row,
-                "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.3g,%.9g,%d,%d,%.6g\n", r.step, r.time,
-                r.kinetic, r.potential, r.elastic, r.energy(), r.momentum.force.x(), r.momentum.force.y(),
-                r.momentum.force.z(), r.momentum.torque.x(), r.momentum.torque.y(), r.momentum.torque.z(),
-                r.reaction_error, r.deepest, r.contacts, r.solves, r.run_time);
-  stream << row;
-}
-
-void writePoses(const Simulation& simulation, std::ostream& stream) {
-  for (std::size_t b = 0; b < simulation.states().size(); ++b) {
-    const Isometry3d& X = simulation.states()[b].X_OB;
-    const Vector3d p_W = simulation.world().origin_W + X.translation();
-    const Quaterniond q(X.linear());
-    char row[512];
-    std::snprintf(row, sizeof row, "%.9g,%s,%.15g,%.15g,%.15g,%.9g,%.9g,%.9g,%.9g\n", simulation.last().time,
-                  simulation.world().bodies[b].name.c_str(), p_W.x(), p_W.y(), p_W.z(), q.x(), q.y(), q.z(), q.w());
-    stream << row;
-  }
-}
 
 std::string report(const Arguments& arguments, const SimulationSetup& setup, const StepRecord& start,
                    const StepRecord& end, const Summary& summary) {
@@ -98,18 +74,11 @@ void run(const Arguments& arguments) {
   if (!(wanted >= 1.0) || !(wanted <= 1e9)) {
     throw std::runtime_error("duration / step must be 1 to 1e9 steps, got " + std::to_string(wanted));
   }
-  OutputDirectory out(arguments.out);
-  OutputFile steps(out.file("steps.csv")), poses(out.file("poses.csv")), text(out.file("summary.txt"));
-  steps.stream()
-      << "step,time,kinetic,potential,elastic,energy,px,py,pz,lx,ly,lz,reaction_error,deepest,contacts,solves,"
-         "run_time\n";
-  poses.stream() << "time,body,x,y,z,qx,qy,qz,qw\n";
+  SimulationOutput out(arguments.out, setup, arguments.frames);
   const StepRecord start = simulation.last();
-  writeStep(start, steps.stream());
-  writePoses(simulation, poses.stream());
+  out.add(simulation);
   Summary summary;
   std::string failure;
-  double next_frame = 1.0 / arguments.frames;
   ProgressBar bar("simulation");
   for (long i = 0; i < long(wanted); ++i) {
     const StepRecord before = simulation.last();
@@ -119,18 +88,13 @@ void run(const Arguments& arguments) {
       failure = error.what();
       break;
     }
-    writeStep(simulation.last(), steps.stream());
-    if (simulation.last().time + 0.5 * setup.step >= next_frame) {
-      writePoses(simulation, poses.stream());
-      next_frame = std::max(next_frame + 1.0 / arguments.frames, simulation.last().time);
-    }
+    out.add(simulation);
     bar(double(i + 1) / wanted);
   }
   std::string said = report(arguments, setup, start, simulation.last(), summary);
   if (!failure.empty()) said += "stopped          " + failure + "\n";
   std::cout << said << std::flush;
-  text.stream() << said;
-  for (OutputFile* file : {&steps, &poses, &text}) file->commit();
+  out.commit(said);
   if (failure.empty()) return;
   std::cerr << "sdf_ccd: " << failure << std::endl;
   throw PartlyDone();
@@ -143,10 +107,11 @@ void addSimulateCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "Rigid bodies under the contact model");
   command->footer(
       "Writes steps.csv (per step: energies [J], momentum [N s] and angular momentum [N m s] about the scene's origin, "
-      "error of action against reaction, deepest point [m], points in contact, linear solves, run time [s]), poses.csv "
-      "and "
-      "summary.txt. A run that cannot go on says which body stopped it, at which step and why, keeps what it has, and "
-      "exits with 1.");
+      "error of action against reaction, deepest point [m], points in contact, linear solves, run time [s]), "
+      "poses.csv, "
+      "summary.txt, and, built with ROS, simulation.bag for rviz. A run that cannot go on says which body stopped it, "
+      "at "
+      "which step and why, keeps what it has, and exits with 1.");
   command->add_option("scene", arguments->scene, "YAML file, as those in config/scenes")->required();
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--integrator", arguments->integrator, "continuous, discrete or implicit; default the scene's");

@@ -1,0 +1,106 @@
+#include "ros/simulation_bag.h"
+
+#include <array>
+
+#include <tf2_msgs/TFMessage.h>
+
+#include "ros/conversions.h"
+
+namespace sdf_ccd {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kTimeZero = 1.0;     // [s]
+constexpr double kMarkerEvery = 1.0;  // [s]
+constexpr double kPlaneSize = 2.0;    // [m]
+
+geometry_msgs::TransformStamped transform(const std::string& parent, const std::string& child, const Isometry3d& X,
+                                          const ros::Time& stamp) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform.translation = toVector3(X.translation());
+  message.transform.rotation = toPose(X).orientation;
+  return message;
+}
+
+void setColor(bool fixed, bool plane, std::size_t body, Marker& marker) {
+  // Colours that stay apart, one after the other.
+  constexpr std::array<std::array<float, 3>, 6> kColors = {{{0.30F, 0.45F, 0.69F},
+                                                            {0.87F, 0.52F, 0.32F},
+                                                            {0.33F, 0.66F, 0.41F},
+                                                            {0.77F, 0.31F, 0.32F},
+                                                            {0.51F, 0.45F, 0.70F},
+                                                            {0.58F, 0.47F, 0.38F}}};
+  const std::array<float, 3> color = fixed ? std::array<float, 3>{0.7F, 0.7F, 0.7F} : kColors[body % kColors.size()];
+  marker.color.r = color[0];
+  marker.color.g = color[1];
+  marker.color.b = color[2];
+  marker.color.a = plane ? 0.15F : 1.0F;
+}
+
+Marker toMarker(const SimulationSetup& setup, std::size_t body, const std::string& frame) {
+  Marker marker;
+  marker.header.frame_id = frame;
+  marker.ns = "bodies";
+  marker.id = static_cast<int>(body);
+  marker.action = Marker::ADD;
+  marker.frame_locked = true;
+  marker.pose.orientation.w = 1.0;
+  const TriangleMesh* mesh = setup.meshes[body].get();
+  setColor(setup.world.bodies[body].fixed, mesh == nullptr, body, marker);
+  if (mesh == nullptr) {  // a half-space, solid below its z = 0
+    marker.type = Marker::CUBE;
+    marker.scale = toVector3({kPlaneSize, kPlaneSize, 0.001});
+    marker.pose.position.z = -0.0005;
+    return marker;
+  }
+  marker.type = Marker::TRIANGLE_LIST;
+  marker.scale = toVector3(Vector3d::Ones());
+  for (const Vector3i& triangle : mesh->triangles) {
+    for (const int vertex : triangle) marker.points.push_back(toPoint(mesh->vertices[vertex]));
+  }
+  return marker;
+}
+
+}  // namespace
+
+SimulationBag::SimulationBag(const std::string& path, const SimulationSetup& setup) {
+  bag_.open(path, rosbag::bagmode::Write);
+  bag_.setCompression(rosbag::compression::LZ4);
+  for (std::size_t b = 0; b < setup.world.bodies.size(); ++b) {
+    frames_.push_back(setup.world.bodies[b].name);
+    markers_.markers.push_back(toMarker(setup, b, frames_[b]));
+  }
+  const ros::Time stamp(kTimeZero);
+  tf2_msgs::TFMessage scene;
+  scene.transforms.push_back(
+      transform("world", "scene", Isometry3d(Eigen::Translation3d(setup.world.origin_W)), stamp));
+  bag_.write("/tf_static", stamp, scene);
+}
+
+SimulationBag::~SimulationBag() {
+  bag_.close();
+}
+
+void SimulationBag::add(double time, const std::vector<BodyState>& states) {
+  const ros::Time stamp(kTimeZero + time);
+  tf2_msgs::TFMessage poses;
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    poses.transforms.push_back(transform("scene", frames_[b], states[b].X_OB, stamp));
+  }
+  bag_.write("/tf", stamp, poses);
+  if (time >= next_markers_) {
+    writeMarkers(stamp);
+    next_markers_ = time + kMarkerEvery;
+  }
+}
+
+void SimulationBag::writeMarkers(const ros::Time& stamp) {
+  for (Marker& marker : markers_.markers) marker.header.stamp = stamp;
+  bag_.write("/simulation/bodies", stamp, markers_);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include <rosbag/bag.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "sdf_ccd/dynamics/simulation_file.h"
+
+namespace sdf_ccd {
+
+/// Writes a simulation to a bag that rviz shows as it moves.
+///
+/// `/tf`: every body in the frame `scene` (the scene's frame O), which `/tf_static` puts into `world`.
+/// `/simulation/bodies` (visualization_msgs/MarkerArray): the bodies' meshes, locked to their frames; repeated every
+/// second, so that a viewer that comes late gets them. Time begins at 1 s, as 0 means "no time" to ROS.
+class SimulationBag {
+ public:
+  /// @throws rosbag::BagException if the file cannot be written.
+  SimulationBag(const std::string& path, const SimulationSetup& setup);
+  ~SimulationBag();
+
+  /// Poses at `time` [s] of the simulation; call with times that increase.
+  void add(double time, const std::vector<BodyState>& states);
+
+ private:
+  void writeMarkers(const ros::Time& stamp);
+
+  rosbag::Bag bag_;
+  std::vector<std::string> frames_;  // per body
+  visualization_msgs::MarkerArray markers_;
+  double next_markers_ = 0.0;  // [s]
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "output_file.h"
+#include "sdf_ccd/dynamics/simulation_file.h"
+
+namespace sdf_ccd::tools {
+
+/// The files of a run: steps.csv, poses.csv, summary.txt, and simulation.bag where ROS is built in. Without commit()
+/// nothing stays.
+class SimulationOutput {
+ public:
+  /// @param frames  poses per second of the simulation.
+  /// @throws std::runtime_error if the directory cannot be written.
+  SimulationOutput(const std::string& directory, const SimulationSetup& setup, double frames);
+  ~SimulationOutput();
+
+  /// Writes the last step, and the poses if a frame is due.
+  void add(const Simulation& simulation);
+
+  void commit(const std::string& summary);
+
+ private:
+  struct Bag;
+
+  void writeStep(const StepRecord& record);
+  void writePoses(const Simulation& simulation);
+
+  OutputDirectory directory_;
+  OutputFile steps_, poses_, summary_;
+  std::unique_ptr<Bag> bag_;
+  double frames_;
+  long frame_ = 0;  // the next one
+};
+
+}  // namespace sdf_ccd::tools
