@@ -102,6 +102,7 @@ OctomapObject readOctomap(ParameterReader reader, std::vector<std::string>& unkn
   octomap.file = reader.text("file", "");
   octomap.frame = reader.text("frame", "");
   octomap.X_frame_B = readPose(reader);
+  octomap.cell_size = reader.notNegative("cell_size", 0.0);
   for (const std::string& name : reader.unread()) unknown.push_back(name);
   return octomap;
 }

@@ -31,6 +31,7 @@ struct OctomapObject {
   std::string file;   ///< empty: none
   std::string frame;  ///< empty: the fixed frame
   Isometry3d X_frame_B = Isometry3d::Identity();
+  double cell_size = 0.0;  ///< of its field [m]; 0: half a voxel
 };
 
 /// All parameters of the monitor; config/monitor.yaml documents them.

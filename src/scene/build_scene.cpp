@@ -33,7 +33,7 @@ class BodyBuilder {
     for (const GeometryDescription& geometry : description.geometry) {
       const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
       if (mesh && !*mesh) throw std::invalid_argument(geometry.source + ": no mesh");
-      meshes_.push_back(mesh ? &pool.find(**mesh, geometry.watertight_voxels) : nullptr);
+      meshes_.push_back(mesh ? &pool.find(geometry) : nullptr);
       const std::string name = meshes_.back() ? nameOf(*meshes_.back()) : nameOf(primitiveOf(geometry));
       report.geometry += (report.geometry.empty() ? "" : ", ") + name;
       if (mesh && !geometry.watertight_voxels && !meshes_.back()->quality.sign_trusted)

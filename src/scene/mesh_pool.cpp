@@ -15,12 +15,15 @@ constexpr int kWidestBand = 32;  // cells
 
 }  // namespace
 
-PooledMesh& MeshPool::find(const TriangleMesh& mesh, bool voxels) {
-  const std::string hash = contentHash(mesh, {double(voxels)});
+PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
+  const TriangleMesh& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
+  const bool voxels = geometry.watertight_voxels;
+  const std::string hash = contentHash(mesh, {double(voxels), geometry.cell_size.value_or(0.0)});
   const auto known = meshes_.find(hash);
   if (known != meshes_.end()) return known->second;
   PooledMesh pooled;
   pooled.voxels = voxels;
+  pooled.cell_size = geometry.cell_size;
   if (voxels) {
     validate(mesh);
     pooled.mesh = mesh;
@@ -32,12 +35,17 @@ PooledMesh& MeshPool::find(const TriangleMesh& mesh, bool voxels) {
   return meshes_.emplace(hash, std::move(pooled)).first->second;
 }
 
-FieldOptions MeshPool::fieldOptions(const TriangleMesh& mesh) const {
+FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
   FieldOptions options = options_.field;
+  if (mesh.cell_size) {
+    options.cells.reset();
+    options.max_error.reset();
+    options.cell_size = mesh.cell_size;
+  }
   validate(options);
   const double to_error = std::sqrt(3.0) / 2.0;  // of a cell's side (design §3.3)
   double cell = 0.0;
-  if (options.cells) cell = boundingBox(mesh).sizes().maxCoeff() / *options.cells;
+  if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
   if (options.cell_size) cell = *options.cell_size;
   if (options.max_error) cell = *options.max_error / to_error;
   const double margin = 1.1 * (options_.shell.spacing + to_error * cell + options_.motion_margin);
@@ -47,7 +55,7 @@ FieldOptions MeshPool::fieldOptions(const TriangleMesh& mesh) const {
 
 MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   if (mesh.field) return {};
-  CachedField made = cachedField(cache_, mesh.mesh, fieldOptions(mesh.mesh), progress);
+  CachedField made = cachedField(cache_, mesh.mesh, fieldOptions(mesh), progress);
   mesh.field = std::move(made.field);
   return {true, made.outcome};
 }

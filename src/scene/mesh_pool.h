@@ -14,7 +14,8 @@ namespace sdf_ccd {
 struct PooledMesh {
   TriangleMesh mesh;  ///< oriented, but for voxels, which are right as they come
   bool voxels = false;
-  MeshQuality quality;  ///< empty for voxels
+  std::optional<double> cell_size;  ///< of its field [m]; none: as the scene's options say
+  MeshQuality quality;              ///< empty for voxels
   std::optional<DistanceField> field;
   std::optional<PointShell> shell;
 };
@@ -24,8 +25,8 @@ class MeshPool {
  public:
   explicit MeshPool(const SceneOptions& options) : options_(options), cache_(options.cache_directory) {}
 
-  /// The mesh of this content. The reference stays valid.
-  PooledMesh& find(const TriangleMesh& mesh, bool voxels);
+  /// The mesh of this geometry's content. The reference stays valid.
+  PooledMesh& find(const GeometryDescription& geometry);
 
   struct Made {
     bool now = false;  ///< false: it was there already, for another body
@@ -35,7 +36,7 @@ class MeshPool {
   Made makeShell(PooledMesh& mesh);
 
  private:
-  FieldOptions fieldOptions(const TriangleMesh& mesh) const;
+  FieldOptions fieldOptions(const PooledMesh& mesh) const;
 
   const SceneOptions& options_;
   FileCache cache_;

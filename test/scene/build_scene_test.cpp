@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "scene/scene_case.h"
@@ -51,6 +52,19 @@ TEST(BuildScene, EqualVoxelsAndMeshesAreNotTakenForEachOther) {
   const auto scene = build({body("box", meshShape(boxMesh({0.1, 0.1, 0.1}))), map});
   EXPECT_EQ(scene->reports[0].geometry, "mesh (12 triangles, closed)");
   EXPECT_EQ(scene->reports[1].geometry, "voxels (12 triangles)");
+}
+
+TEST(BuildScene, AMapMayHaveCellsOfItsOwn) {
+  BodyDescription map = body("map", meshShape(boxMesh({1.0, 1.0, 1.0})), true);
+  map.geometry[0].watertight_voxels = true;
+  map.geometry[0].cell_size = 0.1;
+  for (const bool by_error : {false, true}) {
+    SceneOptions options = fine();
+    if (by_error) options.field = {{}, {}, 0.001};
+    const auto scene = build({map, body("hand", meshShape(icosphere(0.1, 2)))}, options);
+    EXPECT_NEAR(scene->bodies[0].parts[0].field.grid()->shape().cell, 0.1, 1e-12);
+    EXPECT_NEAR(scene->bodies[0].parts[0].field.errorBound(), 0.1 * std::sqrt(3.0) / 2.0, 1e-3);
+  }
 }
 
 TEST(BuildScene, BandHoldsTheMargin) {

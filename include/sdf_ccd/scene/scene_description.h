@@ -18,6 +18,7 @@ struct GeometryDescription {
   Isometry3d X_BG = Isometry3d::Identity();  ///< its frame G in the body's frame B
   std::string source;                        ///< for people: "box" or the mesh's URI
   bool watertight_voxels = false;            ///< boundary of whole voxels: no shell, only a field
+  std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: as SceneOptions::field says
 };
 
 /// A rigid body: a robot's link or an object of the world.
