@@ -46,13 +46,17 @@ double RobotModel::position(const urdf::Joint& joint, const JointPositions& posi
   return limited ? std::max(joint.limits->lower, std::min(0.0, joint.limits->upper)) : 0.0;
 }
 
-std::vector<Isometry3d> RobotModel::forwardKinematics(const JointPositions& positions) const {
+void RobotModel::requireKnown(const JointPositions& positions) const {
   for (const auto& [name, value] : positions) {
     if (!urdf_->joints_.count(name)) throw std::invalid_argument("robot " + urdf_->name_ + " has no joint " + name);
     if (!std::isfinite(value)) {
       throw std::invalid_argument("joint " + name + ": position " + std::to_string(value) + " is not finite");
     }
   }
+}
+
+std::vector<Isometry3d> RobotModel::forwardKinematics(const JointPositions& positions) const {
+  requireKnown(positions);
   std::vector<Isometry3d> X_RL(links_.size(), Isometry3d::Identity());
   for (std::size_t i = 1; i < links_.size(); ++i) {
     const urdf::Joint& joint = jointAbove(static_cast<int>(i));
@@ -60,6 +64,18 @@ std::vector<Isometry3d> RobotModel::forwardKinematics(const JointPositions& posi
               jointMotion(joint, position(joint, positions));
   }
   return X_RL;
+}
+
+double RobotModel::turn(const JointPositions& from, const JointPositions& to) const {
+  requireKnown(from);
+  requireKnown(to);
+  std::vector<double> turns(links_.size(), 0.0);
+  for (std::size_t i = 1; i < links_.size(); ++i) {
+    const urdf::Joint& joint = jointAbove(static_cast<int>(i));
+    const bool turning = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+    turns[i] = turns[parent_[i]] + (turning ? std::abs(position(joint, to) - position(joint, from)) : 0.0);
+  }
+  return *std::max_element(turns.begin(), turns.end());
 }
 
 std::vector<std::pair<int, bool>> RobotModel::path(int from, int to) const {

@@ -1,6 +1,8 @@
 #include "ros/planned_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 
@@ -10,6 +12,9 @@ namespace sdf_ccd {
 namespace {
 
 using Trajectory = trajectory_msgs::JointTrajectory;
+
+constexpr double kTurn = 1.0;                  // most that a link turns between two knots [rad]
+constexpr std::size_t kMostAddedKnots = 2000;  // about 300 revolutions
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
@@ -43,6 +48,32 @@ JointPositions namedPositions(const std::vector<std::string>& names, const std::
   JointPositions result;
   for (std::size_t i = 0; i < names.size(); ++i) result[names[i]] = positions[i];
   return result;
+}
+
+/// The times, and so many between them that no link turns by more than kTurn from one to the next: two links then turn
+/// by less than half a revolution against each other, and their poses alone tell which way.
+std::vector<double> knotsOf(const std::vector<double>& times, const std::vector<JointPositions>& waypoints,
+                            const RobotModel& robot) {
+  std::vector<double> knots = {times.front()};
+  std::size_t added = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double turn = robot.turn(waypoints[i - 1], waypoints[i]);
+    const double pieces = std::max(1.0, std::ceil(turn / kTurn));
+    if (!(pieces - 1.0 <= static_cast<double>(kMostAddedKnots - added))) {
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "the trajectory turns a link by %.3g rad up to point %zu: more than %zu rad "
+                    "beside one per point are not checked",
+                    turn, i, kMostAddedKnots);
+      refuse(text);
+    }
+    added += static_cast<std::size_t>(pieces) - 1;
+    for (double piece = 1.0; piece < pieces; ++piece) {
+      knots.push_back(times[i - 1] + piece / pieces * (times[i] - times[i - 1]));
+    }
+    knots.push_back(times[i]);
+  }
+  return knots;
 }
 
 CycleMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned,
@@ -80,7 +111,7 @@ CycleMotion alongTrajectory(const QueryMotion::Request& request, const PlannedSc
       X_WB[body] = planned.now.X_WR * X_RL[link_of_body[body]] * planned.scene.bodies[body].X_frame_B;
     }
   };
-  sampleMotion(times, poses_at, balls, planned.sampling, motion);
+  sampleMotion(knotsOf(times, waypoints, planned.robot), poses_at, balls, planned.sampling, motion);
   return motion;
 }
 

@@ -62,10 +62,26 @@ class PlannedMotionTest : public ::testing::Test {
 TEST_F(PlannedMotionTest, TrajectoryMovesLinksWhereverTfHasThem) {
   const CycleMotion result = motion(swing({0.0, M_PI_2, 0.0}));
   EXPECT_EQ(samples_, (std::vector<double>{0.0, 1.0, 2.0}));
-  EXPECT_EQ(result.times, samples_);  // a single joint's motion is a screw
+  EXPECT_EQ(result.times, (std::vector<double>{0.0, 0.5, 1.0, 1.5, 2.0}));  // so that no link turns by more than 1 rad
   EXPECT_EQ(result.missing[0], "");
-  EXPECT_LT((result.X_WB[0][1] * Vector3d(0.0, 0.0, -1.0) - Vector3d(1.0, 0.0, 1.0)).norm(), 1e-12);
+  EXPECT_LT((result.X_WB[0][2] * Vector3d(0.0, 0.0, -1.0) - Vector3d(1.0, 0.0, 1.0)).norm(), 1e-12);
   EXPECT_EQ(result.X_WB[1][2].translation(), Vector3d(0.0, 5.0, 0.0));
+}
+
+TEST_F(PlannedMotionTest, WholeRevolutionsAreNotTakenForRest) {
+  for (const int revolutions : {1, 2, 4, 64}) {
+    const CycleMotion result = motion(swing({0.5, 0.5 + revolutions * 2.0 * M_PI}));
+    EXPECT_EQ(samples_, (std::vector<double>{0.0, 1.0}));
+    double turned = 0.0;
+    for (std::size_t k = 0; k + 1 < result.times.size(); ++k) {
+      const ScrewMotion screw(result.X_WB[0][k], result.X_WB[0][k + 1]);
+      EXPECT_LE(screw.angle(), 1.0 + 1e-9);
+      turned += screw.angle();
+    }
+    EXPECT_NEAR(turned, revolutions * 2.0 * M_PI, 1e-6);
+  }
+  EXPECT_NE(refusal(swing({0.0, 1e9})).find("turns a link by 1e+09 rad up to point 1"), std::string::npos);
+  EXPECT_NE(refusal(swing({0.0, 1e300})).find("1e+300"), std::string::npos);
 }
 
 TEST_F(PlannedMotionTest, UnknownRootMakesAllLinksMissing) {

@@ -34,6 +34,11 @@ class RobotModel {
   /// @throws std::invalid_argument for a joint that does not exist or a position that is not finite.
   std::vector<Isometry3d> forwardKinematics(const JointPositions& positions) const;
 
+  /// The most that any link turns against the root while the joints move evenly from one position to the other [rad]:
+  /// the joints' turns added up along its chain. A pose tells a turn only up to whole revolutions; this does not.
+  /// @throws std::invalid_argument as forwardKinematics() does.
+  double turn(const JointPositions& from, const JointPositions& to) const;
+
   /// True if only fixed joints lie between the links.
   bool rigidlyJoined(const std::string& link_a, const std::string& link_b) const;
 
@@ -64,6 +69,7 @@ class RobotModel {
 
   int indexOf(const std::string& link) const;
   const urdf::Joint& jointAbove(int link) const;
+  void requireKnown(const JointPositions& positions) const;
   double position(const urdf::Joint& joint, const JointPositions& positions) const;
   std::vector<std::pair<int, bool>> path(int from, int to) const;  ///< (link below the joint, whether it goes down)
   int movableJointsBetween(const std::string& link_a, const std::string& link_b) const;

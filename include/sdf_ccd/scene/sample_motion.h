@@ -20,6 +20,9 @@ struct MotionSampling {
 /// so that taking it as such between the samples is wrong by no more than the tolerance: the time between two knots
 /// is halved as long as the pose in its middle is farther than that from the screw's.
 ///
+/// No body may turn by more than half a revolution against another between two knots: poses do not tell revolutions,
+/// so a whole one between two knots would look like rest.
+///
 /// The deviation is zero at both ends and largest in the middle, up to terms that vanish with the angle turned.
 /// @param knots   increasing, the first 0 [s]; all of them are kept.
 /// @param balls   per body: holds its points, frame B.
