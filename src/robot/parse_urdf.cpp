@@ -37,8 +37,9 @@ class MessageCollector : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
+std::mutex handler_mutex;  // one output handler for the whole process
+
 std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml) {
-  static std::mutex handler_mutex;  // one output handler for the whole process
   const std::lock_guard<std::mutex> lock(handler_mutex);
   MessageCollector collector;
   std::shared_ptr<urdf::ModelInterface> model;
@@ -80,6 +81,13 @@ std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml) {
   const auto model = parse(xml);
   for (const auto& joint : model->joints_) checkJoint(*model, *joint.second);
   return model;
+}
+
+std::string urdfErrors(const std::string& xml) {
+  const std::lock_guard<std::mutex> lock(handler_mutex);
+  MessageCollector collector;
+  urdf::parseURDF(xml);
+  return collector.errors();
 }
 
 }  // namespace sdf_ccd

@@ -11,4 +11,7 @@ namespace sdf_ccd {
 /// @throws std::runtime_error if the text is no URDF, or holds a joint that no kinematics can be made of.
 std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml);
 
+/// All that urdfdom's parser finds wrong with a text, also where it makes a model of it all the same.
+std::string urdfErrors(const std::string& xml);
+
 }  // namespace sdf_ccd

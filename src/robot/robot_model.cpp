@@ -6,11 +6,13 @@
 
 #include "joint_motion.h"
 #include "parse_urdf.h"
+#include "unread_links.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {
 
-RobotModel::RobotModel(const std::string& urdf_xml) : urdf_(parseUrdf(urdf_xml)), root_(urdf_->getRoot()->name) {
+RobotModel::RobotModel(const std::string& urdf_xml)
+    : urdf_(parseUrdf(urdf_xml)), root_(urdf_->getRoot()->name), unread_(unreadLinks(*urdf_, urdf_xml)) {
   std::vector<std::pair<const urdf::Link*, int>> open = {{urdf_->getRoot().get(), -1}};
   while (!open.empty()) {
     const auto [link, parent] = open.back();

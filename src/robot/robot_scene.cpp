@@ -89,11 +89,13 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
   LinkGeometryLoader geometry(loader, warnings);
   for (const std::string& name : robot.links()) {
     const auto link = robot.urdf().getLink(name);
-    if (link->collision_array.empty()) continue;
+    const auto unread = robot.unread().find(name);
+    if (link->collision_array.empty() && unread == robot.unread().end()) continue;
     BodyDescription body;
     body.name = name;
     body.frame = name;
     try {
+      if (unread != robot.unread().end()) throw std::runtime_error(unread->second);
       body.geometry = geometry.load(*link);
     } catch (const std::exception& error) {
       body.failure = "link " + name + ": " + error.what();

@@ -1,6 +1,7 @@
 #include "sdf_ccd/robot/robot_scene.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "oracle/test_data.h"
@@ -102,6 +103,29 @@ TEST(RobotScene, MeshesAreSharedByUriAndScale) {
   EXPECT_LT(areaNormal(*meshOf(0), 0).z() * -2.0, 0.0);
   EXPECT_NEAR(areaNormal(*meshOf(2), 0).z(), 2.0 * areaNormal(*meshOf(0), 0).z(), 1e-12);
   EXPECT_EQ(geometry[2].source, "good.off");
+}
+
+TEST(RobotScene, ElementsThatTheParserDropsCostTheirLinkAlone) {
+  const std::string cube = box("0.1 0.1 0.1");
+  const Described described =
+      describe("<robot name='r'>" + link("good", cube) + link("short", cube + box("1 1")) +
+               link("nan", box("1 1 1", "nan 0 0")) +
+               link("capsule", "<collision><geometry><capsule radius='1' length='2'/></geometry></collision>") +
+               link("empty", "<collision/>") + link("heavy", "<inertial><mass value='much'/></inertial>" + cube) +
+               link("frame", "<visual><geometry><box size='1 1'/></geometry></visual>") +
+               joint("good", "short", "floating", "0 0 0") + joint("good", "nan", "floating", "0 0 0") +
+               joint("good", "capsule", "floating", "0 0 0") + joint("good", "empty", "floating", "0 0 0") +
+               joint("good", "heavy", "floating", "0 0 0") + joint("good", "frame", "floating", "0 0 0") + "</robot>");
+  std::map<std::string, std::string> failures;
+  for (const BodyDescription& body : described.scene.bodies) failures[body.name] = body.failure;
+  ASSERT_EQ(failures.size(), 6u);  // the frame has nothing that could touch
+  EXPECT_EQ(failures["good"], "");
+  EXPECT_EQ(failures["short"].find("link short: line 1 of the URDF: 1 of 2 collision elements cannot be read: "), 0u)
+      << failures["short"];
+  EXPECT_NE(failures["nan"].find("nan"), std::string::npos);
+  EXPECT_NE(failures["capsule"].find("capsule"), std::string::npos);
+  EXPECT_NE(failures["empty"].find("1 of 1 collision elements"), std::string::npos);
+  EXPECT_NE(failures["heavy"].find("much"), std::string::npos);
 }
 
 TEST(RobotScene, BadMeshCostsItsLinkAlone) {

@@ -27,6 +27,9 @@ class RobotModel {
   /// Links in depth-first order, the root first.
   const std::vector<std::string>& links() const { return links_; }
 
+  /// Links whose collision elements urdf() does not hold, as the parser could not read all of them; reasons by link.
+  const std::map<std::string, std::string>& unread() const { return unread_; }
+
   /// Pose of every link in the root's frame, in the order of links().
   ///
   /// Joints that are not named are at zero (or at the nearest limit), planar and floating ones always. Mimic joints
@@ -63,6 +66,7 @@ class RobotModel {
  private:
   std::shared_ptr<urdf::ModelInterface> urdf_;
   std::string root_;
+  std::map<std::string, std::string> unread_;
   std::vector<std::string> links_;
   std::map<std::string, int> index_;  ///< of a link in links_
   std::vector<int> parent_;           ///< per link: its parent's index; -1 for the root

@@ -17,10 +17,10 @@ struct RobotSceneOptions {
 /// The bodies of a robot: one per link with collision elements, named after the link and in its frame. Every mesh is
 /// read once and scaled; links that use it alike share it.
 ///
-/// A bad or missing mesh costs that link alone: BodyDescription::failure says "link forearm: package://…: no such
-/// package", and its geometry is empty. Left out are, in this order, pairs that are rigidly joined, disabled by the
-/// SRDF, adjacent (unless asked for, or enabled by the SRDF by name), and out of reach of each other for every joint
-/// position by RobotModel::reach() between balls around their geometry.
+/// A bad or missing mesh, or a collision element that cannot be read, costs that link alone: BodyDescription::failure
+/// says "link forearm: package://…: no such package", and its geometry is empty. Left out are, in this order, pairs
+/// that are rigidly joined, disabled by the SRDF, adjacent (unless asked for, or enabled by the SRDF by name), and out
+/// of reach of each other for every joint position by RobotModel::reach() between balls around their geometry.
 /// @param warnings  what else a user should know, a line each: files found under another spelling, an SRDF that names
 /// links the robot has not. Failures are not repeated here.
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,

@@ -1,0 +1,50 @@
+#include "unread_links.h"
+
+#include <stdexcept>
+
+#include <tinyxml2.h>
+
+#include "parse_urdf.h"
+
+namespace sdf_ccd {
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::size_t countChildren(const XMLElement& element, const char* name) {
+  std::size_t count = 0;
+  for (auto child = element.FirstChildElement(name); child; child = child->NextSiblingElement(name)) ++count;
+  return count;
+}
+
+/// What urdfdom has to say of this link: parsed as the only one of a robot.
+std::string parserErrors(const XMLElement& link) {
+  tinyxml2::XMLPrinter printer(nullptr, true);
+  link.Accept(&printer);
+  return urdfErrors(std::string("<robot name=\"link\">") + printer.CStr() + "</robot>");
+}
+
+}  // namespace
+
+std::map<std::string, std::string> unreadLinks(const urdf::ModelInterface& model, const std::string& xml) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error("the URDF cannot be parsed: line " + std::to_string(document.ErrorLineNum()) + ": " +
+                             document.ErrorName());
+  }
+  std::map<std::string, std::string> reasons;
+  const XMLElement* robot = document.FirstChildElement("robot");
+  for (auto link = robot ? robot->FirstChildElement("link") : nullptr; link; link = link->NextSiblingElement("link")) {
+    const char* name = link->Attribute("name");
+    const auto read = name ? model.getLink(name) : nullptr;
+    if (!read) continue;
+    const std::size_t written = countChildren(*link, "collision");
+    if (read->collision_array.size() == written) continue;
+    reasons[name] = "line " + std::to_string(link->GetLineNum()) +
+                    " of the URDF: " + std::to_string(written - read->collision_array.size()) + " of " +
+                    std::to_string(written) + " collision elements cannot be read: " + parserErrors(*link);
+  }
+  return reasons;
+}
+
+}  // namespace sdf_ccd
