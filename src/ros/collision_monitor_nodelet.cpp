@@ -65,7 +65,12 @@ void CollisionMonitor::run() {
   }
   ros::WallRate rate(health_.failure.empty() ? parameters_.rate : 1.0 / kIdlePeriod);
   while (!stop_ && ros::ok()) {
-    health_.failure.empty() ? cycle() : idle(health_.failure);
+    try {
+      health_.failure.empty() ? cycle() : idle(health_.failure);
+    } catch (const std::exception& error) {
+      NODELET_ERROR_THROTTLE(1.0, "A cycle was not checked: %s", error.what());
+      idle(error.what());
+    }
     rate.sleep();
   }
 }
@@ -187,7 +192,8 @@ void CollisionMonitor::publishState(const CycleResult& result) {
   state.missing = health_.missing;
   state.missing.insert(state.missing.end(), health_.bad_bodies.begin(), health_.bad_bodies.end());
   if (result.verdict == Verdict::kNotChecked) {
-    state.reason = std::to_string(result.not_checked) + " pairs could not be checked";
+    state.reason = result.pairs.empty() ? "no pairs: there is nothing to check"
+                                        : std::to_string(result.not_checked) + " pairs could not be checked";
   }
   state.cycle_start = cycle_.start;
   state.run_time = result.run_time;

@@ -38,6 +38,7 @@ void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response&
     wanted.max_points = max_points_;
     const CycleResult& result = monitor_.run(motion, wanted);
     response.success = true;
+    if (result.pairs.empty()) response.message = "no pairs: there is nothing to check";
     response.verdict = static_cast<std::uint8_t>(result.verdict);
     response.error_bound = result.error_bound;
     response.pairs = toPairContacts(result, {*scene_, motion, samples, ros::Time()});

@@ -175,6 +175,12 @@ void TfTracker::setSpans(TrackedCycle& cycle) const {
 bool TfTracker::poseAt(std::size_t body, const ros::Time& time, Isometry3d& X_WB, std::string& problem) const {
   Isometry3d X_WF;
   if (!history_.lookup(bodies_[body].frame, time, X_WF, problem)) return false;
+  if (!(X_WF.translation().lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
+    char text[64];
+    std::snprintf(text, sizeof(text), " is more than %.0g m from the origin", kFarthestPose);
+    problem = bodies_[body].frame + text;
+    return false;
+  }
   X_WB = X_WF * bodies_[body].X_frame_B;
   return true;
 }

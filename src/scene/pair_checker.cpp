@@ -1,7 +1,9 @@
 #include "pair_checker.h"
 
 #include <algorithm>
-#include <exception>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
 
 namespace sdf_ccd {
 namespace {
@@ -11,6 +13,21 @@ constexpr double kRootTolerance = 1e-9;  // of the path, as segmentIntervals() g
 void setNotChecked(const std::string& reason, PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason = reason;
+}
+
+/// Throws if a body is so far away that its coordinates are too coarse.
+void requireNear(const Body& body, const std::vector<Isometry3d>& X_WB, const KnotSpan& span) {
+  for (std::size_t k = span.first; k <= span.last; ++k) {
+    const double distance = X_WB[k].translation().lpNorm<Eigen::Infinity>();
+    if (distance <= kFarthestPose) continue;
+    char text[64];
+    std::snprintf(text, sizeof(text), " is %.3g m from the origin, more than %.0g m", distance, kFarthestPose);
+    throw std::runtime_error(body.name + text);
+  }
+}
+
+void requireFinite(const ErrorBound& error) {
+  if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
 
 /// As new, but with its memory and its span.
@@ -63,6 +80,7 @@ void PairChecker::run(const CycleMotion& motion, const CycleRequest& request, Pa
 }
 
 void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
+  for (const int body : {pair_.body_a, pair_.body_b}) requireNear(scene_.bodies[body], motion.X_WB[body], result.span);
   double motion_error = 0.0;
   if (!motion.motion_error.empty())
     motion_error = motion.motion_error[pair_.body_a] + motion.motion_error[pair_.body_b];
@@ -76,6 +94,7 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
   }
   result.error.chord = motion_error;
   result.error.root = kRootTolerance * travel;
+  requireFinite(result.error);
 
   // Farther than this, a test could not find anything: what it finds is off by field and chord error at most.
   const double margin = result.error.total() + result.error.field + 2.0 * options_.chords.tolerance;
@@ -89,6 +108,7 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
   if (clearFromAfar(margin, result)) return;
 
   cutRoles(motion_error, result);
+  requireFinite(result.error);
   const double near = result.error.total();
   if (std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
     clearance_ = kUnknown;

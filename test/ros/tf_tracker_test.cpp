@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace sdf_ccd {
 namespace {
@@ -73,6 +74,17 @@ TEST_F(TfTrackerTest, PairsGoAsFarAsBothFramesAreKnownAndHoldEveryRecordedTransf
   EXPECT_NEAR(cycle_.motion.X_WB[1].back().translation().x(), 2.0, 1e-9);
   for (const std::string& missing : cycle_.motion.missing) EXPECT_EQ(missing, "");
   EXPECT_EQ(next(10.1), Step::kWaiting);
+}
+
+TEST_F(TfTrackerTest, AFrameBeyondAllNumbersIsMissing) {
+  for (const double stamp : {10.0, 10.1}) {
+    send(transform("world", "hand", stamp, stamp > 10.05 ? 1e300 : 0.0));
+    send(transform("world", "foot", stamp, stamp > 10.05 ? std::numeric_limits<double>::infinity() : 0.0));
+    ASSERT_EQ(next(stamp), stamp > 10.05 ? Step::kCycle : Step::kWaiting);
+  }
+  EXPECT_EQ(cycle_.motion.missing[0], "hand is more than 1e+08 m from the origin");
+  EXPECT_EQ(cycle_.motion.missing[1], "foot is more than 1e+08 m from the origin");
+  EXPECT_EQ(cycle_.motion.missing[2], "");
 }
 
 TEST_F(TfTrackerTest, RestingFramesAddNoTimes) {

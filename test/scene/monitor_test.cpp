@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "scene/scene_case.h"
@@ -206,6 +207,36 @@ TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
     EXPECT_LE(pair.clearance, height - 0.1 - 0.2 + 1e-3);
     EXPECT_GT(pair.clearance, height - 0.1 - 0.2 - 0.15);
   }
+}
+
+TEST(Monitor, NothingIsClearBeyondWhatNumbersHold) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.05));
+  Monitor monitor(scene, soft());
+  const auto run = [&](double from, double to, double motion_error) {
+    CycleMotion motion =
+        cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, from}), translation({0, 0, to})}});
+    motion.motion_error = {0.0, motion_error};
+    return monitor.run(motion, {});
+  };
+  EXPECT_EQ(run(9e7, 9e7, 0.0).verdict, Verdict::kClear);
+  for (const double far : {2e8, 1e150, 1e300, std::numeric_limits<double>::infinity()}) {
+    const CycleResult result = run(1.0, far, 0.0);
+    EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+    EXPECT_EQ(result.error_bound, 0.0);
+    EXPECT_EQ(result.pairs[0].reason.find("ball is "), 0u) << result.pairs[0].reason;
+    EXPECT_EQ(run(far, far, 0.0).verdict, Verdict::kNotChecked);
+  }
+  const CycleResult result = run(1.0, 1.0, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_EQ(result.pairs[0].reason, "its error bound is not finite");
+  EXPECT_EQ(run(1.0, 1.0, 0.0).verdict, Verdict::kClear);
+}
+
+TEST(Monitor, WhereNothingIsCheckedNothingIsClear) {
+  Monitor monitor(build({body("ball", Primitive(Sphere{0.1}))}), soft());
+  const CycleResult& result = monitor.run(cycle(0.1, {still(Isometry3d::Identity())}), {});
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_EQ(result.checked + result.skipped + result.not_checked, 0);
 }
 
 TEST(Monitor, RefusesMotionsThatDoNotFit) {

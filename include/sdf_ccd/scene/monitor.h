@@ -18,12 +18,17 @@ struct KnotSpan {
   bool empty() const { return first == last; }
 };
 
+/// Farther from the world's origin no body is checked [m]: there doubles round coordinates by 1e-8 m, which the error
+/// bound does not hold, and much farther they overflow.
+constexpr double kFarthestPose = 1e8;
+
 /// Where the bodies were during a cycle (t₀, t₁].
 struct CycleMotion {
   std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
   std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
   std::vector<std::string> missing;           ///< per body: why its poses are not known; empty if they are, or all are
-  std::vector<double> motion_error;           ///< per body: distance of the true motion from X_WB's [m]; may be empty
+  std::vector<double>
+      motion_error;  ///< per body: distance of the true motion from X_WB's [m]; may be empty or infinite
 
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
   /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs may be anything.
@@ -64,9 +69,10 @@ struct PairResult {
 };
 
 struct CycleResult {
-  std::vector<PairResult> pairs;      ///< in the order of Scene::pairs
-  Verdict verdict = Verdict::kClear;  ///< worst of all pairs not delayed: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR
-  double error_bound = 0.0;           ///< largest of the pairs checked [m]
+  std::vector<PairResult> pairs;           ///< in the order of Scene::pairs
+  Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs not delayed: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
+                                           ///< NOT_CHECKED if there are none
+  double error_bound = 0.0;                ///< largest of the pairs checked [m]
   int checked = 0;
   int skipped = 0;
   int not_checked = 0;
@@ -82,9 +88,10 @@ struct MonitorOptions {
 /// Runs cycles over all pairs of a scene and remembers how far apart they were.
 ///
 /// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is deeper than what the
-/// bound says of points, else UNCERTAIN. Both bodies' shells are tested where both exist, and their impulses halved, so
-/// that what both see counts once. Where the bound exceeds a field's band, the field's lower bounds decide about CLEAR.
-/// Wrenches are integrated in the world's axes about A's origin at the end.
+/// bound says of points, else UNCERTAIN; NOT_CHECKED if a body is missing, beyond kFarthestPose, or the bound infinite.
+/// Both bodies' shells are tested where both exist, and their impulses halved, so that what both see counts once. Where
+/// the bound exceeds a field's band, the field's lower bounds decide about CLEAR. Wrenches are integrated in the
+/// world's axes about A's origin at the end.
 ///
 /// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
 /// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
