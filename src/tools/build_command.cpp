@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <tbb/global_control.h>
 
@@ -37,13 +40,32 @@ std::string readText(const std::string& path) {
   return loadLocalResource(path, nullptr, "").bytes;
 }
 
-/// Link names become file names.
-std::string asFileName(std::string name) {
-  for (char& c : name) {
-    if (c == '/') c = '_';
+/// Names links' meshes for files, each name once: two links may differ by a slash only, or by a number.
+class FileNames {
+ public:
+  explicit FileNames(const std::vector<BodyDescription>& bodies) {
+    for (const BodyDescription& body : bodies) links_.insert(asFileName(body.name));
   }
-  return name;
-}
+
+  /// NAME for a link's first mesh, NAME_2 and so on for the others; the number goes on where the name is taken.
+  std::string next(const std::string& link, bool first) {
+    const std::string name = asFileName(link);
+    if (first && used_.insert(name).second) return name;
+    for (int number = 2;; ++number) {
+      const std::string numbered = name + "_" + std::to_string(number);
+      if (!links_.count(numbered) && used_.insert(numbered).second) return numbered;
+    }
+  }
+
+ private:
+  static std::string asFileName(std::string name) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+  }
+
+  std::set<std::string> links_;
+  std::set<std::string> used_;
+};
 
 struct Robot {
   SceneDescription scene;
@@ -65,10 +87,10 @@ Robot loadRobot(const Arguments& arguments) {
 }
 
 /// Fields and shells of one link's meshes; false, with a line on stderr, if one of them cannot be built.
-bool buildLink(const BodyDescription& body, FieldBuilder& builder) {
+bool buildLink(const BodyDescription& body, FileNames& names, FieldBuilder& builder) {
   try {
     if (!body.failure.empty()) throw std::runtime_error(body.failure);
-    int meshes = 0;
+    bool is_first = true;
     for (const GeometryDescription& element : body.geometry) {
       std::cout << body.name << ": " << element.source << "\n";
       const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&element.shape);
@@ -76,8 +98,7 @@ bool buildLink(const BodyDescription& body, FieldBuilder& builder) {
         std::cout << "  exact, needs no file\n";
         continue;
       }
-      const std::string name = asFileName(body.name);
-      builder.addMesh(++meshes == 1 ? name : name + "_" + std::to_string(meshes), *mesh);
+      builder.addMesh(names.next(body.name, std::exchange(is_first, false)), *mesh);
     }
     return true;
   } catch (const std::exception& error) {
@@ -92,8 +113,9 @@ void buildRobot(const Arguments& arguments) {
   const Robot robot = loadRobot(arguments);
   OutputDirectory out(arguments.out);
   FieldBuilder builder(out, arguments.resolution, arguments.spacing);
+  FileNames names(robot.scene.bodies);
   std::size_t failed = 0;
-  for (const BodyDescription& body : robot.scene.bodies) failed += !buildLink(body, builder);
+  for (const BodyDescription& body : robot.scene.bodies) failed += !buildLink(body, names, builder);
   std::cout << robot.scene.bodies.size() << " links, " << robot.pairs << " pairs to check, "
             << robot.scene.disabled.size() << " left out; ";
   builder.printTotals();
@@ -133,7 +155,8 @@ void addBuildCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("build", "Make fields and shells, and report on the meshes");
   command->footer(
       "Writes NAME.field and NAME.shell, each in its mesh's frame: for a robot per link, NAME the link's (a link's "
-      "second mesh is NAME_2), else the file's name. package:// is looked up in ROS_PACKAGE_PATH.");
+      "second mesh is NAME_2, or the next number that no other link is named by), else the file's name. package:// is "
+      "looked up in ROS_PACKAGE_PATH.");
   auto* source = command->add_option_group("source");
   source->add_option("--urdf", arguments->urdf, "Robot; its links' collision meshes are taken");
   source->add_option("--mesh", arguments->mesh, "Mesh file: STL, DAE, OBJ, OFF, PLY, ...");

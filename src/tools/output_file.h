@@ -6,6 +6,8 @@
 namespace sdf_ccd::tools {
 
 /// A file that appears complete or not at all: written beside its place under another name, renamed by commit().
+/// Symbolic links stay, and what they lead to is written. Devices, pipes and open files (/dev/stdout, /dev/fd/3) are
+/// appended to at once.
 class OutputFile {
  public:
   /// @throws std::runtime_error if the path cannot be written, so that it is known before the work is done.
@@ -21,7 +23,8 @@ class OutputFile {
 
  private:
   std::string path_;
-  std::string temporary_;
+  std::string target_;     // where links lead from path_
+  std::string temporary_;  // empty if the target is written directly
   std::ofstream stream_;
 };
 

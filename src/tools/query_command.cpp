@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "field_builder.h"
 #include "output_file.h"
+#include "print.h"
 #include "progress_bar.h"
 #include "resolution_options.h"
 #include "sdf_ccd/field/field_file.h"
@@ -60,8 +61,13 @@ std::vector<Intervals> intervalsOf(const DistanceField& field, const std::vector
 void run(const Arguments& arguments) {
   if (!std::isfinite(arguments.query.sigma)) throw std::invalid_argument("--sigma is not finite");
   const std::vector<Segment> segments = readSegments(arguments.segments);
+  if (!arguments.field.empty()) arguments.resolution.requireNone("--field names one that is made already");
   OutputFile out(arguments.out);
   const DistanceField field = fieldOf(arguments);
+  if (std::abs(arguments.query.sigma) > field.band()) {
+    throw std::invalid_argument("--sigma " + shortly(arguments.query.sigma) + " lies outside the field's band of " +
+                                shortly(field.band()) + " m");
+  }
   const std::vector<Intervals> intervals = intervalsOf(field, segments, arguments.query);
   out.stream() << "segment,t_enter,t_exit\n";
   char row[96];
@@ -80,7 +86,8 @@ void addQueryCommand(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("query", "Times during which moving points are inside an isosurface");
   command->footer(
-      "In: a line ox,oy,oz,ex,ey,ez [m] per segment, with or without a header line. Out: a line segment,t_enter,t_exit "
+      "In: a line ox,oy,oz,ex,ey,ez [m] per segment, with or without a line of these names above. Out: a line "
+      "segment,t_enter,t_exit "
       "per interval; segments count from 0, times run from 0 at the start to 1 at the end of the segment.");
   auto* source = command->add_option_group("source");
   source->add_option("--field", arguments->field, "Field file, made by build");

@@ -1,5 +1,7 @@
 #include "resolution_options.h"
 
+#include <stdexcept>
+
 namespace sdf_ccd::tools {
 namespace {
 
@@ -14,7 +16,14 @@ void ResolutionOptions::addTo(CLI::App& command) {
   max_error_option_ = command.add_option("--max-error", max_error, "Largest error of a distance near the surface [m]");
   resolution_option_->excludes(cell_option_)->excludes(max_error_option_);
   cell_option_->excludes(max_error_option_);
-  command.add_option("--band", band, "Distances are accurate up to this from the surface [m]; at least two cells");
+  band_option_ =
+      command.add_option("--band", band, "Distances are accurate up to this from the surface [m]; at least two cells");
+}
+
+void ResolutionOptions::requireNone(const std::string& reason) const {
+  for (const CLI::Option* option : {resolution_option_, cell_option_, max_error_option_, band_option_}) {
+    if (option->count()) throw std::invalid_argument(option->get_name() + " says how a field is made, but " + reason);
+  }
 }
 
 FieldOptions ResolutionOptions::fieldOptions(std::optional<double> default_cell) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -18,6 +19,9 @@ struct ResolutionOptions {
   /// Adds --resolution, --cell, --max-error and --band.
   void addTo(CLI::App& command);
 
+  /// @throws std::invalid_argument, naming the option and the reason, if one was given although no field is made.
+  void requireNone(const std::string& reason) const;
+
   /// What was chosen; else `default_cell` [m], or 64 cells along the longest side.
   FieldOptions fieldOptions(std::optional<double> default_cell = std::nullopt) const;
 
@@ -25,6 +29,7 @@ struct ResolutionOptions {
   CLI::Option* resolution_option_ = nullptr;
   CLI::Option* cell_option_ = nullptr;
   CLI::Option* max_error_option_ = nullptr;
+  CLI::Option* band_option_ = nullptr;
 };
 
 }  // namespace sdf_ccd::tools

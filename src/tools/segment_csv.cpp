@@ -1,5 +1,6 @@
 #include "segment_csv.h"
 
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -30,11 +31,13 @@ std::optional<double> number(const std::string& word) {
   return has_digits && *end == '\0' ? std::make_optional(value) : std::nullopt;
 }
 
-bool isHeader(const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    if (number(word)) return false;
+/// Only a line of the columns' own names: any other without numbers is data of another format.
+bool isHeader(const std::string& line) {
+  std::string names;
+  for (const unsigned char c : line) {
+    if (!std::isspace(c)) names += static_cast<char>(std::tolower(c));
   }
-  return true;
+  return names == "ox,oy,oz,ex,ey,ez";
 }
 
 Segment parseSegment(const std::vector<std::string>& words) {
@@ -64,10 +67,9 @@ std::vector<Segment> readSegments(const std::string& path) {
     ++line_number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.find_first_not_of(" \t") == std::string::npos) continue;
-    const std::vector<std::string> words = split(line);
-    if (line_number == 1 && isHeader(words)) continue;
+    if (line_number == 1 && isHeader(line)) continue;
     try {
-      segments.push_back(parseSegment(words));
+      segments.push_back(parseSegment(split(line)));
     } catch (const std::exception& reason) {
       throw std::runtime_error(path + ":" + std::to_string(line_number) + ": " + reason.what());
     }

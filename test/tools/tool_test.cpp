@@ -90,9 +90,8 @@ class Tool : public ::testing::Test {
   }
 
   std::size_t countFiles() const {
-    std::size_t count = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(directory_ / "work")) count += entry.exists();
-    return count;
+    const fs::recursive_directory_iterator files(directory_ / "work");
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
   }
 
   fs::path path(const std::string& name) const { return directory_ / "work" / name; }
@@ -190,7 +189,9 @@ TEST_F(Tool, QueryRefusesBadSegmentsByLine) {
   const std::string query = "query --mesh ball.off --out out.csv --segments ";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"1,2,3,4,5,nan\n", ":1: \"nan\" is not finite"},
-      {"a,b,c,d,e,f\n1,2,3,4,5,inf\n", ":2: \"inf\" is not finite"},
+      {"a,b,c,d,e,f\n1,2,3,4,5,6\n", ":1: \"a\" is not a number"},
+      {"0;0;0;1;1;1\n0;0;0;1;1;2\n", ":1: six numbers ox,oy,oz,ex,ey,ez are wanted, there are 1"},
+      {"Ox, oy, oz, ex, ey, ez\r\n1,2,3,4,5,inf\n", ":2: \"inf\" is not finite"},
       {"1,2,3,4,5\n", ":1: six numbers"},
       {"1,2,3,4,5,6,\n", ":1: six numbers"},
       {"1,2,3,4,5,6\nox,oy,oz,ex,ey,ez\n", ":2: \"ox\" is not a number"},
@@ -198,7 +199,7 @@ TEST_F(Tool, QueryRefusesBadSegmentsByLine) {
       {"1,2,3,4,5,1e999\n", ":1: \"1e999\" is not finite"},
       {"ox,oy,oz,ex,ey,ez\n", "holds no segment"},
       {"", "holds no segment"},
-      {std::string("\0\xff\0", 3), "holds no segment"}};
+      {std::string("\0\xff\0", 3), ":1: six numbers"}};
   for (const auto& [text, reason] : cases) {
     write("bad.csv", text);
     expectRefused(query + "bad.csv", reason);
@@ -227,13 +228,53 @@ TEST_F(Tool, QueryRefusesDamagedFields) {
 TEST_F(Tool, OutputsThatCannotBeWrittenAreRefusedAndLeaveNothing) {
   expectRefused("query --mesh ball.off --segments in.csv --out no/such/out.csv", "no/such/out.csv: cannot write");
   expectRefused("query --mesh ball.off --segments in.csv --out .", "directory");
-  expectRefused("query --mesh ball.off --segments in.csv --out /dev/null", "not a regular file");
+  fs::create_symlink("loop.csv", path("loop.csv"));
+  expectRefused("query --mesh ball.off --segments in.csv --out loop.csv", "loop.csv: cannot write");
   expectRefused("build --mesh ball.off --out in.csv", "in.csv: cannot write");
   expectRefused("build --mesh ball.off --out in.csv/deeper", "cannot write");
   EXPECT_NE(readText(path("in.csv")).find("-1,0,0,1,0,0"), std::string::npos);
   if (::geteuid() == 0) return;  // root may write everywhere
   fs::permissions(path(""), fs::perms::owner_read | fs::perms::owner_exec);
   expectRefused("query --mesh ball.off --segments in.csv --out out.csv", "cannot write");
+}
+
+TEST_F(Tool, LinksStayAndWhatTheyLeadToIsWritten) {
+  fs::create_directories(path("far"));
+  write("far/there.csv", "old");
+  fs::create_symlink("far", path("by"));
+  fs::create_symlink("by/there.csv", path("link.csv"));
+  fs::create_symlink("far/new.csv", path("dangling.csv"));
+  for (const char* link : {"link.csv", "dangling.csv"}) {
+    ASSERT_EQ(run("query --mesh ball.off --segments in.csv --out " + std::string(link)).exit_code, kDone);
+    EXPECT_TRUE(fs::is_symlink(path(link)));
+    EXPECT_EQ(readText(path(link)).find("segment,t_enter,t_exit\n0,"), 0u);
+  }
+  EXPECT_EQ(readText(path("far/there.csv")), readText(path("far/new.csv")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("far")), fs::directory_iterator()), 2);
+}
+
+TEST_F(Tool, DevicesAndPipesAreWrittenTo) {
+  const std::string query = "query --mesh ball.off --segments in.csv --out ";
+  const ToolRun result = run(query + "/dev/stdout");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_EQ(result.out.find("segment,t_enter,t_exit\n0,"), 0u) << result.out;
+  EXPECT_EQ(run(query + "/dev/stdout | cat").out, result.out);
+  EXPECT_EQ(run(query + "/dev/null").exit_code, kDone);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_TRUE(fs::exists("/dev/stdout"));
+  expectRefused(query + "/dev/full", "/dev/full: cannot write");
+}
+
+TEST_F(Tool, OptionsThatWouldDoNothingAreRefused) {
+  ASSERT_EQ(run("build --mesh ball.off --out made --resolution 12").exit_code, kDone);
+  const std::string query = "query --field made/ball.field --segments in.csv --out out.csv ";
+  for (const char* option : {"--cell 0.01", "--resolution 20", "--max-error 0.1", "--band 0.2"}) {
+    const std::string name = std::string(option).substr(0, std::string(option).find(' '));
+    expectRefused(query + option, name + " says how a field is made");
+    expectRefused("info made/ball.field --slice z=0 --out s.png " + std::string(option), name);
+    expectRefused("info ball.off " + std::string(option), "without --slice none is made");
+  }
+  expectRefused(query + "--sigma 1e300", "--sigma 1e+300 lies outside the field's band of 0.");
 }
 
 TEST_F(Tool, FailedQueryKeepsTheOldOutput) {
@@ -286,6 +327,33 @@ TEST_F(Tool, RobotIsBuiltLinkByLink) {
   for (const char* name : {"a.field", "a.shell", "a_2.field", "a_2.shell"})
     EXPECT_TRUE(fs::exists(path("made") / name));
   EXPECT_EQ(std::distance(fs::directory_iterator(path("made")), fs::directory_iterator()), 4);
+}
+
+TEST_F(Tool, NoLinkOverwritesAnothersFiles) {
+  write("box.off", toOff(test::icosphere(0.25, 1)));
+  const auto link = [](const std::string& name, int balls, int boxes) {
+    std::string text = "<link name='" + name + "'>";
+    for (int i = 0; i < balls + boxes; ++i) {
+      text += std::string("<collision><geometry><mesh filename='") + (i < balls ? "ball" : "box") +
+              ".off'/></geometry></collision>";
+    }
+    return text + "</link>";
+  };
+  const auto joint = [](const std::string& child) {
+    return "<joint name='to_" + child + "' type='floating'><parent link='a'/><child link='" + child + "'/></joint>";
+  };
+  write("twins.urdf", "<robot name='twins'>" + link("a", 3, 0) + link("a_2", 0, 1) + link("a/b", 1, 0) +
+                          link("a_b", 0, 1) + joint("a_2") + joint("a/b") + joint("a_b") + "</robot>");
+  const ToolRun result = run("build --urdf twins.urdf --out made --resolution 8");
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("made")), fs::directory_iterator()), 2 * 6);
+  EXPECT_NE(result.out.find("6 fields"), std::string::npos) << result.out;
+  const auto radius = [&](const std::string& name) {
+    return loadField(path("made/" + name + ".field").string()).surfaceBox().sizes().x() / 2.0;
+  };
+  for (const char* name : {"a", "a_3", "a_4"}) EXPECT_NEAR(radius(name), 0.5, 0.02) << name;
+  EXPECT_NEAR(radius("a_2"), 0.25, 0.02);
+  EXPECT_GT(std::abs(radius("a_b") - radius("a_b_2")), 0.2);
 }
 
 TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {
