@@ -10,10 +10,11 @@ namespace sdf_ccd {
 /// @throws std::runtime_error if the file is neither, or shorter than the triangles it announces.
 std::string mendedStl(const std::string& bytes);
 
-/// @throws std::runtime_error if the header has no end, an unknown line, or announces more than the file can hold.
+/// @throws std::runtime_error if the header has no end, an unknown line, or announces more than the file can hold; of
+/// an ASCII file, also more than it does hold.
 void requireSoundPly(const std::string& bytes);
 
-/// @throws std::runtime_error if the header announces more than the file can hold.
+/// @throws std::runtime_error if the header announces more than the file holds.
 void requireSoundOff(const std::string& bytes);
 
 }  // namespace sdf_ccd

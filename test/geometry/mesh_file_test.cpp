@@ -148,6 +148,22 @@ TEST(MeshFile, WhatAssimpDoesNotSurviveIsRefusedFirst) {
   EXPECT_NE(error(damaged(test::off(kBox), "8 12", "8 4000000000"), "a.off").find("announces"), std::string::npos);
 }
 
+TEST(MeshFile, TruncatedTextIsRefusedWhereverItEnds) {
+  for (const auto& [bytes, name] : {std::pair(test::off(kBox), "a.off"), std::pair(test::ply(kBox), "a.ply")}) {
+    EXPECT_EQ(parseMesh(bytes, name).triangles.size(), 12u);
+    EXPECT_EQ(parseMesh(bytes.substr(0, bytes.size() - 1), name).triangles.size(), 12u);  // no last line's end
+    for (std::size_t length = 0; length + 2 < bytes.size(); ++length) {
+      EXPECT_THROW(parseMesh(bytes.substr(0, length), name), std::runtime_error) << name << " cut to " << length;
+    }
+  }
+  const std::string off = test::off(kBox);
+  EXPECT_EQ(errorOf([&] { parseMesh(off.substr(0, off.size() - 4), "a.off"); }),
+            "a.off: truncated or damaged: 12 of element face are announced, 11 are whole");
+  // Comments, blank lines and colours count for nothing, and a list need not stand on one line of a PLY file.
+  const std::string odd = "OFF # made by hand\n\n3 1 0\n# corners\n0 0 0\n1 0 0 # right\n\n0 1 0\n3 0 1 2 255 0 0\n";
+  EXPECT_EQ(parseMesh(odd, "odd.off").triangles.size(), 1u);
+}
+
 TEST(MeshFile, ConcavePolygonsAreFilledRightly) {
   // An L-shaped prism whose caps are concave hexagons; a fan about the first corner would fill its notch.
   const std::string prism =
