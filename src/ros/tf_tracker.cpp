@@ -73,13 +73,15 @@ void TfTracker::look(const ros::Time& now, std::vector<std::string>& missing) {
   for (const TfHistory::Span& span : spans_) newest = std::max(newest, span.last);
   // Transforms may be stamped ahead of the clock, or come from a bag that is played without one.
   reference_ = now.isZero() || newest.isZero() ? std::max(now, newest) : std::min(now, newest);
+  // Where time is simulated, a bag may bring older stamps than the clock's; the wall clock tells their age.
+  const ros::Time& clock = ros::Time::isSimTime() ? reference_ : now;
   ends_.assign(bodies_.size(), ros::TIME_MAX);
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const TfHistory::Span& span = spans_[body];
     if (!span.problem.empty()) {
       missing[body] = span.problem;
-    } else if (!span.is_static && reference_ - span.last > ros::Duration(options_.max_latency)) {
-      missing[body] = bodies_[body].frame + " is late by " + seconds((reference_ - span.last).toSec());
+    } else if (!span.is_static && clock - span.last > ros::Duration(options_.max_latency)) {
+      missing[body] = bodies_[body].frame + " is late by " + seconds((clock - span.last).toSec());
     } else if (!span.is_static) {
       ends_[body] = std::min(span.last, reference_);
     }

@@ -33,8 +33,9 @@ struct TrackedCycle {
 
 /// Turns recorded transforms into cycles (design §5). Every pair is checked as far as both its frames are known, from
 /// where its last check ended; a cycle ends where the foremost pair does. So a frame that lags behind delays only its
-/// own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked. Poses are taken
-/// at every recorded transform and, between them, as tf2 interpolates.
+/// own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked. It lags behind
+/// the newest transform of all or, where time is not simulated, behind the wall clock. Poses are taken at every
+/// recorded transform and, between them, as tf2 interpolates.
 class TfTracker {
  public:
   /// @param pairs  of bodies, by index.

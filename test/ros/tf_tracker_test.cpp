@@ -154,6 +154,29 @@ TEST_F(TfTrackerTest, AFrameThatStaysAwayIsMissingAfterMaxLatency) {
   EXPECT_EQ(cycle_.motion.missing[1], "");
 }
 
+TEST_F(TfTrackerTest, WhereTimeIsNotSimulatedAllFramesMayBeTooOld) {
+  const auto verdicts = [&](double start) {
+    std::string said;
+    for (int i = 0; i <= 30; ++i) {
+      for (const char* frame : {"hand", "foot"}) send(transform("world", frame, start + 0.03 * i - 2.0, 0.01 * i));
+      if (next(start + 0.03 * i) == Step::kCycle) said = cycle_.motion.missing[0];
+    }
+    return said;
+  };
+  EXPECT_EQ(verdicts(100.0), "");  // a bag that is played behind its clock
+  ros::Time::init();
+  ASSERT_FALSE(ros::Time::isSimTime());
+  EXPECT_EQ(verdicts(200.0), "hand is late by 2.00 s");
+  for (int i = 0; i <= 3; ++i) {
+    for (const char* frame : {"hand", "foot"}) send(transform("world", frame, 201.0 + 0.03 * i, 0.0));
+    next(201.01 + 0.03 * i);
+  }
+  EXPECT_EQ(cycle_.motion.missing[0], "");
+  EXPECT_EQ(next(203.0), Step::kStalled);
+  ros::Time::setNow(ros::Time());
+  ASSERT_TRUE(ros::Time::isSimTime());
+}
+
 TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
   send(transform("world", "hand", 10.0, 0.0));
   EXPECT_EQ(next(10.0), Step::kWaiting);
