@@ -1,6 +1,7 @@
 #include "ros/collision_monitor_nodelet.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <std_msgs/String.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -11,7 +12,9 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kIdlePeriod = 1.0;  // [s]
+constexpr double kIdlePeriod = 1.0;     // [s]
+constexpr double kLogPeriod = 3.0;      // of building's progress [s]
+constexpr double kLongestPeriod = 1e6;  // longer ones overflow clocks [s]
 
 /// Thrown out of building when the nodelet is unloaded meanwhile.
 struct Stopped {};
@@ -28,7 +31,11 @@ std::vector<std::string> reasons(const Scene& scene, const std::vector<std::stri
 }  // namespace
 
 CollisionMonitor::~CollisionMonitor() {
-  stop_ = true;
+  {
+    const std::lock_guard<std::mutex> lock(stop_mutex_);
+    stop_ = true;
+  }
+  stop_asked_.notify_all();
   if (thread_.joinable()) thread_.join();
   if (service_spinner_) service_spinner_->stop();
   if (tf_spinner_) tf_spinner_->stop();
@@ -63,21 +70,40 @@ void CollisionMonitor::run() {
     NODELET_FATAL("Nothing is checked: %s", error.what());
     health_.failure = error.what();
   }
-  ros::WallRate rate(health_.failure.empty() ? parameters_.rate : 1.0 / kIdlePeriod);
-  while (!stop_ && ros::ok()) {
+  const double period = health_.failure.empty() ? std::min(1.0 / parameters_.rate, kLongestPeriod) : kIdlePeriod;
+  for (double left = 0.0; waitFor(left);) {
+    const ros::WallTime start = ros::WallTime::now();
     try {
       health_.failure.empty() ? cycle() : idle(health_.failure);
     } catch (const std::exception& error) {
       NODELET_ERROR_THROTTLE(1.0, "A cycle was not checked: %s", error.what());
       idle(error.what());
     }
-    rate.sleep();
+    left = period - (ros::WallTime::now() - start).toSec();
+  }
+}
+
+bool CollisionMonitor::waitFor(double seconds) {
+  std::unique_lock<std::mutex> lock(stop_mutex_);
+  return !stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return stop_ || !ros::ok(); });
+}
+
+void CollisionMonitor::readWhenThere() {
+  for (;;) {
+    try {
+      parameters_ = readParameters(getPrivateNodeHandle());
+      return;
+    } catch (const MissingDescription& missing) {
+      NODELET_WARN_ONCE("Waiting: %s", missing.what());
+      idle(std::string("waiting: ") + missing.what());
+    }
+    if (!waitFor(kIdlePeriod)) throw Stopped();
   }
 }
 
 void CollisionMonitor::setUp() {
   idle("reading the robot");
-  parameters_ = readParameters(getPrivateNodeHandle());
+  readWhenThere();
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
   described_ = describeScene(parameters_);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
@@ -98,11 +124,13 @@ void CollisionMonitor::buildFields() {
   const ScenePlan plan = planScene(described_.scene, {parameters_.scene.shell.spacing});
   scene_ = std::make_shared<const Scene>(
       buildScene(described_.scene, plan, parameters_.scene, [this](const std::string& body, double share) {
-        if (stop_) throw Stopped();
-        const int percent = static_cast<int>(100.0 * share);
-        idle("building fields: " + std::to_string(percent) + " %, " + body);
+        if (!waitFor(0.0)) throw Stopped();
+        const std::string progress =
+            "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
+        idle(progress);
+        logNowAndThen(progress);
       }));
-  if (stop_) throw Stopped();
+  if (!waitFor(0.0)) throw Stopped();
   health_.warnings = described_.warnings;
   for (const Body& body : scene_->bodies) {
     if (body.failure.empty()) continue;
@@ -123,6 +151,13 @@ void CollisionMonitor::buildFields() {
   plan_publisher_.publish(table);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
                described_.fixed_frame.c_str(), table.data.c_str());
+}
+
+void CollisionMonitor::logNowAndThen(const std::string& progress) {
+  const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run yet
+  if (!last_log_.isZero() && (now - last_log_).toSec() < kLogPeriod) return;
+  last_log_ = now;
+  NODELET_INFO("%s", progress.c_str());
 }
 
 void CollisionMonitor::listen() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,7 +21,8 @@ namespace sdf_ccd {
 
 /// Watches a robot that tf2 moves, and says for every cycle what touched when, where and how hard.
 ///
-/// Parameters: see config/monitor.yaml; robot_description and robot_description_semantic are looked for upwards.
+/// Parameters: see config/monitor.yaml; robot_description and robot_description_semantic are looked for upwards. The
+/// first is waited for.
 ///
 /// Subscribes:
 ///   /tf, /tf_static  tf2_msgs/TFMessage
@@ -45,8 +47,11 @@ class CollisionMonitor : public nodelet::Nodelet {
   void serve();
 
   void run();
+  bool waitFor(double seconds);  ///< false, and at once, if the nodelet is being unloaded
+  void readWhenThere();
   void setUp();
   void buildFields();
+  void logNowAndThen(const std::string& progress);
   void listen();
   void cycle();
   void idle(const std::string& reason);
@@ -73,6 +78,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   TrackedCycle cycle_;
   ros::WallTime last_cycle_;  // when it was published
   ros::WallTime last_idle_;
+  ros::WallTime last_log_;  // of the progress of building
 
   ros::Publisher state_publisher_;
   ros::Publisher plan_publisher_;
@@ -87,7 +93,9 @@ class CollisionMonitor : public nodelet::Nodelet {
   bool ready_ = false;  // guarded by ready_mutex_, as the reason
   std::string not_ready_ = "starting";
   std::atomic<bool> reset_asked_{false};
-  std::atomic<bool> stop_{false};
+  std::mutex stop_mutex_;
+  std::condition_variable stop_asked_;
+  bool stop_ = false;  // guarded by stop_mutex_
   std::thread thread_;
 };
 

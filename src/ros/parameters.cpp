@@ -131,7 +131,8 @@ MonitorParameters readParameters(const ros::NodeHandle& private_node) {
 
   const std::string urdf_name = reader.text("urdf_parameter", "robot_description");
   parameters.urdf = findDescription(private_node, urdf_name);
-  if (parameters.urdf.empty()) throw ParameterError("parameter " + urdf_name + " is missing, expected a robot's URDF");
+  if (parameters.urdf.empty())
+    throw MissingDescription("parameter " + urdf_name + " is missing, expected a robot's URDF");
   parameters.srdf = findDescription(private_node, reader.text("srdf_parameter", urdf_name + "_semantic"));
   parameters.fixed_frame = withoutLeadingSlash(reader.text("fixed_frame", ""));
   parameters.tf_prefix = withoutLeadingSlash(reader.text("tf_prefix", ""));

@@ -7,6 +7,7 @@
 #include <ros/node_handle.h>
 
 #include "ros/markers.h"
+#include "ros/parameter_reader.h"
 #include "ros/tf_tracker.h"
 #include "sdf_ccd/robot/robot_scene.h"
 #include "sdf_ccd/scene/monitor.h"
@@ -52,8 +53,13 @@ struct MonitorParameters {
   std::vector<std::string> unknown;  ///< names of parameters that nothing reads
 };
 
+/// Thrown while the robot's description is not there; it may come later.
+struct MissingDescription : ParameterError {
+  using ParameterError::ParameterError;
+};
+
 /// Reads and checks all parameters from a private namespace.
-/// @throws ParameterError naming the parameter and its value.
+/// @throws MissingDescription, else ParameterError naming the parameter and its value.
 MonitorParameters readParameters(const ros::NodeHandle& private_node);
 
 }  // namespace sdf_ccd

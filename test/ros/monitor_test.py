@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Drives the monitor through tf, as a robot would, and looks at what it says."""
+import signal
+import subprocess
 import sys
 import threading
 import time
@@ -198,7 +200,7 @@ class MonitorTest(unittest.TestCase):
         self.assertIsNotNone(self.contacts.find(self.touching))
         self.contacts.clear()
         stamp = self.stamp - rospy.Duration(100.0)
-        for i in range(12):
+        for i in range(30):
             self.send_at(stamp + rospy.Duration(PERIOD * i), 0.0, 0.0)
             rospy.sleep(PERIOD)
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
@@ -263,6 +265,23 @@ class MonitorTest(unittest.TestCase):
         answer = rospy.ServiceProxy('/bad_monitor/query_motion', QueryMotion)(trajectory('slide', [0.0, 1.0]))
         self.assertFalse(answer.success)
         self.assertIn('max_latency', answer.message)
+
+    def test_robot_that_comes_late_is_waited_for(self):
+        states = Recorder('/late_monitor/state', MonitorState)
+        self.assertIsNotNone(states.find(lambda m: 'late_description is missing' in m.reason))
+        self.assertEqual(rospy.get_param('/late_monitor/fixed_frame'), 'base')  # as after_monitor put it in
+        rospy.set_param('/late_description', rospy.get_param('/robot_description'))
+        self.assertIsNotNone(states.find(lambda m: m.header.frame_id == 'base'))
+
+    def test_ends_at_once_however_seldom_it_cycles(self):
+        process = subprocess.Popen(['rosrun', 'sdf_ccd', 'collision_monitor', '__name:=slow_monitor', '_rate:=0.001'])
+        try:
+            self.assertIsNotNone(Recorder('/slow_monitor/plan', String).find(lambda m: True))
+            time.sleep(0.5)  # the first cycle begins at once
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(10.0), 0)
+        finally:
+            process.kill()
 
 
 if __name__ == '__main__':
