@@ -9,6 +9,7 @@
 
 #include "chord_frame.h"
 #include "deepest.h"
+#include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {
@@ -186,7 +187,7 @@ void validate(const ContactOptions& options) {
   const auto require = [](double value, const char* name) {
     if (!(value >= 0.0) || !std::isfinite(value))
       throw std::invalid_argument("contact: " + std::string(name) + " must be finite and not negative, got " +
-                                  std::to_string(value));
+                                  numberText(value));
   };
   require(options.stiffness, "stiffness");
   require(options.damping, "damping");

@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "sdf_ccd/geometry/number_text.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 void requireDensity(double density) {
   if (!(density > 0.0) || !std::isfinite(density)) {
-    throw std::invalid_argument("mass: density must be finite and positive, got " + std::to_string(density));
+    throw std::invalid_argument("mass: density must be finite and positive, got " + numberText(density));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sdf_ccd/dynamics/mass_properties.h"
+#include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -35,7 +36,7 @@ void validate(const RigidWorld& world, const std::vector<BodyState>& states) {
   if (!world.origin_W.allFinite()) throw std::invalid_argument("the scene's origin is not finite");
   if (!(world.chord_tolerance > 0.0) || !std::isfinite(world.chord_tolerance)) {
     throw std::invalid_argument("chord tolerance must be finite and positive, got " +
-                                std::to_string(world.chord_tolerance));
+                                numberText(world.chord_tolerance));
   }
   if (states.size() != world.bodies.size()) {
     throw std::invalid_argument(std::to_string(world.bodies.size()) + " bodies, " + std::to_string(states.size()) +

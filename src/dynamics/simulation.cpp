@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "explicit_step.h"
+#include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -26,7 +27,7 @@ double reactionError(const std::vector<Wrench>& impulses) {
 Simulation::Simulation(RigidWorld world, std::vector<BodyState> states, Scheme scheme, double step)
     : world_(std::make_unique<const RigidWorld>(std::move(world))), states_(std::move(states)), step_(step) {
   if (!(step > 0.0) || !std::isfinite(step)) {
-    throw std::invalid_argument("simulation: the time step must be finite and positive, got " + std::to_string(step));
+    throw std::invalid_argument("simulation: the time step must be finite and positive, got " + numberText(step));
   }
   validate(*world_, states_);
   integrator_ = makeIntegrator(scheme, *world_);

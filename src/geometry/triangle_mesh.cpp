@@ -6,11 +6,13 @@
 #include <string>
 #include <unordered_map>
 
+#include "sdf_ccd/geometry/number_text.h"
+
 namespace sdf_ccd {
 namespace {
 
 std::string text(const Vector3d& p) {
-  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+  return "(" + numberText(p.x()) + ", " + numberText(p.y()) + ", " + numberText(p.z()) + ")";
 }
 
 struct PointHash {
@@ -48,8 +50,8 @@ void validate(const TriangleMesh& mesh) {
   const double extent = box.sizes().maxCoeff();
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   if (!(extent <= 1e6) || !(reach <= 1e9)) {
-    throw std::invalid_argument("the mesh is too large or too far away: " + std::to_string(extent) +
-                                " m wide, reaching to " + std::to_string(reach) + " m");
+    throw std::invalid_argument("the mesh is too large or too far away: " + numberText(extent) +
+                                " m wide, reaching to " + numberText(reach) + " m");
   }
   if (!(extent >= 1e-9)) throw std::invalid_argument("the mesh is a mere point at " + text(box.min()));
 }

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sdf_ccd/geometry/number_text.h"
+
 namespace sdf_ccd {
 
 void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const ChordOptions& options, ChordPath& path) {
@@ -13,7 +15,7 @@ void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const C
                                 std::to_string(motion.X_FP.size()) + " poses");
   }
   if (!(options.tolerance > 0.0) || options.max_chords < 1) {
-    throw std::invalid_argument("chord options: tolerance " + std::to_string(options.tolerance) + ", max_chords " +
+    throw std::invalid_argument("chord options: tolerance " + numberText(options.tolerance) + ", max_chords " +
                                 std::to_string(options.max_chords));
   }
   path.chords.clear();
@@ -21,7 +23,7 @@ void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const C
   for (std::size_t k = 0; k + 1 < motion.times.size(); ++k) {
     const double t0 = motion.times[k], t1 = motion.times[k + 1];
     if (!std::isfinite(t0) || !std::isfinite(t1) || t1 <= t0) {
-      throw std::invalid_argument("relative path: times " + std::to_string(t0) + " and " + std::to_string(t1) +
+      throw std::invalid_argument("relative path: times " + numberText(t0) + " and " + numberText(t1) +
                                   " do not increase");
     }
     const ScrewMotion screw(motion.X_FP[k], motion.X_FP[k + 1]);

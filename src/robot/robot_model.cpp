@@ -6,6 +6,7 @@
 
 #include "joint_motion.h"
 #include "parse_urdf.h"
+#include "sdf_ccd/geometry/number_text.h"
 #include "unread_links.h"
 #include "urdf_geometry.h"
 
@@ -52,7 +53,7 @@ void RobotModel::requireKnown(const JointPositions& positions) const {
   for (const auto& [name, value] : positions) {
     if (!urdf_->joints_.count(name)) throw std::invalid_argument("robot " + urdf_->name_ + " has no joint " + name);
     if (!std::isfinite(value)) {
-      throw std::invalid_argument("joint " + name + ": position " + std::to_string(value) + " is not finite");
+      throw std::invalid_argument("joint " + name + ": position " + numberText(value) + " is not finite");
     }
   }
 }

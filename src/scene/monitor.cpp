@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "pair_checker.h"
+#include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -31,11 +32,11 @@ std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
 void validate(const CycleMotion& motion, const Scene& scene) {
   const std::size_t bodies = scene.bodies.size();
   if (motion.times.size() < 2) refuse(std::to_string(motion.times.size()) + " times, two or more are needed");
-  if (motion.times.front() != 0.0) refuse("starts at " + std::to_string(motion.times.front()) + " s, not 0");
+  if (motion.times.front() != 0.0) refuse("starts at " + numberText(motion.times.front()) + " s, not 0");
   for (std::size_t k = 1; k < motion.times.size(); ++k) {
     const double last = motion.times[k - 1], time = motion.times[k];
     if (!(last < time) || !std::isfinite(time))
-      refuse("time " + std::to_string(last) + " s is followed by " + std::to_string(time));
+      refuse("time " + numberText(last) + " s is followed by " + numberText(time));
   }
   const std::size_t pairs = scene.pairs.size();
   if (!motion.spans.empty() && motion.spans.size() != pairs)
@@ -54,7 +55,7 @@ void validate(const CycleMotion& motion, const Scene& scene) {
              std::to_string(motion.times.size()) + " times");
     if (motion.motion_error.empty()) continue;
     const double error = motion.motion_error[b];
-    if (!(error >= 0.0)) refuse("motion error of " + name + " is " + std::to_string(error));
+    if (!(error >= 0.0)) refuse("motion error of " + name + " is " + numberText(error));
   }
 }
 
@@ -107,7 +108,7 @@ struct Monitor::Impl {
 Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options) : impl_(new Impl) {
   validate(options.contact);
   if (!(options.chords.tolerance > 0.0) || !std::isfinite(options.chords.tolerance))
-    throw std::invalid_argument("monitor: chord tolerance " + std::to_string(options.chords.tolerance) + " m");
+    throw std::invalid_argument("monitor: chord tolerance " + numberText(options.chords.tolerance) + " m");
   if (options.chords.max_chords < 1)
     throw std::invalid_argument("monitor: max_chords " + std::to_string(options.chords.max_chords));
   if (!scene) throw std::invalid_argument("monitor: no scene");

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sdf_ccd/geometry/number_text.h"
 #include "surface_piece.h"
 
 namespace sdf_ccd {
@@ -51,7 +52,7 @@ SurfaceFiller::SurfaceFiller(const TriangleMesh& mesh, const ShellOptions& optio
 
 void SurfaceFiller::add(const Vector3d& p, const Vector3d& normal) {
   if (shell_.size() >= options_.max_points) {
-    throw std::length_error("a point every " + std::to_string(options_.spacing) + " m needs more than " +
+    throw std::length_error("a point every " + numberText(options_.spacing) + " m needs more than " +
                             std::to_string(options_.max_points) + " points");
   }
   shell_.points.push_back(p);

@@ -72,7 +72,7 @@ void run(const Arguments& arguments) {
   Simulation simulation(setup.world, setup.states, setup.scheme, setup.step);
   const double wanted = std::ceil(setup.duration / setup.step - 1e-9);
   if (!(wanted >= 1.0) || !(wanted <= 1e9)) {
-    throw std::runtime_error("duration / step must be 1 to 1e9 steps, got " + std::to_string(wanted));
+    throw std::runtime_error("duration / step must be 1 to 1e9 steps, got " + shortly(wanted));
   }
   SimulationOutput out(arguments.out, setup, arguments.frames);
   const StepRecord start = simulation.last();
