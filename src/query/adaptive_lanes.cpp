@@ -3,6 +3,7 @@
 #define HWY_TARGET_INCLUDE "adaptive_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -75,32 +76,51 @@ struct Lanes {
 /// The block that each lane is in.
 struct Blocks {
   VI log_side;
-  VI leaf;    ///< index; where `far`, undefined
+  VI leaf;    ///< index; of a top cell's node where `node`
   VF radius;  ///< where `far`: signed distance of the surface from the centre [units]
   MI far;
+  MI node;  ///< to be asked further, with locateBelow()
 };
 
-inline Blocks locate(const LaneGrid& g, const VI* cell) {
+/// Which of its eight halves each lane is in.
+inline VI halfOf(const VI* cell, VI log_half) {
+  const VI one = whole(1);
+  const auto bit = [&](VI c) { return hn::And(hn::Shr(c, log_half), one); };
+  return hn::Or(bit(cell[0]), hn::Or(hn::ShiftLeft<1>(bit(cell[1])), hn::ShiftLeft<2>(bit(cell[2]))));
+}
+
+inline void enterSplits(MI split, const VI* cell, Blocks& b) {
+  if (hn::AllFalse(n, split)) return;
+  b.log_side = hn::IfThenElse(split, hn::Sub(b.log_side, whole(1)), b.log_side);
+  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.leaf), halfOf(cell, b.log_side)), whole(Flight::kSplit));
+  b.leaf = hn::IfThenElse(split, leaf, b.leaf);
+}
+
+/// By the top grid alone.
+inline Blocks locateTop(const LaneGrid& g, const VI* cell) {
   const VI x = hn::ShiftRight<kLogTop>(cell[0]), y = hn::ShiftRight<kLogTop>(cell[1]),
            z = hn::ShiftRight<kLogTop>(cell[2]);
   const VI row = hn::Add(hn::Mul(z, whole(g.top_size[1])), y);
   const VI word = gather(g.top, hn::Add(hn::Mul(row, whole(g.top_size[0])), x));
   const VI kind = hn::And(word, whole(3));
-  const VI index = hn::And(hn::ShiftRight<2>(word), whole(0x3FFFFFFF));
-  const auto corner = [&](VI shift) {
-    const VI one = whole(1);
-    return hn::Or(hn::And(hn::Shr(cell[0], shift), one),
-                  hn::Or(hn::ShiftLeft<1>(hn::And(hn::Shr(cell[1], shift), one)),
-                         hn::ShiftLeft<2>(hn::And(hn::Shr(cell[2], shift), one))));
-  };
   Blocks b;
   b.far = hn::Eq(kind, whole(0));
+  b.node = hn::Eq(kind, whole(3));
   b.radius = hn::Mul(hn::BitCast(f, hn::AndNot(whole(3), word)), real(g.per_metre));
   b.log_side = whole(kLogTop);
-  b.leaf = index;
-  MI split = hn::Eq(kind, whole(2));
-  MI node = hn::Eq(kind, whole(3));
-  VI node_index = hn::IfThenElseZero(node, index);
+  b.leaf = hn::And(hn::ShiftRight<2>(word), whole(0x3FFFFFFF));
+  enterSplits(hn::Eq(kind, whole(2)), cell, b);
+  return b;
+}
+
+/// Below a top cell's node.
+inline Blocks locateBelow(const LaneGrid& g, const VI* cell, VI node_index) {
+  Blocks b;
+  b.far = b.node = none();
+  b.radius = real(0.0F);
+  b.log_side = whole(kLogTop);
+  b.leaf = hn::Zero(n);
+  MI split = none(), node = hn::FirstN(n, hn::Lanes(n));
   int shift = kLogTop - 2;
   for (int depth = 0; !hn::AllFalse(n, node); ++depth, shift -= 2) {
     const VI three = whole(3), by = whole(shift);
@@ -132,11 +152,7 @@ inline Blocks locate(const LaneGrid& g, const VI* cell) {
     node = is_node;
     node_index = hn::IfThenElseZero(node, found);
   }
-  if (!hn::AllFalse(n, split)) {
-    b.log_side = hn::IfThenElse(split, hn::Sub(b.log_side, whole(1)), b.log_side);
-    const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.leaf), corner(b.log_side)), whole(Flight::kSplit));
-    b.leaf = hn::IfThenElse(split, leaf, b.leaf);
-  }
+  enterSplits(split, cell, b);
   return b;
 }
 
@@ -170,6 +186,7 @@ inline Exits exitsOf(const Lanes& lanes, VI log_side) {
 /// Steps lanes to t: through the exit's face, or (`jump`) anywhere. @return lanes that have left the grid.
 inline MI advance(const LaneGrid& g, const Exits& e, MF jump, VF t, MI moving, Lanes& lanes) {
   MI outside = none();
+  VI next[3];
   for (int k = 0; k < 3; ++k) {
     const VI high = hn::Add(e.low[k], e.side);
     const VI last = whole(g.top_size[k] * AdaptiveShape::kUnits - 1);
@@ -181,8 +198,11 @@ inline MI advance(const LaneGrid& g, const Exits& e, MF jump, VF t, MI moving, L
     const VI jumped = hn::Min(hn::Max(at, whole(0)), last);
     const VI cell = hn::IfThenElse(asWhole(jump), jumped, stepped);
     outside = hn::Or(outside, hn::Or(hn::Lt(cell, whole(0)), hn::Gt(cell, last)));
-    lanes.cell[k] = hn::IfThenElse(moving, cell, lanes.cell[k]);
+    next[k] = cell;
   }
+  // Lanes outside stay where they were: all lanes read memory, also those that are done.
+  const MI inside = hn::AndNot(outside, moving);
+  for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::IfThenElse(inside, next[k], lanes.cell[k]);
   lanes.t = hn::IfThenElse(asReal(moving), t, lanes.t);
   return hn::And(moving, outside);
 }
@@ -220,8 +240,9 @@ class Follower {
         work_.lost.assign(work_.moving.begin(), work_.moving.begin() + moving);
         return;
       }
-      next_ = at_leaf_ = 0;
-      for (int i = 0; i < moving; i += int(hn::Lanes(f))) move(i, moving - i);
+      next_ = at_leaf_ = at_node_ = 0;
+      for (int i = 0; i < moving; i += 2 * int(hn::Lanes(f))) move(i, moving - i);
+      for (int i = 0; i < at_node_; i += 2 * int(hn::Lanes(f))) descend(i, at_node_ - i);
       for (int i = 0; i < at_leaf_; i += int(hn::Lanes(f))) cross(i, at_leaf_ - i);
       std::swap(work_.moving, work_.spare);
       moving = next_;
@@ -278,61 +299,138 @@ class Follower {
     });
   }
 
-  /// From ball to ball, and from one far cell to the next, until most lanes are at a leaf or done.
+  /// A vector of flights that are moved together.
+  struct Moving {
+    VI index;
+    Lanes lanes;
+    VF length2, inverse2;
+    MI live;            ///< still on their way
+    MI at_leaf;         ///< have come to one
+    MI at_node;         ///< of a top cell; below one: have left its top cell
+    VI leaf, log_side;  ///< where they have come to; below a node: the node
+
+    Moving(const Flight& flight, MI used, VI numbers)
+        : index(numbers),
+          lanes(flight, numbers),
+          live(used),
+          at_leaf(none()),
+          at_node(none()),
+          leaf(hn::Zero(n)),
+          log_side(hn::Zero(n)) {
+      length2 = hn::MulAdd(lanes.d[0], lanes.d[0], hn::MulAdd(lanes.d[1], lanes.d[1], hn::Mul(lanes.d[2], lanes.d[2])));
+      inverse2 = hn::Div(real(1.0F), hn::Max(length2, real(1e-30F)));
+    }
+  };
+
+  Moving take(const FlightList& list, int first, int left) const {
+    const MI used = hn::FirstN(n, std::size_t(std::max(left, 0)));
+    const int begin = std::min(first, Flight::kCapacity);
+    return {flight_, used, hn::IfThenElseZero(used, hn::LoadU(n, list.data() + begin))};
+  }
+
+  /// Through the top grid: from ball to ball, and from one far cell to the next, until most lanes are at a leaf, at a
+  /// node or done. Two vectors at a time: while one waits for memory the other goes on.
   void move(int first, int left) {
-    const MI used = hn::FirstN(n, std::size_t(left));
-    const VI index = hn::IfThenElseZero(used, hn::LoadU(n, work_.moving.data() + first));
-    Lanes lanes(flight_, index);
-    const VF length2 =
-        hn::MulAdd(lanes.d[0], lanes.d[0], hn::MulAdd(lanes.d[1], lanes.d[1], hn::Mul(lanes.d[2], lanes.d[2])));
-    const VF inverse2 = hn::Div(real(1.0F), hn::Max(length2, real(1e-30F)));
-    MI live = used, at_leaf = none();
-    VI leaf = hn::Zero(n), log_side = hn::Zero(n);
-    const std::size_t few = hn::Lanes(f) / 4;
+    const int lanes = int(hn::Lanes(f));
+    Moving a = take(work_.moving, first, left), b = take(work_.moving, first + lanes, left - lanes);
+    const std::size_t few = hn::Lanes(f) / 2;
     int steps = 0;
     do {
-      const Blocks block = locate(g_, lanes.cell);
-      const MI arrived = hn::AndNot(block.far, live);
-      leaf = hn::IfThenElse(arrived, block.leaf, leaf);
-      log_side = hn::IfThenElse(arrived, block.log_side, log_side);
-      at_leaf = hn::Or(at_leaf, arrived);
-      live = hn::And(live, block.far);
-      if (hn::AllFalse(n, live)) break;
-      live = hn::AndNot(turn(asWhole(hn::Lt(block.radius, real(0.0F))), live, lanes.t, index, lanes), live);
+      const Blocks at_a = locateTop(g_, a.lanes.cell), at_b = locateTop(g_, b.lanes.cell);
+      step(at_a, a);
+      step(at_b, b);
+    } while (hn::CountTrue(n, a.live) + hn::CountTrue(n, b.live) > few && ++steps < 4096);
+    put(a);
+    put(b);
+    for (Moving* m : {&a, &b}) {
+      if (hn::AllFalse(n, m->at_node)) continue;
+      const Unpacked<std::int32_t> ids(m->index), nodes(m->leaf);
+      forEach(m->at_node, [&](std::size_t i) {
+        hwy::Prefetch(g_.codes + 16 * std::size_t(nodes[i]));
+        flight_.leaf[ids[i]] = nodes[i];
+      });
+      store(m->at_node, m->index, m->lanes, work_.at_node, at_node_);
+    }
+  }
 
-      const Exits exits = exitsOf(lanes, block.log_side);
-      // The ball about the block's centre, seen from where the lane is: small numbers, so that little is rounded.
-      const VF half = hn::Mul(hn::ConvertTo(f, exits.side), real(0.5F));
-      VF b = real(0.0F), c = real(0.0F);
-      for (int k = 0; k < 3; ++k) {
-        const VF at = hn::MulAdd(lanes.d[k], lanes.t, lanes.o[k]);
-        const VF from = hn::Sub(at, hn::Add(hn::ConvertTo(f, exits.low[k]), half));
-        b = hn::MulAdd(from, lanes.d[k], b);
-        c = hn::MulAdd(from, from, c);
-      }
-      const VF radius =
-          hn::Sub(hn::MulAdd(hn::Abs(block.radius), real(1.0F - 1e-5F), real(-0.01F)), real(std::abs(g_.sigma)));
-      const VF excess = hn::NegMulAdd(radius, radius, c);
-      const VF discriminant = hn::NegMulAdd(length2, excess, hn::Mul(b, b));
-      const VF root = hn::Sqrt(hn::Max(discriminant, real(0.0F)));
-      const VF t_ball = hn::MulAdd(hn::Sub(root, b), inverse2, lanes.t);
-      const MF jump = hn::And(hn::And(hn::Lt(excess, real(0.0F)), hn::Gt(radius, real(0.0F))), hn::Gt(t_ball, exits.t));
-      const VF t = hn::IfThenElse(jump, t_ball, exits.t);
-      MI done = hn::And(live, asWhole(hn::Ge(t, real(1.0F))));
-      done = hn::Or(done, advance(g_, exits, jump, t, live, lanes));
-      finish(done, index, lanes);
-      live = hn::AndNot(done, live);
-    } while (hn::CountTrue(n, live) > few && ++steps < 4096);
+  /// The same below the nodes of top cells, until most lanes have left their top cell.
+  void descend(int first, int left) {
+    const int lanes = int(hn::Lanes(f));
+    Moving a = take(work_.at_node, first, left), b = take(work_.at_node, first + lanes, left - lanes);
+    const VI node_a = hn::GatherIndex(n, flight_.leaf.data(), a.index);
+    const VI node_b = hn::IfThenElse(b.live, hn::GatherIndex(n, flight_.leaf.data(), b.index), node_a);
+    descendOnce(hn::IfThenElse(a.live, node_a, hn::Zero(n)), a);
+    descendOnce(hn::IfThenElse(b.live, node_b, hn::Zero(n)), b);
+    const std::size_t few = hn::Lanes(f) / 2;
+    int steps = 0;
+    while (hn::CountTrue(n, a.live) + hn::CountTrue(n, b.live) > few && ++steps < 4096) {
+      descendOnce(hn::IfThenElseZero(a.live, node_a), a);
+      descendOnce(hn::IfThenElseZero(b.live, node_b), b);
+    }
+    put(a);
+    put(b);
+    for (Moving* m : {&a, &b}) {
+      if (!hn::AllFalse(n, m->at_node)) store(m->at_node, m->index, m->lanes, work_.spare, next_);
+    }
+  }
 
-    if (!hn::AllFalse(n, at_leaf)) {
-      const Unpacked<std::int32_t> ids(index), leaves(leaf), sides(log_side);
-      forEach(at_leaf, [&](std::size_t i) {
-        flight_.leaf[ids[i]] = leaves[i];
+  void descendOnce(VI node, Moving& m) {
+    const auto topOf = [&](int k) { return hn::ShiftRight<kLogTop>(m.lanes.cell[k]); };
+    const VI before[3] = {topOf(0), topOf(1), topOf(2)};
+    step(locateBelow(g_, m.lanes.cell, node), m);
+    const MI stays =
+        hn::And(hn::Eq(before[0], topOf(0)), hn::And(hn::Eq(before[1], topOf(1)), hn::Eq(before[2], topOf(2))));
+    m.at_node = hn::Or(m.at_node, hn::AndNot(stays, m.live));
+    m.live = hn::And(m.live, stays);
+  }
+
+  void step(const Blocks& block, Moving& m) {
+    Lanes& lanes = m.lanes;
+    const MI arrived = hn::AndNot(block.far, m.live);
+    m.leaf = hn::IfThenElse(arrived, block.leaf, m.leaf);
+    m.log_side = hn::IfThenElse(arrived, block.log_side, m.log_side);
+    m.at_node = hn::Or(m.at_node, hn::And(arrived, block.node));
+    m.at_leaf = hn::Or(m.at_leaf, hn::AndNot(block.node, arrived));
+    m.live = hn::And(m.live, block.far);
+    if (hn::AllFalse(n, m.live)) return;
+    const MI inside = asWhole(hn::Lt(block.radius, real(0.0F)));
+    m.live = hn::AndNot(turn(inside, m.live, lanes.t, m.index, lanes), m.live);
+
+    const Exits exits = exitsOf(lanes, block.log_side);
+    // The ball about the block's centre, seen from where the lane is: small numbers, so that little is rounded.
+    const VF half = hn::Mul(hn::ConvertTo(f, exits.side), real(0.5F));
+    VF b = real(0.0F), c = real(0.0F);
+    for (int k = 0; k < 3; ++k) {
+      const VF at = hn::MulAdd(lanes.d[k], lanes.t, lanes.o[k]);
+      const VF from = hn::Sub(at, hn::Add(hn::ConvertTo(f, exits.low[k]), half));
+      b = hn::MulAdd(from, lanes.d[k], b);
+      c = hn::MulAdd(from, from, c);
+    }
+    const VF radius = hn::Sub(hn::MulAdd(hn::Abs(block.radius), real(1.0F - 1e-5F), real(-0.01F)), real(g_.margin));
+    const VF excess = hn::NegMulAdd(radius, radius, c);
+    const VF discriminant = hn::NegMulAdd(m.length2, excess, hn::Mul(b, b));
+    const VF root = hn::Sqrt(hn::Max(discriminant, real(0.0F)));
+    const VF t_ball = hn::MulAdd(hn::Sub(root, b), m.inverse2, lanes.t);
+    const MF jump = hn::And(hn::And(hn::Lt(excess, real(0.0F)), hn::Gt(radius, real(0.0F))), hn::Gt(t_ball, exits.t));
+    const VF t = hn::IfThenElse(jump, t_ball, exits.t);
+    MI done = hn::And(m.live, asWhole(hn::Ge(t, real(1.0F))));
+    done = hn::Or(done, advance(g_, exits, jump, t, m.live, lanes));
+    finish(done, m.index, lanes);
+    m.live = hn::AndNot(done, m.live);
+  }
+
+  void put(const Moving& m) {
+    if (!hn::AllFalse(n, m.at_leaf)) {
+      const Unpacked<std::int32_t> ids(m.index), leaves(m.leaf), sides(m.log_side);
+      forEach(m.at_leaf, [&](std::size_t i) {
+        const std::int32_t leaf = leaves[i];
+        hwy::Prefetch(leaf >= Flight::kSplit ? g_.splits + 2 * (leaf - Flight::kSplit) : g_.leaves + 2 * leaf);
+        flight_.leaf[ids[i]] = leaf;
         flight_.log_side[ids[i]] = sides[i];
       });
-      store(at_leaf, index, lanes, work_.at_leaf, at_leaf_);
+      store(m.at_leaf, m.index, m.lanes, work_.at_leaf, at_leaf_);
     }
-    if (!hn::AllFalse(n, live)) store(live, index, lanes, work_.spare, next_);
+    if (!hn::AllFalse(n, m.live)) store(m.live, m.index, m.lanes, work_.spare, next_);
   }
 
   /// Through a leaf.
@@ -499,7 +597,7 @@ class Follower {
   bool first_only_;
   Flight& flight_;
   FlightWork& work_;
-  int next_ = 0, at_leaf_ = 0;  ///< entries of work_.spare and work_.at_leaf
+  int next_ = 0, at_leaf_ = 0, at_node_ = 0;  ///< entries of work_.spare, at_leaf and at_node
 };
 
 }  // namespace

@@ -18,8 +18,9 @@ struct LaneGrid {
   const std::uint32_t* leaves;  ///< two words each
   const std::uint32_t* splits;
   std::array<std::int32_t, 3> top_size;
-  float per_metre;                      ///< units
-  float sigma;                          ///< [units]
+  float per_metre;  ///< units
+  float sigma;      ///< [units]
+  float margin;     ///< |sigma| and the leaves' error: a ball of the true distance less this is free [units]
   std::array<float, 3> far_step;        ///< [units], by depth
   std::array<float, 8> offset, corner;  ///< [units] per step, by log2 of the leaf's side
 };
@@ -52,7 +53,7 @@ struct FlightHit {
 using FlightList = Flight::Column<std::int32_t>;
 
 struct FlightWork {
-  FlightList moving, at_leaf, spare;
+  FlightList moving, at_node, at_leaf, spare;
   std::vector<FlightHit> hits;
   std::vector<std::int32_t> lost;  ///< to be asked one by one: those that did not end
 };

@@ -40,18 +40,23 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
   const AdaptiveShape& shape = grid.shape();
   GridWalk walk = walkThrough(grid, segment);
   const BallExit ball_exit(segment);
+  // Balls are free of the true isosurface; leaves may carry it nearer by their error.
+  const double margin = std::abs(options.sigma) + shape.error_bound;
   while (walk.inside()) {
     const AdaptiveBlock block = grid.block(walk.cell());
     const double t_exit = walk.exit(block.low, block.low.array() + block.side);
     if (block.leaf) {
-      appendCellSpans(grid.corners(block), walk, {block.low, block.side, t_exit}, options.sigma, intervals);
+      // A leaf that is met in one of its corners only says nothing: its neighbours' values there may differ.
+      if (t_exit > walk.t()) {
+        appendCellSpans(grid.corners(block), walk, {block.low, block.side, t_exit}, options.sigma, intervals);
+      }
       walk.advance();
     } else {
       // All of the block is on one side, and so is the ball about its centre that reaches to the isosurface. Less a
       // little: the ball is measured in metres and the walk in units.
       const Vector3d center =
           shape.origin + shape.unit() * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
-      const double radius = (std::abs(block.distance) - std::abs(options.sigma)) * (1.0 - 1e-9);
+      const double radius = (std::abs(block.distance) - margin) * (1.0 - 1e-9);
       const double t_ball = ball_exit(center, radius, t_exit);
       if (block.distance < 0.0) appendSpan(intervals, walk.t(), std::min(t_ball, walk.end()));
       if (t_ball > t_exit) {

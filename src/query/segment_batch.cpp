@@ -147,6 +147,7 @@ LaneGrid::LaneGrid(const AdaptiveGrid& grid, double sigma_metres) {
   const double to_units = 1.0 / grid.shape().unit();
   per_metre = static_cast<float>(to_units);
   sigma = static_cast<float>(sigma_metres * to_units);
+  margin = static_cast<float>((std::abs(sigma_metres) + grid.shape().error_bound) * to_units);
   for (int k = 0; k < 3; ++k) far_step[k] = static_cast<float>(grid.farStep(k) * to_units);
   for (int k = 0; k < 8; ++k) {
     offset[k] = static_cast<float>(grid.scale(1 << k).offset * to_units);
