@@ -127,37 +127,41 @@ void AdaptiveGrid::check() const {
 }
 
 AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
-  int side = AdaptiveShape::kUnits;
-  const Vector3i cell = unit / side;
-  Vector3i low = side * cell;
-  const std::uint32_t word =
-      arrays_.top[(std::size_t(cell.z()) * shape_.size.y() + cell.y()) * shape_.size.x() + cell.x()];
-  std::uint32_t index = word >> 2;
-  const auto splitBlock = [&](std::uint32_t split) {
-    side /= 2;
-    const Vector3i half = (unit - low) / side;
-    const int k = half.x() + 2 * half.y() + 4 * half.z();
-    return AdaptiveBlock{low + side * half, side, true, arrays_.splits[split].leaves[k], 0.0};
+  // Sides are powers of two: shifts and masks, as a division costs as much as a miss in the cache.
+  constexpr int kTop = 7;
+  static_assert(1 << kTop == AdaptiveShape::kUnits, "a top cell's side");
+  const int x = unit.x(), y = unit.y(), z = unit.z();
+  const auto lowOf = [&](int shift) { return Vector3i(x >> shift << shift, y >> shift << shift, z >> shift << shift); };
+  const auto far = [&](int shift, double distance) {
+    return AdaptiveBlock{lowOf(shift), 1 << shift, false, 0, distance};
   };
+  const auto leaf = [&](int shift, LeafWord word) { return AdaptiveBlock{lowOf(shift), 1 << shift, true, word, 0.0}; };
+  const auto half = [&](int shift, std::uint32_t split) {
+    --shift;
+    const int k = (x >> shift & 1) | (y >> shift & 1) << 1 | (z >> shift & 1) << 2;
+    return leaf(shift, arrays_.splits[split].leaves[k]);
+  };
+
+  const std::uint32_t word =
+      arrays_.top[(std::size_t(z >> kTop) * shape_.size.y() + (y >> kTop)) * shape_.size.x() + (x >> kTop)];
+  std::uint32_t index = word >> 2;
   switch (word & top_word::kKind) {
     case top_word::kFar:
-      return {low, side, false, 0, top_word::distance(word)};
+      return far(kTop, top_word::distance(word));
     case top_word::kLeaf:
-      return {low, side, true, arrays_.leaves[index], 0.0};
+      return leaf(kTop, arrays_.leaves[index]);
     case top_word::kSplit:
-      return splitBlock(index);
+      return half(kTop, index);
     default:
       break;
   }
-  for (int depth = 0;; ++depth) {
-    side /= 4;
-    const Vector3i child = (unit - low) / side;
-    low += side * child;
-    const std::uint8_t code = arrays_.nodes[index].codes[child.x() + 4 * child.y() + 16 * child.z()];
+  for (int depth = 0, shift = kTop - 2;; ++depth, shift -= 2) {
+    const int child = (x >> shift & 3) | (y >> shift & 3) << 2 | (z >> shift & 3) << 4;
+    const std::uint8_t code = arrays_.nodes[index].codes[child];
+    if (code >= node_code::kFar) return far(shift, node_code::steps(code) * far_steps_[depth]);
     const NodeBases& bases = arrays_.bases[index];
-    if (code >= node_code::kFar) return {low, side, false, 0, node_code::steps(code) * far_steps_[depth]};
-    if (code < node_code::kNode) return {low, side, true, arrays_.leaves[bases.leaf + code], 0.0};
-    if (code >= node_code::kSplit) return splitBlock(bases.split + (code - node_code::kSplit));
+    if (code < node_code::kNode) return leaf(shift, arrays_.leaves[bases.leaf + code]);
+    if (code >= node_code::kSplit) return half(shift, bases.split + (code - node_code::kSplit));
     index = bases.node + (code - node_code::kNode);
   }
 }
