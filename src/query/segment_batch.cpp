@@ -84,8 +84,9 @@ class Chunk {
       Vector3d start = (segment.start - shape.origin) * per_metre;
       Vector3d step = (segment.end - segment.start) * per_metre;
       const Vector3d end = start + step;
-      if (!(end - end + start).allFinite()) {
-        throw std::invalid_argument("segment query: segment " + std::to_string(first + i) + " is not finite");
+      if (!isWithinReach(segment)) {
+        throw std::invalid_argument("segment query: segment " + std::to_string(first + i) +
+                                    " is not finite, or reaches farther than 1e12 m");
       }
       double t0 = 0.0, t1 = 1.0;
       if ((start.array() < 0.0).any() || (end.array() < 0.0).any() || (start.array() > size.array()).any() ||

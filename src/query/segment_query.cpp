@@ -11,8 +11,8 @@ namespace sdf_ccd {
 void segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options,
                       Intervals& intervals) {
   intervals.clear();
-  if (!segment.start.allFinite() || !segment.end.allFinite()) {
-    throw std::invalid_argument("segment query: the segment is not finite");
+  if (!isWithinReach(segment)) {
+    throw std::invalid_argument("segment query: the segment is not finite, or reaches farther than 1e12 m");
   }
   if (!(std::abs(options.sigma) <= field.band())) {
     throw std::invalid_argument("segment query: isovalue " + std::to_string(options.sigma) +

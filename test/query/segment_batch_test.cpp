@@ -198,7 +198,7 @@ TEST(SegmentBatch, RefusesWhatIsNotFiniteOrOutsideTheBand) {
   std::vector<Segment> segments(3, Segment{Vector3d::Zero(), Vector3d::Ones()});
   BatchResult result;
   EXPECT_THROW(segmentIntervals(field, segments.data(), 3, {1.0, SegmentMode::kAll}, result), std::invalid_argument);
-  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e308}) {
     segments[1].end.y() = bad;
     EXPECT_THROW(segmentIntervals(field, segments.data(), 3, {}, result), std::invalid_argument);
   }

@@ -345,6 +345,7 @@ TEST(SegmentQuery, RefusesWhatIsNotFinite) {
   const DistanceField sphere{Primitive(Sphere{0.5})};
   EXPECT_THROW(segmentIntervals(sphere, {{NAN, 0, 0}, {1, 0, 0}}), std::invalid_argument);
   EXPECT_THROW(segmentIntervals(sphere, {{0, 0, 0}, {INFINITY, 0, 0}}), std::invalid_argument);
+  EXPECT_THROW(segmentIntervals(sphere, {{1e308, 0, 0}, {-1e308, 0, 0}}), std::invalid_argument);
   EXPECT_THROW(segmentIntervals(sphere, {{0, 0, 0}, {1, 0, 0}}, {NAN, false}), std::invalid_argument);
   FieldOptions options;
   options.cells = 16;

@@ -37,10 +37,10 @@ struct BatchResult {
 /// the segment's way, and a segment that grazes the isosurface closer than that may be given as a hit or as none.
 /// Other fields are asked one by one. The result does not depend on the number of threads; between processors with
 /// other vector instructions it may differ within the tolerance.
-/// @param segments  finite; `count` of them, at most 2³² − 1.
+/// @param segments  each within reach (isWithinReach()); `count` of them, at most 2³² − 1.
 /// @param options   |sigma| ≤ field.band().
 /// @param result    replaced; its memory is reused.
-/// @throws std::invalid_argument if a segment is not finite (naming the first) or sigma lies outside the band.
+/// @throws std::invalid_argument if a segment is not within reach (naming it) or sigma lies outside the band.
 void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
                       const BatchOptions& options, BatchResult& result);
 

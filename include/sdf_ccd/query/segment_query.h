@@ -11,6 +11,13 @@ struct Segment {
   Vector3d end;
 };
 
+/// False for a segment that no query takes: not finite, or so long that a parameter in double precision cannot tell
+/// places on it apart (a coordinate beyond 1e12 m).
+inline bool isWithinReach(const Segment& segment) {
+  return segment.start.lpNorm<Eigen::Infinity>() <= 1e12 && segment.end.lpNorm<Eigen::Infinity>() <= 1e12 &&
+         segment.start.allFinite() && segment.end.allFinite();
+}
+
 struct SegmentOptions {
   double sigma = 0.0;       ///< isovalue [m]; 0 is the surface
   bool first_only = false;  ///< stop after the first interval
@@ -21,11 +28,11 @@ struct SegmentOptions {
 /// Source: Xu & Barbič 2014, §3.1, Eq. (2); skips: §3.2. Differs: in each cell the cubic's roots are isolated and
 /// bracketed, so two crossings in one cell are found (the paper's sign test loses them).
 /// @param field    φ [m], frame F.
-/// @param segment  finite.
+/// @param segment  within reach, see above.
 /// @param options  |sigma| ≤ field.band().
 /// @param intervals  replaced by disjoint, increasing intervals within [0, 1]; empty if there is none. A point that
 ///                 only touches gives an interval of no length; a segment that starts inside one from 0.
-/// @throws std::invalid_argument if an input is not finite or sigma lies outside the band.
+/// @throws std::invalid_argument if the segment is not within reach or sigma lies outside the band.
 /// Guarantee: every root of the interpolated field, to 1e-9 of the path. Outside the grid nothing is inside.
 void segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options,
                       Intervals& intervals);
