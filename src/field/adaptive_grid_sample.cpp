@@ -1,7 +1,5 @@
 #include "grid_sample.h"
 
-#include <limits>
-
 namespace sdf_ccd {
 namespace {
 
@@ -75,37 +73,19 @@ FieldSample farSample(const AdaptiveGrid& grid, const LocatedBlock& at, const Ve
 
 }  // namespace
 
-DistanceBounds gridBounds(const AdaptiveGrid& grid, const Vector3d& p_F) {
-  const AdaptiveShape& shape = grid.shape();
-  const double to_surface_box = shape.surface_box.exteriorDistance(p_F);
-  if (!shape.box().contains(p_F)) return {to_surface_box, std::numeric_limits<double>::infinity()};
+DistanceBounds boundsWithin(const AdaptiveGrid& grid, const Vector3d& p_F) {
   const LocatedBlock at = locate(grid, p_F);
-  DistanceBounds bounds{};
-  if (at.block.leaf) {
-    const double value = trilinear(grid.corners(at.block), at.u);
-    bounds = {value - shape.error_bound, value + shape.error_bound};
-  } else {
-    bounds = farBounds(grid, at);
-  }
-  // Inside the surface's box a point may be inside the body, so the distance to the box says nothing there.
-  if (to_surface_box > 0.0) bounds.low = std::max(bounds.low, to_surface_box);
-  return bounds;
+  if (!at.block.leaf) return farBounds(grid, at);
+  const double value = trilinear(grid.corners(at.block), at.u), error = grid.shape().error_bound;
+  return {value - error, value + error};
 }
 
-FieldSample gridSample(const AdaptiveGrid& grid, const Vector3d& p_F) {
-  const AdaptiveShape& shape = grid.shape();
-  const AlignedBox3d box = shape.box();
-  const Vector3d q = p_F.cwiseMax(box.min()).cwiseMin(box.max());
-  const LocatedBlock at = locate(grid, q);
-  FieldSample sample;
-  if (at.block.leaf) {
-    const std::array<double, 8> corners = grid.corners(at.block);
-    sample = {trilinear(corners, at.u), shape.error_bound,
-              trilinearGradient(corners, at.u) / (at.block.side * shape.unit())};
-  } else {
-    sample = farSample(grid, at, q);
-  }
-  return q == p_F ? sample : outsideSample(shape.surface_box, p_F, q, sample);
+FieldSample sampleWithin(const AdaptiveGrid& grid, const Vector3d& p_F) {
+  const LocatedBlock at = locate(grid, p_F);
+  if (!at.block.leaf) return farSample(grid, at, p_F);
+  const std::array<double, 8> corners = grid.corners(at.block);
+  return {trilinear(corners, at.u), grid.shape().error_bound,
+          trilinearGradient(corners, at.u) / (at.block.side * grid.shape().unit())};
 }
 
 }  // namespace sdf_ccd

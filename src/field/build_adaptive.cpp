@@ -66,18 +66,13 @@ void AdaptiveBuilder::count(std::size_t bytes) {
 
 void AdaptiveBuilder::measureCenters() {
   centers_.resize(shape_.count());
-  const double cell = shape_.cell;
-  const auto inside = [&](const Vector3d& p) { return surface_.inside(p); };
+  const SignedSurface& exact = surface_.exact();
   tbb::parallel_for(0, shape_.size.z(), [&](int z) {
     for (int y = 0; y < shape_.size.y(); ++y) {
       double last = 0.0;
       for (int x = 0; x < shape_.size.x(); ++x) {
         const Vector3d p = topCenter({x, y, z});
-        const double limit = x == 0 ? TriangleTree::kInfinity : (std::abs(last) + cell) * (1.0 + 1e-9);
-        const double d = surface_.tree().closestPoint(p, limit).distance;
-        // The balls without surface about two neighbours meet: the sign is the same.
-        const bool same = x > 0 && surface_.closed() && d + std::abs(last) > cell * (1.0 + 1e-9);
-        last = (same ? last < 0.0 : inside(p)) ? -d : d;
+        last = x == 0 ? exact.signedDistance(p) : exact.nextDistance(p, last, shape_.cell);
         centers_[(std::size_t(z) * shape_.size.y() + y) * shape_.size.x() + x] = last;
       }
     }

@@ -9,7 +9,7 @@
 
 #include "build_adaptive.h"
 #include "progress_counter.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "signed_surface.h"
 
 namespace sdf_ccd {
 namespace {
@@ -42,14 +42,9 @@ GridShape shapeFor(const TriangleMesh& mesh, const FieldOptions& options) {
 /// Signed distances at grid points, with what one sample says of its neighbours put to use.
 class Sampler {
  public:
-  Sampler(const TriangleMesh& mesh, const GridShape& shape) : tree_(mesh), shape_(shape), closed_(isClosed(mesh)) {}
+  Sampler(const TriangleMesh& mesh, const GridShape& shape) : surface_(mesh), shape_(shape) {}
 
-  double distance(const Vector3d& p, double at_most) const { return tree_.closestPoint(p, at_most).distance; }
-
-  double signedDistance(const Vector3d& p) const {
-    const double d = distance(p, TriangleTree::kInfinity);
-    return inside(p) ? -d : d;
-  }
+  const SignedSurface& surface() const { return surface_; }
 
   /// All samples of a brick.
   void fill(const Vector3i& brick, float* samples) const {
@@ -63,7 +58,7 @@ class Sampler {
           const Vector3i i = GridShape::kBrick * brick + Vector3i(x, y, z);
           const Vector3d p = shape_.origin + h * i.cast<double>();
           const bool first = x == 0 && y == 0 && z == 0;
-          last = first ? signedDistance(p) : next(p, last);
+          last = first ? surface_.signedDistance(p) : surface_.nextDistance(p, last, h);
           *samples = static_cast<float>(last);
           if (x == 0) row_start = last;
           if (x == 0 && y == 0) layer_start = last;
@@ -73,19 +68,8 @@ class Sampler {
   }
 
  private:
-  bool inside(const Vector3d& p) const { return tree_.windingNumber(p) > 0.5; }
-
-  /// The sample one cell away from a sample of value `last`: the distance differs by h at most, and where the two
-  /// balls without surface meet, the sign is the same (if the sign cannot change elsewhere: closed meshes).
-  double next(const Vector3d& p, double last) const {
-    const double d = distance(p, (std::abs(last) + shape_.cell) * (1.0 + 1e-9));
-    if (closed_ && d + std::abs(last) > shape_.cell * (1.0 + 1e-9)) return last < 0.0 ? -d : d;
-    return inside(p) ? -d : d;
-  }
-
-  TriangleTree tree_;
+  SignedSurface surface_;
   GridShape shape_;
-  bool closed_;
 };
 
 /// Bricks that need samples: the distance at the centre, or a sign that changes between the corners, says that
@@ -105,7 +89,7 @@ bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vec
   if (nearest > needed + kSqrt3 * side) return false;
   const Vector3d center = shape.origin + side * (brick.cast<double>().array() + 0.5).matrix();
   const double reach = needed + 0.5 * kSqrt3 * side;
-  return sampler.distance(center, reach) < reach;
+  return sampler.surface().tree().closestPoint(center, reach).distance < reach;
 }
 
 }  // namespace
@@ -133,7 +117,7 @@ DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, 
     for (int y = 0; y < corner_counts.y(); ++y)
       for (int x = 0; x < corner_counts.x(); ++x) {
         const Vector3d p = shape.origin + GridShape::kBrick * shape.cell * Vector3d(x, y, z);
-        data.corners[shape.cornerIndex({x, y, z})] = static_cast<float>(sampler.signedDistance(p));
+        data.corners[shape.cornerIndex({x, y, z})] = static_cast<float>(sampler.surface().signedDistance(p));
       }
   });
 

@@ -7,6 +7,10 @@
 
 namespace sdf_ccd {
 
+namespace {
+
+/// The sample at a place outside a grid: no nearer than the surface's box, no farther than by way of the place
+/// `boundary_F` of the grid that is nearest to it.
 FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, const Vector3d& boundary_F,
                           const FieldSample& at_boundary) {
   const double low = surface_box.exteriorDistance(p_F);
@@ -14,6 +18,8 @@ FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, 
   const Vector3d nearest = p_F.cwiseMax(surface_box.min()).cwiseMin(surface_box.max());
   return {0.5 * (low + high), 0.5 * (high - low), (p_F - nearest).normalized()};
 }
+
+}  // namespace
 
 DistanceField::DistanceField(const Primitive& primitive)
     : representation_(primitive), surface_box_(boundingBox(primitive)) {
@@ -52,7 +58,10 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
     return {value, 4.0 * std::numeric_limits<double>::epsilon() * (std::abs(value) + p_F.lpNorm<Eigen::Infinity>()),
             distanceGradient(*shape, p_F)};
   }
-  return adaptive() ? gridSample(*adaptive(), p_F) : gridSample(*grid(), p_F);
+  const AlignedBox3d within = box();
+  const Vector3d q = p_F.cwiseMax(within.min()).cwiseMin(within.max());
+  const FieldSample sample = adaptive() ? sampleWithin(*adaptive(), q) : sampleWithin(*grid(), q);
+  return q == p_F ? sample : outsideSample(surface_box_, p_F, q, sample);
 }
 
 DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
@@ -60,7 +69,12 @@ DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
     const double distance = signedDistance(*shape, p_F);
     return {distance, distance};
   }
-  return adaptive() ? gridBounds(*adaptive(), p_F) : gridBounds(*grid(), p_F);
+  const double to_surface_box = surface_box_.exteriorDistance(p_F);
+  if (!box().contains(p_F)) return {to_surface_box, std::numeric_limits<double>::infinity()};
+  DistanceBounds bounds = adaptive() ? boundsWithin(*adaptive(), p_F) : boundsWithin(*grid(), p_F);
+  // Inside the surface's box a point may be inside the body, so the distance to the box says nothing there.
+  if (to_surface_box > 0.0) bounds.low = std::max(bounds.low, to_surface_box);
+  return bounds;
 }
 
 double DistanceField::band() const {

@@ -25,8 +25,8 @@ double reach(const Ball& ball, double distance) {
 
 }  // namespace
 
-SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) : tree_(mesh), closed_(isClosed(mesh)) {
-  const std::vector<std::uint8_t> separates = separatingTriangles(mesh, tree_);
+SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) : exact_(mesh) {
+  const std::vector<std::uint8_t> separates = separatingTriangles(mesh, exact_.tree());
   triangles_.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
@@ -43,7 +43,7 @@ SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) : tree_(mesh), closed_(isCl
 NearTriangles::NearTriangles(const SurfaceIndex& surface, const Ball& ball, double distance)
     : surface_(surface), ball_(ball), distance_(distance) {
   thread_local std::vector<int> found;
-  surface.tree().trianglesWithin(ball.center, reach(ball, distance), found);
+  surface.exact().tree().trianglesWithin(ball.center, reach(ball, distance), found);
   entries_.reserve(found.size());
   for (const int i : found) entries_.push_back({distanceTo(surface.triangle(i), ball.center), i});
   sortAndSetCone();
@@ -71,10 +71,9 @@ void NearTriangles::sortAndSetCone() {
   cone_ = coneOf(entries_);
 }
 
-template <class Triangles>
-DirectionCone NearTriangles::coneOf(const Triangles& triangles) const {
+DirectionCone NearTriangles::coneOf(const std::vector<Entry>& entries) const {
   DirectionCone cone;
-  for (const auto& entry : triangles) {
+  for (const Entry& entry : entries) {
     const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
     if (!t.separates) return {};
     cone.axis += t.normal;
@@ -83,7 +82,7 @@ DirectionCone NearTriangles::coneOf(const Triangles& triangles) const {
   if (!(length > 0.0)) return {};
   cone.axis /= length;
   double cosine = 1.0, sine = 0.0;
-  for (const auto& entry : triangles) {
+  for (const Entry& entry : entries) {
     const Vector3d& normal = surface_.triangle(entry.triangle).normal;
     cosine = std::min(cosine, normal.dot(cone.axis));
     sine = std::max(sine, normal.cross(cone.axis).squaredNorm());
@@ -130,10 +129,10 @@ double NearTriangles::signedDistance(const Vector3d& p) const {
   if (cone_.sine < 1.0) return (p - found.point).dot(cone_.axis) < 0.0 ? -d : d;
   if (found.sign != 0) return found.sign * d;
   // The balls without surface about p and the centre meet.
-  if (surface_.closed() && d + std::abs(distance_) > (p - ball_.center).norm() * (1.0 + kSlack)) {
+  if (surface_.exact().closed() && d + std::abs(distance_) > (p - ball_.center).norm() * (1.0 + kSlack)) {
     return distance_ < 0.0 ? -d : d;
   }
-  return surface_.inside(p) ? -d : d;
+  return surface_.exact().inside(p) ? -d : d;
 }
 
 DirectionCone NearTriangles::gradientCone(const Ball& ball) const {

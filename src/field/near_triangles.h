@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "signed_surface.h"
 
 namespace sdf_ccd {
 
@@ -20,18 +20,12 @@ class SurfaceIndex {
     bool separates;   ///< see separatingTriangles()
   };
 
-  const TriangleTree& tree() const { return tree_; }
+  const SignedSurface& exact() const { return exact_; }
   const Triangle& triangle(int i) const { return triangles_[static_cast<std::size_t>(i)]; }
 
-  bool inside(const Vector3d& p) const { return tree_.windingNumber(p) > 0.5; }
-
-  /// True if the sign of the distance can change only across a triangle.
-  bool closed() const { return closed_; }
-
  private:
-  TriangleTree tree_;
+  SignedSurface exact_;
   std::vector<Triangle> triangles_;
-  bool closed_;
 };
 
 /// A ball of space.
@@ -77,8 +71,7 @@ class NearTriangles {
     int sign;
   };
   Closest closest(const Vector3d& p) const;
-  template <class Triangles>
-  DirectionCone coneOf(const Triangles& triangles) const;
+  DirectionCone coneOf(const std::vector<Entry>& entries) const;
 
   const SurfaceIndex& surface_;
   Ball ball_;

@@ -34,35 +34,28 @@ double farValue(const SparseGrid& grid, const LocatedCell& cell, double interpol
   return cell.corners[0] > 0.0 ? std::max(interpolated, band) : std::min(interpolated, -band);
 }
 
+/// Of the interpolated distance in its cell or brick [m].
+double errorAt(const LocatedCell& cell, double interpolated) {
+  return lipschitzError(cell.u, cell.side) + 4.0 * std::numeric_limits<float>::epsilon() * std::abs(interpolated);
+}
+
 }  // namespace
 
-DistanceBounds gridBounds(const SparseGrid& grid, const Vector3d& p_F) {
-  const GridShape& shape = grid.shape();
-  const double to_surface_box = shape.surface_box.exteriorDistance(p_F);
-  if (!shape.box().contains(p_F)) return {to_surface_box, std::numeric_limits<double>::infinity()};
+DistanceBounds boundsWithin(const SparseGrid& grid, const Vector3d& p_F) {
+  const double band = grid.shape().band;
   const LocatedCell cell = locate(grid, p_F);
-  const double interpolated = trilinear(cell.corners, cell.u);
-  const double rounding = std::abs(interpolated) * 4.0 * std::numeric_limits<float>::epsilon();
-  const double error = lipschitzError(cell.u, cell.side) + rounding;
+  const double interpolated = trilinear(cell.corners, cell.u), error = errorAt(cell, interpolated);
   DistanceBounds bounds{interpolated - error, interpolated + error};
-  if (!cell.sampled && cell.corners[0] > 0.0) bounds.low = std::max(bounds.low, shape.band);
-  if (!cell.sampled && cell.corners[0] < 0.0) bounds.high = std::min(bounds.high, -shape.band);
-  // Inside the surface's box a point may be inside the body, so the distance to the box says nothing there.
-  if (to_surface_box > 0.0) bounds.low = std::max(bounds.low, to_surface_box);
+  if (!cell.sampled && cell.corners[0] > 0.0) bounds.low = std::max(bounds.low, band);
+  if (!cell.sampled && cell.corners[0] < 0.0) bounds.high = std::min(bounds.high, -band);
   return bounds;
 }
 
-FieldSample gridSample(const SparseGrid& grid, const Vector3d& p_F) {
-  const GridShape& shape = grid.shape();
-  const AlignedBox3d box = shape.box();
-  const Vector3d q = p_F.cwiseMax(box.min()).cwiseMin(box.max());
-  const LocatedCell cell = locate(grid, q);
+FieldSample sampleWithin(const SparseGrid& grid, const Vector3d& p_F) {
+  const LocatedCell cell = locate(grid, p_F);
   const double interpolated = trilinear(cell.corners, cell.u);
   const double value = cell.sampled ? interpolated : farValue(grid, cell, interpolated);
-  const double error =
-      lipschitzError(cell.u, cell.side) + 4.0 * std::numeric_limits<float>::epsilon() * std::abs(interpolated);
-  if (q == p_F) return {value, error, trilinearGradient(cell.corners, cell.u) / cell.side};
-  return outsideSample(shape.surface_box, p_F, q, {value, error, Vector3d::Zero()});
+  return {value, errorAt(cell, interpolated), trilinearGradient(cell.corners, cell.u) / cell.side};
 }
 
 }  // namespace sdf_ccd

@@ -5,21 +5,24 @@
 
 namespace sdf_ccd {
 
+bool clipToBox(const Vector3d& start, const Vector3d& step, const Vector3d& size, double& t0, double& t1) {
+  for (int k = 0; k < 3; ++k) {
+    if (step[k] == 0.0) {
+      if (start[k] < 0.0 || start[k] > size[k]) return false;
+      continue;
+    }
+    const double at_low = -start[k] / step[k], at_high = (size[k] - start[k]) / step[k];
+    t0 = std::max(t0, std::min(at_low, at_high));
+    t1 = std::min(t1, std::max(at_low, at_high));
+  }
+  return t0 <= t1;
+}
+
 GridWalk::GridWalk(const CellLattice& lattice, const Segment& segment)
     : size_(lattice.size),
       start_((segment.start - lattice.origin) / lattice.cell),
       step_((segment.end - segment.start) / lattice.cell) {
-  for (int k = 0; k < 3; ++k) {
-    const double n = size_[k];
-    if (step_[k] == 0.0) {
-      if (start_[k] < 0.0 || start_[k] > n) return;
-      continue;
-    }
-    const double at_low = -start_[k] / step_[k], at_high = (n - start_[k]) / step_[k];
-    t_ = std::max(t_, std::min(at_low, at_high));
-    t_end_ = std::min(t_end_, std::max(at_low, at_high));
-  }
-  if (t_ > t_end_) return;
+  if (!clipToBox(start_, step_, size_.cast<double>(), t_, t_end_)) return;
   findCell();
   inside_ = true;
 }

@@ -12,6 +12,10 @@ struct CellLattice {
   Vector3i size;    ///< cells per axis
 };
 
+/// The part of a line start + t·step, t in [t0, t1], that lies in the box from the origin to `size`: shortens the
+/// interval. @return false if no part of it does.
+bool clipToBox(const Vector3d& start, const Vector3d& step, const Vector3d& size, double& t0, double& t1);
+
 /// Follows a segment through the cells of a grid, block by block.
 ///
 /// The parameter comes from the plane that is crossed, never from a sum of steps, and the crossed plane's cell index

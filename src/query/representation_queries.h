@@ -23,6 +23,9 @@ inline void appendSpan(Intervals& intervals, double enter, double exit) {
   }
 }
 
+/// Throws std::invalid_argument unless |sigma| ≤ field.band().
+void checkIsovalue(const DistanceField& field, double sigma);
+
 void gridIntervals(const SparseGrid& grid, const Segment& segment, const SegmentOptions& options, Intervals& intervals);
 void gridPieces(const SparseGrid& grid, const Segment& segment, const Interval& interval, std::vector<double>& breaks);
 

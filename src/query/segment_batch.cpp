@@ -11,7 +11,9 @@
 
 #ifdef SDF_CCD_HIGHWAY
 #include "adaptive_lanes.h"
+#include "grid_walk.h"
 #endif
+#include "representation_queries.h"
 
 namespace sdf_ccd {
 namespace {
@@ -33,22 +35,6 @@ void askSingly(const DistanceField& field, const Segment* segments, std::size_t 
 }
 
 #ifdef SDF_CCD_HIGHWAY
-
-/// The part of a segment that lies in a box, as times.
-bool clip(const Vector3d& start, const Vector3d& step, const Vector3d& size, double& t0, double& t1) {
-  t0 = 0.0;
-  t1 = 1.0;
-  for (int k = 0; k < 3; ++k) {
-    if (step[k] == 0.0) {
-      if (start[k] < 0.0 || start[k] > size[k]) return false;
-      continue;
-    }
-    const double a = -start[k] / step[k], b = (size[k] - start[k]) / step[k];
-    t0 = std::max(t0, std::min(a, b));
-    t1 = std::min(t1, std::max(a, b));
-  }
-  return t0 <= t1;
-}
 
 /// One thread's segments in flight, and which they are.
 class Chunk {
@@ -81,17 +67,17 @@ class Chunk {
     size_ = 0;
     for (int i = 0; i < count; ++i) {
       const Segment& segment = segments[first + i];
-      Vector3d start = (segment.start - shape.origin) * per_metre;
-      Vector3d step = (segment.end - segment.start) * per_metre;
-      const Vector3d end = start + step;
       if (!isWithinReach(segment)) {
         throw std::invalid_argument("segment query: segment " + std::to_string(first + i) +
                                     " is not finite, or reaches farther than 1e12 m");
       }
+      Vector3d start = (segment.start - shape.origin) * per_metre;
+      Vector3d step = (segment.end - segment.start) * per_metre;
+      const Vector3d end = start + step;
       double t0 = 0.0, t1 = 1.0;
       if ((start.array() < 0.0).any() || (end.array() < 0.0).any() || (start.array() > size.array()).any() ||
           (end.array() > size.array()).any()) {
-        if (!clip(start, step, size, t0, t1)) continue;
+        if (!clipToBox(start, step, size, t0, t1)) continue;
         start += t0 * step;
         step *= t1 - t0;
       }
@@ -159,10 +145,7 @@ LaneGrid::LaneGrid(const AdaptiveGrid& grid, double sigma_metres) {
 
 void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
                       const BatchOptions& options, BatchResult& result) {
-  if (!(std::abs(options.sigma) <= field.band())) {
-    throw std::invalid_argument("segment query: isovalue " + std::to_string(options.sigma) +
-                                " m lies outside the field's band of " + std::to_string(field.band()) + " m");
-  }
+  checkIsovalue(field, options.sigma);
   result.hits.clear();
   constexpr std::size_t kChunk = 2048;
   const std::size_t chunks = (count + kChunk - 1) / kChunk;

@@ -1,6 +1,7 @@
 #include "sdf_ccd/query/segment_query.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -8,16 +9,19 @@
 
 namespace sdf_ccd {
 
+void checkIsovalue(const DistanceField& field, double sigma) {
+  if (std::abs(sigma) <= field.band()) return;
+  throw std::invalid_argument("segment query: isovalue " + std::to_string(sigma) +
+                              " m lies outside the field's band of " + std::to_string(field.band()) + " m");
+}
+
 void segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options,
                       Intervals& intervals) {
   intervals.clear();
   if (!isWithinReach(segment)) {
     throw std::invalid_argument("segment query: the segment is not finite, or reaches farther than 1e12 m");
   }
-  if (!(std::abs(options.sigma) <= field.band())) {
-    throw std::invalid_argument("segment query: isovalue " + std::to_string(options.sigma) +
-                                " m lies outside the field's band of " + std::to_string(field.band()) + " m");
-  }
+  checkIsovalue(field, options.sigma);
   if (const Primitive* primitive = field.primitive()) {
     primitiveIntervals(*primitive, segment, options, intervals);
   } else if (const AdaptiveGrid* adaptive = field.adaptive()) {
@@ -33,28 +37,29 @@ Intervals segmentIntervals(const DistanceField& field, const Segment& segment, c
   return intervals;
 }
 
-bool mayTouch(const DistanceField& field, const Segment& segment, double radius) {
+SweptSide sweptSide(const DistanceField& field, const Segment& segment, const SweptMargins& margins) {
   const Vector3d d = segment.end - segment.start;
   const double length = d.norm();
   // Most segments are short: one ball around the middle holds all of it.
-  const double middle = field.lowerBound(segment.start + 0.5 * d) - radius;
-  if (middle > 0.5 * length) return false;
-  if (middle <= 0.0) return true;
-  // From ball to ball. Each is free of places nearer than `radius`; after too many, the answer is the safe one.
+  const DistanceBounds at_middle = field.bounds(segment.start + 0.5 * d);
+  const double middle = at_middle.low - margins.outside;
+  if (middle > 0.5 * length) return SweptSide::kOutside;
+  if (at_middle.high < -(margins.inside + 0.5 * length)) return SweptSide::kInside;
+  if (middle <= 0.0) return SweptSide::kUnknown;
+  // From ball to ball. Each is free of places nearer than the margin; after too many, the answer is the safe one.
   constexpr int kMaxBalls = 64;
   double at = 0.0;
   for (int i = 0; i < kMaxBalls; ++i) {
-    const double free = field.lowerBound(segment.start + (at / length) * d) - radius;
-    if (free <= 0.0) return true;
+    const double free = field.lowerBound(segment.start + (at / length) * d) - margins.outside;
+    if (free <= 0.0) return SweptSide::kUnknown;
     at += free;
-    if (at > length) return false;
+    if (at > length) return SweptSide::kOutside;
   }
-  return true;
+  return SweptSide::kUnknown;
 }
 
-bool surelyInside(const DistanceField& field, const Segment& segment, double depth) {
-  const Vector3d d = segment.end - segment.start;
-  return field.bounds(segment.start + 0.5 * d).high < -(depth + 0.5 * d.norm());
+bool mayTouch(const DistanceField& field, const Segment& segment, double radius) {
+  return sweptSide(field, segment, {radius, std::numeric_limits<double>::infinity()}) != SweptSide::kOutside;
 }
 
 void smoothPieces(const DistanceField& field, const Segment& segment, const Interval& interval,

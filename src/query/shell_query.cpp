@@ -85,8 +85,9 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
       ++result.nodes_visited;
       // Points run straight between the chord's ends, so a point stays within the radius of the centre's segment.
       const Segment center = along(chord, node.center);
-      if (!mayTouch(field, center, node.radius + outside_margin)) continue;
-      if (surelyInside(field, center, node.radius + inside_margin)) {
+      const SweptSide side = sweptSide(field, center, {node.radius + outside_margin, node.radius + inside_margin});
+      if (side == SweptSide::kOutside) continue;
+      if (side == SweptSide::kInside) {
         for (std::int32_t i = node.begin; i < node.end; ++i) {
           result.hits.push_back({i, chord_index, {0.0, 1.0}});
           if (options.any) return;

@@ -44,9 +44,17 @@ Intervals segmentIntervals(const DistanceField& field, const Segment& segment, c
 /// conservative. Steps from ball to ball by field.lowerBound(). Also for segments outside the field's box.
 bool mayTouch(const DistanceField& field, const Segment& segment, double radius);
 
-/// True only if the true distance is below −`depth` at every place of the segment: conservative. One ball about the
-/// middle, as for segments that are short beside what they are in.
-bool surelyInside(const DistanceField& field, const Segment& segment, double depth);
+/// On which side of the surface all of a segment surely is.
+enum class SweptSide { kOutside, kInside, kUnknown };
+
+struct SweptMargins {
+  double outside;  ///< outside: the true distance exceeds this [m]
+  double inside;   ///< inside: it is below minus this [m]
+};
+
+/// Conservative, as mayTouch(). That all is inside is seen by one ball about the middle, as for segments that are short
+/// beside what they are in.
+SweptSide sweptSide(const DistanceField& field, const Segment& segment, const SweptMargins& margins);
 
 /// Parameters in (enter, exit), increasing, where the segment passes from one cell of the field to the next:
 /// between them the interpolated field is a cubic of the parameter (a quadrature that is exact for it, design §3.9).

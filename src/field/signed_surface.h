@@ -1,0 +1,30 @@
+#pragma once
+
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+
+/// Exact signed distances to a mesh: closest points, signs from the winding number.
+class SignedSurface {
+ public:
+  explicit SignedSurface(const TriangleMesh& mesh);
+
+  const TriangleTree& tree() const { return tree_; }
+
+  /// True if the sign of the distance can change only across a triangle.
+  bool closed() const { return closed_; }
+
+  bool inside(const Vector3d& p) const { return tree_.windingNumber(p) > 0.5; }
+
+  double signedDistance(const Vector3d& p) const;
+
+  /// The signed distance at a place `step` away from one where it is `last`: it differs by the step at most, and where
+  /// the two balls without surface meet, the sign is the same (if the mesh is closed).
+  double nextDistance(const Vector3d& p, double last, double step) const;
+
+ private:
+  TriangleTree tree_;
+  bool closed_;
+};
+
+}  // namespace sdf_ccd

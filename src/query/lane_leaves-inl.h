@@ -1,0 +1,147 @@
+// Included once for each kind of processor that vector code is compiled for.
+#if defined(SDF_CCD_LANE_LEAVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_CCD_LANE_LEAVES_INL_H_
+#undef SDF_CCD_LANE_LEAVES_INL_H_
+#else
+#define SDF_CCD_LANE_LEAVES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "lane_blocks-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sdf_ccd {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// A leaf's eight corners and the isovalue, in steps of the corners.
+struct LeafSteps {
+  VF corner[8];
+  VF iso;
+};
+
+/// Of the leaf that each of the lanes in `used` is in.
+inline LeafSteps leafSteps(const LaneGrid& g, MI used, VI leaf, VI log_side) {
+  // The eight corners, in steps.
+  const MI split = hn::Gt(leaf, whole(Flight::kSplit - 1));
+  const VI plain = hn::ShiftLeft<1>(hn::IfThenZeroElse(split, leaf));
+  const bool some_plain = !hn::AllTrue(n, hn::Or(split, hn::Not(used)));
+  VI low = some_plain ? gather(g.leaves, plain) : hn::Zero(n);
+  VI high = some_plain ? gather(g.leaves + 1, plain) : hn::Zero(n);
+  if (!hn::AllFalse(n, split)) {
+    const VI half = hn::ShiftLeft<1>(hn::IfThenElseZero(split, hn::Sub(leaf, whole(Flight::kSplit))));
+    low = hn::IfThenElse(split, gather(g.splits, half), low);
+    high = hn::IfThenElse(split, gather(g.splits + 1, half), high);
+  }
+  const VI byte = whole(0x7F);
+  const auto step = [&](VI word) { return hn::ConvertTo(f, hn::And(word, byte)); };
+  LeafSteps leaf_steps{
+      {step(low), step(hn::ShiftRight<8>(low)), step(hn::ShiftRight<16>(low)), step(hn::ShiftRight<24>(low)),
+       step(high), step(hn::ShiftRight<8>(high)), step(hn::ShiftRight<16>(high)), step(hn::ShiftRight<24>(high))},
+      {}};
+  const auto topBits = [](VI word) {
+    const VI bits =
+        hn::And(hn::BitCast(n, hn::ShiftRight<7>(hn::BitCast(hn::RebindToUnsigned<I>(), word))), whole(0x01010101));
+    const auto packed = hn::BitCast(hn::RebindToUnsigned<I>(), hn::Mul(bits, whole(0x10204080)));
+    return hn::BitCast(n, hn::ShiftRight<28>(packed));
+  };
+  const VI offset_bits = hn::Or(topBits(low), hn::ShiftLeft<4>(topBits(high)));
+  const VF offset = hn::ConvertTo(f, hn::ShiftRight<24>(hn::ShiftLeft<24>(offset_bits)));
+  // The isovalue in the corners' steps.
+  const VF scale = hn::Div(real(1.0F), gatherReal(g.corner, log_side));
+  const VF shifted = hn::NegMulAdd(offset, gatherReal(g.offset, log_side), real(g.sigma));
+  leaf_steps.iso = hn::MulAdd(shifted, scale, real(63.5F));
+  return leaf_steps;
+}
+
+/// What a leaf does to the lanes that pass it: a cubic of u in [0, 1] from where a lane is to where it leaves.
+struct Crossing {
+  VF c[4];
+  MF in_start, in_end;
+  MF hard;    ///< several roots, or one that is not found in a few steps
+  VF t_root;  ///< where the ends differ and it is not hard
+};
+
+inline Crossing crossingOf(const LeafSteps& steps, const Lanes& lanes, const Exits& exits, VF t_exit) {
+  // The cubic (see cellCubic()) of u in [0, 1] from where the lane is to where it leaves.
+  const VF per_side = hn::Div(real(1.0F), hn::ConvertTo(f, exits.side));
+  VF from[3], way[3];
+  for (int k = 0; k < 3; ++k) {
+    const VF base = hn::Sub(lanes.o[k], hn::ConvertTo(f, exits.low[k]));
+    const auto clamped = [&](VF t) {
+      const VF u = hn::Mul(hn::MulAdd(lanes.d[k], t, base), per_side);
+      return hn::Min(hn::Max(u, real(0.0F)), real(1.0F));
+    };
+    from[k] = clamped(lanes.t);
+    way[k] = hn::Sub(clamped(t_exit), from[k]);
+  }
+  const VF* q = steps.corner;
+  const VF xy0 = hn::Mul(from[0], from[1]), xy2 = hn::Mul(way[0], way[1]);
+  const VF xy1 = hn::MulAdd(from[0], way[1], hn::Mul(from[1], way[0]));
+  struct Quadratic {
+    VF c0, c1, c2;
+  };
+  const auto plane = [&](VF k0, VF kx, VF ky, VF kxy) {
+    return Quadratic{hn::MulAdd(kx, from[0], hn::MulAdd(ky, from[1], hn::MulAdd(kxy, xy0, k0))),
+                     hn::MulAdd(kx, way[0], hn::MulAdd(ky, way[1], hn::Mul(kxy, xy1))), hn::Mul(kxy, xy2)};
+  };
+  const VF ax = hn::Sub(q[1], q[0]), ay = hn::Sub(q[2], q[0]), axy = hn::Sub(hn::Sub(q[3], q[2]), ax);
+  const Quadratic a = plane(hn::Sub(q[0], steps.iso), ax, ay, axy);
+  const VF bz = hn::Sub(q[4], q[0]), bx = hn::Sub(hn::Sub(q[5], q[4]), ax);
+  const VF by = hn::Sub(hn::Sub(q[6], q[4]), ay);
+  const VF bxy = hn::Sub(hn::Sub(hn::Sub(q[7], q[6]), hn::Sub(q[5], q[4])), axy);
+  const Quadratic b = plane(bz, bx, by, bxy);
+  const VF c0 = hn::MulAdd(from[2], b.c0, a.c0);
+  const VF c1 = hn::MulAdd(from[2], b.c1, hn::MulAdd(way[2], b.c0, a.c1));
+  const VF c2 = hn::MulAdd(from[2], b.c2, hn::MulAdd(way[2], b.c1, a.c2));
+  const VF c3 = hn::Mul(way[2], b.c2);
+  const auto value = [&](VF u) { return hn::MulAdd(u, hn::MulAdd(u, hn::MulAdd(u, c3, c2), c1), c0); };
+
+  const VF zero = real(0.0F), one = real(1.0F);
+  const VF at_end = value(one);
+  const MF in_start = hn::Le(c0, zero), in_end = hn::Le(at_end, zero);
+  const MF crossing = hn::Xor(in_start, in_end);
+  // Extrema between: roots of 3 c3 u² + 2 c2 u + c1, by the form that does not cancel.
+  const VF c33 = hn::Mul(c3, real(3.0F));
+  const VF discriminant = hn::NegMulAdd(c33, c1, hn::Mul(c2, c2));
+  const VF s = hn::Neg(hn::Add(c2, hn::CopySign(hn::Sqrt(hn::Max(discriminant, zero)), c2)));
+  const VF u1 = hn::Div(s, hn::IfThenElse(hn::Eq(c33, zero), real(1e-30F), c33));
+  const VF u2 = hn::Div(c1, hn::IfThenElse(hn::Eq(s, zero), real(1e-30F), s));
+  const auto turnsAt = [&](VF u) {
+    return hn::And(hn::Ge(discriminant, zero), hn::And(hn::Gt(u, zero), hn::Lt(u, one)));
+  };
+  const MF turn1 = turnsAt(u1), turn2 = turnsAt(u2);
+  // More than one root: an extremum on the other side than both ends, or any two extrema between ends that differ.
+  const MF other1 = hn::And(turn1, hn::Xor(hn::Le(value(u1), zero), in_start));
+  const MF other2 = hn::And(turn2, hn::Xor(hn::Le(value(u2), zero), in_start));
+  const MF several = hn::Or(hn::AndNot(crossing, hn::Or(other1, other2)), hn::And(crossing, hn::And(turn1, turn2)));
+
+  // The root of the others: Newton's steps within a shrinking bracket.
+  VF lo = zero, hi = one;
+  VF u = hn::Div(c0, hn::Sub(c0, hn::IfThenElse(crossing, at_end, hn::Add(c0, one))));
+  VF last = u;
+  if (!hn::AllFalse(f, crossing)) {
+    for (int i = 0; i < 5; ++i) {
+      const VF at = value(u);
+      const VF slope = hn::MulAdd(u, hn::MulAdd(u, c33, hn::Add(c2, c2)), c1);
+      const MF as_start = hn::Not(hn::Xor(hn::Le(at, zero), in_start));
+      lo = hn::IfThenElse(as_start, u, lo);
+      hi = hn::IfThenElse(as_start, hi, u);
+      const VF newton = hn::Sub(u, hn::Div(at, slope));
+      const MF good = hn::And(hn::Ge(newton, lo), hn::Le(newton, hi));
+      last = u;
+      u = hn::IfThenElse(good, newton, hn::Mul(hn::Add(lo, hi), real(0.5F)));
+    }
+  }
+  const MF loose = hn::And(crossing, hn::Gt(hn::Abs(hn::Sub(u, last)), real(1e-5F)));
+  const VF t_root = hn::MulAdd(u, hn::Sub(t_exit, lanes.t), lanes.t);
+  return {{c0, c1, c2, c3}, in_start, in_end, hn::Or(several, loose), t_root};
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sdf_ccd
+HWY_AFTER_NAMESPACE();
+
+#endif
