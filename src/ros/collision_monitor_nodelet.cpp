@@ -6,7 +6,7 @@
 #include <std_msgs/String.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "ros/conversions.h"
+#include "ros/cycle_messages.h"
 #include "ros/world_markers.h"
 
 namespace sdf_ccd {
@@ -18,15 +18,6 @@ constexpr double kLongestPeriod = 1e6;  // longer ones overflow clocks [s]
 
 /// Thrown out of building when the nodelet is unloaded meanwhile.
 struct Stopped {};
-
-/// "body: reason" for each body with a reason.
-std::vector<std::string> reasons(const Scene& scene, const std::vector<std::string>& missing) {
-  std::vector<std::string> lines;
-  for (std::size_t body = 0; body < missing.size(); ++body) {
-    if (!missing[body].empty()) lines.push_back(scene.bodies[body].name + ": " + missing[body]);
-  }
-  return lines;
-}
 
 }  // namespace
 
@@ -109,10 +100,10 @@ void CollisionMonitor::setUp() {
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   world_publisher_.publish(toWorldMarkers(described_.scene));
   buildFields();
-  monitor_ = std::make_unique<Monitor>(scene_, parameters_.monitor);
-  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), scene_, described_.fixed_frame, parameters_.markers);
+  loop_ = std::make_unique<MonitorLoop>(scene_, described_.fixed_frame, parameters_);
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, parameters_.markers);
   listen();
-  queries_ = std::make_unique<Queries>(scene_, described_, parameters_, *history_, *tracker_);
+  queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
   forget();
   health_.building.clear();
   const std::lock_guard<std::mutex> lock(ready_mutex_);
@@ -121,22 +112,16 @@ void CollisionMonitor::setUp() {
 
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
-  const ScenePlan plan = planScene(described_.scene, {parameters_.scene.shell.spacing});
-  scene_ = std::make_shared<const Scene>(
-      buildScene(described_.scene, plan, parameters_.scene, [this](const std::string& body, double share) {
-        if (!waitFor(0.0)) throw Stopped();
-        const std::string progress =
-            "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
-        idle(progress);
-        logNowAndThen(progress);
-      }));
+  scene_ = buildDescribed(described_, parameters_.scene, [this](const std::string& body, double share) {
+    if (!waitFor(0.0)) throw Stopped();
+    const std::string progress = "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
+    idle(progress);
+    logNowAndThen(progress);
+  });
   if (!waitFor(0.0)) throw Stopped();
   health_.warnings = described_.warnings;
-  for (const Body& body : scene_->bodies) {
-    if (body.failure.empty()) continue;
-    NODELET_ERROR("%s: not checked: %s", body.name.c_str(), body.failure.c_str());
-    health_.bad_bodies.push_back(body.name + ": " + body.failure);
-  }
+  health_.bad_bodies = failedBodies(*scene_);
+  for (const std::string& body : health_.bad_bodies) NODELET_ERROR("Not checked: %s", body.c_str());
   for (const BodyReport& report : scene_->reports) {
     for (const std::string& warning : report.warnings) {
       NODELET_WARN("%s: %s", report.name.c_str(), warning.c_str());
@@ -161,15 +146,11 @@ void CollisionMonitor::logNowAndThen(const std::string& progress) {
 }
 
 void CollisionMonitor::listen() {
-  std::vector<TrackedBody> bodies;
-  for (const Body& body : scene_->bodies) bodies.push_back({body.frame, body.X_frame_B, motionBall(body)});
-  history_ = std::make_unique<TfHistory>(described_.fixed_frame);
-  tracker_ = std::make_unique<TfTracker>(*history_, bodies, scene_->pairs, parameters_.tf);
   ros::NodeHandle node(getNodeHandle());
   node.setCallbackQueue(&tf_queue_);
   const auto listenTo = [&](const std::string& topic, bool is_static) {
     const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> add =
-        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { history_->add(*message, is_static); };
+        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { loop_->history().add(*message, is_static); };
     return node.subscribe<tf2_msgs::TFMessage>(topic, 1000, add, ros::VoidConstPtr(),
                                                ros::TransportHints().tcpNoDelay());
   };
@@ -181,10 +162,10 @@ void CollisionMonitor::listen() {
 
 void CollisionMonitor::cycle() {
   if (reset_asked_.exchange(false)) {
-    tracker_->reset();
+    loop_->reset();
     forget();
   }
-  switch (tracker_->next(ros::Time::now(), cycle_)) {
+  switch (loop_->step(ros::Time::now(), outputs_->request(parameters_.max_points))) {
     case TfTracker::Step::kWaiting:
       diagnostics_->update(health_);
       return;
@@ -201,44 +182,24 @@ void CollisionMonitor::cycle() {
     case TfTracker::Step::kCycle:
       break;
   }
-  const CycleResult& result = monitor_->run(cycle_.motion, outputs_->request(parameters_.max_points));
-  outputs_->publish(result, cycle_);
-  publishState(result);
+  outputs_->publish();
+  publishState();
 }
 
-void CollisionMonitor::publishState(const CycleResult& result) {
+void CollisionMonitor::publishState() {
   const ros::WallTime now = ros::WallTime::now();
   if (!last_cycle_.isZero()) {
     const double rate = 1.0 / std::max(1e-6, (now - last_cycle_).toSec());
     health_.rate = health_.rate > 0.0 ? 0.9 * health_.rate + 0.1 * rate : rate;
   }
   last_cycle_ = now;
+  const MonitorState state = toMonitorState(*loop_, ros::Time::now());
   health_.stalled = false;
-  health_.latency = (ros::Time::now() - cycle_.end).toSec();
-  health_.run_time = result.run_time;
-  health_.missing = reasons(*scene_, cycle_.motion.missing);
-  health_.pairs_delayed = result.delayed;
-  health_.out_of_order = history_->outOfOrder();
-
-  MonitorState state;
-  state.header.stamp = cycle_.end;
-  state.header.frame_id = described_.fixed_frame;
-  state.verdict = static_cast<std::uint8_t>(result.verdict);
-  state.missing = health_.missing;
-  state.missing.insert(state.missing.end(), health_.bad_bodies.begin(), health_.bad_bodies.end());
-  if (result.verdict == Verdict::kNotChecked) {
-    state.reason = result.pairs.empty() ? "no pairs: there is nothing to check"
-                                        : std::to_string(result.not_checked) + " pairs could not be checked";
-  }
-  state.cycle_start = cycle_.start;
-  state.run_time = result.run_time;
-  state.latency = health_.latency;
-  state.error_bound = result.error_bound;
-  state.pairs_checked = result.checked;
-  state.pairs_skipped = result.skipped;
-  state.pairs_not_checked = result.not_checked;
-  state.pairs_delayed = result.delayed;
-  state.complete_until = cycle_.complete_until;
+  health_.latency = state.latency;
+  health_.run_time = state.run_time;
+  health_.missing = missingBodies(*loop_);
+  health_.pairs_delayed = loop_->result().delayed;
+  health_.out_of_order = loop_->history().outOfOrder();
   state_publisher_.publish(state);
   diagnostics_->update(health_);
 }
@@ -248,7 +209,7 @@ void CollisionMonitor::idle(const std::string& reason) {
     const std::lock_guard<std::mutex> lock(ready_mutex_);
     not_ready_ = reason;
   }
-  if (!monitor_ && health_.failure.empty()) health_.building = reason;
+  if (!loop_ && health_.failure.empty()) health_.building = reason;
   const ros::WallTime now = ros::WallTime::now();
   if (!last_idle_.isZero() && (now - last_idle_).toSec() < kIdlePeriod) return;
   last_idle_ = now;
@@ -262,7 +223,6 @@ void CollisionMonitor::idle(const std::string& reason) {
 }
 
 void CollisionMonitor::forget() {
-  monitor_->reset();
   outputs_->clear();
   health_.missing.clear();
   last_cycle_ = ros::WallTime();

@@ -56,7 +56,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void cycle();
   void idle(const std::string& reason);
   void forget();
-  void publishState(const CycleResult& result);
+  void publishState();
 
   bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
   bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
@@ -67,15 +67,12 @@ class CollisionMonitor : public nodelet::Nodelet {
   MonitorParameters parameters_;
   DescribedScene described_;
   std::shared_ptr<const Scene> scene_;
-  std::unique_ptr<TfHistory> history_;
-  std::unique_ptr<TfTracker> tracker_;
-  std::unique_ptr<Monitor> monitor_;
+  std::unique_ptr<MonitorLoop> loop_;
   std::unique_ptr<Outputs> outputs_;
   std::unique_ptr<Queries> queries_;
 
   std::unique_ptr<Diagnostics> diagnostics_;
   MonitorHealth health_;
-  TrackedCycle cycle_;
   ros::WallTime last_cycle_;  // when it was published
   ros::WallTime last_idle_;
   ros::WallTime last_log_;  // of the progress of building

@@ -123,17 +123,4 @@ std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleCo
   return messages;
 }
 
-ContactArray toContactArray(const CycleResult& result, const CycleContext& cycle) {
-  ContactArray message;
-  message.run_time = result.run_time;
-  message.verdict = static_cast<std::uint8_t>(result.verdict);
-  message.error_bound = result.error_bound;
-  message.pairs = toPairContacts(result, cycle);
-  message.checked = result.checked;
-  message.skipped = result.skipped;
-  message.not_checked = result.not_checked;
-  message.delayed = result.delayed;
-  return message;
-}
-
 }  // namespace sdf_ccd

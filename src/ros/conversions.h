@@ -9,7 +9,6 @@
 #include <geometry_msgs/Wrench.h>
 #include <ros/time.h>
 
-#include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/PairContact.h"
 #include "sdf_ccd/scene/monitor.h"
 
@@ -38,8 +37,5 @@ PairContact toPairContact(const PairResult& pair, const CycleContext& cycle);
 
 /// The pairs that are neither clear nor delayed.
 std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleContext& cycle);
-
-/// All but the header and the cycle's own times, which are the caller's.
-ContactArray toContactArray(const CycleResult& result, const CycleContext& cycle);
 
 }  // namespace sdf_ccd

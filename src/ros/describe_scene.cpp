@@ -107,4 +107,10 @@ DescribedScene describeScene(const MonitorParameters& parameters) {
   return described;
 }
 
+std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const SceneOptions& options,
+                                            const std::function<void(const std::string&, double)>& progress) {
+  const ScenePlan plan = planScene(described.scene, {options.shell.spacing});
+  return std::make_shared<const Scene>(buildScene(described.scene, plan, options, progress));
+}
+
 }  // namespace sdf_ccd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,5 +25,10 @@ ResourceLoader makeResourceLoader();
 /// reason in BodyDescription::failure.
 /// @throws std::exception if the URDF or the SRDF cannot be read, or two bodies share a name.
 DescribedScene describeScene(const MonitorParameters& parameters);
+
+/// Plans and builds what the scene needs.
+/// @param progress  called with the body's name and the share of all bodies done.
+std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const SceneOptions& options,
+                                            const std::function<void(const std::string&, double)>& progress);
 
 }  // namespace sdf_ccd

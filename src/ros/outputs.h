@@ -1,14 +1,12 @@
 #pragma once
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
 #include "ros/markers.h"
-#include "ros/tf_tracker.h"
+#include "ros/monitor_loop.h"
 
 namespace sdf_ccd {
 
@@ -22,13 +20,13 @@ namespace sdf_ccd {
 /// Nothing is put together, or computed, that has no subscriber.
 class Outputs {
  public:
-  Outputs(ros::NodeHandle private_node, std::shared_ptr<const Scene> scene, const std::string& fixed_frame,
-          const MarkerOptions& options);
+  Outputs(ros::NodeHandle private_node, const MonitorLoop& loop, const MarkerOptions& options);
 
   /// What the subscribers want to know of the next cycle.
   CycleRequest request(int max_points) const;
 
-  void publish(const CycleResult& result, const TrackedCycle& cycle);
+  /// Of the loop's last cycle.
+  void publish();
 
   /// Deletes all markers.
   void clear();
@@ -39,10 +37,9 @@ class Outputs {
     ros::Publisher publisher;
   };
 
-  void publishWrenches(const CycleResult& result, const TrackedCycle& cycle) const;
+  void publishWrenches() const;
 
-  std::shared_ptr<const Scene> scene_;
-  std::string fixed_frame_;
+  const MonitorLoop& loop_;
   MarkerDrawer drawer_;
   ros::Publisher contacts_;
   ros::Publisher markers_;

@@ -123,24 +123,19 @@ std::string findDescription(const ros::NodeHandle& private_node, const std::stri
 
 }  // namespace
 
-MonitorParameters readParameters(const ros::NodeHandle& private_node) {
-  XmlRpc::XmlRpcValue tree;
-  private_node.getParam("", tree);
-  ParameterReader reader(tree, private_node.getNamespace());
+MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name) {
+  ParameterReader reader(tree, name);
   MonitorParameters parameters;
 
-  const std::string urdf_name = reader.text("urdf_parameter", "robot_description");
-  parameters.urdf = findDescription(private_node, urdf_name);
-  if (parameters.urdf.empty())
-    throw MissingDescription("parameter " + urdf_name + " is missing, expected a robot's URDF");
-  parameters.srdf = findDescription(private_node, reader.text("srdf_parameter", urdf_name + "_semantic"));
+  parameters.urdf_parameter = reader.text("urdf_parameter", "robot_description");
+  parameters.srdf_parameter = reader.text("srdf_parameter", parameters.urdf_parameter + "_semantic");
   parameters.fixed_frame = withoutLeadingSlash(reader.text("fixed_frame", ""));
   parameters.tf_prefix = withoutLeadingSlash(reader.text("tf_prefix", ""));
   parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
 
   for (ParameterReader& object : reader.list("world")) {
     parameters.world.push_back(readWorldObject(object));
-    for (const std::string& name : object.unread()) parameters.unknown.push_back(name);
+    for (const std::string& unread : object.unread()) parameters.unknown.push_back(unread);
   }
   parameters.octomap = readOctomap(reader.group("octomap"), parameters.unknown);
   parameters.scene.field = readField(reader.group("field"), parameters.unknown);
@@ -166,7 +161,19 @@ MonitorParameters readParameters(const ros::NodeHandle& private_node) {
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
   reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's
   reader.positive("diagnostic_period", 1.0);   // the diagnostic updater's
-  for (const std::string& name : reader.unread()) parameters.unknown.push_back(name);
+  for (const std::string& unread : reader.unread()) parameters.unknown.push_back(unread);
+  return parameters;
+}
+
+MonitorParameters readParameters(const ros::NodeHandle& private_node) {
+  XmlRpc::XmlRpcValue tree;
+  private_node.getParam("", tree);
+  MonitorParameters parameters = parseParameters(tree, private_node.getNamespace());
+  parameters.urdf = findDescription(private_node, parameters.urdf_parameter);
+  if (parameters.urdf.empty()) {
+    throw MissingDescription("parameter " + parameters.urdf_parameter + " is missing, expected a robot's URDF");
+  }
+  parameters.srdf = findDescription(private_node, parameters.srdf_parameter);
   return parameters;
 }
 

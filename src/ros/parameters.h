@@ -37,6 +37,8 @@ struct OctomapObject {
 
 /// All parameters of the monitor; config/monitor.yaml documents them.
 struct MonitorParameters {
+  std::string urdf_parameter;  ///< name of the parameter that holds the robot's description
+  std::string srdf_parameter;
   std::string urdf;         ///< text of the robot's description
   std::string srdf;         ///< text of its semantic description, empty if there is none
   std::string fixed_frame;  ///< empty: the robot's root link
@@ -58,7 +60,13 @@ struct MissingDescription : ParameterError {
   using ParameterError::ParameterError;
 };
 
-/// Reads and checks all parameters from a private namespace.
+/// Reads and checks all parameters but the descriptions, which are left empty.
+/// @param tree  a struct, or anything else if there are no parameters.
+/// @param name  of the tree, for errors: "/collision_monitor".
+/// @throws ParameterError naming the parameter and its value.
+MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name);
+
+/// Reads and checks all parameters from a private namespace, with the robot's descriptions.
 /// @throws MissingDescription, else ParameterError naming the parameter and its value.
 MonitorParameters readParameters(const ros::NodeHandle& private_node);
 

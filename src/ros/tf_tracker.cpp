@@ -14,6 +14,12 @@ std::string seconds(double value) {
 
 }  // namespace
 
+std::vector<TrackedBody> trackedBodies(const Scene& scene) {
+  std::vector<TrackedBody> bodies;
+  for (const Body& body : scene.bodies) bodies.push_back({body.frame, body.X_frame_B, motionBall(body)});
+  return bodies;
+}
+
 TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies, const std::vector<PlannedPair>& pairs,
                      const TfTrackerOptions& options)
     : history_(history), bodies_(bodies), pairs_(pairs), options_(options) {

@@ -21,6 +21,8 @@ struct TrackedBody {
   BoundingBall ball_B;
 };
 
+std::vector<TrackedBody> trackedBodies(const Scene& scene);
+
 /// The motion of all bodies over one cycle (start, end], and over what was left of earlier ones.
 struct TrackedCycle {
   ros::Time start;

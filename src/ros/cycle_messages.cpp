@@ -1,0 +1,95 @@
+#include "ros/cycle_messages.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace sdf_ccd {
+
+CycleContext contextOf(const MonitorLoop& loop) {
+  return {loop.scene(), loop.cycle().motion, loop.cycle().samples, loop.cycle().origin};
+}
+
+ContactArray toContactArray(const MonitorLoop& loop) {
+  const TrackedCycle& cycle = loop.cycle();
+  const CycleResult& result = loop.result();
+  ContactArray message;
+  message.header.stamp = cycle.end;
+  message.header.frame_id = loop.fixedFrame();
+  message.cycle_start = cycle.start;
+  message.complete_until = cycle.complete_until;
+  message.run_time = result.run_time;
+  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.error_bound = result.error_bound;
+  message.pairs = toPairContacts(result, contextOf(loop));
+  message.checked = result.checked;
+  message.skipped = result.skipped;
+  message.not_checked = result.not_checked;
+  message.delayed = result.delayed;
+  return message;
+}
+
+MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
+  const TrackedCycle& cycle = loop.cycle();
+  const CycleResult& result = loop.result();
+  MonitorState message;
+  message.header.stamp = cycle.end;
+  message.header.frame_id = loop.fixedFrame();
+  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.missing = missingBodies(loop);
+  const std::vector<std::string> failed = failedBodies(loop.scene());
+  message.missing.insert(message.missing.end(), failed.begin(), failed.end());
+  if (result.verdict == Verdict::kNotChecked) {
+    message.reason = result.pairs.empty() ? "no pairs: there is nothing to check"
+                                          : std::to_string(result.not_checked) + " pairs could not be checked";
+  }
+  message.cycle_start = cycle.start;
+  message.complete_until = cycle.complete_until;
+  message.run_time = result.run_time;
+  message.latency = (now - cycle.end).toSec();
+  message.error_bound = result.error_bound;
+  message.pairs_checked = result.checked;
+  message.pairs_skipped = result.skipped;
+  message.pairs_not_checked = result.not_checked;
+  message.pairs_delayed = result.delayed;
+  return message;
+}
+
+geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body) {
+  Wrench sum_W;
+  for (const PairResult& pair : loop.result().pairs) {
+    if (pair.body_a == body) sum_W += pair.on_a_W;
+    if (pair.body_b == body) sum_W += pair.on_b_W;
+  }
+  const Isometry3d R_WB(loop.cycle().motion.X_WB[body].back().linear());
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = loop.cycle().end;
+  message.header.frame_id = loop.scene().bodies[body].frame;
+  message.wrench = toWrench(expressedIn(R_WB, sum_W));
+  return message;
+}
+
+std::string wrenchTopic(const Body& body) {
+  std::string link = body.name;
+  std::replace_if(
+      link.begin(), link.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '/'; }, '_');
+  return "wrenches/" + link;
+}
+
+std::vector<std::string> missingBodies(const MonitorLoop& loop) {
+  const std::vector<std::string>& missing = loop.cycle().motion.missing;
+  std::vector<std::string> lines;
+  for (std::size_t body = 0; body < missing.size(); ++body) {
+    if (!missing[body].empty()) lines.push_back(loop.scene().bodies[body].name + ": " + missing[body]);
+  }
+  return lines;
+}
+
+std::vector<std::string> failedBodies(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const Body& body : scene.bodies) {
+    if (!body.failure.empty()) lines.push_back(body.name + ": " + body.failure);
+  }
+  return lines;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/WrenchStamped.h>
+
+#include "ros/conversions.h"
+#include "ros/monitor_loop.h"
+#include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/MonitorState.h"
+
+namespace sdf_ccd {
+
+/// What the results of the loop's last cycle refer to.
+CycleContext contextOf(const MonitorLoop& loop);
+
+/// The messages about the loop's last cycle, complete, in its fixed frame.
+ContactArray toContactArray(const MonitorLoop& loop);
+
+/// @param now  when it is sent, for its latency.
+MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);
+
+/// Sum of the contact wrenches on a body, in its frame, about its origin [N, N·m].
+geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body);
+
+/// Below the monitor's name; bodies may be named by characters that names of topics may not hold.
+std::string wrenchTopic(const Body& body);
+
+/// "body: reason" of the bodies that the cycle could not check for want of transforms.
+std::vector<std::string> missingBodies(const MonitorLoop& loop);
+
+/// "body: reason" of those that no cycle can check.
+std::vector<std::string> failedBodies(const Scene& scene);
+
+}  // namespace sdf_ccd

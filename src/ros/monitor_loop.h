@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "ros/parameters.h"
+
+namespace sdf_ccd {
+
+/// From transforms to results: one cycle of the monitor after the other, whoever brings the transforms and the clock.
+///
+/// Transforms go to history(), from any thread; the rest belongs to one.
+class MonitorLoop {
+ public:
+  /// @param fixed_frame  without leading slash.
+  MonitorLoop(std::shared_ptr<const Scene> scene, const std::string& fixed_frame, const MonitorParameters& parameters);
+
+  TfHistory& history() { return history_; }
+  const TfTracker& tracker() const { return tracker_; }
+  const Scene& scene() const { return monitor_.scene(); }
+  const std::string& fixedFrame() const { return history_.fixedFrame(); }
+
+  /// Checks what has become known. After kCycle, cycle() and result() are those of the new cycle; kJump forgets all
+  /// clearances.
+  /// @param now  the ROS clock, 0 if it does not run yet.
+  TfTracker::Step step(const ros::Time& now, const CycleRequest& request);
+
+  /// Forgets everything but the transforms; the next cycle begins with the next of them.
+  void reset();
+
+  const TrackedCycle& cycle() const { return cycle_; }
+  const CycleResult& result() const { return *result_; }
+
+ private:
+  TfHistory history_;
+  TfTracker tracker_;
+  Monitor monitor_;
+  TrackedCycle cycle_;
+  const CycleResult* result_ = nullptr;
+};
+
+}  // namespace sdf_ccd

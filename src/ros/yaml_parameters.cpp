@@ -1,0 +1,96 @@
+#include "ros/yaml_parameters.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <limits>
+#include <regex>
+#include <set>
+#include <stdexcept>
+
+#include <yaml-cpp/yaml.h>
+
+namespace sdf_ccd {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+[[noreturn]] void refuse(const YAML::Mark& mark, const std::string& reason) {
+  throw std::runtime_error("line " + std::to_string(mark.line + 1) + ": " + reason);
+}
+
+bool toInteger(const std::string& text, int& number) {
+  static const std::regex kInteger("[-+]?(0|[1-9][0-9]*|0[0-7]+|0x[0-9a-fA-F]+)");
+  if (!std::regex_match(text, kInteger)) return false;
+  errno = 0;
+  const long value = std::strtol(text.c_str(), nullptr, 0);
+  number = static_cast<int>(value);
+  return errno == 0 && value == number;
+}
+
+bool toReal(const std::string& text, double& number) {
+  static const std::regex kReal("[-+]?([0-9]+\\.[0-9]*|\\.[0-9]+)([eE][-+][0-9]+)?");
+  if (!std::regex_match(text, kReal)) return false;
+  number = std::strtod(text.c_str(), nullptr);
+  return true;
+}
+
+XmlRpcValue toScalar(const YAML::Node& node) {
+  static const std::set<std::string> kTrue = {"yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"};
+  static const std::set<std::string> kFalse = {"no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"};
+  const std::string& text = node.Scalar();
+  const bool is_plain = node.Tag() != "!";  // else it is quoted
+  int integer = 0;
+  double real = 0.0;
+  if (!is_plain) return XmlRpcValue(text);
+  if (kTrue.count(text) + kFalse.count(text) > 0) return XmlRpcValue(kTrue.count(text) > 0);
+  if (toInteger(text, integer)) return XmlRpcValue(integer);
+  if (toReal(text, real)) return XmlRpcValue(real);
+  return XmlRpcValue(text);
+}
+
+XmlRpcValue toValue(const YAML::Node& node);
+
+void setMember(XmlRpcValue& tree, const std::string& key, const YAML::Node& node) {
+  const std::size_t slash = key.find('/');
+  if (slash != std::string::npos) return setMember(tree[key.substr(0, slash)], key.substr(slash + 1), node);
+  tree[key] = toValue(node);
+}
+
+XmlRpcValue toValue(const YAML::Node& node) {
+  XmlRpcValue value;
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      return toScalar(node);
+    case YAML::NodeType::Sequence:
+      value.setSize(static_cast<int>(node.size()));
+      for (std::size_t i = 0; i < node.size(); ++i) value[static_cast<int>(i)] = toValue(node[i]);
+      return value;
+    case YAML::NodeType::Map:
+      value.begin();  // makes it a struct, also without members
+      for (const auto& member : node) {
+        if (!member.first.IsScalar()) refuse(member.first.Mark(), "the name of a parameter is not a text");
+        if (member.second.IsNull()) refuse(member.first.Mark(), "parameter " + member.first.Scalar() + " has no value");
+        setMember(value, member.first.Scalar(), member.second);
+      }
+      return value;
+    default:
+      refuse(node.Mark(), "a value is missing");
+  }
+}
+
+}  // namespace
+
+XmlRpcValue loadYamlParameters(const std::string& file) {
+  try {
+    const YAML::Node document = YAML::LoadFile(file);
+    if (document.IsNull()) return {};
+    if (!document.IsMap()) refuse(document.Mark(), "expected parameters, as in config/monitor.yaml");
+    return toValue(document);
+  } catch (const YAML::BadFile&) {
+    throw std::runtime_error(file + ": cannot be read");
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+}  // namespace sdf_ccd

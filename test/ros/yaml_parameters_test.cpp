@@ -1,0 +1,74 @@
+#include "ros/yaml_parameters.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "ros/parameters.h"
+
+namespace sdf_ccd {
+namespace {
+
+XmlRpc::XmlRpcValue load(const std::string& text) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "sdf_ccd_parameters_test.yaml";
+  std::ofstream(file) << text;
+  return loadYamlParameters(file.string());
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    parseParameters(load(text), "~");
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(YamlParameters, ScalarsAreWhatRosparamTakesThemFor) {
+  using XmlRpc::XmlRpcValue;
+  XmlRpcValue tree = load(
+      "flags: [yes, False, ON]\nintegers: [30, -5, 010, 0x10, 0]\nreals: [1., .5, 1.0e+8, -2.5E-3]\n"
+      "texts: [1.0e8, 1e5, '30', \"yes\", y, 089, fixed, 3000000000, deg(90)]\ngroup/inner: 1\nempty: {}\nlist: []\n");
+  for (int i = 0; i < tree["flags"].size(); ++i) EXPECT_EQ(bool(tree["flags"][i]), i != 1);
+  const int integers[] = {30, -5, 8, 16, 0};
+  for (int i = 0; i < tree["integers"].size(); ++i) EXPECT_EQ(int(tree["integers"][i]), integers[i]);
+  const double reals[] = {1.0, 0.5, 1e8, -2.5e-3};
+  for (int i = 0; i < tree["reals"].size(); ++i) EXPECT_EQ(double(tree["reals"][i]), reals[i]);
+  for (int i = 0; i < tree["texts"].size(); ++i) EXPECT_EQ(tree["texts"][i].getType(), XmlRpcValue::TypeString) << i;
+  EXPECT_EQ(int(tree["group"]["inner"]), 1);
+  EXPECT_EQ(tree["empty"].getType(), XmlRpcValue::TypeStruct);
+  EXPECT_EQ(tree["list"].getType(), XmlRpcValue::TypeArray);
+}
+
+TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
+  const MonitorParameters documented =
+      parseParameters(loadYamlParameters(SDF_CCD_SOURCE_DIR "/config/monitor.yaml"), "~");
+  const MonitorParameters defaults = parseParameters(load(""), "~");
+  EXPECT_TRUE(documented.unknown.empty()) << documented.unknown.front();
+  EXPECT_EQ(documented.urdf_parameter, defaults.urdf_parameter);
+  EXPECT_EQ(documented.srdf_parameter, defaults.srdf_parameter);
+  EXPECT_EQ(documented.scene.field.cell_size, defaults.scene.field.cell_size);
+  EXPECT_EQ(documented.scene.field.max_bytes, defaults.scene.field.max_bytes);
+  EXPECT_EQ(documented.scene.shell.spacing, defaults.scene.shell.spacing);
+  EXPECT_EQ(documented.scene.shell.vertex_spacing, defaults.scene.shell.vertex_spacing);
+  EXPECT_EQ(documented.scene.cache_directory, defaults.scene.cache_directory);
+  EXPECT_EQ(documented.monitor.contact.stiffness, defaults.monitor.contact.stiffness);
+  EXPECT_EQ(documented.monitor.chords.tolerance, defaults.monitor.chords.tolerance);
+  EXPECT_EQ(documented.tf.max_latency, defaults.tf.max_latency);
+  EXPECT_EQ(documented.tf.max_cycle, defaults.tf.max_cycle);
+  EXPECT_EQ(documented.rate, defaults.rate);
+  EXPECT_EQ(documented.max_points, defaults.max_points);
+}
+
+TEST(YamlParameters, ErrorsNameFileLineAndParameter) {
+  EXPECT_NE(errorOf("rate: 30\nshell:\n").find("_test.yaml: line 2: parameter shell has no value"), std::string::npos);
+  EXPECT_NE(errorOf("- 1\n").find("_test.yaml: line 1: expected parameters"), std::string::npos);
+  EXPECT_NE(errorOf("rate: [30\n").find("_test.yaml: yaml-cpp: error at line"), std::string::npos);
+  EXPECT_EQ(errorOf("octomap: {xyz: [deg(90), 0, 0]}"),
+            "parameter ~/octomap/xyz is {deg(90),0,0}, expected three finite numbers");
+  EXPECT_THROW(loadYamlParameters("/nowhere/monitor.yaml"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
