@@ -22,9 +22,12 @@ double knownDepth(const std::vector<ShellPart>& parts, std::size_t own, const Ve
 
 PointShell unionShell(const std::vector<ShellPart>& parts) {
   PointShell all;
+  all.edge_radius = 0.0;
   for (std::size_t own = 0; own < parts.size(); ++own) {
     const PointShell& shell = parts[own].shell;
     all.covering_radius = std::max(all.covering_radius, shell.covering_radius);
+    all.edge_radius = std::max(all.edge_radius, shell.edge_radius);
+    all.flatness = std::max(all.flatness, shell.flatness);
     for (std::size_t i = 0; i < shell.size(); ++i) {
       const Vector3d p_B = parts[own].X_BG * shell.points[i];
       const double depth = knownDepth(parts, own, p_B);

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "sdf_ccd/shell/contact_gap.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -28,6 +30,13 @@ void requireNear(const Body& body, const std::vector<Isometry3d>& X_WB, const Kn
 
 void requireFinite(const ErrorBound& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
+}
+
+double gapOf(const std::vector<PairRole>& roles) {
+  if (roles.empty()) return 0.0;
+  const PointShell& shell = roles.front().shell().shell;
+  if (roles.size() == 2) return contactGap(shell, roles.back().shell().shell);
+  return roles.front().fieldIsPlane() ? contactGapToPlane(shell) : shell.covering_radius;
 }
 
 /// As new, but with its memory and its span.
@@ -56,6 +65,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
   };
   if (pair.a_shell_b_field) addRole(pair.body_a, pair.body_b);
   if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a);
+  gap_ = gapOf(roles_);
 }
 
 void PairChecker::run(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
@@ -88,10 +98,10 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
   for (PairRole& role : roles_) {
     role.setMotion(motion, result.span);
     result.error.field = std::max(result.error.field, role.fieldError());
-    result.error.gap = std::max(result.error.gap, role.gap());
     travel = std::min(travel, role.travel());
     jump = std::min(jump, role.jump());
   }
+  result.error.gap = gap_;
   result.error.chord = motion_error;
   result.error.root = kRootTolerance * travel;
   requireFinite(result.error);
@@ -116,7 +126,10 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
     return;
   }
   result.verdict = Verdict::kClear;
-  clearance_ = roles_.front().clearanceAtEnd(0.5 * near);
+  // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
+  clearance_ = std::numeric_limits<double>::infinity();
+  for (const PairRole& role : roles_) clearance_ = std::min(clearance_, role.pointClearanceAtEnd(0.5 * near));
+  clearance_ -= gap_;
   result.clearance = clearance_;
 }
 

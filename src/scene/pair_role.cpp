@@ -15,6 +15,12 @@ PairRole::PairRole(const Scene& scene, int shell_body, int field_body)
   for (const BodyPart& part : field_->parts) field_error_ = std::max(field_error_, part.field.errorBound());
 }
 
+bool PairRole::fieldIsPlane() const {
+  return std::all_of(field_->parts.begin(), field_->parts.end(), [](const BodyPart& part) {
+    return part.field.primitive() && std::holds_alternative<HalfSpace>(*part.field.primitive());
+  });
+}
+
 void PairRole::setMotion(const CycleMotion& motion, const KnotSpan& span) {
   const bool first = motion_.X_FP.empty();
   const Isometry3d last = first ? Isometry3d::Identity() : motion_.X_FP.back();
@@ -48,16 +54,16 @@ double PairRole::ballClearance(const Isometry3d& X_FP) const {
   const Vector3d center_F = X_FP * shell_->ball.center;
   for (const BodyPart& part : field_->parts)
     nearest = std::min(nearest, part.field.lowerBound(part.X_BG.inverse() * center_F));
-  return nearest - shell_->ball.radius - gap();
+  return nearest - shell_->ball.radius - shell_->shell.covering_radius;
 }
 
-double PairRole::clearanceAtEnd(double slack) const {
+double PairRole::pointClearanceAtEnd(double slack) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const BodyPart& part : field_->parts) {
     const Isometry3d X_GP = part.X_BG.inverse() * motion_.X_FP.back();
     nearest = std::min(nearest, clearance(part.field, shell_->tree, shell_->shell, X_GP, slack));
   }
-  return nearest - gap();
+  return nearest;
 }
 
 bool PairRole::mayComeNearer(double distance) {

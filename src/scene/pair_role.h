@@ -23,7 +23,7 @@ class PairRole {
   const Body& shell() const { return *shell_; }
   const Body& field() const { return *field_; }
   int fieldBody() const { return field_body_; }
-  double gap() const { return shell_->shell.covering_radius; }
+  bool fieldIsPlane() const;
   double fieldError() const { return field_error_; }
 
   /// Takes the relative motion over a part of a cycle. Distances may have shrunk by travel() within it and by jump()
@@ -41,12 +41,14 @@ class PairRole {
   /// The same path seen from a part's frame G. The reference is good until the next call.
   const ChordPath& partPath(const BodyPart& part);
 
-  /// Lower bound of the distance of the bodies' surfaces [m], from the shell's ball alone, at both ends.
+  /// Lower bound of the distance of the bodies' surfaces [m], from the shell's ball and covering radius alone, at both
+  /// ends.
   double ballClearanceAtStart() const { return ballClearance(motion_.X_FP.front()); }
   double ballClearanceAtEnd() const { return ballClearance(motion_.X_FP.back()); }
 
-  /// The same from all points, at the end, within `slack` [m] of what the fields know.
-  double clearanceAtEnd(double slack) const;
+  /// Lower bound of the distance of the shell's points from the field's surfaces [m] at the end, within `slack` [m] of
+  /// what the fields know.
+  double pointClearanceAtEnd(double slack) const;
 
   /// False only if no point of the shell comes nearer than `distance` [m] to any part: conservative at any distance.
   bool mayComeNearer(double distance);

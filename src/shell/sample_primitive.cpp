@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "sdf_ccd/shell/sample_surface.h"
+#include "edge_sampling.h"
 
 namespace sdf_ccd {
 namespace {
@@ -42,20 +42,26 @@ void lift(const Cylinder& cylinder, Vector3d& p, Vector3d& normal) {
 
 /// How far the tessellation may be from a curved solid, over the spacing.
 constexpr double kDeviation = 0.005;
+constexpr double kEdgeDeviation = 0.5;  ///< the same over the edges' flatness
 
 template <typename Solid>
 PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
   constexpr bool curved = !std::is_same_v<Solid, Box>;
   ShellOptions flat = options;
+  EdgeSampling edges(options);
   double deviation = 0;
   if (curved) {
     // From the surface to the tessellation, along it, and back with the point: spacing + 2 deviations.
     deviation = kDeviation * options.spacing;
+    if (hasEdges(options)) deviation = std::min(deviation, kEdgeDeviation * edges.flatness);
+    edges.radius -= deviation;  // its points are lifted
+    edges.flatness -= deviation;
     flat.spacing = options.spacing - 2 * deviation;
+    if (hasEdges(options)) flat.edge_gap = options.edge_gap - 2 * deviation;
     // Where the tessellation is finer than the shell, its vertices are no features to be kept.
     flat.vertex_spacing = std::max(options.vertex_spacing, flat.spacing);
   }
-  PointShell shell = sampleSurface(tessellate(solid, curved ? deviation : options.spacing), flat);
+  PointShell shell = sampleSurface(tessellate(solid, curved ? deviation : options.spacing), flat, edges);
   double area = 0;
   for (const double share : shell.areas) area += share;
   for (std::size_t i = 0; i < shell.size(); ++i) {
@@ -63,6 +69,8 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
     shell.areas[i] *= exactArea(solid) / area;
   }
   shell.covering_radius += 2 * deviation;
+  shell.edge_radius += deviation;
+  shell.flatness += deviation;
   return shell;
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "edge_sampling.h"
 #include "measure_shell.h"
 #include "surface_filler.h"
 
@@ -17,10 +18,31 @@ void validate(const ShellOptions& options) {
     message << "a shell's spacing must be finite and positive, not " << options.spacing << " m";
   } else if (!(options.vertex_spacing >= 0) || !std::isfinite(options.vertex_spacing)) {
     message << "a shell's vertex spacing must be finite and not negative, not " << options.vertex_spacing << " m";
+  } else if (!(options.edge_gap >= 0) || !std::isfinite(options.edge_gap)) {
+    message << "a shell's edge gap must be finite and not negative, not " << options.edge_gap << " m";
   } else {
     return;
   }
   throw std::invalid_argument(message.str());
+}
+
+/// Sampling that leaves no gap of this spacing takes about so many points, measured on spheres.
+double facePoints(double area, double spacing) {
+  return 0.7 * area / (spacing * spacing);
+}
+
+/// The same along edges: two radii apart, but nearer on short ones, and none where edges meet; measured on robots'
+/// links.
+double edgePoints(double length, double radius) {
+  return length / (2.0 * radius);
+}
+
+constexpr double kEdgesAreMore = 1.3;  ///< on finely curved surfaces, than edgePoints() says
+
+double length(const std::vector<SurfaceEdge>& edges) {
+  double sum = 0.0;
+  for (const SurfaceEdge& edge : edges) sum += (edge.to - edge.from).norm();
+  return sum;
 }
 
 /// Balls of radius `spacing` cover at most their disks' area on a plane, so fewer points than this cannot do.
@@ -37,20 +59,47 @@ void requireRoom(double area, const ShellOptions& options) {
 }  // namespace
 
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) {
+  return sampleSurface(mesh, options, EdgeSampling(options));
+}
+
+PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& asked, const EdgeSampling& sampling) {
   validate(mesh);
-  validate(options);
+  validate(asked);
   const TriangleMesh surface = welded(mesh);
   if (surface.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
-  requireRoom(surfaceArea(surface), options);
+  const double area = surfaceArea(surface);
+  ShellOptions options = asked;
+  std::vector<SurfaceEdge> edges;
+  if (hasEdges(asked)) edges = edgesOfFlatPieces(surface, sampling.flatness);
+  if (kEdgesAreMore * edgePoints(length(edges), sampling.radius) > facePoints(area, asked.edge_gap)) {
+    options.spacing = asked.edge_gap;  // all of a finely curved surface needs fewer points than its edges
+    edges.clear();
+  }
+  requireRoom(area, options);
   SurfaceFiller filler(surface, options);
   filler.addVertices();
+  filler.fillEdges(edges, sampling.radius);
   filler.throwDarts();
   filler.fillGaps();
   PointShell shell = filler.take();
   shell.areas = nearestAreas(surface, shell, options.spacing);
   // The filler has certified the spacing; the measured radius is an upper bound of its own.
   shell.covering_radius = std::min(options.spacing, coveringRadius(surface, shell, options.spacing));
+  if (!edges.empty()) {
+    shell.edge_radius = sampling.radius;
+    shell.flatness = sampling.flatness;
+  }
   return shell;
+}
+
+double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options) {
+  validate(options);
+  const TriangleMesh surface = welded(mesh);
+  const double area = surfaceArea(surface), faces = facePoints(area, options.spacing);
+  if (!hasEdges(options)) return faces;
+  const EdgeSampling sampling(options);
+  const double on_edges = edgePoints(length(edgesOfFlatPieces(surface, sampling.flatness)), sampling.radius);
+  return std::min(faces + on_edges, facePoints(area, options.edge_gap));
 }
 
 }  // namespace sdf_ccd

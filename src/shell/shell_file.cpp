@@ -8,15 +8,16 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "shell";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 static_assert(sizeof(Vector3d) == 3 * sizeof(double), "points are written as three numbers each");
 
 }  // namespace
 
 void saveShell(const PointShell& shell, const std::string& path) {
+  const double radii[] = {shell.covering_radius, shell.edge_radius, shell.flatness};
   writeCheckedFile(path, kKind, kVersion,
-                   {{&shell.covering_radius, sizeof(double)},
+                   {{radii, sizeof radii},
                     {shell.points.data(), shell.points.size() * sizeof(Vector3d)},
                     {shell.normals.data(), shell.normals.size() * sizeof(Vector3d)},
                     {shell.areas.data(), shell.areas.size() * sizeof(double)}});
@@ -25,11 +26,11 @@ void saveShell(const PointShell& shell, const std::string& path) {
 PointShell loadShell(const std::string& path) {
   const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kKind, kVersion);
   std::size_t numbers = 0, points = 0, normals = 0, areas = 0;
-  const auto* covering_radius = file->section<double>(0, numbers);
+  const auto* radii = file->section<double>(0, numbers);
   const auto* point = file->section<Vector3d>(1, points);
   const auto* normal = file->section<Vector3d>(2, normals);
   const auto* area = file->section<double>(3, areas);
-  if (numbers != 1 || normals != points || areas != points) {
+  if (numbers != 3 || normals != points || areas != points) {
     throw std::runtime_error(path + ": damaged: " + std::to_string(points) + " points, " + std::to_string(normals) +
                              " normals, " + std::to_string(areas) + " areas");
   }
@@ -37,7 +38,9 @@ PointShell loadShell(const std::string& path) {
   shell.points.assign(point, point + points);
   shell.normals.assign(normal, normal + normals);
   shell.areas.assign(area, area + areas);
-  shell.covering_radius = *covering_radius;
+  shell.covering_radius = radii[0];
+  shell.edge_radius = radii[1];
+  shell.flatness = radii[2];
   return shell;
 }
 

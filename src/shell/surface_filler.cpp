@@ -38,23 +38,56 @@ std::vector<Vector3d> vertexNormals(const TriangleMesh& mesh, const std::vector<
   return sums;
 }
 
+/// Which parts of a segment, from 0 to its length, are within a radius of points.
+class CoveredParts {
+ public:
+  CoveredParts(const SurfaceEdge& edge, double radius)
+      : from_(edge.from), length_((edge.to - edge.from).norm()), radius_(radius) {
+    if (length_ > 0.0) along_ = (edge.to - edge.from) / length_;
+  }
+
+  double length() const { return length_; }
+  Vector3d at(double s) const { return from_ + s * along_; }
+
+  void add(const Vector3d& p) {
+    const double s = along_.dot(p - from_);
+    const double half2 = radius_ * radius_ - (p - at(s)).squaredNorm();
+    if (half2 > 0.0) parts_.emplace_back(s - std::sqrt(half2), s + std::sqrt(half2));
+  }
+
+  /// Calls visit(begin, end) for what is left.
+  template <typename Visit>
+  void forEachGap(Visit visit) {
+    std::sort(parts_.begin(), parts_.end());
+    double reached = 0.0;
+    for (const auto& [begin, end] : parts_) {
+      if (begin > reached) visit(reached, std::min(begin, length_));
+      reached = std::max(reached, end);
+      if (reached >= length_) return;
+    }
+    visit(reached, length_);
+  }
+
+ private:
+  Vector3d from_, along_ = Vector3d::Zero();
+  double length_, radius_;
+  std::vector<std::pair<double, double>> parts_;
+};
+
 }  // namespace
 
 SurfaceFiller::SurfaceFiller(const TriangleMesh& mesh, const ShellOptions& options)
-    : mesh_(mesh), options_(options), grid_(options.spacing) {
-  triangle_normals_.reserve(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3d normal = areaNormal(mesh, static_cast<int>(i));
-    const double norm = normal.norm();
-    triangle_normals_.push_back(norm > 0 ? Vector3d(normal / norm) : Vector3d::Zero());
-  }
+    : mesh_(mesh), options_(options), triangle_normals_(triangleNormals(mesh)), grid_(options.spacing) {}
+
+void SurfaceFiller::refuse() const {
+  std::string spacing = numberText(options_.spacing) + " m";
+  if (options_.edge_gap > 0.0) spacing += " (" + numberText(options_.edge_gap) + " m for edges)";
+  throw std::length_error("a point every " + spacing + " needs more than " + std::to_string(options_.max_points) +
+                          " points");
 }
 
 void SurfaceFiller::add(const Vector3d& p, const Vector3d& normal) {
-  if (shell_.size() >= options_.max_points) {
-    throw std::length_error("a point every " + numberText(options_.spacing) + " m needs more than " +
-                            std::to_string(options_.max_points) + " points");
-  }
+  if (shell_.size() >= options_.max_points) refuse();
   shell_.points.push_back(p);
   shell_.normals.push_back(normal);
   grid_.insert(p);
@@ -82,6 +115,31 @@ void SurfaceFiller::addVertices() {
     kept.insert(p);
     places.push_back(p);
     add(p, normals[v]);
+  }
+}
+
+void SurfaceFiller::fillEdges(const std::vector<SurfaceEdge>& edges, double edge_radius) {
+  if (edges.empty()) return;
+  const double radius = edge_radius * (1.0 - 1e-9);  // neighbouring parts must overlap in spite of rounding
+  PointGrid near(1.2 * radius);                      // from places that far apart, all points within it of an edge
+  for (const Vector3d& p : shell_.points) near.insert(p);
+  for (const SurfaceEdge& edge : edges) {
+    CoveredParts covered(edge, radius);
+    const double places = std::floor(covered.length() / radius);
+    if (places > static_cast<double>(options_.max_points)) refuse();
+    for (double k = 0.0; k <= places; ++k) {
+      near.anyNear(covered.at(std::min((k + 0.5) * radius, covered.length())), [&](std::int32_t i) {
+        covered.add(shell_.points[i]);
+        return false;
+      });
+    }
+    covered.forEachGap([&](double begin, double end) {
+      const double count = std::ceil((end - begin) / (2.0 * radius));
+      for (double k = 0.0; k < std::max(1.0, count); ++k) {
+        add(covered.at(begin + (end - begin) * (k + 0.5) / std::max(1.0, count)), edge.normal);
+        near.insert(shell_.points.back());
+      }
+    });
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "flat_pieces.h"
 #include "point_grid.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 #include "sdf_ccd/shell/point_shell.h"
@@ -17,6 +18,8 @@ class SurfaceFiller {
 
   /// The mesh's vertices, thinned to options.vertex_spacing.
   void addVertices();
+  /// Points along edges, until no place of one is farther than `radius` from a point [m].
+  void fillEdges(const std::vector<SurfaceEdge>& edges, double radius);
   /// Poisson-disk sampling: random places, kept if no point that faces their way is nearer than the spacing.
   void throwDarts();
   /// Halves triangles until one point covers each piece; adds a point wherever none does.
@@ -25,6 +28,7 @@ class SurfaceFiller {
   PointShell take() { return std::move(shell_); }
 
  private:
+  [[noreturn]] void refuse() const;
   void add(const Vector3d& p, const Vector3d& normal);
   bool isCovered(const Vector3d& p, const Vector3d& normal) const;
 

@@ -209,6 +209,28 @@ TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
   }
 }
 
+TEST(Monitor, PointsOnEdgesTellCrossedPlatesApart) {
+  // Two thin plates on edge, crosswise, one above the other: their rims are nearest to each other.
+  SceneOptions options = fine(0.02);
+  options.shell.edge_gap = 0.001;
+  const Primitive plate = Box{{0.1, 0.001, 0.05}};
+  const auto scene = build({body("a", plate), body("b", plate)}, options),
+             plain = build({body("a", plate), body("b", plate)}, fine(0.02));
+  const auto verdictAt = [](const std::shared_ptr<const Scene>& scene, double apart) {
+    Monitor monitor(scene, soft());
+    return monitor
+        .run(cycle(0.1, {still(Isometry3d::Identity()), still(pose({0.0, 0.0, 0.1 + apart}, kPi / 2, {0, 0, 1}))}), {})
+        .pairs[0];
+  };
+  EXPECT_NEAR(verdictAt(scene, 0.1).error.gap, 0.001, 1e-12);
+  EXPECT_EQ(verdictAt(scene, 0.0012).verdict, Verdict::kClear);
+  EXPECT_NE(verdictAt(scene, 0.0).verdict, Verdict::kClear);
+  EXPECT_EQ(verdictAt(scene, -0.002).verdict, Verdict::kContact);
+  EXPECT_EQ(verdictAt(plain, 0.0012).verdict, Verdict::kUncertain);
+  EXPECT_LE(verdictAt(scene, 0.003).clearance, 0.003);
+  EXPECT_GT(verdictAt(scene, 0.003).clearance, 0.001);
+}
+
 TEST(Monitor, NothingIsClearBeyondWhatNumbersHold) {
   const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.05));
   Monitor monitor(scene, soft());

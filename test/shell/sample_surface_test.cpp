@@ -219,6 +219,11 @@ TEST(SampleSurface, BadInputIsRefused) {
   options = {};
   options.vertex_spacing = -1;
   EXPECT_THROW(sampleSurface(mesh, options), std::invalid_argument);
+  for (const double gap : {-1.0, std::nan(""), HUGE_VAL}) {
+    options = {};
+    options.edge_gap = gap;
+    EXPECT_THROW(sampleSurface(mesh, options), std::invalid_argument);
+  }
   options = {};
   EXPECT_THROW(sampleSurface(TriangleMesh{}, options), std::invalid_argument);
   EXPECT_THROW(sampleSurface(Primitive(HalfSpace{{0, 0, 1}, 0}), options), std::invalid_argument);
@@ -238,6 +243,22 @@ TEST(SampleSurface, DegenerateTrianglesDoNoHarm) {
   const PointShell shell = sampleSurface(mesh, options);
   EXPECT_NEAR(sum(shell.areas), 6, 1e-9);
   for (const Vector3d& normal : shell.normals) EXPECT_NEAR(normal.norm(), 1, 1e-12);
+}
+
+TEST(SampleSurface, ExpectedPointsAreAboutRight) {
+  for (const auto& [name, mesh] : meshes()) {
+    if (mesh.triangles.size() == 1) continue;
+    for (const double gap : {0.0, 0.004}) {
+      ShellOptions options;
+      options.spacing = 0.03;
+      options.vertex_spacing = 0.03;
+      options.edge_gap = gap;
+      const double expected = expectedPoints(mesh, options),
+                   made = static_cast<double>(sampleSurface(mesh, options).size());
+      EXPECT_LT(expected, 1.6 * made) << name << " " << gap;
+      EXPECT_GT(expected, made / 1.6) << name << " " << gap;
+    }
+  }
 }
 
 TEST(SampleSurface, RobotMeshes) {

@@ -20,6 +20,8 @@ class ShellFile : public ::testing::Test {
     shell_.normals = {{1, 0, 0}, {0, 1, 0}};
     shell_.areas = {0.1, 0.2};
     shell_.covering_radius = 0.007;
+    shell_.edge_radius = 0.001;
+    shell_.flatness = 0.0001;
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
@@ -34,6 +36,8 @@ TEST_F(ShellFile, ComesBackAsItWas) {
   EXPECT_EQ(loaded.normals, shell_.normals);
   EXPECT_EQ(loaded.areas, shell_.areas);
   EXPECT_EQ(loaded.covering_radius, shell_.covering_radius);
+  EXPECT_EQ(loaded.edge_radius, shell_.edge_radius);
+  EXPECT_EQ(loaded.flatness, shell_.flatness);
 }
 
 TEST_F(ShellFile, EmptyShellComesBack) {

@@ -9,7 +9,10 @@
 namespace sdf_ccd {
 
 struct ShellOptions {
-  double spacing = 0.01;        ///< no place of the surface farther than this from a point [m]
+  double spacing = 0.01;  ///< no place of the surface farther than this from a point [m]
+  /// Where it is less than the spacing, edges get points of their own: of two surfaces that touch each other, sampled
+  /// like this, a point of one is no farther than this from the other (see contact_gap.h) [m]. 0: no such points.
+  double edge_gap = 0.0;
   double vertex_spacing = 0.0;  ///< mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all
   std::uint64_t seed = 1;       ///< equal seeds give equal shells
   std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
@@ -19,10 +22,17 @@ struct ShellOptions {
 /// until no gap exceeds options.spacing. Vertex normals are weighted by angle; a vertex of a sharp edge keeps its
 /// averaged normal. Areas sum to the mesh's area.
 ///
+/// Faces need no points to be touched at: two polyhedra touch each other at an edge of one. So edges, but those within
+/// flat pieces, can be sampled denser than faces (options.edge_gap), at a fraction of the points; where a
+/// surface is so finely curved that its edges need more, all of it is.
+///
 /// A place belongs to the nearest point whose normal is not against the place's own, and gaps are filled by that
 /// measure too, so both sides of a thin plate get points and area. The covering radius counts all points.
 /// @throws std::invalid_argument if the mesh or the options are not valid.
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
+
+/// About how many points sampleSurface() would take, from the areas and edges alone; few vertices are assumed.
+double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options);
 
 /// Point shell of a primitive: points exactly on its surface, with its exact normals away from edges. Areas sum to
 /// the primitive's. Of a sphere or cylinder no two points that come from vertices are nearer than the spacing.
