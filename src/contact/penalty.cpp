@@ -166,7 +166,9 @@ class Integrator {
     depth.depth = std::max(-deepest_.value(), 0.0);
     depth.time = chord.t_start + s * point.duration;
     depth.p_C = frame_.origin(s) + R_CF * p_F;
-    depth.normal_C = R_CF * fieldNormal(point, s, input_.field.sample(p_F).gradient);
+    const FieldSample sample = input_.field.sample(p_F);
+    depth.error = sample.error;
+    depth.normal_C = R_CF * fieldNormal(point, s, sample.gradient);
     return depth;
   }
 

@@ -17,6 +17,7 @@ PointContact toPointContact(const ContactPoint& point, const ros::Time& start) {
   message.exit = start + ros::Duration(point.exit);
   message.time = start + ros::Duration(point.time);
   message.depth = point.depth;
+  message.depth_error = point.depth_error;
   message.position = toPoint(point.p_W);
   message.normal = toVector3(point.normal_W);
   return message;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_case.h"
+#include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd {
@@ -126,6 +127,20 @@ TEST(Penalty, HundredMetresPerSecondThroughOneMillimetre) {
   const HitDepth deepest = passing.run(options).depths.at(0);
   EXPECT_NEAR(deepest.depth, thickness / 2.0, 1e-6);
   EXPECT_NEAR(deepest.time, 0.43 / v, 1e-8);
+}
+
+TEST(Penalty, DepthSaysWhatItMayBeWrongBy) {
+  // A cube of side 0.4 in cells of 0.00625; deep inside, the field keeps one value per brick's corner.
+  FieldOptions sampling;
+  sampling.cells = 64;
+  const DistanceField cube = buildField(boxMesh(Vector3d::Constant(0.2)), sampling);
+  for (const double depth : {0.01, 0.02, 0.1, 0.17}) {
+    const Isometry3d X_FP = translation({0.2 - depth, 0.004, -0.01});
+    const ContactCase inside{cube, onePoint(Vector3d::Zero(), Vector3d::UnitX()), oneChord(1.0, X_FP, X_FP)};
+    const HitDepth found = inside.run(perArea(), false).depths.at(0);
+    EXPECT_LE(std::abs(found.depth - depth), found.error) << depth;
+    EXPECT_EQ(found.error > cube.errorBound(), depth > 0.05) << depth;
+  }
 }
 
 TEST(Penalty, DepthIsFoundBetweenTheNodes) {

@@ -43,11 +43,12 @@ struct CycleRequest {
 
 /// One contact of one shell point.
 struct ContactPoint {
-  double enter = 0.0;                    ///< [s] from t₀
-  double exit = 0.0;                     ///< [s] from t₀
-  double time = 0.0;                     ///< when it is deepest [s] from t₀
-  double depth = 0.0;                    ///< [m]
-  Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
+  double enter = 0.0;               ///< [s] from t₀
+  double exit = 0.0;                ///< [s] from t₀
+  double time = 0.0;                ///< when it is deepest [s] from t₀
+  double depth = 0.0;               ///< [m]
+  double depth_error = 0.0;         ///< of the depth, from the field [m]: beyond its band more than ErrorBound::field
+  Vector3d p_W = Vector3d::Zero();  ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
 };
 
