@@ -11,9 +11,9 @@
 
 #include "build_systems.h"
 #include "peak_memory.h"
+#include "precision/random_inputs.h"
 #include "sdf_ccd/geometry/triangle_tree.h"
 #include "segment_cases.h"
-#include "surface_points.h"
 
 namespace sdf_ccd::benchmark {
 namespace {
@@ -36,7 +36,9 @@ struct ExactPoints {
 ExactPoints pointsNear(const NamedMesh& named, const TriangleTree& tree, double reach) {
   test::Random random(1);
   ExactPoints exact;
-  for (const Vector3d& p : surfacePoints(named.mesh, kPoints, random)) {
+  const precision::SurfacePlaces surface(named.mesh);
+  while (exact.points.size() < kPoints) {
+    const Vector3d p = surface(random);
     exact.add(tree, p + test::uniform(random, 0.0, reach) * test::direction(random));
   }
   return exact;

@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include "motion_cases.h"
+#include "precision/random_inputs.h"
 #include "segment_cases.h"
 #include "segment_system.h"
 #include "study_fields.h"
@@ -22,7 +23,8 @@ constexpr int kThreads = 2;
 struct PlainShell {
   PlainShell(const TriangleMesh& mesh, std::size_t points) {
     test::Random random(1);
-    shell.points = surfacePoints(mesh, points, random);
+    const precision::SurfacePlaces surface(mesh);
+    while (shell.points.size() < points) shell.points.push_back(surface(random));
     shell.normals.assign(points, Vector3d::Zero());
     shell.areas.assign(points, 0.0);
     tree = buildSphereTree(shell);

@@ -11,6 +11,7 @@ import re
 import sys
 
 import dynamics_tables
+import precision_tables
 from results import Results
 
 SEGMENT_SYSTEMS = ['paper_uniform', 'paper_octree', 'sdf_ccd', 'sdf_ccd_batch', 'openvdb', 'embree', 'embree16',
@@ -162,7 +163,8 @@ def scaling(results):
 
 TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree, 'segments': segments, 'build': build,
           'shells': shells, 'scaling': scaling,
-          **{name: lambda results, make=make: table(*make(results)) for name, make in dynamics_tables.TABLES.items()}}
+          **{name: lambda results, make=make: table(*make(results)) for name, make in
+             {**dynamics_tables.TABLES, **precision_tables.TABLES}.items()}}
 
 
 def main():

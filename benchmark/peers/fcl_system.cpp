@@ -1,22 +1,10 @@
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/continuous_collision.h>
 
+#include "fcl_model.h"
 #include "shell_system.h"
 
 namespace sdf_ccd::benchmark {
 namespace {
-
-using Model = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::unique_ptr<Model> model(const TriangleMesh& mesh) {
-  std::vector<fcl::Triangle> triangles;
-  for (const Vector3i& t : mesh.triangles) triangles.emplace_back(t.x(), t.y(), t.z());
-  auto model = std::make_unique<Model>();
-  model->beginModel(int(triangles.size()), int(mesh.vertices.size()));
-  model->addSubModel(mesh.vertices, triangles);
-  model->endModel();
-  return model;
-}
 
 /// FCL's continuous collision of the two meshes by its default solver, which tests poses along the motion (10) and
 /// can miss what happens between them. Its conservative advancement is no peer: in FCL 0.7.0 it reports no contact for
@@ -24,7 +12,8 @@ std::unique_ptr<Model> model(const TriangleMesh& mesh) {
 /// stops at the first contact, and sees surfaces only: a body inside another is free.
 class Fcl : public ShellSystem {
  public:
-  explicit Fcl(const ShellSubject& subject) : field_(model(subject.field_mesh)), shell_(model(subject.shell_mesh)) {}
+  explicit Fcl(const ShellSubject& subject)
+      : field_(fclModel(subject.field_mesh)), shell_(fclModel(subject.shell_mesh)) {}
 
   std::string name() const override { return "fcl"; }
 
@@ -44,7 +33,7 @@ class Fcl : public ShellSystem {
   }
 
  private:
-  std::unique_ptr<Model> field_, shell_;
+  std::unique_ptr<FclModel> field_, shell_;
 };
 
 const RegisteredShell kFcl{

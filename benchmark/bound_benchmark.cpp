@@ -1,0 +1,228 @@
+/// Whether reported error bounds hold, and how tight they are, against exact meshes. Prints rows of results.csv.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bound/places.h"
+#include "bound/reference.h"
+#include "bound/tally.h"
+#include "bound/verdicts.h"
+#include "sdf_ccd/contact/penalty.h"
+#include "sdf_ccd/query/segment_batch.h"
+#include "study_fields.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+using precision::ExactSurface;
+using precision::Random;
+
+constexpr double kRoot = 1e-9;           ///< of the path: tolerance of segmentIntervals()
+constexpr double kBatchRoot = 1e-6;      ///< of the grid's longest side: that of batches
+constexpr std::size_t kCompared = 2000;  ///< places and segments that CGAL is asked too
+
+using Tallies = std::map<std::string, BoundTally>;
+
+/// One field against its mesh.
+class FieldStudy {
+ public:
+  FieldStudy(const DistanceField& field, const ExactSurface& mesh)
+      : field_(field), mesh_(mesh), rounding_(1e-12 * boundingBox(mesh.mesh()).sizes().maxCoeff()) {}
+
+  /// Distance and bounds at places.
+  void askPlaces(const std::vector<ExactPlace>& places) {
+    for (const ExactPlace& place : places) {
+      const FieldSample sample = field_.sample(place.p);
+      const bool near = std::abs(place.distance) <= field_.band();
+      tally(near ? "distance" : "distance_far").add(std::abs(sample.value - place.distance), sample.error);
+      const DistanceBounds bounds = field_.bounds(place.p);
+      tally("bounds").check(bounds.low <= place.distance + rounding_ && place.distance - rounding_ <= bounds.high);
+    }
+  }
+
+  /// Segments that start outside.
+  void askSegments(const std::vector<Segment>& segments) {
+    for (const Segment& segment : segments) {
+      const double length = (segment.end - segment.start).norm();
+      for (const Interval& interval : segmentIntervals(field_, segment)) {
+        for (const double t : {interval.enter, interval.exit}) {
+          if (t > 0.0 && t < 1.0) addHit("hit", segment, t, kRoot * length);
+        }
+      }
+      addTime(segment, length);
+    }
+    BatchOptions options;
+    options.mode = SegmentMode::kAll;
+    BatchResult batch;
+    segmentIntervals(field_, segments.data(), segments.size(), options, batch);
+    const double tolerance = kBatchRoot * field_.box().sizes().maxCoeff();
+    for (const SegmentHit& hit : batch.hits) {
+      for (const double t : {double(hit.enter), double(hit.exit)}) {
+        if (t > 0.0 && t < 1.0) addHit("hit_batch", segments[hit.segment], t, tolerance);
+      }
+    }
+  }
+
+  /// Depths of points that move along segments.
+  void askDepths(const std::vector<Segment>& segments) {
+    const std::vector<SiblingField> no_siblings;
+    for (const Segment& segment : segments) {
+      Isometry3d X_end = Isometry3d::Identity();
+      X_end.translation() = segment.end - segment.start;
+      const ChordPath path{{{0.0, 1.0, Isometry3d::Identity(), X_end, 0}}, 0.0};
+      const PointShell shell{{segment.start}, {Vector3d::UnitZ()}, {1.0}, 0.0};
+      std::vector<ShellHit> hits;
+      for (const Interval& interval : segmentIntervals(field_, segment)) hits.push_back({0, 0, interval});
+      if (hits.empty()) continue;
+      ContactImpulse impulse;
+      const std::vector<Isometry3d> rest(2, Isometry3d::Identity());
+      integrateContact({field_, shell, path, rest, no_siblings}, hits, {}, false, impulse);
+      double deepest = 0.0;
+      for (const HitDepth& depth : impulse.depths) {
+        deepest = std::max(deepest, depth.depth);
+        addDepth("depth_at_place", depth.depth, -mesh_.distance(depth.p_C));
+      }
+      addDepth("depth", deepest, deepestOn(segment));
+    }
+  }
+
+  Tallies& tallies() { return tallies_; }
+
+ private:
+  BoundTally& tally(const std::string& query) { return tallies_.try_emplace(query, rounding_).first->second; }
+
+  /// A place that the field takes for the surface.
+  void addHit(const std::string& query, const Segment& segment, double t, double root) {
+    const Vector3d p = segment.start + t * (segment.end - segment.start);
+    tally(query).add(mesh_.unsignedDistance(p), field_.errorBound() + root);
+  }
+
+  /// The first contact lies between the first places at which the field is below plus and minus its error.
+  void addTime(const Segment& segment, double length) {
+    const double error = field_.errorBound();
+    const std::optional<double> exact = mesh_.firstHit(segment);
+    const auto first = [&](double sigma) {
+      const Intervals found = segmentIntervals(field_, segment, {sigma, true});
+      return found.empty() ? std::optional<double>() : found.front().enter;
+    };
+    const std::optional<double> earliest = first(error), middle = first(0.0), latest = first(-error);
+    BoundTally& times = tally("time_of_impact");
+    const double slack = kRoot + rounding_ / length;
+    if (!exact) return times.check(!latest);
+    if (!earliest || *earliest > *exact + slack || (latest && *latest < *exact - slack)) return times.check(false);
+    if (!middle || !latest) return times.check(true);  // grazing: no bound on when
+    times.add(length * std::abs(*middle - *exact), length * (*latest - *earliest + slack));
+  }
+
+  void addDepth(const std::string& query, double depth, double exact) {
+    if (exact > field_.band() - field_.errorBound()) return;
+    tally(query).add(std::abs(depth - exact), field_.errorBound());
+  }
+
+  /// The deepest place of a segment [m], to a twentieth of the error bound: depths change by no more than the way
+  /// between them, so a piece whose ends rule out more than what is known is not looked into.
+  double deepestOn(const Segment& segment) const {
+    const Vector3d way = segment.end - segment.start;
+    const double length = way.norm(), enough = 0.05 * field_.errorBound();
+    const auto depthAt = [&](double t) { return -mesh_.distance(segment.start + t * way); };
+    struct Piece {
+      double from, to, at_from, at_to;
+    };
+    std::vector<Piece> pieces{{0.0, 1.0, depthAt(0.0), depthAt(1.0)}};
+    double deepest = std::max(pieces[0].at_from, pieces[0].at_to);
+    while (!pieces.empty() && deepest <= field_.band()) {
+      const Piece piece = pieces.back();
+      pieces.pop_back();
+      if (0.5 * (piece.at_from + piece.at_to + (piece.to - piece.from) * length) < deepest + enough) continue;
+      const double middle = 0.5 * (piece.from + piece.to), depth = depthAt(middle);
+      deepest = std::max(deepest, depth);
+      pieces.push_back({piece.from, middle, piece.at_from, depth});
+      pieces.push_back({middle, piece.to, depth, piece.at_to});
+    }
+    return deepest;
+  }
+
+  const DistanceField& field_;
+  const ExactSurface& mesh_;
+  const double rounding_;
+  Tallies tallies_;
+};
+
+void printVerdicts(const std::string& name, const VerdictTally& tally, double cell) {
+  const long all = tally.clear + tally.contact + tally.uncertain;
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    print({"bound", name, "sdf_ccd", metric, value, unit, int(all)});
+  };
+  row("clear", double(tally.clear), "motions");
+  row("contact", double(tally.contact), "motions");
+  row("uncertain", double(tally.uncertain), "motions");
+  row("uncertain_share", double(tally.uncertain) / double(all), "1");
+  row("error_bound", cell, "box side");
+}
+
+void study(const NamedMesh& named, const StudyOptions& options) {
+  const ExactSurface mesh(named.mesh);
+  const double side = boundingBox(named.mesh).sizes().maxCoeff();
+  Random random(3);
+  const std::vector<ExactPlace> places = placesOfMesh(mesh, options.segments, random);
+  const std::vector<Segment> segments = segmentsOfMesh(mesh, options.segments, random);
+  std::vector<ExactPlace> some_places = places;
+  std::vector<Segment> some_segments = segments;
+  std::shuffle(some_places.begin(), some_places.end(), random);
+  std::shuffle(some_segments.begin(), some_segments.end(), random);
+  some_places.resize(std::min(some_places.size(), kCompared));
+  some_segments.resize(std::min(some_segments.size(), kCompared));
+  const ReferenceDifference difference = compareWithCgal(mesh, some_places, some_segments);
+  const auto reference = [&](const char* metric, double value, const char* unit) {
+    print({"bound", named.name + "/reference", "cgal", metric, value, unit, int(kCompared)});
+  };
+  reference("distance_difference", difference.distance / side, "box side");
+  reference("hit_difference", difference.hit / side, "box side");
+  reference("hits_of_one_only", double(difference.lost), "segments");
+
+  const VerdictStudy verdicts(mesh, options.pairs);
+  Tallies all;
+  for (const StudyField& wanted : studyFields(named, options)) {
+    withField(named, wanted, [&](const DistanceField& field) {
+      FieldStudy study(field, mesh);
+      study.askPlaces(places);
+      study.askPlaces(placesOfField(field, mesh, options.segments, random));
+      study.askSegments(segments);
+      study.askSegments(segmentsOfField(field, mesh, options.segments, random));
+      study.askDepths(some_segments);
+      const VerdictTally verdict = verdicts.run(wanted.options);
+      study.tallies().insert({{"verdict", verdict.verdicts}, {"clearance", verdict.clearance}});
+      study.tallies().insert({"pair_depth", verdict.depth});
+      const std::string of_field = wanted.name.substr(named.name.size());
+      for (const auto& [query, tally] : study.tallies()) {
+        tally.printRows(named.name + "/" + query + of_field, side);
+        all.try_emplace(query, 1e-12 * side).first->second += tally;
+      }
+      printVerdicts(named.name + "/verdict" + of_field, verdict, field.errorBound() / side);
+    });
+  }
+  for (const auto& [query, tally] : all) tally.printRows(named.name + "/" + query, side);
+}
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark
+
+int main(int argc, char** argv) {
+  using namespace sdf_ccd::benchmark;
+  StudyOptions full;
+  full.cells = {32, 64, 128};
+  full.errors = {"1e-2", "3e-3", "1e-3"};
+  full.segments = 5'000;
+  full.pairs = 400;
+  full.meshes = {"bunny3k", "bunny75k", "armadillo", "link", "robot_link", "torus", "box"};
+  StudyOptions quick = full;
+  quick.cells = {32};
+  quick.errors = {"1e-2"};
+  quick.segments = 1'000;
+  quick.pairs = 40;
+  return runStudy(argc, argv, "Reported error bounds against exact meshes", full, quick,
+                  [](const StudyOptions& options) {
+                    for (const NamedMesh& named : studyMeshes(options)) study(named, options);
+                  });
+}

@@ -1,0 +1,6 @@
+#!/bin/sh
+# Runs the study `bound` on shapes of our own and fails if a bound was violated.
+# usage: check_bound.sh BOUND_BENCHMARK
+rows=$("$1" --quick) || exit 1
+echo "$rows" | awk -F, '$4 == "violations" { n += $5; cases++ } $4 == "violations" && $5 > 0 { print }
+  END { printf "%d violations in %d cases\n", n, cases; exit !(cases > 0 && n == 0) }'

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <fcl/geometry/bvh/BVH_model.h>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd::benchmark {
+
+using FclModel = fcl::BVHModel<fcl::OBBRSSd>;
+
+/// A mesh's triangles in FCL's hierarchy of boxes, in doubles.
+inline std::unique_ptr<FclModel> fclModel(const TriangleMesh& mesh) {
+  std::vector<fcl::Triangle> triangles;
+  for (const Vector3i& t : mesh.triangles) triangles.emplace_back(t.x(), t.y(), t.z());
+  auto model = std::make_unique<FclModel>();
+  model->beginModel(int(triangles.size()), int(mesh.vertices.size()));
+  model->addSubModel(mesh.vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+}  // namespace sdf_ccd::benchmark

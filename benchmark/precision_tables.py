@@ -1,0 +1,46 @@
+"""Tables of the study `bound`."""
+
+
+def number(value):
+    return '-' if value is None else '%.3g' % value
+
+
+def bound(results):
+    """Violations and tightness, per mesh and query, over all fields."""
+    rows = []
+    for case in results.cases('bound'):
+        if case.count('/') != 1 or case.endswith('/reference'):
+            continue
+        def get(metric):
+            return results.get('bound', case, 'sdf_ccd', metric)
+        rows.append([case, '%d' % get('queries'), '%d' % get('violations'), number(get('median_ratio')),
+                     number(get('largest_share')), *(number(get('error_' + q)) for q in ('median', 'p99', 'max'))])
+    return ['mesh/query', 'queries', 'violations', 'bound / error, median', 'error / bound, largest',
+            'error, median', 'p99', 'maximum'], rows
+
+
+def verdicts(results):
+    """What the monitor said of moving pairs, over the field's error bound."""
+    rows = []
+    for case in results.cases('bound'):
+        if '/verdict/' not in case:
+            continue
+        mesh, _, field = case.split('/')
+        def get(metric):
+            return results.get('bound', case, 'sdf_ccd', metric)
+        rows.append([mesh, field, number(get('error_bound')), *('%d' % get(v) for v in ('clear', 'contact', 'uncertain')),
+                     '%.0f %%' % (100.0 * get('uncertain_share')), '%d' % get('violations')])
+    return ['mesh', 'field', 'its bound, box sides', 'CLEAR', 'CONTACT', 'UNCERTAIN', 'share', 'contradicted'], rows
+
+
+def reference(results):
+    """The reference beside CGAL."""
+    rows = []
+    for case in results.cases('bound'):
+        if case.endswith('/reference'):
+            rows.append([case.split('/')[0], *(number(results.get('bound', case, 'cgal', metric)) for metric in
+                                               ('distance_difference', 'hit_difference', 'hits_of_one_only'))])
+    return ['mesh', 'largest difference of distances', 'of first hits', 'segments that one of both takes for a miss'], rows
+
+
+TABLES = {'bound': bound, 'verdicts': verdicts, 'reference': reference}

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "field/signed_surface.h"
+#include "sdf_ccd/query/segment_query.h"
+
+namespace sdf_ccd::precision {
+
+/// What a mesh itself answers, in double precision: the truth that fields are held against.
+class ExactSurface {
+ public:
+  /// @param mesh  oriented (see orientOutward()); must outlive this.
+  explicit ExactSurface(const TriangleMesh& mesh);
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  const SignedSurface& surface() const { return surface_; }
+
+  /// Signed distance [m]: closest triangle, sign from the winding number.
+  double distance(const Vector3d& p) const { return surface_.signedDistance(p); }
+
+  /// The same without a sign.
+  double unsignedDistance(const Vector3d& p) const { return surface_.tree().closestPoint(p).distance; }
+
+  /// Parameter in [0, 1] of the segment's first crossing of a triangle. Where nothing is near it runs from ball to ball
+  /// that hold no surface, else it tests every triangle near the next piece. Coplanar triangles are left to their
+  /// neighbours; edges are widened by rounding, so that nothing slips through between two triangles.
+  std::optional<double> firstHit(const Segment& segment) const;
+
+ private:
+  const TriangleMesh& mesh_;
+  SignedSurface surface_;
+  double near_;  ///< half of the longest piece whose triangles are all tested [m]
+};
+
+}  // namespace sdf_ccd::precision

@@ -1,0 +1,50 @@
+#include "random_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdf_ccd::precision {
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+
+}  // namespace
+
+double uniform(Random& random, double low, double high) {
+  return low + (high - low) * (double(random() >> 11) * 0x1.0p-53);
+}
+
+Vector3d uniformIn(Random& random, const AlignedBox3d& box) {
+  Vector3d p;
+  for (int k = 0; k < 3; ++k) p[k] = uniform(random, box.min()[k], box.max()[k]);
+  return p;
+}
+
+Vector3d direction(Random& random) {
+  const double z = uniform(random, -1.0, 1.0), turn = uniform(random, 0.0, kTurn), r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+Matrix3d rotation(Random& random) {
+  const double u = uniform(random, 0.0, 1.0), a = uniform(random, 0.0, kTurn), b = uniform(random, 0.0, kTurn);
+  const double v = std::sqrt(1.0 - u), w = std::sqrt(u);
+  return Quaterniond(v * std::sin(a), v * std::cos(a), w * std::sin(b), w * std::cos(b)).toRotationMatrix();
+}
+
+SurfacePlaces::SurfacePlaces(const TriangleMesh& mesh) : mesh_(mesh) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) areas_.push_back(sum += areaNormal(mesh, int(i)).norm());
+}
+
+int SurfacePlaces::triangle(Random& random) const {
+  const auto at = std::upper_bound(areas_.begin(), areas_.end() - 1, uniform(random, 0.0, areas_.back()));
+  return int(at - areas_.begin());
+}
+
+Vector3d SurfacePlaces::place(Random& random, int triangle) const {
+  const Vector3i& t = mesh_.triangles[triangle];
+  const double r = std::sqrt(uniform(random, 0.0, 1.0)), s = uniform(random, 0.0, 1.0);
+  return (1.0 - r) * mesh_.vertices[t[0]] + r * ((1.0 - s) * mesh_.vertices[t[1]] + s * mesh_.vertices[t[2]]);
+}
+
+}  // namespace sdf_ccd::precision

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+/// Repeatable random inputs of studies.
+namespace sdf_ccd::precision {
+
+using Random = std::mt19937_64;
+
+double uniform(Random& random, double low, double high);
+Vector3d uniformIn(Random& random, const AlignedBox3d& box);
+
+/// A unit vector, uniform over the sphere.
+Vector3d direction(Random& random);
+
+/// Uniform over all orientations (Shoemake 1992).
+Matrix3d rotation(Random& random);
+
+/// Places of a mesh's surface, uniform by area, independent of each other.
+class SurfacePlaces {
+ public:
+  /// @param mesh  must outlive this.
+  explicit SurfacePlaces(const TriangleMesh& mesh);
+
+  Vector3d operator()(Random& random) const { return place(random, triangle(random)); }
+
+  int triangle(Random& random) const;
+  Vector3d place(Random& random, int triangle) const;
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<double> areas_;  // running sum
+};
+
+}  // namespace sdf_ccd::precision
