@@ -1,4 +1,6 @@
 // Vector code that is compiled once for each kind of processor; the best one is chosen when the program runs.
+// Not for those whose vectors have no size that is known to the compiler: here they stand in structs.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "adaptive_lanes.cpp"
 #include <hwy/foreach_target.h>
@@ -11,6 +13,7 @@
 
 #include "adaptive_lanes.h"
 #include "cell_cubic.h"
+#include "lane_boarding-inl.h"
 #include "lane_leaves-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,51 +21,105 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
+/// Segments wait in queues for the same kind of step: through a far cell of the top grid, through a child of a node,
+/// through a leaf. A pass takes every flight one step further and prefetches what its next step will read.
 class Follower {
  public:
-  Follower(const LaneGrid& grid, bool first_only, Flight& flight, FlightWork& work)
-      : g_(grid), first_only_(first_only), flight_(flight), work_(work) {}
+  Follower(const LaneGrid& grid, bool first_only, FlightWork& work) : g_(grid), first_only_(first_only), work_(work) {}
 
-  void run(int count) {
-    for (int i = 0; i < count; ++i) work_.moving[i] = i;
-    int moving = count;
-    // Each pass takes every flight through a cell at least; none meets more than this.
+  int run(const Segment* segments, int count) {
+    for (Queues* queues : {&work_.far, &work_.node, &work_.leaf}) (*queues)[0].size = (*queues)[1].size = 0;
+    // Each pass takes each flight through a cell; none meets more than this.
     const int most = 4 * AdaptiveShape::kUnits * (g_.top_size[0] + g_.top_size[1] + g_.top_size[2]);
-    for (int pass = 0; moving > 0; ++pass) {
-      if (pass == most) {
-        work_.lost.assign(work_.moving.begin(), work_.moving.begin() + moving);
-        return;
-      }
-      next_ = at_leaf_ = at_node_ = 0;
-      for (int i = 0; i < moving; i += 2 * int(hn::Lanes(f))) move(i, moving - i);
-      for (int i = 0; i < at_node_; i += 2 * int(hn::Lanes(f))) descend(i, at_node_ - i);
-      for (int i = 0; i < at_leaf_; i += int(hn::Lanes(f))) cross(i, at_leaf_ - i);
-      std::swap(work_.moving, work_.spare);
-      moving = next_;
+    int boarded = 0, last_flying = 0;
+    for (int pass = 0; pass < most; ++pass) {
+      boarded = board(segments, boarded, count);
+      if (refused_ >= 0) return refused_;
+      const int flying = this->flying();
+      if (flying == 0) return -1;
+      if (flying != last_flying) pass = 0;
+      last_flying = flying;
+      next_ ^= 1;
+      takeAll(work_.far, [&](Lanes& lanes, MI used) { crossFar(lanes, used); });
+      takeAll(work_.node, [&](Lanes& lanes, MI used) { descend(lanes, used); });
+      takeAll(work_.leaf, [&](Lanes& lanes, MI used) { crossLeaf(lanes, used); });
     }
+    for (Queues* queues : {&work_.far, &work_.node, &work_.leaf}) {
+      const FlightQueue& queue = (*queues)[next_];
+      work_.lost.insert(work_.lost.end(), queue.id.begin(), queue.id.begin() + queue.size);
+    }
+    return -1;
   }
 
  private:
-  void hit(std::int32_t index, float enter, float exit) {
-    work_.hits.push_back({static_cast<std::uint32_t>(index), enter, exit});
+  using Queues = std::array<FlightQueue, 2>;
+
+  /// Enough that memory answers before a flight's turn comes again, and few enough to stay in the cache themselves.
+  static constexpr int kFlying = 512;
+
+  int flying() const { return work_.far[next_].size + work_.node[next_].size + work_.leaf[next_].size; }
+
+  template <class Step>
+  void takeAll(Queues& queues, const Step& step) {
+    FlightQueue& queue = queues[next_ ^ 1];
+    const int width = static_cast<int>(hn::Lanes(f));
+    for (int i = 0; i < queue.size; i += width) {
+      const MI used = hn::FirstN(n, static_cast<std::size_t>(queue.size - i));
+      Lanes lanes(queue, i, used);
+      step(lanes, used);
+    }
+    queue.size = 0;
+  }
+
+  /// Fills up with segments from number `first` on. @return the first that still waits.
+  int board(const Segment* segments, int first, int count) {
+    const int width = static_cast<int>(hn::Lanes(f));
+    for (int room = kFlying - flying(); first < count && room >= Boarding::kGroup; room -= Boarding::kGroup) {
+      const int group = std::min(Boarding::kGroup, count - first);
+      const Boarding boarding(g_, segments + first, group);
+      if (boarding.doubtful) {
+        const auto within = [](const Segment& s) { return isWithinReach(s); };
+        const int found = int(std::find_if_not(segments + first, segments + first + group, within) - segments);
+        if (found < first + group) refused_ = found;
+      }
+      std::fill_n(work_.first.data() + first, Boarding::kGroup, -1.0F);
+      std::copy_n(boarding.t0, Boarding::kGroup, work_.begin.data() + first);
+      std::copy_n(boarding.t1, Boarding::kGroup, work_.end.data() + first);
+      const auto within = [&](const Lanes& lanes) {
+        return hn::And(hn::Lt(lanes.id, whole(count)), hn::Gt(lanes.place, hn::Zero(n)));
+      };
+      for (int i = 0; i < Boarding::kGroup; i += 2 * width) {
+        Lanes a(boarding, i, first), b(boarding, std::min(i + width, Boarding::kGroup - width), first);
+        const MI which_a = within(a), which_b = i + width < Boarding::kGroup ? within(b) : none();
+        findCells(a, which_a);
+        findCells(b, which_b);
+        arrive(a, which_a, b, which_b);
+      }
+      first += Boarding::kGroup;
+    }
+    return first;
+  }
+
+  void hit(std::int32_t id, float enter, float exit) {
+    work_.hits.push_back({static_cast<std::uint32_t>(id), enter, exit});
   }
 
   /// Lanes found to be inside (or outside) from t on, and not before: begins or ends their hits.
   /// @return lanes that are done with.
-  MI turn(MI inside, MI of, VF t, VI index, Lanes& lanes) {
+  MI turn(MI inside, MI of, VF t, Lanes& lanes) {
     const MI was = asWhole(hn::Ge(lanes.enter, real(0.0F)));
     const MI begin = hn::And(of, hn::AndNot(was, inside)), end = hn::And(of, hn::AndNot(inside, was));
     if (!hn::AllFalse(n, end)) {
       const Unpacked<float> enters(lanes.enter), exits(t);
-      const Unpacked<std::int32_t> ids(index);
+      const Unpacked<std::int32_t> ids(lanes.id);
       forEach(end, [&](std::size_t i) { hit(ids[i], enters[i], exits[i]); });
       lanes.enter = hn::IfThenElse(asReal(end), real(-1.0F), lanes.enter);
     }
     if (hn::AllFalse(n, begin)) return begin;
     if (first_only_) {
       const Unpacked<float> enters(t);
-      const Unpacked<std::int32_t> ids(index);
-      forEach(begin, [&](std::size_t i) { hit(ids[i], enters[i], enters[i]); });
+      const Unpacked<std::int32_t> ids(lanes.id);
+      forEach(begin, [&](std::size_t i) { work_.first[ids[i]] = enters[i]; });
       return begin;
     }
     lanes.enter = hn::IfThenElse(asReal(begin), t, lanes.enter);
@@ -70,197 +127,177 @@ class Follower {
   }
 
   /// Ends the hits of lanes that end inside.
-  void finish(MI done, VI index, const Lanes& lanes) {
+  void finish(MI done, const Lanes& lanes) {
     const MI inside = hn::And(done, asWhole(hn::Ge(lanes.enter, real(0.0F))));
     if (hn::AllFalse(n, inside)) return;
     const Unpacked<float> enters(lanes.enter);
-    const Unpacked<std::int32_t> ids(index);
+    const Unpacked<std::int32_t> ids(lanes.id);
     forEach(inside, [&](std::size_t i) { hit(ids[i], enters[i], 1.0F); });
   }
 
-  void store(MI which, VI index, const Lanes& lanes, FlightList& list, int& size) {
-    const Unpacked<std::int32_t> ids(index), x(lanes.cell[0]), y(lanes.cell[1]), z(lanes.cell[2]);
-    const Unpacked<float> t(lanes.t), enter(lanes.enter);
-    forEach(which, [&](std::size_t i) {
-      const std::int32_t id = ids[i];
-      flight_.cell[0][id] = x[i];
-      flight_.cell[1][id] = y[i];
-      flight_.cell[2][id] = z[i];
-      flight_.t[id] = t[i];
-      flight_.enter[id] = enter[i];
-      list[size++] = id;
-    });
-  }
-
-  /// A vector of flights that are moved together.
-  struct Moving {
-    VI index;
-    Lanes lanes;
-    VF length2, inverse2;
-    MI live;            ///< still on their way
-    MI at_leaf;         ///< have come to one
-    MI at_node;         ///< of a top cell; below one: have left its top cell
-    VI leaf, log_side;  ///< where they have come to; below a node: the node
-
-    Moving(const Flight& flight, MI used, VI numbers)
-        : index(numbers),
-          lanes(flight, numbers),
-          live(used),
-          at_leaf(none()),
-          at_node(none()),
-          leaf(hn::Zero(n)),
-          log_side(hn::Zero(n)) {
-      length2 = hn::MulAdd(lanes.d[0], lanes.d[0], hn::MulAdd(lanes.d[1], lanes.d[1], hn::Mul(lanes.d[2], lanes.d[2])));
-      inverse2 = hn::Div(real(1.0F), hn::Max(length2, real(1e-30F)));
-    }
-  };
-
-  Moving take(const FlightList& list, int first, int left) const {
-    const MI used = hn::FirstN(n, std::size_t(std::max(left, 0)));
-    const int begin = std::min(first, Flight::kCapacity);
-    return {flight_, used, hn::IfThenElseZero(used, hn::LoadU(n, list.data() + begin))};
-  }
-
-  /// Through the top grid: from ball to ball, and from one far cell to the next, until most lanes are at a leaf, at a
-  /// node or done. Two vectors at a time: while one waits for memory the other goes on.
-  void move(int first, int left) {
-    const int lanes = int(hn::Lanes(f));
-    Moving a = take(work_.moving, first, left), b = take(work_.moving, first + lanes, left - lanes);
-    const std::size_t few = hn::Lanes(f) / 2;
-    int steps = 0;
-    do {
-      const Blocks at_a = locateTop(g_, a.lanes.cell), at_b = locateTop(g_, b.lanes.cell);
-      step(at_a, a);
-      step(at_b, b);
-    } while (hn::CountTrue(n, a.live) + hn::CountTrue(n, b.live) > few && ++steps < 4096);
-    put(a);
-    put(b);
-    for (Moving* m : {&a, &b}) {
-      if (hn::AllFalse(n, m->at_node)) continue;
-      const Unpacked<std::int32_t> ids(m->index), nodes(m->leaf);
-      forEach(m->at_node, [&](std::size_t i) {
-        hwy::Prefetch(g_.codes + 16 * std::size_t(nodes[i]));
-        flight_.leaf[ids[i]] = nodes[i];
-      });
-      store(m->at_node, m->index, m->lanes, work_.at_node, at_node_);
-    }
-  }
-
-  /// The same below the nodes of top cells, until most lanes have left their top cell.
-  void descend(int first, int left) {
-    const int lanes = int(hn::Lanes(f));
-    Moving a = take(work_.at_node, first, left), b = take(work_.at_node, first + lanes, left - lanes);
-    const VI node_a = hn::GatherIndex(n, flight_.leaf.data(), a.index);
-    const VI node_b = hn::GatherIndex(n, flight_.leaf.data(), b.index);
-    const std::size_t few = hn::Lanes(f) / 2;
-    int steps = 0;
-    do {
-      descendOnce(hn::IfThenElseZero(a.live, node_a), a);
-      descendOnce(hn::IfThenElseZero(b.live, node_b), b);
-    } while (hn::CountTrue(n, a.live) + hn::CountTrue(n, b.live) > few && ++steps < 4096);
-    put(a);
-    put(b);
-    for (Moving* m : {&a, &b}) {
-      if (!hn::AllFalse(n, m->at_node)) store(m->at_node, m->index, m->lanes, work_.spare, next_);
-    }
-  }
-
-  void descendOnce(VI node, Moving& m) {
-    const auto topOf = [&](int k) { return hn::ShiftRight<kLogTop>(m.lanes.cell[k]); };
-    const VI before[3] = {topOf(0), topOf(1), topOf(2)};
-    step(locateBelow(g_, m.lanes.cell, node), m);
-    const MI stays =
-        hn::And(hn::Eq(before[0], topOf(0)), hn::And(hn::Eq(before[1], topOf(1)), hn::Eq(before[2], topOf(2))));
-    m.at_node = hn::Or(m.at_node, hn::AndNot(stays, m.live));
-    m.live = hn::And(m.live, stays);
-  }
-
-  void step(const Blocks& block, Moving& m) {
-    Lanes& lanes = m.lanes;
-    const MI arrived = hn::AndNot(block.far, m.live);
-    m.leaf = hn::IfThenElse(arrived, block.leaf, m.leaf);
-    m.log_side = hn::IfThenElse(arrived, block.log_side, m.log_side);
-    m.at_node = hn::Or(m.at_node, hn::And(arrived, block.node));
-    m.at_leaf = hn::Or(m.at_leaf, hn::AndNot(block.node, arrived));
-    m.live = hn::And(m.live, block.far);
-    if (hn::AllFalse(n, m.live)) return;
-    const MI inside = asWhole(hn::Lt(block.radius, real(0.0F)));
-    m.live = hn::AndNot(turn(inside, m.live, lanes.t, m.index, lanes), m.live);
-
-    const Exits exits = exitsOf(lanes, block.log_side);
-    // The ball about the block's centre, seen from where the lane is: small numbers, so that little is rounded.
-    const VF half = hn::Mul(hn::ConvertTo(f, exits.side), real(0.5F));
-    VF b = real(0.0F), c = real(0.0F);
+  /// Lanes whose t is anywhere in a far cell: their unit cubes.
+  void findCells(Lanes& lanes, MI which) const {
     for (int k = 0; k < 3; ++k) {
-      const VF at = hn::MulAdd(lanes.d[k], lanes.t, lanes.o[k]);
-      const VF from = hn::Sub(at, hn::Add(hn::ConvertTo(f, exits.low[k]), half));
+      const VI last = whole(g_.top_size[k] * AdaptiveShape::kUnits - 1);
+      const VI cell = hn::Min(hn::Max(hn::ConvertTo(n, hn::Floor(lanes.at(k))), hn::Zero(n)), last);
+      lanes.cell[k] = hn::IfThenElse(which, cell, lanes.cell[k]);
+    }
+  }
+
+  /// Lanes that have come to a new place: while most of a vector stands in far cells those go on at once.
+  void arrive(Lanes& lanes, MI which) {
+    Blocks at = locateTop(g_, lanes.cell);
+    MI far = hn::And(which, at.far);
+    while (2 * hn::CountTrue(n, far) > hn::Lanes(n)) {
+      which = hn::Or(hn::AndNot(far, which), passFar(lanes, at.log_side, at.radius, far));
+      at = locateTop(g_, lanes.cell);
+      far = hn::And(which, at.far);
+    }
+    queue(lanes, which, at);
+  }
+
+  /// The same for two vectors in turn: one goes on while memory answers the other.
+  void arrive(Lanes& a, MI which_a, Lanes& b, MI which_b) {
+    Blocks at_a = locateTop(g_, a.cell), at_b = locateTop(g_, b.cell);
+    MI far_a = hn::And(which_a, at_a.far), far_b = hn::And(which_b, at_b.far);
+    while (hn::CountTrue(n, far_a) + hn::CountTrue(n, far_b) > hn::Lanes(n)) {
+      which_a = hn::Or(hn::AndNot(far_a, which_a), passFar(a, at_a.log_side, at_a.radius, far_a));
+      which_b = hn::Or(hn::AndNot(far_b, which_b), passFar(b, at_b.log_side, at_b.radius, far_b));
+      at_a = locateTop(g_, a.cell);
+      at_b = locateTop(g_, b.cell);
+      far_a = hn::And(which_a, at_a.far);
+      far_b = hn::And(which_b, at_b.far);
+    }
+    queue(a, which_a, at_a);
+    queue(b, which_b, at_b);
+  }
+
+  /// Sends lanes to the queue of what stands where they are.
+  void queue(const Lanes& lanes, MI which, const Blocks& at) {
+    const MI far = hn::And(which, at.far), node = hn::And(which, at.node);
+    if (!hn::AllFalse(n, far)) append(far, lanes, hn::BitCast(n, at.radius), at.log_side, work_.far[next_]);
+    if (!hn::AllFalse(n, node)) appendNode(node, lanes, at.leaf);
+    const MI leaf = hn::AndNot(hn::Or(at.far, at.node), which);
+    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.leaf, at.log_side);
+  }
+
+  void appendNode(MI which, const Lanes& lanes, VI node) {
+    FlightQueue& queue = work_.node[next_];
+    const int added = append(which, lanes, node, node, queue);
+    for (int i = queue.size - added; i < queue.size; ++i) {
+      hwy::Prefetch(g_.codes + 16 * std::size_t(queue.place[i]));
+      hwy::Prefetch(g_.bases + 3 * std::size_t(queue.place[i]));
+    }
+  }
+
+  void appendLeaf(MI which, const Lanes& lanes, VI leaf, VI log_side) {
+    FlightQueue& queue = work_.leaf[next_];
+    const int added = append(which, lanes, leaf, log_side, queue);
+    for (int i = queue.size - added; i < queue.size; ++i) {
+      const std::int32_t place = queue.place[i];
+      hwy::Prefetch(place >= FlightQueue::kSplit ? g_.splits + 2 * (place - FlightQueue::kSplit)
+                                                 : g_.leaves + 2 * place);
+    }
+  }
+
+  /// Where lanes leave the ball about their block's centre that is free of the isosurface; `covers`: it holds all of
+  /// the block. In numbers relative to where the lanes are: small, so that little is rounded.
+  VF ballExit(const Lanes& lanes, VI log_side, VF distance, MF& covers) const {
+    const VI side = hn::Shl(whole(1), log_side), mask = hn::Neg(side);
+    const VF half = hn::Mul(hn::ConvertTo(f, side), real(0.5F));
+    VF b = real(0.0F), c = real(0.0F), length2 = real(1e-20F);
+    for (int k = 0; k < 3; ++k) {
+      const VF from = hn::Sub(lanes.at(k), hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), half));
       b = hn::MulAdd(from, lanes.d[k], b);
       c = hn::MulAdd(from, from, c);
+      length2 = hn::MulAdd(lanes.d[k], lanes.d[k], length2);
     }
-    const VF radius = hn::Sub(hn::MulAdd(hn::Abs(block.radius), real(1.0F - 1e-5F), real(-0.01F)), real(g_.margin));
+    const VF radius = hn::Sub(hn::MulAdd(hn::Abs(distance), real(1.0F - 1e-5F), real(-0.01F)), real(g_.margin));
+    covers = hn::Gt(radius, hn::Mul(half, real(1.7330F)));
     const VF excess = hn::NegMulAdd(radius, radius, c);
-    const VF discriminant = hn::NegMulAdd(m.length2, excess, hn::Mul(b, b));
-    const VF root = hn::Sqrt(hn::Max(discriminant, real(0.0F)));
-    const VF t_ball = hn::MulAdd(hn::Sub(root, b), m.inverse2, lanes.t);
-    const MF jump = hn::And(hn::And(hn::Lt(excess, real(0.0F)), hn::Gt(radius, real(0.0F))), hn::Gt(t_ball, exits.t));
-    const VF t = hn::IfThenElse(jump, t_ball, exits.t);
-    MI done = hn::And(m.live, asWhole(hn::Ge(t, real(1.0F))));
-    done = hn::Or(done, advance(g_, exits, jump, t, m.live, lanes));
-    finish(done, m.index, lanes);
-    m.live = hn::AndNot(done, m.live);
+    const VF discriminant = hn::NegMulAdd(length2, excess, hn::Mul(b, b));
+    const VF exit = hn::Div(hn::Sub(hn::Sqrt(hn::Max(discriminant, real(0.0F))), b), length2);
+    const MF holds = hn::And(hn::Lt(excess, real(0.0F)), hn::Gt(radius, real(0.0F)));
+    return hn::IfThenElse(holds, hn::Add(exit, lanes.t), lanes.t);
   }
 
-  void put(const Moving& m) {
-    if (!hn::AllFalse(n, m.at_leaf)) {
-      const Unpacked<std::int32_t> ids(m.index), leaves(m.leaf), sides(m.log_side);
-      forEach(m.at_leaf, [&](std::size_t i) {
-        const std::int32_t leaf = leaves[i];
-        hwy::Prefetch(leaf >= Flight::kSplit ? g_.splits + 2 * (leaf - Flight::kSplit) : g_.leaves + 2 * leaf);
-        flight_.leaf[ids[i]] = leaf;
-        flight_.log_side[ids[i]] = sides[i];
-      });
-      store(m.at_leaf, m.index, m.lanes, work_.at_leaf, at_leaf_);
+  /// Through far blocks: to the ball's exit, or the block's.
+  /// @return lanes that are neither done nor hit; they stand in their new cells.
+  MI passFar(Lanes& lanes, VI log_side, VF distance, MI live) {
+    const MI inside = asWhole(hn::Lt(distance, real(0.0F)));
+    live = hn::AndNot(turn(inside, live, lanes.t, lanes), live);
+    MF covers;
+    const VF t_ball = ballExit(lanes, log_side, distance, covers);
+    if (hn::AllFalse(n, hn::AndNot(asWhole(covers), live))) {
+      lanes.t = hn::IfThenElse(asReal(live), t_ball, lanes.t);
+      const MI done = hn::And(live, asWhole(hn::Ge(t_ball, real(1.0F))));
+      finish(done, lanes);
+      live = hn::AndNot(done, live);
+      findCells(lanes, live);
+      return live;
     }
-    if (!hn::AllFalse(n, m.live)) store(m.live, m.index, m.lanes, work_.spare, next_);
+    const Exits exits = exitsOf(lanes, log_side);
+    const MF jump = hn::Gt(t_ball, exits.t);
+    const VF t = hn::IfThenElse(jump, t_ball, exits.t);
+    const MI ended = hn::And(live, asWhole(hn::Ge(t, real(1.0F))));
+    const MI done = hn::Or(ended, advance(g_, exits, jump, t, live, lanes));
+    finish(done, lanes);
+    return hn::AndNot(done, live);
   }
 
-  /// Through a leaf.
-  void cross(int first, int left) {
-    const MI used = hn::FirstN(n, std::size_t(left));
-    const VI index = hn::IfThenElseZero(used, hn::LoadU(n, work_.at_leaf.data() + first));
-    Lanes lanes(flight_, index);
-    const VI leaf = hn::IfThenElseZero(used, hn::GatherIndex(n, flight_.leaf.data(), index));
-    const VI log_side = hn::IfThenElseZero(used, hn::GatherIndex(n, flight_.log_side.data(), index));
-    const Exits exits = exitsOf(lanes, log_side);
-    const VF t_exit = hn::Min(exits.t, real(1.0F));
+  void crossFar(Lanes& lanes, MI used) {
+    arrive(lanes, passFar(lanes, whole(kLogTop), hn::BitCast(f, lanes.place), used));
+  }
 
-    const Crossing crossing = crossingOf(leafSteps(g_, used, leaf, log_side), lanes, exits, t_exit);
+  /// To what a node says of the lane's place: a leaf, or through a far child.
+  void descend(Lanes& lanes, MI used) {
+    const auto topOf = [&](int k) { return hn::ShiftRight<kLogTop>(lanes.cell[k]); };
+    const Blocks at = locateBelow(g_, lanes.cell, lanes.place);
+    const MI leaf = hn::AndNot(at.far, used), far = hn::And(used, at.far);
+    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.leaf, at.log_side);
+    if (hn::AllFalse(n, far)) return;
+    const VI before[3] = {topOf(0), topOf(1), topOf(2)};
+    const MI onward = passFar(lanes, at.log_side, at.radius, far);
+    const MI same =
+        hn::And(hn::Eq(before[0], topOf(0)), hn::And(hn::Eq(before[1], topOf(1)), hn::Eq(before[2], topOf(2))));
+    const MI stays = hn::And(onward, same), leaves = hn::AndNot(same, onward);
+    if (!hn::AllFalse(n, stays)) appendNode(stays, lanes, lanes.place);
+    if (!hn::AllFalse(n, leaves)) arrive(lanes, leaves);
+  }
+
+  void crossLeaf(Lanes& lanes, MI used) {
+    const Exits exits = exitsOf(lanes, lanes.log_side);
+    const VF t_exit = hn::Min(exits.t, real(1.0F));
+    const Crossing crossing = crossingOf(leafSteps(g_, used, lanes.place, lanes.log_side), lanes, exits, t_exit);
     const MI in_start = asWhole(crossing.in_start), in_end = asWhole(crossing.in_end);
     const MI hard = hn::And(used, asWhole(crossing.hard));
     const MI easy = hn::AndNot(hard, used);
     // A sign that differs from the last block's changes at the face.
-    MI over = turn(in_start, easy, lanes.t, index, lanes);
+    MI over = turn(in_start, easy, lanes.t, lanes);
     const MI rest = hn::And(hn::AndNot(over, easy), hn::Xor(in_start, in_end));
-    over = hn::Or(over, turn(in_end, rest, crossing.t_root, index, lanes));
-    if (!hn::AllFalse(n, hard)) {
-      const Unpacked<std::int32_t> ids(index);
-      const Unpacked<float> k0(crossing.c[0]), k1(crossing.c[1]), k2(crossing.c[2]), k3(crossing.c[3]), starts(lanes.t),
-          ends(t_exit);
-      Unpacked<float> enters(lanes.enter);
-      Unpacked<std::int32_t> overs(hn::Zero(n));
-      forEach(hard, [&](std::size_t i) {
-        const CellCubic cubic{{double(k0[i]), double(k1[i]), double(k2[i]), double(k3[i])}};
-        overs.value[i] = hardLeaf(cubic, ids[i], starts[i], ends[i], enters.value[i]) ? -1 : 0;
-      });
-      lanes.enter = hn::Load(f, enters.value);
-      over = hn::Or(over, hn::Ne(hn::Load(n, overs.value), hn::Zero(n)));
-    }
+    over = hn::Or(over, turn(in_end, rest, crossing.t_root, lanes));
+    if (!hn::AllFalse(n, hard)) over = hn::Or(over, crossHardLeaves(crossing, hard, t_exit, lanes));
     const MI going = hn::AndNot(over, used);
     MI done = hn::And(going, asWhole(hn::Ge(exits.t, real(1.0F))));
     done = hn::Or(done, advance(g_, exits, asReal(none()), exits.t, going, lanes));
-    finish(done, index, lanes);
+    finish(done, lanes);
     const MI onward = hn::AndNot(done, going);
-    if (!hn::AllFalse(n, onward)) store(onward, index, lanes, work_.spare, next_);
+    if (!hn::AllFalse(n, onward)) arrive(lanes, onward);
+  }
+
+  /// @return lanes that are done with.
+  MI crossHardLeaves(const Crossing& crossing, MI hard, VF t_exit, Lanes& lanes) {
+    const Unpacked<std::int32_t> ids(lanes.id);
+    const Unpacked<float> k0(crossing.c[0]), k1(crossing.c[1]), k2(crossing.c[2]), k3(crossing.c[3]), starts(lanes.t),
+        ends(t_exit);
+    Unpacked<float> enters(lanes.enter);
+    Unpacked<std::int32_t> overs(hn::Zero(n));
+    forEach(hard, [&](std::size_t i) {
+      const CellCubic cubic{{double(k0[i]), double(k1[i]), double(k2[i]), double(k3[i])}};
+      overs.value[i] = hardLeaf(cubic, ids[i], starts[i], ends[i], enters.value[i]) ? -1 : 0;
+    });
+    lanes.enter = hn::Load(f, enters.value);
+    return hn::Ne(hn::Load(n, overs.value), hn::Zero(n));
   }
 
   /// A leaf with several roots, by the exact method. @return true if the flight is done with.
@@ -276,7 +313,7 @@ class Follower {
       const Interval& span = found.interval[i];
       if (enter < 0.0F) enter = timeOf(span.enter);
       if (first_only_) {
-        hit(id, enter, enter);
+        work_.first[id] = enter;
         return true;
       }
       if (span.exit == 1.0) return false;
@@ -288,15 +325,15 @@ class Follower {
 
   const LaneGrid& g_;
   bool first_only_;
-  Flight& flight_;
   FlightWork& work_;
-  int next_ = 0, at_leaf_ = 0, at_node_ = 0;  ///< entries of work_.spare, at_leaf and at_node
+  int refused_ = -1;  ///< a segment that is not within reach
+  int next_ = 0;      ///< of each pair of queues, the one that is written
 };
 
 }  // namespace
 
-void follow(const LaneGrid& grid, bool first_only, int count, Flight& flight, FlightWork& work) {
-  Follower(grid, first_only, flight, work).run(count);
+int follow(const LaneGrid& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
+  return Follower(grid, first_only, work).run(segments, count);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -308,10 +345,10 @@ namespace sdf_ccd {
 
 HWY_EXPORT(follow);
 
-void followFlights(const LaneGrid& grid, bool first_only, int count, Flight& flight, FlightWork& work) {
+int followFlights(const LaneGrid& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
   work.hits.clear();
   work.lost.clear();
-  HWY_DYNAMIC_DISPATCH(follow)(grid, first_only, count, flight, work);
+  return HWY_DYNAMIC_DISPATCH(follow)(grid, first_only, segments, count, work);
 }
 
 }  // namespace sdf_ccd

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sdf_ccd/field/adaptive_grid.h"
+#include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {
 
@@ -17,48 +18,70 @@ struct LaneGrid {
   const std::uint32_t* bases;   ///< three a node
   const std::uint32_t* leaves;  ///< two words each
   const std::uint32_t* splits;
+  std::array<double, 3> origin;  ///< [m]
+  double units_per_metre;
   std::array<std::int32_t, 3> top_size;
   float per_metre;  ///< units
   float sigma;      ///< [units]
   float margin;     ///< |sigma| and the leaves' error: a ball of the true distance less this is free [units]
-  std::array<float, 3> far_step;        ///< [units], by depth
-  std::array<float, 8> offset, corner;  ///< [units] per step, by log2 of the leaf's side
+  std::array<float, 3> far_step;  ///< [units], by depth
+  /// Of leaves' rounding (LeafScale): [units] per step for a leaf of no side, and what a unit of side adds.
+  float offset, offset_per_side, corner, corner_per_side;
 };
 
-/// Segments on their way through a grid, an array per quantity. A segment runs from o to o + d within the grid's box
-/// while its parameter t goes from 0 to 1; lengths in units.
-struct Flight {
-  static constexpr int kCapacity = 2048;
-  static constexpr int kSlack = 64;  ///< beyond the end, so that whole vectors may be read
+/// By the bits of a mask of eight lanes: those that are set, in order; then zeros.
+constexpr std::array<std::array<std::uint8_t, 8>, 256> frontLanes() {
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (int bits = 0; bits < 256; ++bits) {
+    for (int lane = 0, next = 0; lane < 8; ++lane) {
+      if (bits >> lane & 1) table[bits][next++] = static_cast<std::uint8_t>(lane);
+    }
+  }
+  return table;
+}
+inline constexpr auto kFrontLanes = frontLanes();
+
+/// Segments that wait for the same kind of step, an array per quantity. A segment runs from o to o + d within the
+/// grid's box while its parameter t goes from 0 to 1; lengths in units.
+struct FlightQueue {
+  static constexpr int kCapacity = 512;
+  static constexpr int kSlack = 32;  ///< beyond the end, so that whole vectors may be read and written
   template <class T>
   using Column = std::array<T, kCapacity + kSlack>;
 
-  std::array<Column<float>, 3> o, d;
-  std::array<Column<std::int32_t>, 3> cell;  ///< unit cube
-  Column<float> t;
-  Column<float> enter;            ///< t since when it is inside; -1: outside
-  Column<std::int32_t> leaf;      ///< index of the leaf it is in; splits' leaves have kSplit added
-  Column<std::int32_t> log_side;  ///< of that leaf
+  /// Leaves of splits have this added to their index.
   static constexpr std::int32_t kSplit = 1 << 30;
+
+  std::array<Column<float>, 3> o, d;
+  Column<float> t;
+  Column<float> enter;                       ///< t since when it is inside; -1: outside
+  std::array<Column<std::int32_t>, 3> cell;  ///< unit cube
+  Column<std::int32_t> id;                   ///< of the segment
+  Column<std::int32_t> place;                ///< node or leaf that it waits for
+  Column<std::int32_t> log_side;             ///< of that leaf
+  int size = 0;
 };
 
-/// Something inside: of flight number `index`, in its own parameter.
+/// Something inside: of segment number `id`.
 struct FlightHit {
-  std::uint32_t index;
+  std::uint32_t id;
   float enter;
   float exit;
 };
 
-/// Numbers of flights, with room for whole vectors.
-using FlightList = Flight::Column<std::int32_t>;
-
+/// What following segments needs and gives; reused.
 struct FlightWork {
-  FlightList moving, at_node, at_leaf, spare;
-  std::vector<FlightHit> hits;
-  std::vector<std::int32_t> lost;  ///< to be asked one by one: those that did not end
+  static constexpr int kSegments = 8192;  ///< at most
+
+  std::array<FlightQueue, 2> far, node, leaf;    ///< in turn: one is read, the other written
+  std::array<float, kSegments + 16> begin, end;  ///< the part of each segment that is within the grid's box
+  std::array<float, kSegments + 16> first;       ///< of each segment the first hit, if only that is asked; −1: none
+  std::vector<FlightHit> hits;                   ///< all others; of one segment in order of time
+  std::vector<std::int32_t> lost;                ///< to be asked one by one: those that did not end
 };
 
-/// Follows flights 0 to count − 1 to their ends, or to their first hit. Hits of one flight are in order.
-void followFlights(const LaneGrid& grid, bool first_only, int count, Flight& flight, FlightWork& work);
+/// Follows segments 0 to count − 1 to their ends or to their first hit.
+/// @return the number of a segment that is not within reach, where there is one; else −1.
+int followFlights(const LaneGrid& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
 
 }  // namespace sdf_ccd

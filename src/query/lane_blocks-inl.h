@@ -9,13 +9,12 @@
 #include <hwy/highway.h>
 
 #include "adaptive_lanes.h"
+#include "lane_boarding-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
@@ -54,22 +53,96 @@ inline VF gatherReal(const T& column, VI index) {
   return hn::GatherIndex(f, column.data(), index);
 }
 
-/// The lanes' segments.
+/// The lanes' segments: a vector of a queue's flights.
 struct Lanes {
   VF o[3], d[3];
   VI cell[3];
   VF t, enter;
+  VI id;
+  VI place, log_side;
 
-  Lanes(const Flight& flight, VI index) {
+  /// Lanes that are not used stand in the first cell, at the first place: all lanes read memory.
+  Lanes(const FlightQueue& queue, int first, MI used) {
     for (int k = 0; k < 3; ++k) {
-      o[k] = gatherReal(flight.o[k], index);
-      d[k] = gatherReal(flight.d[k], index);
-      cell[k] = hn::GatherIndex(n, flight.cell[k].data(), index);
+      o[k] = hn::LoadU(f, queue.o[k].data() + first);
+      d[k] = hn::LoadU(f, queue.d[k].data() + first);
+      cell[k] = hn::IfThenElseZero(used, hn::LoadU(n, queue.cell[k].data() + first));
     }
-    t = gatherReal(flight.t, index);
-    enter = gatherReal(flight.enter, index);
+    t = hn::LoadU(f, queue.t.data() + first);
+    enter = hn::LoadU(f, queue.enter.data() + first);
+    id = hn::LoadU(n, queue.id.data() + first);
+    place = hn::IfThenElseZero(used, hn::LoadU(n, queue.place.data() + first));
+    log_side = hn::IfThenElseZero(used, hn::LoadU(n, queue.log_side.data() + first));
   }
+
+  /// Those that board; place: whether they meet the box.
+  Lanes(const Boarding& boarding, int first, int first_id)
+      : t(real(0.0F)),
+        enter(real(-1.0F)),
+        id(hn::Iota(n, first_id + first)),
+        place(hn::LoadU(n, boarding.within + first)),
+        log_side(hn::Zero(n)) {
+    for (int k = 0; k < 3; ++k) {
+      o[k] = hn::LoadU(f, boarding.o[k] + first);
+      d[k] = hn::LoadU(f, boarding.d[k] + first);
+      cell[k] = hn::Zero(n);
+    }
+  }
+
+  VF at(int k) const { return hn::MulAdd(d[k], t, o[k]); }
 };
+
+/// Moves the lanes of a mask to the front. The place of each is found once for all the vectors that are moved alike;
+/// Highway's Compress() finds it anew each time, and GCC copies the table that it reads it from.
+class Front {
+ public:
+  explicit Front(MI which) : which_(which), indices_(indices(which)) {}
+
+  VI operator()(VI v) const {
+    if constexpr (kNative) return hn::Compress(v, which_);
+    return hn::TableLookupLanes(v, indices_);
+  }
+  VF operator()(VF v) const { return hn::BitCast(f, (*this)(hn::BitCast(n, v))); }
+
+ private:
+  static constexpr bool kNative = hn::MaxLanes(n) > 8;
+  using Indices = decltype(hn::IndicesFromVec(n, hn::Zero(n)));
+
+  static Indices indices(MI which) {
+    if constexpr (kNative) return hn::IndicesFromVec(n, hn::Zero(n));
+    alignas(8) std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(n, which, bits);
+    const hn::Rebind<std::uint8_t, I> bytes;
+    return hn::IndicesFromVec(n, hn::PromoteTo(n, hn::LoadU(bytes, kFrontLanes[bits[0]].data())));
+  }
+
+  MI which_;
+  Indices indices_;
+};
+
+/// Puts the lanes of a mask at the end of a queue. @return how many.
+inline int append(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
+  const int end = queue.size;
+  const Front front(which);
+  // Whole vectors: what stands beyond the end is written next.
+  const auto put = [&](VF v, FlightQueue::Column<float>& column) { hn::StoreU(front(v), f, column.data() + end); };
+  const auto putWhole = [&](VI v, FlightQueue::Column<std::int32_t>& column) {
+    hn::StoreU(front(v), n, column.data() + end);
+  };
+  for (int k = 0; k < 3; ++k) {
+    put(lanes.o[k], queue.o[k]);
+    put(lanes.d[k], queue.d[k]);
+    putWhole(lanes.cell[k], queue.cell[k]);
+  }
+  put(lanes.t, queue.t);
+  put(lanes.enter, queue.enter);
+  putWhole(lanes.id, queue.id);
+  putWhole(place, queue.place);
+  putWhole(log_side, queue.log_side);
+  const int added = static_cast<int>(hn::CountTrue(n, which));
+  queue.size = end + added;
+  return added;
+}
 
 /// The block that each lane is in.
 struct Blocks {
@@ -90,7 +163,7 @@ inline VI halfOf(const VI* cell, VI log_half) {
 inline void enterSplits(MI split, const VI* cell, Blocks& b) {
   if (hn::AllFalse(n, split)) return;
   b.log_side = hn::IfThenElse(split, hn::Sub(b.log_side, whole(1)), b.log_side);
-  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.leaf), halfOf(cell, b.log_side)), whole(Flight::kSplit));
+  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.leaf), halfOf(cell, b.log_side)), whole(FlightQueue::kSplit));
   b.leaf = hn::IfThenElse(split, leaf, b.leaf);
 }
 

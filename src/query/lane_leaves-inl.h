@@ -24,13 +24,13 @@ struct LeafSteps {
 /// Of the leaf that each of the lanes in `used` is in.
 inline LeafSteps leafSteps(const LaneGrid& g, MI used, VI leaf, VI log_side) {
   // The eight corners, in steps.
-  const MI split = hn::Gt(leaf, whole(Flight::kSplit - 1));
+  const MI split = hn::Gt(leaf, whole(FlightQueue::kSplit - 1));
   const VI plain = hn::ShiftLeft<1>(hn::IfThenZeroElse(split, leaf));
   const bool some_plain = !hn::AllTrue(n, hn::Or(split, hn::Not(used)));
   VI low = some_plain ? gather(g.leaves, plain) : hn::Zero(n);
   VI high = some_plain ? gather(g.leaves + 1, plain) : hn::Zero(n);
   if (!hn::AllFalse(n, split)) {
-    const VI half = hn::ShiftLeft<1>(hn::IfThenElseZero(split, hn::Sub(leaf, whole(Flight::kSplit))));
+    const VI half = hn::ShiftLeft<1>(hn::IfThenElseZero(split, hn::Sub(leaf, whole(FlightQueue::kSplit))));
     low = hn::IfThenElse(split, gather(g.splits, half), low);
     high = hn::IfThenElse(split, gather(g.splits + 1, half), high);
   }
@@ -49,8 +49,11 @@ inline LeafSteps leafSteps(const LaneGrid& g, MI used, VI leaf, VI log_side) {
   const VI offset_bits = hn::Or(topBits(low), hn::ShiftLeft<4>(topBits(high)));
   const VF offset = hn::ConvertTo(f, hn::ShiftRight<24>(hn::ShiftLeft<24>(offset_bits)));
   // The isovalue in the corners' steps.
-  const VF scale = hn::Div(real(1.0F), gatherReal(g.corner, log_side));
-  const VF shifted = hn::NegMulAdd(offset, gatherReal(g.offset, log_side), real(g.sigma));
+  const VF side = hn::ConvertTo(f, hn::Shl(whole(1), log_side));
+  const VF offset_step = hn::MulAdd(side, real(g.offset_per_side), real(g.offset));
+  const VF corner_step = hn::MulAdd(side, real(g.corner_per_side), real(g.corner));
+  const VF scale = hn::Div(real(1.0F), corner_step);
+  const VF shifted = hn::NegMulAdd(offset, offset_step, real(g.sigma));
   leaf_steps.iso = hn::MulAdd(shifted, scale, real(63.5F));
   return leaf_steps;
 }
@@ -102,39 +105,52 @@ inline Crossing crossingOf(const LeafSteps& steps, const Lanes& lanes, const Exi
   const VF at_end = value(one);
   const MF in_start = hn::Le(c0, zero), in_end = hn::Le(at_end, zero);
   const MF crossing = hn::Xor(in_start, in_end);
-  // Extrema between: roots of 3 c3 u² + 2 c2 u + c1, by the form that does not cancel.
   const VF c33 = hn::Mul(c3, real(3.0F));
-  const VF discriminant = hn::NegMulAdd(c33, c1, hn::Mul(c2, c2));
-  const VF s = hn::Neg(hn::Add(c2, hn::CopySign(hn::Sqrt(hn::Max(discriminant, zero)), c2)));
-  const VF u1 = hn::Div(s, hn::IfThenElse(hn::Eq(c33, zero), real(1e-30F), c33));
-  const VF u2 = hn::Div(c1, hn::IfThenElse(hn::Eq(s, zero), real(1e-30F), s));
-  const auto turnsAt = [&](VF u) {
-    return hn::And(hn::Ge(discriminant, zero), hn::And(hn::Gt(u, zero), hn::Lt(u, one)));
-  };
-  const MF turn1 = turnsAt(u1), turn2 = turnsAt(u2);
-  // More than one root: an extremum on the other side than both ends, or any two extrema between ends that differ.
-  const MF other1 = hn::And(turn1, hn::Xor(hn::Le(value(u1), zero), in_start));
-  const MF other2 = hn::And(turn2, hn::Xor(hn::Le(value(u2), zero), in_start));
-  const MF several = hn::Or(hn::AndNot(crossing, hn::Or(other1, other2)), hn::And(crossing, hn::And(turn1, turn2)));
+  // Its Bézier points change sign at least as often as it does.
+  const VF third = real(1.0F / 3.0F);
+  const VF b1 = hn::MulAdd(c1, third, c0);
+  const VF b2 = hn::MulAdd(hn::Add(c1, c2), third, b1);
+  const MF in_1 = hn::Le(b1, zero), in_2 = hn::Le(b2, zero);
+  const MF change_1 = hn::Xor(in_start, in_1), change_2 = hn::Xor(in_1, in_2), change_3 = hn::Xor(in_2, in_end);
+  const MF may_turn = hn::Or(hn::And(change_1, hn::Or(change_2, change_3)), hn::And(change_2, change_3));
+  MF several = asReal(none());
+  if (!hn::AllFalse(f, may_turn)) {
+    // Extrema: roots of 3 c3 u² + 2 c2 u + c1, by the form that does not cancel.
+    const VF discriminant = hn::NegMulAdd(c33, c1, hn::Mul(c2, c2));
+    const VF s = hn::Neg(hn::Add(c2, hn::CopySign(hn::Sqrt(hn::Max(discriminant, zero)), c2)));
+    const VF u1 = hn::Div(s, hn::IfThenElse(hn::Eq(c33, zero), real(1e-30F), c33));
+    const VF u2 = hn::Div(c1, hn::IfThenElse(hn::Eq(s, zero), real(1e-30F), s));
+    const auto turnsAt = [&](VF u) {
+      return hn::And(hn::Ge(discriminant, zero), hn::And(hn::Gt(u, zero), hn::Lt(u, one)));
+    };
+    const MF turn1 = turnsAt(u1), turn2 = turnsAt(u2);
+    // More than one root: an extremum on the other side than both ends, or any two extrema between ends that differ.
+    const MF other1 = hn::And(turn1, hn::Xor(hn::Le(value(u1), zero), in_start));
+    const MF other2 = hn::And(turn2, hn::Xor(hn::Le(value(u2), zero), in_start));
+    several = hn::Or(hn::AndNot(crossing, hn::Or(other1, other2)), hn::And(crossing, hn::And(turn1, turn2)));
+    several = hn::And(several, may_turn);
+  }
 
   // The root of the others: Newton's steps within a shrinking bracket.
   VF lo = zero, hi = one;
   VF u = hn::Div(c0, hn::Sub(c0, hn::IfThenElse(crossing, at_end, hn::Add(c0, one))));
-  VF last = u;
-  if (!hn::AllFalse(f, crossing)) {
-    for (int i = 0; i < 5; ++i) {
-      const VF at = value(u);
-      const VF slope = hn::MulAdd(u, hn::MulAdd(u, c33, hn::Add(c2, c2)), c1);
-      const MF as_start = hn::Not(hn::Xor(hn::Le(at, zero), in_start));
-      lo = hn::IfThenElse(as_start, u, lo);
-      hi = hn::IfThenElse(as_start, hi, u);
-      const VF newton = hn::Sub(u, hn::Div(at, slope));
-      const MF good = hn::And(hn::Ge(newton, lo), hn::Le(newton, hi));
-      last = u;
-      u = hn::IfThenElse(good, newton, hn::Mul(hn::Add(lo, hi), real(0.5F)));
-    }
+  const MF sought = hn::AndNot(several, crossing);
+  MF loose = sought;
+  for (int i = 0; i < 6 && !hn::AllFalse(f, loose); ++i) {
+    const VF at = value(u);
+    const VF slope = hn::MulAdd(u, hn::MulAdd(u, c33, hn::Add(c2, c2)), c1);
+    const MF as_start = hn::Not(hn::Xor(hn::Le(at, zero), in_start));
+    lo = hn::IfThenElse(as_start, u, lo);
+    hi = hn::IfThenElse(as_start, hi, u);
+    const VF newton = hn::Sub(u, hn::Div(at, slope));
+    const MF good = hn::And(hn::Ge(newton, lo), hn::Le(newton, hi));
+    const VF next = hn::IfThenElse(good, newton, hn::Mul(hn::Add(lo, hi), real(0.5F)));
+    // After a step this short the next would be lost in rounding. Lanes that are there stay, so that no lane's result
+    // depends on its neighbours.
+    const VF step = hn::Abs(hn::Sub(next, u));
+    u = hn::IfThenElse(loose, next, u);
+    loose = hn::And(loose, hn::Gt(step, real(1e-4F)));
   }
-  const MF loose = hn::And(crossing, hn::Gt(hn::Abs(hn::Sub(u, last)), real(1e-5F)));
   const VF t_root = hn::MulAdd(u, hn::Sub(t_exit, lanes.t), lanes.t);
   return {{c0, c1, c2, c3}, in_start, in_end, hn::Or(several, loose), t_root};
 }

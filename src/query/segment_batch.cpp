@@ -11,7 +11,6 @@
 
 #ifdef SDF_CCD_HIGHWAY
 #include "adaptive_lanes.h"
-#include "grid_walk.h"
 #endif
 #include "representation_queries.h"
 
@@ -36,63 +35,45 @@ void askSingly(const DistanceField& field, const Segment* segments, std::size_t 
 
 #ifdef SDF_CCD_HIGHWAY
 
-/// One thread's segments in flight, and which they are.
+/// One thread's segments on their way.
 class Chunk {
  public:
-  /// Asks segments [first, first + count), count ≤ Flight::kCapacity.
+  /// Asks segments [first, first + count), count ≤ FlightWork::kSegments.
   void ask(const DistanceField& field, const LaneGrid& lanes, const Segment* segments, std::size_t first, int count,
            const BatchOptions& options, Hits& hits) {
-    board(*field.adaptive(), segments, first, count);
-    followFlights(lanes, options.mode != SegmentMode::kAll, size_, flight_, work_);
-    // In the order of segments; those of one segment already are in order of time.
-    std::fill_n(begin_.begin(), count + 1, 0);
+    const bool first_only = options.mode != SegmentMode::kAll;
+    const int refused = followFlights(lanes, first_only, segments + first, count, work_);
+    if (refused >= 0) {
+      throw std::invalid_argument("segment query: segment " + std::to_string(first + refused) +
+                                  " is not finite, or reaches farther than 1e12 m");
+    }
     for (const std::int32_t lost : work_.lost) retry(field, segments, first, lost, options);
-    for (const FlightHit& hit : work_.hits) ++begin_[who_[hit.index] + 1];
-    for (int i = 0; i < count; ++i) begin_[i + 1] += begin_[i];
-    const std::size_t before = hits.size();
-    hits.resize(before + work_.hits.size());
-    for (const FlightHit& hit : work_.hits) {
-      const double t0 = t0_[hit.index], length = t1_[hit.index] - t0;
-      hits[before + begin_[who_[hit.index]]++] = {static_cast<std::uint32_t>(first + who_[hit.index]),
-                                                  static_cast<float>(t0 + hit.enter * length),
-                                                  static_cast<float>(t0 + hit.exit * length)};
+    if (first_only) {
+      for (int i = 0; i < count; ++i) {
+        if (work_.first[i] >= 0.0F) hits.push_back(hitOf(first, i, work_.first[i], work_.first[i]));
+      }
+    } else {
+      sortHits(first, count, hits);
     }
   }
 
  private:
-  void board(const AdaptiveGrid& grid, const Segment* segments, std::size_t first, int count) {
-    const AdaptiveShape& shape = grid.shape();
-    const Vector3d size = shape.units().cast<double>();
-    const double per_metre = 1.0 / shape.unit();
-    size_ = 0;
-    for (int i = 0; i < count; ++i) {
-      const Segment& segment = segments[first + i];
-      if (!isWithinReach(segment)) {
-        throw std::invalid_argument("segment query: segment " + std::to_string(first + i) +
-                                    " is not finite, or reaches farther than 1e12 m");
-      }
-      Vector3d start = (segment.start - shape.origin) * per_metre;
-      Vector3d step = (segment.end - segment.start) * per_metre;
-      const Vector3d end = start + step;
-      double t0 = 0.0, t1 = 1.0;
-      if ((start.array() < 0.0).any() || (end.array() < 0.0).any() || (start.array() > size.array()).any() ||
-          (end.array() > size.array()).any()) {
-        if (!clipToBox(start, step, size, t0, t1)) continue;
-        start += t0 * step;
-        step *= t1 - t0;
-      }
-      const int at = size_++;
-      who_[at] = i;
-      t0_[at] = t0;
-      t1_[at] = t1;
-      for (int k = 0; k < 3; ++k) {
-        flight_.o[k][at] = static_cast<float>(start[k]);
-        flight_.d[k][at] = static_cast<float>(step[k]);
-        const int cell = static_cast<int>(flight_.o[k][at]);
-        flight_.cell[k][at] = std::clamp(cell, 0, AdaptiveShape::kUnits * shape.size[k] - 1);
-      }
-      flight_.t[at] = 0.0F;
-      flight_.enter[at] = -1.0F;
+  /// In the segment's own parameter.
+  SegmentHit hitOf(std::size_t first, std::uint32_t id, float enter, float exit) const {
+    const float begin = work_.begin[id], end = work_.end[id];
+    const auto time = [&](float t) { return t < 1.0F ? begin + t * (end - begin) : end; };
+    return {static_cast<std::uint32_t>(first + id), time(enter), time(exit)};
+  }
+
+  /// In the order of segments; those of one segment already are in order of time.
+  void sortHits(std::size_t first, int count, Hits& hits) {
+    std::fill_n(place_.begin(), count + 1, 0);
+    for (const FlightHit& hit : work_.hits) ++place_[hit.id + 1];
+    for (int i = 0; i < count; ++i) place_[i + 1] += place_[i];
+    const std::size_t before = hits.size();
+    hits.resize(before + work_.hits.size());
+    for (const FlightHit& hit : work_.hits) {
+      hits[before + place_[hit.id]++] = hitOf(first, hit.id, hit.enter, hit.exit);
     }
   }
 
@@ -100,21 +81,18 @@ class Chunk {
   void retry(const DistanceField& field, const Segment* segments, std::size_t first, std::int32_t lost,
              const BatchOptions& options) {
     auto& hits = work_.hits;
-    const auto is_lost = [&](const FlightHit& hit) { return hit.index == static_cast<std::uint32_t>(lost); };
+    const auto is_lost = [&](const FlightHit& hit) { return hit.id == static_cast<std::uint32_t>(lost); };
     hits.erase(std::remove_if(hits.begin(), hits.end(), is_lost), hits.end());
     Hits single;
-    askSingly(field, segments, first + who_[lost], first + who_[lost] + 1, options, single);
-    t0_[lost] = 0.0;
-    t1_[lost] = 1.0;
+    askSingly(field, segments, first + lost, first + lost + 1, options, single);
+    work_.begin[lost] = 0.0F;
+    work_.end[lost] = 1.0F;
     for (const SegmentHit& hit : single) hits.push_back({static_cast<std::uint32_t>(lost), hit.enter, hit.exit});
+    work_.first[lost] = single.empty() ? -1.0F : single.front().enter;
   }
 
-  Flight flight_;
   FlightWork work_;
-  int size_ = 0;
-  std::array<int, Flight::kCapacity> who_;  ///< the segment of each flight, from the chunk's first
-  std::array<double, Flight::kCapacity> t0_, t1_;
-  std::array<int, Flight::kCapacity + 1> begin_;
+  std::array<int, FlightWork::kSegments + 1> place_;
 };
 
 #endif
@@ -132,14 +110,18 @@ LaneGrid::LaneGrid(const AdaptiveGrid& grid, double sigma_metres) {
   splits = words(arrays.splits.data);
   for (int k = 0; k < 3; ++k) top_size[k] = grid.shape().size[k];
   const double to_units = 1.0 / grid.shape().unit();
+  for (int k = 0; k < 3; ++k) origin[k] = grid.shape().origin[k];
+  units_per_metre = to_units;
   per_metre = static_cast<float>(to_units);
   sigma = static_cast<float>(sigma_metres * to_units);
   margin = static_cast<float>((std::abs(sigma_metres) + grid.shape().error_bound) * to_units);
   for (int k = 0; k < 3; ++k) far_step[k] = static_cast<float>(grid.farStep(k) * to_units);
-  for (int k = 0; k < 8; ++k) {
-    offset[k] = static_cast<float>(grid.scale(1 << k).offset * to_units);
-    corner[k] = static_cast<float>(grid.scale(1 << k).corner * to_units);
-  }
+  // Both grow evenly with the side.
+  const LeafScale &one = grid.scale(1), &two = grid.scale(2);
+  offset_per_side = static_cast<float>((two.offset - one.offset) * to_units);
+  corner_per_side = static_cast<float>((two.corner - one.corner) * to_units);
+  offset = static_cast<float>((2.0 * one.offset - two.offset) * to_units);
+  corner = static_cast<float>((2.0 * one.corner - two.corner) * to_units);
 }
 #endif
 
@@ -147,13 +129,13 @@ void segmentIntervals(const DistanceField& field, const Segment* segments, std::
                       const BatchOptions& options, BatchResult& result) {
   checkIsovalue(field, options.sigma);
   result.hits.clear();
-  constexpr std::size_t kChunk = 2048;
+  constexpr std::size_t kChunk = 8192;
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   const auto askChunk = [&](std::size_t chunk, Hits& hits) {
     const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
 #ifdef SDF_CCD_HIGHWAY
     if (const AdaptiveGrid* grid = field.adaptive()) {
-      static_assert(kChunk == Flight::kCapacity, "a chunk fills one flight");
+      static_assert(kChunk == FlightWork::kSegments, "a chunk fills one thread's room");
       thread_local std::unique_ptr<Chunk> flights = std::make_unique<Chunk>();
       flights->ask(field, LaneGrid(*grid, options.sigma), segments, first, static_cast<int>(last - first), options,
                    hits);
