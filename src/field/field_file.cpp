@@ -9,18 +9,21 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "field";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct ShapeRecord {
   double origin[3];
   double cell;
   double band;
+  double error_bound;
   double surface_min[3];
   double surface_max[3];
   std::int32_t bricks[3];
+  std::int32_t exact;        ///< GridShape::exact
   std::int32_t brick_cells;  ///< cells along a brick's side, so that another layout is never misread
+  std::int32_t reserved;
 };
-static_assert(sizeof(ShapeRecord) == 104, "the file's layout must not depend on the compiler");
+static_assert(sizeof(ShapeRecord) == 120, "the file's layout must not depend on the compiler");
 
 }  // namespace
 
@@ -32,6 +35,8 @@ void saveField(const DistanceField& field, const std::string& path) {
   ShapeRecord record{};
   record.cell = shape.cell;
   record.band = shape.band;
+  record.error_bound = grid->errorBound();
+  record.exact = shape.exact ? 1 : 0;
   record.brick_cells = GridShape::kBrick;
   for (int k = 0; k < 3; ++k) {
     record.origin[k] = shape.origin[k];
@@ -42,7 +47,7 @@ void saveField(const DistanceField& field, const std::string& path) {
   writeCheckedFile(path, kKind, kVersion,
                    {{&record, sizeof record},
                     {grid->corners().data, grid->corners().size * sizeof(float)},
-                    {grid->slots().data, grid->slots().size * sizeof(std::int32_t)},
+                    {grid->words().data, grid->words().size * sizeof(std::uint32_t)},
                     {grid->samples().data, grid->samples().size * sizeof(float)}});
 }
 
@@ -64,13 +69,13 @@ DistanceField loadField(const std::string& path) {
   shape.origin = Vector3d(record->origin);
   shape.surface_box = {Vector3d(record->surface_min), Vector3d(record->surface_max)};
   shape.bricks = Vector3i(record->bricks);
-  View<float> corners, samples;
-  View<std::int32_t> slots;
-  corners.data = file->section<float>(1, corners.size);
-  slots.data = file->section<std::int32_t>(2, slots.size);
-  samples.data = file->section<float>(3, samples.size);
+  shape.exact = record->exact != 0;
+  SparseGrid::Arrays arrays;
+  arrays.corners.data = file->section<float>(1, arrays.corners.size);
+  arrays.words.data = file->section<std::uint32_t>(2, arrays.words.size);
+  arrays.samples.data = file->section<float>(3, arrays.samples.size);
   try {
-    return DistanceField(std::make_shared<const SparseGrid>(shape, corners, slots, samples, file));
+    return DistanceField(std::make_shared<const SparseGrid>(shape, arrays, record->error_bound, file));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }

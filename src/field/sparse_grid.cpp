@@ -1,6 +1,8 @@
 #include "sdf_ccd/field/sparse_grid.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -10,97 +12,104 @@ namespace {
 
 constexpr double kHalfSqrt3 = 0.8660254037844386;
 
+struct OwnedGrid {
+  GridData data;
+  std::vector<std::uint32_t> words;
+};
+
+std::array<double, 8> cornersOf(const GridShape& shape, View<float> corners, const Vector3i& brick) {
+  std::array<double, 8> c;
+  for (int k = 0; k < 8; ++k) c[k] = corners[shape.cornerIndex(brick + Vector3i(k & 1, (k >> 1) & 1, k >> 2))];
+  return c;
+}
+
+/// The distance at a far brick's centre, towards zero: it exceeds band + cell there as all over the brick, and is
+/// within half a diagonal of the corners'.
+double centerDistance(const GridShape& shape, View<float> corners, const Vector3i& brick) {
+  const std::array<double, 8> c = cornersOf(shape, corners, brick);
+  if (!shape.exact) return std::copysign(std::numeric_limits<float>::min(), c[0]);
+  double farthest = 0.0;
+  for (const double value : c) farthest = std::max(farthest, std::abs(value) * (1.0 - 1e-6));
+  const double by_corner = farthest - kHalfSqrt3 * GridShape::kBrick * shape.cell;
+  return std::copysign(std::max(by_corner, shape.band + 0.5 * shape.cell), c[0]);
+}
+
 }  // namespace
 
+std::uint32_t brick_word::far(double distance) {
+  auto rounded = static_cast<float>(distance);
+  if (std::abs(double(rounded)) > std::abs(distance)) rounded = std::nextafterf(rounded, 0.0F);
+  std::uint32_t bits;
+  std::memcpy(&bits, &rounded, sizeof bits);
+  return bits & ~1U;
+}
+
+float brick_word::distance(std::uint32_t word) {
+  float value;
+  std::memcpy(&value, &word, sizeof value);
+  return value;
+}
+
 SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
-  const auto owner = std::make_shared<const GridData>(std::move(data));
-  corners_ = viewOf(owner->corners);
-  slots_ = viewOf(owner->slots);
-  samples_ = viewOf(owner->samples);
-  owner_ = owner;
-  checkSizes();
-  buildLevels();
+  const auto owned = std::make_shared<OwnedGrid>();
+  owned->data = std::move(data);
+  const std::vector<std::int32_t>& slots = owned->data.slots;
+  arrays_ = {viewOf(owned->data.corners), {}, viewOf(owned->data.samples)};
+  if (slots.size() != shape.brickCount() || arrays_.corners.size != shape.cornerCount()) {
+    throw std::invalid_argument("sparse grid: " + std::to_string(slots.size()) + " slots and " +
+                                std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
+  }
+  owned->words.reserve(slots.size());
+  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
+    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
+      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
+        const std::int32_t slot = slots[owned->words.size()];
+        owned->words.push_back(slot == kFar ? brick_word::far(centerDistance(shape, arrays_.corners, b))
+                                            : brick_word::slot(slot));
+      }
+  arrays_.words = viewOf(owned->words);
+  owned->data.slots = {};
+  owner_ = owned;
+  float largest = 0.0F;
+  for (std::size_t i = 0; i < arrays_.samples.size; ++i) largest = std::max(largest, std::abs(arrays_.samples[i]));
+  error_bound_ = kHalfSqrt3 * shape_.cell + 2.0 * largest * std::numeric_limits<float>::epsilon();
+  check();
 }
 
-SparseGrid::SparseGrid(const GridShape& shape, View<float> corners, View<std::int32_t> slots, View<float> samples,
+SparseGrid::SparseGrid(const GridShape& shape, const Arrays& arrays, double error_bound,
                        std::shared_ptr<const void> owner)
-    : shape_(shape), corners_(corners), slots_(slots), samples_(samples), owner_(std::move(owner)) {
-  checkSizes();
-  buildLevels();
+    : shape_(shape), arrays_(arrays), owner_(std::move(owner)), error_bound_(error_bound) {
+  check();
 }
 
-void SparseGrid::checkSizes() const {
+void SparseGrid::check() const {
   const auto fail = [](const std::string& what) { throw std::invalid_argument("sparse grid: " + what); };
   if (!(shape_.cell > 0.0) || !std::isfinite(shape_.cell)) fail("cell size " + std::to_string(shape_.cell));
   if (!shape_.origin.allFinite()) fail("origin is not finite");
   if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("band " + std::to_string(shape_.band));
+  if (!(error_bound_ >= 0.0) || !std::isfinite(error_bound_)) fail("error bound " + std::to_string(error_bound_));
   if (shape_.bricks.minCoeff() < 1 || shape_.bricks.maxCoeff() > 4096) fail("brick counts out of 1 to 4096");
-  if (slots_.size != shape_.brickCount()) fail(std::to_string(slots_.size) + " slots do not fit the bricks");
-  if (corners_.size != shape_.cornerCount()) fail(std::to_string(corners_.size) + " corners do not fit the bricks");
-  if (samples_.size % GridShape::kSamples != 0) fail("samples end within a brick");
-  const auto stored = static_cast<std::int64_t>(samples_.size / GridShape::kSamples);
-  for (std::size_t i = 0; i < slots_.size; ++i)
-    if (slots_[i] != kFar && (slots_[i] < 0 || slots_[i] >= stored)) fail("slot " + std::to_string(slots_[i]));
+  if (arrays_.words.size != shape_.brickCount())
+    fail(std::to_string(arrays_.words.size) + " words do not fit the bricks");
+  if (arrays_.corners.size != shape_.cornerCount()) {
+    fail(std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
+  }
+  if (arrays_.samples.size % GridShape::kSamples != 0) fail("samples end within a brick");
+  const auto stored = static_cast<std::uint32_t>(arrays_.samples.size / GridShape::kSamples);
+  for (std::size_t i = 0; i < arrays_.words.size; ++i) {
+    const std::uint32_t word = arrays_.words[i];
+    if (!brick_word::isFar(word) && word >> 1 >= stored) fail("slot " + std::to_string(word >> 1));
+    if (brick_word::isFar(word) && !std::isfinite(brick_word::distance(word))) fail("a distance is not finite");
+  }
 }
 
 std::array<double, 8> SparseGrid::brickCorners(const Vector3i& brick) const {
-  std::array<double, 8> c;
-  for (int k = 0; k < 8; ++k) {
-    c[k] = corners_[shape_.cornerIndex(brick + Vector3i(k & 1, (k >> 1) & 1, k >> 2))];
-  }
-  return c;
-}
-
-DistanceRange SparseGrid::brickRange(const Vector3i& brick) const {
-  const std::int32_t slot = this->slot(brick);
-  if (slot != kFar) {
-    const float* s = samples_.data + std::size_t(slot) * GridShape::kSamples;
-    const auto [low, high] = std::minmax_element(s, s + GridShape::kSamples);
-    return {*low, *high};
-  }
-  // No samples: |φ| > band + cell all over the brick, with the sign of its corners, and within the Lipschitz bound of
-  // them; the half cell less leaves room for rounding.
-  const std::array<double, 8> c = brickCorners(brick);
-  const auto [low, high] = std::minmax_element(c.begin(), c.end());
-  const double outside_band = shape_.band + 0.5 * shape_.cell;
-  const double slack = kHalfSqrt3 * GridShape::kBrick * shape_.cell;
-  if (*low > 0.0) return {float(std::max(*low - slack, outside_band)), float(*high + slack)};
-  return {float(*low - slack), float(std::min(*high + slack, -outside_band))};
-}
-
-void SparseGrid::buildLevels() {
-  float largest = 0.0F;
-  for (std::size_t i = 0; i < samples_.size; ++i) largest = std::max(largest, std::abs(samples_[i]));
-  error_bound_ = kHalfSqrt3 * shape_.cell + 2.0 * largest * std::numeric_limits<float>::epsilon();
-
-  levels_.push_back({shape_.bricks, {}});
-  levels_[0].ranges.resize(shape_.brickCount());
-  for (Vector3i b(0, 0, 0); b.z() < shape_.bricks.z(); ++b.z())
-    for (b.y() = 0; b.y() < shape_.bricks.y(); ++b.y())
-      for (b.x() = 0; b.x() < shape_.bricks.x(); ++b.x()) levels_[0].ranges[shape_.brickIndex(b)] = brickRange(b);
-
-  while (levels_.back().size.maxCoeff() > 1) {
-    const Level& fine = levels_.back();
-    Level coarse{(fine.size.array() + 1) / 2, {}};
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    coarse.ranges.assign(std::size_t(coarse.size.prod()), {kInfinity, -kInfinity});
-    std::size_t i = 0;
-    for (int z = 0; z < fine.size.z(); ++z)
-      for (int y = 0; y < fine.size.y(); ++y)
-        for (int x = 0; x < fine.size.x(); ++x, ++i) {
-          auto& range =
-              coarse.ranges[(std::size_t(z / 2) * coarse.size.y() + std::size_t(y / 2)) * coarse.size.x() + x / 2];
-          range.min = std::min(range.min, fine.ranges[i].min);
-          range.max = std::max(range.max, fine.ranges[i].max);
-        }
-    levels_.push_back(std::move(coarse));
-  }
+  return cornersOf(shape_, arrays_.corners, brick);
 }
 
 std::size_t SparseGrid::bytes() const {
-  std::size_t sum = corners_.size * sizeof(float) + slots_.size * sizeof(std::int32_t) + samples_.size * sizeof(float);
-  for (const Level& level : levels_) sum += level.ranges.size() * sizeof(DistanceRange);
-  return sum;
+  return arrays_.corners.size * sizeof(float) + arrays_.words.size * sizeof(std::uint32_t) +
+         arrays_.samples.size * sizeof(float);
 }
 
 Vector3d trilinearGradient(const std::array<double, 8>& c, const Vector3d& u) {

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "ball_exit.h"
 #include "cell_spans.h"
 #include "grid_walk.h"
 #include "representation_queries.h"
@@ -10,11 +12,35 @@ namespace {
 
 constexpr int kBrick = GridShape::kBrick;
 
-enum class Side { kOutside, kInside, kBoth };
+/// Places without the value sigma, all on one side of it.
+struct FreeBall {
+  Vector3d center;
+  double radius;
+  bool inside;
+};
 
-Side sideOf(const DistanceRange& range, double sigma) {
-  if (range.min > sigma) return Side::kOutside;
-  return range.max <= sigma ? Side::kInside : Side::kBoth;
+/// About a far brick's centre.
+FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, std::uint32_t word, double sigma) {
+  const GridShape& shape = grid.shape();
+  const double distance = brick_word::distance(word);
+  return {shape.origin + kBrick * shape.cell * (brick.cast<double>().array() + 0.5).matrix(),
+          std::abs(distance) - std::abs(sigma) - grid.errorBound(), distance < 0.0};
+}
+
+/// About the sample nearest to a place of a sampled brick. With v the sample and h the cell no place nearer than
+/// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3).
+FreeBall sampleBall(const SparseGrid& grid, const Vector3i& brick, std::int32_t slot, const Vector3d& p_F,
+                    double sigma) {
+  const GridShape& shape = grid.shape();
+  const Vector3d g = (p_F - shape.origin) / shape.cell - (kBrick * brick).cast<double>();
+  const Vector3i i = (g.array() + 0.5).floor().max(0.0).min(double(kBrick)).matrix().cast<int>();
+  const double above = grid.samples()[std::size_t(slot) * GridShape::kSamples +
+                                      (i.z() * GridShape::kSide + i.y()) * GridShape::kSide + i.x()] -
+                       sigma;
+  const double free = std::abs(above) * (1.0 - 1e-6) - std::numeric_limits<float>::epsilon() * std::abs(sigma);
+  const double radius2 = free * free - 0.75 * shape.cell * shape.cell;
+  return {shape.origin + shape.cell * (kBrick * brick + i).cast<double>(), radius2 > 0.0 ? std::sqrt(radius2) : 0.0,
+          above < 0.0};
 }
 
 }  // namespace
@@ -23,31 +49,42 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
                    Intervals& intervals) {
   const double sigma = options.sigma;
   GridWalk walk({grid.shape().origin, grid.shape().cell, grid.shape().cells()}, segment);
-  const auto firstFound = [&] {
-    return options.first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin;
+  const BallExit ball_exit(segment);
+  /// To t, all on one side.
+  const auto pass = [&](double t, double t_exit, bool inside) {
+    if (inside) appendSpan(intervals, walk.t(), std::min(std::max(t, t_exit), walk.end()));
+    if (t > t_exit) {
+      walk.skipTo(t);
+    } else {
+      walk.advance();
+    }
   };
-  while (walk.inside() && !firstFound()) {
+  while (walk.inside()) {
     const Vector3i brick = walk.cell() / kBrick;
-    const Side side = sideOf(grid.range(0, brick), sigma);
-    if (side != Side::kBoth) {
-      // The largest block around it that lies on one side (paper §3.2).
-      int level = 0;
-      while (level + 1 < grid.levels() && sideOf(grid.range(level + 1, brick / (2 << level)), sigma) == side) ++level;
-      const int bricks = 1 << level;
-      const Vector3i low = (brick / bricks) * bricks * kBrick;
-      const Vector3i high = (low.array() + bricks * kBrick).min(grid.shape().cells().array());
-      const double t_exit = walk.exit(low, high);
-      if (side == Side::kInside) appendSpan(intervals, walk.t(), t_exit);
-      walk.advance();
-      continue;
-    }
-    const std::int32_t slot = grid.slot(brick);
-    const Vector3i first = kBrick * brick;
-    while (walk.inside() && walk.cell() / kBrick == brick && !firstFound()) {
+    const std::uint32_t word = grid.word(brick);
+    if (brick_word::isFar(word)) {
+      const double t_exit = walk.exit(kBrick * brick, kBrick * brick.array() + kBrick);
+      const FreeBall ball = brickBall(grid, brick, word, sigma);
+      pass(ball_exit(ball.center, ball.radius, t_exit), t_exit, ball.inside);
+    } else {
+      const std::int32_t slot = grid.slot(brick);
       const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
-      appendCellSpans(grid.cellCorners(slot, walk.cell() - first), walk, {walk.cell(), 1, t_exit}, sigma, intervals);
-      walk.advance();
+      FreeBall ball{Vector3d::Zero(), 0.0, false};
+      if (grid.shape().exact) {
+        const Vector3d place = segment.start + walk.t() * (segment.end - segment.start);
+        ball = sampleBall(grid, brick, slot, place, sigma);
+      }
+      const double t_ball = ball_exit(ball.center, ball.radius, walk.t());
+      if (t_ball > t_exit) {
+        pass(t_ball, t_exit, ball.inside);
+      } else {
+        const auto corners = grid.cellCorners(slot, walk.cell() - kBrick * brick);
+        appendCellSpans(corners, walk, {walk.cell(), 1, t_exit}, sigma, intervals);
+        walk.advance();
+      }
     }
+    // Complete once something else follows it.
+    if (options.first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
   }
   if (options.first_only && intervals.size() > 1) intervals.resize(1);
 }

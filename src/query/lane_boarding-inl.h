@@ -10,7 +10,7 @@
 
 #include <hwy/highway.h>
 
-#include "adaptive_lanes.h"
+#include "segment_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sdf_ccd {
@@ -29,7 +29,7 @@ struct Boarding {
   std::int32_t within[kGroup];   ///< 1, or 0 for those that do not meet the box
   bool doubtful = false;         ///< one may not be within reach
 
-  Boarding(const LaneGrid& g, const Segment* segments, int count) {
+  Boarding(const LaneBox& g, const Segment* segments, int count) {
     // Number by number: gathers take longer.
     alignas(64) double at[3][kGroup], way[3][kGroup];
     for (int i = 0; i < kGroup; ++i) {
@@ -46,7 +46,7 @@ struct Boarding {
   using Wide = hn::ScalableTag<double>;
   static constexpr Wide wide{};
 
-  void clip(const LaneGrid& g, const double (*starts)[kGroup], const double (*ends)[kGroup], int i) {
+  void clip(const LaneBox& g, const double (*starts)[kGroup], const double (*ends)[kGroup], int i) {
     const hn::Rebind<float, Wide> narrow;
     const hn::Rebind<std::int32_t, Wide> whole_narrow;
     using V = hn::Vec<Wide>;
@@ -60,7 +60,7 @@ struct Boarding {
     const V reach = hn::Set(wide, kSurelyWithinReach * g.units_per_metre);
     V from = zero, to = one;
     for (int k = 0; k < 3; ++k) {
-      const V size = hn::Set(wide, double(g.top_size[k]) * AdaptiveShape::kUnits);
+      const V size = hn::Set(wide, double(g.top_size[k]) * LaneBox::kUnits);
       const auto near = hn::And(hn::Le(hn::Abs(at[k]), reach), hn::Le(hn::Abs(way[k]), reach));
       doubtful = doubtful || !hn::AllTrue(wide, near);
       const auto still = hn::Eq(way[k], zero);

@@ -10,7 +10,7 @@
 #include <tbb/task_arena.h>
 
 #ifdef SDF_CCD_HIGHWAY
-#include "adaptive_lanes.h"
+#include "segment_lanes.h"
 #endif
 #include "representation_queries.h"
 
@@ -39,7 +39,8 @@ void askSingly(const DistanceField& field, const Segment* segments, std::size_t 
 class Chunk {
  public:
   /// Asks segments [first, first + count), count ≤ FlightWork::kSegments.
-  void ask(const DistanceField& field, const LaneGrid& lanes, const Segment* segments, std::size_t first, int count,
+  template <class Lanes>
+  void ask(const DistanceField& field, const Lanes& lanes, const Segment* segments, std::size_t first, int count,
            const BatchOptions& options, Hits& hits) {
     const bool first_only = options.mode != SegmentMode::kAll;
     const int refused = followFlights(lanes, first_only, segments + first, count, work_);
@@ -99,32 +100,6 @@ class Chunk {
 
 }  // namespace
 
-#ifdef SDF_CCD_HIGHWAY
-LaneGrid::LaneGrid(const AdaptiveGrid& grid, double sigma_metres) {
-  const AdaptiveGrid::Arrays& arrays = grid.arrays();
-  const auto words = [](const void* data) { return static_cast<const std::uint32_t*>(data); };
-  top = arrays.top.data;
-  codes = words(arrays.nodes.data);
-  bases = words(arrays.bases.data);
-  leaves = words(arrays.leaves.data);
-  splits = words(arrays.splits.data);
-  for (int k = 0; k < 3; ++k) top_size[k] = grid.shape().size[k];
-  const double to_units = 1.0 / grid.shape().unit();
-  for (int k = 0; k < 3; ++k) origin[k] = grid.shape().origin[k];
-  units_per_metre = to_units;
-  per_metre = static_cast<float>(to_units);
-  sigma = static_cast<float>(sigma_metres * to_units);
-  margin = static_cast<float>((std::abs(sigma_metres) + grid.shape().error_bound) * to_units);
-  for (int k = 0; k < 3; ++k) far_step[k] = static_cast<float>(grid.farStep(k) * to_units);
-  // Both grow evenly with the side.
-  const LeafScale &one = grid.scale(1), &two = grid.scale(2);
-  offset_per_side = static_cast<float>((two.offset - one.offset) * to_units);
-  corner_per_side = static_cast<float>((two.corner - one.corner) * to_units);
-  offset = static_cast<float>((2.0 * one.offset - two.offset) * to_units);
-  corner = static_cast<float>((2.0 * one.corner - two.corner) * to_units);
-}
-#endif
-
 void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
                       const BatchOptions& options, BatchResult& result) {
   checkIsovalue(field, options.sigma);
@@ -134,12 +109,14 @@ void segmentIntervals(const DistanceField& field, const Segment* segments, std::
   const auto askChunk = [&](std::size_t chunk, Hits& hits) {
     const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
 #ifdef SDF_CCD_HIGHWAY
-    if (const AdaptiveGrid* grid = field.adaptive()) {
-      static_assert(kChunk == FlightWork::kSegments, "a chunk fills one thread's room");
-      thread_local std::unique_ptr<Chunk> flights = std::make_unique<Chunk>();
-      flights->ask(field, LaneGrid(*grid, options.sigma), segments, first, static_cast<int>(last - first), options,
-                   hits);
-      return;
+    static_assert(kChunk == FlightWork::kSegments, "a chunk fills one thread's room");
+    thread_local const std::unique_ptr<Chunk> flights = std::make_unique<Chunk>();
+    const auto ask = [&](const auto& lanes) {
+      flights->ask(field, lanes, segments, first, static_cast<int>(last - first), options, hits);
+    };
+    if (const AdaptiveGrid* grid = field.adaptive()) return ask(AdaptiveLanes(*grid, options.sigma));
+    if (const SparseGrid* grid = field.grid(); grid && EvenLanes::canIndex(*grid)) {
+      return ask(EvenLanes(*grid, options.sigma));
     }
 #endif
     askSingly(field, segments, first, last, options, hits);

@@ -148,26 +148,53 @@ TEST(DistanceField, SparseFieldFollowsTheSurface) {
   EXPECT_LT(double(fine) / coarse, 5.0);
 }
 
-TEST(DistanceField, HierarchyHoldsEveryCell) {
-  const DistanceField field = boxField(72);
+TEST(DistanceField, FarBricksSayHowFarTheSurfaceIs) {
+  const DistanceField field = boxField(200);
   const SparseGrid& grid = *field.grid();
-  for (Vector3i b(0, 0, 0); b.z() < grid.shape().bricks.z(); ++b.z())
-    for (b.y() = 0; b.y() < grid.shape().bricks.y(); ++b.y())
-      for (b.x() = 0; b.x() < grid.shape().bricks.x(); ++b.x()) {
-        DistanceRange range = grid.range(0, b);
-        const auto corners = grid.brickCorners(b);
-        for (const double c : corners) {
-          EXPECT_LE(range.min, c);
-          EXPECT_GE(range.max, c);
-        }
-        for (int level = 1; level < grid.levels(); ++level) {
-          const DistanceRange parent = grid.range(level, b / (1 << level));
-          ASSERT_LE(parent.min, range.min);
-          ASSERT_GE(parent.max, range.max);
-          range = parent;
-        }
+  const GridShape& shape = grid.shape();
+  const double side = GridShape::kBrick * shape.cell;
+  int far = 0, useful = 0;
+  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
+    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
+      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
+        const std::uint32_t word = grid.word(b);
+        if (!brick_word::isFar(word)) continue;
+        const Vector3d center = shape.origin + side * (b.cast<double>().array() + 0.5).matrix();
+        const double truth = signedDistance(Primitive(Box{kHalf}), center), said = brick_word::distance(word);
+        ASSERT_LE(std::abs(said), std::abs(truth) + 1e-9);
+        ASSERT_EQ(said < 0.0, truth < 0.0);
+        ++far;
+        useful += std::abs(said) > 0.5 * std::sqrt(3.0) * side;
       }
-  EXPECT_GE(grid.levels(), 4);
+  EXPECT_GT(far, 500);
+  EXPECT_GT(useful, far / 3);
+}
+
+/// Design §3.3: with v the sample at c and h the cell, no place nearer to c than √((v − σ)² − ¾h²) is interpolated to
+/// σ.
+TEST(DistanceField, NothingNearASampleIsInterpolatedToAnIsovalue) {
+  const DistanceField field = boxField(40);
+  const SparseGrid& grid = *field.grid();
+  const GridShape& shape = grid.shape();
+  Random random(8);
+  int tried = 0;
+  double least = 1.0;
+  while (tried < 200000) {
+    const Vector3i b(random() % shape.bricks.x(), random() % shape.bricks.y(), random() % shape.bricks.z());
+    if (grid.slot(b) == SparseGrid::kFar) continue;
+    const Vector3i in_brick(random() % 8, random() % 8, random() % 8);
+    const Vector3d c = shape.origin + shape.cell * (8 * b + in_brick).cast<double>();
+    const double v = grid.cellCorners(grid.slot(b), in_brick)[0];
+    const double sigma = std::uniform_real_distribution<double>(-1.0, 1.0)(random) * field.band();
+    const double radius2 = (v - sigma) * (v - sigma) - 0.75 * shape.cell * shape.cell;
+    if (radius2 <= 0.0) continue;
+    const Vector3d q = c + std::sqrt(radius2) * (1.0 - 1e-6) * test::direction(random);
+    const double at = field.sample(q).value;
+    ASSERT_EQ(at > sigma, v > sigma) << q.transpose();
+    least = std::min(least, std::abs(at - sigma) / shape.cell);
+    ++tried;
+  }
+  EXPECT_LT(least, 0.1);  // the bound is nearly reached
 }
 
 TEST(DistanceField, SameForAnyNumberOfThreads) {

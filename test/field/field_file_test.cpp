@@ -107,7 +107,7 @@ TEST_F(FieldFile, SaysWhatIsWrong) {
   EXPECT_NE(reason(path("other")).find("holds a shell"), std::string::npos);
   writeCheckedFile(path("later"), "field", 99, {{&value, sizeof value}});
   EXPECT_NE(reason(path("later")).find("version 99"), std::string::npos);
-  writeCheckedFile(path("short"), "field", 1, {{&value, sizeof value}});
+  writeCheckedFile(path("short"), "field", 2, {{&value, sizeof value}});
   EXPECT_NE(reason(path("short")).find("damaged"), std::string::npos);
   EXPECT_THROW(saveField(DistanceField(Primitive(Sphere{1})), path("s")), std::invalid_argument);
   EXPECT_THROW(saveField(buildField(mesh_, options_), path("no/such/folder")), std::runtime_error);

@@ -22,6 +22,7 @@ struct GridShape {
   Vector3i bricks = Vector3i::Zero();  ///< per axis
   double band = 0.0;                   ///< [m]
   AlignedBox3d surface_box;            ///< of the mesh [m]
+  bool exact = false;  ///< values are true distances, to rounding: a ball of that radius about them is free of surface
 
   Vector3i cells() const { return kBrick * bricks; }
   std::size_t brickCount() const { return std::size_t(bricks.x()) * bricks.y() * bricks.z(); }
@@ -42,16 +43,24 @@ struct GridData {
   std::vector<float> samples;       ///< kSamples per slot, x fastest [m]
 };
 
-/// Smallest and largest distance in a block of cells [m].
-struct DistanceRange {
-  float min;
-  float max;
-};
+/// What a brick's word says: with its last bit set a slot, above it; else the bits of a distance.
+namespace brick_word {
+inline std::uint32_t slot(std::int32_t slot) {
+  return static_cast<std::uint32_t>(slot) << 1 | 1U;
+}
+/// Rounded towards zero, so that a ball of that radius is free of surface.
+std::uint32_t far(double distance);
+inline bool isFar(std::uint32_t word) {
+  return (word & 1U) == 0;
+}
+float distance(std::uint32_t word);
+}  // namespace brick_word
 
 /// Samples of a signed distance, dense in bricks near the surface, one per brick corner elsewhere.
 ///
-/// Memory order: x fastest, then y, then z. The min/max hierarchy (paper §3.2) is an octree over the bricks; where a
-/// brick has no samples its range bounds the true distance. A brick has samples unless |φ| > band + cell all over it.
+/// Memory order: x fastest, then y, then z. A brick has samples unless |φ| > band + cell all over it; instead of those
+/// a far brick has the distance at its centre, rounded down, by whose ball a query goes on (design §3.3): farther than
+/// by the paper's min/max octree (§3.2), and without its memory.
 class SparseGrid {
  public:
   static constexpr std::int32_t kFar = -1;
@@ -59,25 +68,30 @@ class SparseGrid {
   /// @throws std::invalid_argument if sizes do not fit each other.
   SparseGrid(const GridShape& shape, GridData data);
 
+  struct Arrays {
+    View<float> corners;        ///< as GridData
+    View<std::uint32_t> words;  ///< per brick
+    View<float> samples;        ///< as GridData
+  };
+
   /// The same on memory that `owner` keeps alive (a mapped file).
-  SparseGrid(const GridShape& shape, View<float> corners, View<std::int32_t> slots, View<float> samples,
-             std::shared_ptr<const void> owner);
+  SparseGrid(const GridShape& shape, const Arrays& arrays, double error_bound, std::shared_ptr<const void> owner);
 
   const GridShape& shape() const { return shape_; }
-  View<float> corners() const { return corners_; }
-  View<std::int32_t> slots() const { return slots_; }
-  View<float> samples() const { return samples_; }
+  View<float> corners() const { return arrays_.corners; }
+  View<std::uint32_t> words() const { return arrays_.words; }
+  View<float> samples() const { return arrays_.samples; }
 
   /// Bound on |interpolated − true distance| in a brick with samples [m]: for exact samples of a 1-Lipschitz function
   /// Jensen's inequality on the trilinear weights gives √(Σ u(1−u)) h ≤ √3/2 h (design §3.3), plus rounding.
   double errorBound() const { return error_bound_; }
 
   std::size_t bytes() const;
-  std::size_t storedCells() const { return samples_.size / GridShape::kSamples * 512; }
+  std::size_t storedCells() const { return arrays_.samples.size / GridShape::kSamples * 512; }
 
   /// Corner values of a cell in a brick with samples: bit 0 of the index is x, bit 1 y, bit 2 z.
   std::array<double, 8> cellCorners(std::int32_t slot, const Vector3i& cell_in_brick) const {
-    const float* s = samples_.data + std::size_t(slot) * GridShape::kSamples +
+    const float* s = arrays_.samples.data + std::size_t(slot) * GridShape::kSamples +
                      (cell_in_brick.z() * GridShape::kSide + cell_in_brick.y()) * GridShape::kSide + cell_in_brick.x();
     constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
     return {s[0], s[1], s[kY], s[kY + 1], s[kZ], s[kZ + 1], s[kZ + kY], s[kZ + kY + 1]};
@@ -86,32 +100,21 @@ class SparseGrid {
   /// Distances at a brick's corners, ordered like cellCorners().
   std::array<double, 8> brickCorners(const Vector3i& brick) const;
 
-  std::int32_t slot(const Vector3i& brick) const { return slots_[shape_.brickIndex(brick)]; }
+  std::uint32_t word(const Vector3i& brick) const { return arrays_.words[shape_.brickIndex(brick)]; }
 
-  /// Levels of the hierarchy; level 0 has a node per brick, each further level one per 2×2×2 of the last.
-  int levels() const { return static_cast<int>(levels_.size()); }
-  DistanceRange range(int level, const Vector3i& node) const {
-    const Level& l = levels_[level];
-    return l.ranges[(std::size_t(node.z()) * l.size.y() + node.y()) * l.size.x() + node.x()];
+  /// Of a brick's samples, or kFar.
+  std::int32_t slot(const Vector3i& brick) const {
+    const std::uint32_t w = word(brick);
+    return brick_word::isFar(w) ? kFar : static_cast<std::int32_t>(w >> 1);
   }
 
  private:
-  struct Level {
-    Vector3i size;
-    std::vector<DistanceRange> ranges;
-  };
-
-  void checkSizes() const;
-  void buildLevels();
-  DistanceRange brickRange(const Vector3i& brick) const;
+  void check() const;
 
   GridShape shape_;
-  View<float> corners_;
-  View<std::int32_t> slots_;
-  View<float> samples_;
+  Arrays arrays_;
   std::shared_ptr<const void> owner_;
   double error_bound_ = 0.0;
-  std::vector<Level> levels_;
 };
 
 /// Trilinear interpolation at (u, v, w) in [0, 1]³ of eight corner values ordered like cellCorners().

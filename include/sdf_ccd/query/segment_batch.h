@@ -33,9 +33,9 @@ struct BatchResult {
 
 /// segmentIntervals() for many segments at once, several to an instruction, on all threads of the caller's TBB arena.
 ///
-/// Fields of a maximum error are asked in single precision: a time is right to 1e-6 of the grid's longest side along
+/// Grids are asked in single precision: a time is right to 1e-6 of the grid's longest side along
 /// the segment's way, and a segment that grazes the isosurface closer than that may be given as a hit or as none.
-/// Other fields are asked one by one. The result does not depend on the number of threads; between processors with
+/// Primitives are asked one by one. The result does not depend on the number of threads; between processors with
 /// other vector instructions it may differ within the tolerance.
 /// @param segments  each within reach (isWithinReach()); `count` of them, at most 2³² − 1.
 /// @param options   |sigma| ≤ field.band().

@@ -1,15 +1,15 @@
 // Included once for each kind of processor that vector code is compiled for.
-#if defined(SDF_CCD_LANE_BLOCKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SDF_CCD_LANE_BLOCKS_INL_H_
-#undef SDF_CCD_LANE_BLOCKS_INL_H_
+#if defined(SDF_CCD_LANE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_CCD_LANE_VECTORS_INL_H_
+#undef SDF_CCD_LANE_VECTORS_INL_H_
 #else
-#define SDF_CCD_LANE_BLOCKS_INL_H_
+#define SDF_CCD_LANE_VECTORS_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
-#include "adaptive_lanes.h"
 #include "lane_boarding-inl.h"
+#include "segment_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sdf_ccd {
@@ -25,7 +25,6 @@ using MI = hn::Mask<I>;
 
 constexpr F f;
 constexpr I n;
-constexpr int kLogTop = 7;  // of AdaptiveShape::kUnits
 
 inline VF real(float v) {
   return hn::Set(f, v);
@@ -46,11 +45,6 @@ inline MI none() {
 
 inline VI gather(const std::uint32_t* base, VI index) {
   return hn::GatherIndex(n, reinterpret_cast<const std::int32_t*>(base), index);
-}
-
-template <class T>
-inline VF gatherReal(const T& column, VI index) {
-  return hn::GatherIndex(f, column.data(), index);
 }
 
 /// The lanes' segments: a vector of a queue's flights.
@@ -147,84 +141,18 @@ inline int append(MI which, const Lanes& lanes, VI place, VI log_side, FlightQue
 /// The block that each lane is in.
 struct Blocks {
   VI log_side;
-  VI leaf;    ///< index; of a top cell's node where `node`
+  VI place;   ///< of a leaf or node
   VF radius;  ///< where `far`: signed distance of the surface from the centre [units]
   MI far;
-  MI node;  ///< to be asked further, with locateBelow()
+  MI node;  ///< to be asked further; neither far nor node: a leaf
 };
 
-/// Which of its eight halves each lane is in.
-inline VI halfOf(const VI* cell, VI log_half) {
-  const VI one = whole(1);
-  const auto bit = [&](VI c) { return hn::And(hn::Shr(c, log_half), one); };
-  return hn::Or(bit(cell[0]), hn::Or(hn::ShiftLeft<1>(bit(cell[1])), hn::ShiftLeft<2>(bit(cell[2]))));
-}
-
-inline void enterSplits(MI split, const VI* cell, Blocks& b) {
-  if (hn::AllFalse(n, split)) return;
-  b.log_side = hn::IfThenElse(split, hn::Sub(b.log_side, whole(1)), b.log_side);
-  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.leaf), halfOf(cell, b.log_side)), whole(FlightQueue::kSplit));
-  b.leaf = hn::IfThenElse(split, leaf, b.leaf);
-}
-
-/// By the top grid alone.
-inline Blocks locateTop(const LaneGrid& g, const VI* cell) {
-  const VI x = hn::ShiftRight<kLogTop>(cell[0]), y = hn::ShiftRight<kLogTop>(cell[1]),
-           z = hn::ShiftRight<kLogTop>(cell[2]);
+/// The word of each lane's top cell.
+inline VI topWord(const LaneBox& g, const VI* cell) {
+  const VI x = hn::ShiftRight<LaneBox::kLogUnits>(cell[0]), y = hn::ShiftRight<LaneBox::kLogUnits>(cell[1]),
+           z = hn::ShiftRight<LaneBox::kLogUnits>(cell[2]);
   const VI row = hn::Add(hn::Mul(z, whole(g.top_size[1])), y);
-  const VI word = gather(g.top, hn::Add(hn::Mul(row, whole(g.top_size[0])), x));
-  const VI kind = hn::And(word, whole(3));
-  Blocks b;
-  b.far = hn::Eq(kind, whole(0));
-  b.node = hn::Eq(kind, whole(3));
-  b.radius = hn::Mul(hn::BitCast(f, hn::AndNot(whole(3), word)), real(g.per_metre));
-  b.log_side = whole(kLogTop);
-  b.leaf = hn::And(hn::ShiftRight<2>(word), whole(0x3FFFFFFF));
-  enterSplits(hn::Eq(kind, whole(2)), cell, b);
-  return b;
-}
-
-/// Below a top cell's node.
-inline Blocks locateBelow(const LaneGrid& g, const VI* cell, VI node_index) {
-  Blocks b;
-  b.far = b.node = none();
-  b.radius = real(0.0F);
-  b.log_side = whole(kLogTop);
-  b.leaf = hn::Zero(n);
-  MI split = none(), node = hn::FirstN(n, hn::Lanes(n));
-  int shift = kLogTop - 2;
-  for (int depth = 0; !hn::AllFalse(n, node); ++depth, shift -= 2) {
-    const VI three = whole(3), by = whole(shift);
-    const VI child =
-        hn::Or(hn::And(hn::Shr(cell[0], by), three), hn::Or(hn::ShiftLeft<2>(hn::And(hn::Shr(cell[1], by), three)),
-                                                            hn::ShiftLeft<4>(hn::And(hn::Shr(cell[2], by), three))));
-    const VI place = hn::Add(hn::ShiftLeft<6>(node_index), child);
-    const VI four = gather(g.codes, hn::ShiftRight<2>(place));
-    const VI code = hn::And(hn::Shr(four, hn::ShiftLeft<3>(hn::And(place, three))), whole(255));
-    const MI far = hn::And(node, hn::Gt(code, whole(node_code::kFar - 1)));
-    const VI magnitude = hn::And(code, whole(31));
-    const VI signed_steps = hn::IfThenElse(hn::Eq(hn::And(code, whole(32)), whole(0)), magnitude, hn::Neg(magnitude));
-    const VF radius = hn::Mul(hn::ConvertTo(f, signed_steps), real(g.far_step[depth]));
-    b.radius = hn::IfThenElse(asReal(far), radius, b.radius);
-    b.far = hn::Or(b.far, far);
-    b.log_side = hn::IfThenElse(node, by, b.log_side);
-    const MI inner = hn::AndNot(far, node);
-    if (hn::AllFalse(n, inner)) break;
-    // Codes 0 to 63 are leaves, 64 to 127 nodes, 128 to 191 splits; a node's bases are those of leaves, splits, nodes.
-    const VI rank = hn::And(code, whole(63));
-    const MI is_node = hn::And(inner, hn::Eq(hn::ShiftRight<6>(code), whole(1)));
-    const MI is_split = hn::And(inner, hn::Eq(hn::ShiftRight<6>(code), whole(2)));
-    const VI which = hn::IfThenElse(is_node, whole(2), hn::IfThenElseZero(is_split, whole(1)));
-    const VI safe = hn::IfThenElseZero(inner, node_index);
-    const VI base = gather(g.bases, hn::Add(hn::Add(safe, hn::ShiftLeft<1>(safe)), which));
-    const VI found = hn::Add(base, rank);
-    b.leaf = hn::IfThenElse(inner, found, b.leaf);
-    split = hn::Or(split, is_split);
-    node = is_node;
-    node_index = hn::IfThenElseZero(node, found);
-  }
-  enterSplits(split, cell, b);
-  return b;
+  return gather(g.top, hn::Add(hn::Mul(row, whole(g.top_size[0])), x));
 }
 
 /// Where each lane leaves a block, and through which face.
@@ -255,12 +183,12 @@ inline Exits exitsOf(const Lanes& lanes, VI log_side) {
 }
 
 /// Steps lanes to t: through the exit's face, or (`jump`) anywhere. @return lanes that have left the grid.
-inline MI advance(const LaneGrid& g, const Exits& e, MF jump, VF t, MI moving, Lanes& lanes) {
+inline MI advance(const LaneBox& g, const Exits& e, MF jump, VF t, MI moving, Lanes& lanes) {
   MI outside = none();
   VI next[3];
   for (int k = 0; k < 3; ++k) {
     const VI high = hn::Add(e.low[k], e.side);
-    const VI last = whole(g.top_size[k] * AdaptiveShape::kUnits - 1);
+    const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
     const VI at = hn::ConvertTo(n, hn::Floor(hn::MulAdd(lanes.d[k], t, lanes.o[k])));
     const VI within = hn::Min(hn::Max(at, e.low[k]), hn::Sub(high, whole(1)));
     const MF forward = hn::Gt(lanes.d[k], real(0.0F));

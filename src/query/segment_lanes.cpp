@@ -2,7 +2,7 @@
 // Not for those whose vectors have no size that is known to the compiler: here they stand in structs.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "adaptive_lanes.cpp"
+#define HWY_TARGET_INCLUDE "segment_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
 #include <hwy/cache_control.h>
@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "adaptive_lanes.h"
 #include "cell_cubic.h"
-#include "lane_boarding-inl.h"
-#include "lane_leaves-inl.h"
+#include "lane_adaptive-inl.h"
+#include "lane_even-inl.h"
+#include "segment_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sdf_ccd {
@@ -23,14 +23,17 @@ namespace {
 
 /// Segments wait in queues for the same kind of step: through a far cell of the top grid, through a child of a node,
 /// through a leaf. A pass takes every flight one step further and prefetches what its next step will read.
+template <class Grid>
 class Follower {
  public:
-  Follower(const LaneGrid& grid, bool first_only, FlightWork& work) : g_(grid), first_only_(first_only), work_(work) {}
+  Follower(const Grid& grid, bool first_only, FlightWork& work) : g_(grid), first_only_(first_only), work_(work) {}
 
   int run(const Segment* segments, int count) {
+    work_.hits.clear();
+    work_.lost.clear();
     for (Queues* queues : {&work_.far, &work_.node, &work_.leaf}) (*queues)[0].size = (*queues)[1].size = 0;
     // Each pass takes each flight through a cell; none meets more than this.
-    const int most = 4 * AdaptiveShape::kUnits * (g_.top_size[0] + g_.top_size[1] + g_.top_size[2]);
+    const int most = 4 * LaneBox::kUnits * (g_.top_size[0] + g_.top_size[1] + g_.top_size[2]);
     int boarded = 0, last_flying = 0;
     for (int pass = 0; pass < most; ++pass) {
       boarded = board(segments, boarded, count);
@@ -41,7 +44,7 @@ class Follower {
       last_flying = flying;
       next_ ^= 1;
       takeAll(work_.far, [&](Lanes& lanes, MI used) { crossFar(lanes, used); });
-      takeAll(work_.node, [&](Lanes& lanes, MI used) { descend(lanes, used); });
+      takeAll(work_.node, [&](Lanes& lanes, MI used) { descend(g_, lanes, used); });
       takeAll(work_.leaf, [&](Lanes& lanes, MI used) { crossLeaf(lanes, used); });
     }
     for (Queues* queues : {&work_.far, &work_.node, &work_.leaf}) {
@@ -138,7 +141,7 @@ class Follower {
   /// Lanes whose t is anywhere in a far cell: their unit cubes.
   void findCells(Lanes& lanes, MI which) const {
     for (int k = 0; k < 3; ++k) {
-      const VI last = whole(g_.top_size[k] * AdaptiveShape::kUnits - 1);
+      const VI last = whole(g_.top_size[k] * LaneBox::kUnits - 1);
       const VI cell = hn::Min(hn::Max(hn::ConvertTo(n, hn::Floor(lanes.at(k))), hn::Zero(n)), last);
       lanes.cell[k] = hn::IfThenElse(which, cell, lanes.cell[k]);
     }
@@ -176,59 +179,62 @@ class Follower {
   void queue(const Lanes& lanes, MI which, const Blocks& at) {
     const MI far = hn::And(which, at.far), node = hn::And(which, at.node);
     if (!hn::AllFalse(n, far)) append(far, lanes, hn::BitCast(n, at.radius), at.log_side, work_.far[next_]);
-    if (!hn::AllFalse(n, node)) appendNode(node, lanes, at.leaf);
+    if (!hn::AllFalse(n, node)) appendNode(node, lanes, at.place);
     const MI leaf = hn::AndNot(hn::Or(at.far, at.node), which);
-    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.leaf, at.log_side);
+    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.place, at.log_side);
   }
 
   void appendNode(MI which, const Lanes& lanes, VI node) {
     FlightQueue& queue = work_.node[next_];
     const int added = append(which, lanes, node, node, queue);
-    for (int i = queue.size - added; i < queue.size; ++i) {
-      hwy::Prefetch(g_.codes + 16 * std::size_t(queue.place[i]));
-      hwy::Prefetch(g_.bases + 3 * std::size_t(queue.place[i]));
-    }
+    for (int i = queue.size - added; i < queue.size; ++i) prefetchNode(g_, queue, i);
   }
 
   void appendLeaf(MI which, const Lanes& lanes, VI leaf, VI log_side) {
     FlightQueue& queue = work_.leaf[next_];
     const int added = append(which, lanes, leaf, log_side, queue);
-    for (int i = queue.size - added; i < queue.size; ++i) {
-      const std::int32_t place = queue.place[i];
-      hwy::Prefetch(place >= FlightQueue::kSplit ? g_.splits + 2 * (place - FlightQueue::kSplit)
-                                                 : g_.leaves + 2 * place);
-    }
+    for (int i = queue.size - added; i < queue.size; ++i) prefetchLeaf(g_, queue, i);
   }
 
-  /// Where lanes leave the ball about their block's centre that is free of the isosurface; `covers`: it holds all of
-  /// the block. In numbers relative to where the lanes are: small, so that little is rounded.
-  VF ballExit(const Lanes& lanes, VI log_side, VF distance, MF& covers) const {
-    const VI side = hn::Shl(whole(1), log_side), mask = hn::Neg(side);
-    const VF half = hn::Mul(hn::ConvertTo(f, side), real(0.5F));
+  /// Where lanes leave a ball that holds them; t where it does not. In numbers relative to where the lanes are: small,
+  /// so that little is rounded.
+  static VF ballExit(const Lanes& lanes, const VF* center, VF radius2) {
     VF b = real(0.0F), c = real(0.0F), length2 = real(1e-20F);
     for (int k = 0; k < 3; ++k) {
-      const VF from = hn::Sub(lanes.at(k), hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), half));
+      const VF from = hn::Sub(lanes.at(k), center[k]);
       b = hn::MulAdd(from, lanes.d[k], b);
       c = hn::MulAdd(from, from, c);
       length2 = hn::MulAdd(lanes.d[k], lanes.d[k], length2);
     }
-    const VF radius = hn::Sub(hn::MulAdd(hn::Abs(distance), real(1.0F - 1e-5F), real(-0.01F)), real(g_.margin));
-    covers = hn::Gt(radius, hn::Mul(half, real(1.7330F)));
-    const VF excess = hn::NegMulAdd(radius, radius, c);
+    const VF excess = hn::Sub(c, radius2);
     const VF discriminant = hn::NegMulAdd(length2, excess, hn::Mul(b, b));
     const VF exit = hn::Div(hn::Sub(hn::Sqrt(hn::Max(discriminant, real(0.0F))), b), length2);
-    const MF holds = hn::And(hn::Lt(excess, real(0.0F)), hn::Gt(radius, real(0.0F)));
-    return hn::IfThenElse(holds, hn::Add(exit, lanes.t), lanes.t);
+    return hn::IfThenElse(hn::Lt(excess, real(0.0F)), hn::Add(exit, lanes.t), lanes.t);
   }
 
-  /// Through far blocks: to the ball's exit, or the block's.
+  /// Moves lanes to t: anywhere (`jump`), or through their exit. @return those that are not done.
+  MI moveOn(Lanes& lanes, const Exits& exits, MF jump, VF t, MI live) {
+    const MI ended = hn::And(live, asWhole(hn::Ge(t, real(1.0F))));
+    const MI done = hn::Or(ended, advance(g_, exits, jump, t, live, lanes));
+    finish(done, lanes);
+    return hn::AndNot(done, live);
+  }
+
+  /// Through far blocks: to the exit of the ball about the centre that is free of the isosurface, or of the block.
   /// @return lanes that are neither done nor hit; they stand in their new cells.
   MI passFar(Lanes& lanes, VI log_side, VF distance, MI live) {
     const MI inside = asWhole(hn::Lt(distance, real(0.0F)));
     live = hn::AndNot(turn(inside, live, lanes.t, lanes), live);
-    MF covers;
-    const VF t_ball = ballExit(lanes, log_side, distance, covers);
-    if (hn::AllFalse(n, hn::AndNot(asWhole(covers), live))) {
+    const VI side = hn::Shl(whole(1), log_side), mask = hn::Neg(side);
+    const VF half = hn::Mul(hn::ConvertTo(f, side), real(0.5F));
+    VF center[3];
+    for (int k = 0; k < 3; ++k) center[k] = hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), half);
+    const VF rounded = hn::MulAdd(hn::Abs(distance), real(1.0F - 1e-5F), real(-0.01F));
+    const VF radius = hn::Max(hn::Sub(rounded, real(g_.margin)), real(0.0F));
+    const VF t_ball = ballExit(lanes, center, hn::Mul(radius, radius));
+    // A ball that holds all of the block is left later than the block.
+    const MI covered = asWhole(hn::Gt(radius, hn::Mul(half, real(1.7330F))));
+    if (hn::AllFalse(n, hn::AndNot(covered, live))) {
       lanes.t = hn::IfThenElse(asReal(live), t_ball, lanes.t);
       const MI done = hn::And(live, asWhole(hn::Ge(t_ball, real(1.0F))));
       finish(done, lanes);
@@ -238,28 +244,54 @@ class Follower {
     }
     const Exits exits = exitsOf(lanes, log_side);
     const MF jump = hn::Gt(t_ball, exits.t);
-    const VF t = hn::IfThenElse(jump, t_ball, exits.t);
-    const MI ended = hn::And(live, asWhole(hn::Ge(t, real(1.0F))));
-    const MI done = hn::Or(ended, advance(g_, exits, jump, t, live, lanes));
-    finish(done, lanes);
-    return hn::AndNot(done, live);
+    return moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_ball, exits.t), live);
   }
 
   void crossFar(Lanes& lanes, MI used) {
-    arrive(lanes, passFar(lanes, whole(kLogTop), hn::BitCast(f, lanes.place), used));
+    arrive(lanes, passFar(lanes, whole(LaneBox::kLogUnits), hn::BitCast(f, lanes.place), used));
   }
 
   /// To what a node says of the lane's place: a leaf, or through a far child.
-  void descend(Lanes& lanes, MI used) {
-    const auto topOf = [&](int k) { return hn::ShiftRight<kLogTop>(lanes.cell[k]); };
-    const Blocks at = locateBelow(g_, lanes.cell, lanes.place);
+  void descend(const AdaptiveLanes& grid, Lanes& lanes, MI used) {
+    const Blocks at = locateBelow(grid, lanes.cell, lanes.place);
     const MI leaf = hn::AndNot(at.far, used), far = hn::And(used, at.far);
-    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.leaf, at.log_side);
+    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.place, at.log_side);
     if (hn::AllFalse(n, far)) return;
-    const VI before[3] = {topOf(0), topOf(1), topOf(2)};
-    const MI onward = passFar(lanes, at.log_side, at.radius, far);
-    const MI same =
-        hn::And(hn::Eq(before[0], topOf(0)), hn::And(hn::Eq(before[1], topOf(1)), hn::Eq(before[2], topOf(2))));
+    const TopCell before(lanes);
+    leaveNode(before, lanes, passFar(lanes, at.log_side, at.radius, far));
+  }
+
+  /// In a brick: through the ball about the nearest sample, if that takes the lane out of its cell; else to the cell.
+  void descend(const EvenLanes& grid, Lanes& lanes, MI used) {
+    const VI log_cell = whole(EvenLanes::kLogCell);
+    if (!grid.exact) return appendLeaf(used, lanes, lanes.place, log_cell);
+    const SampleBall ball = nearestBall(grid, lanes);
+    const VF t_ball = ballExit(lanes, ball.center, ball.radius2);
+    const Exits exits = exitsOf(lanes, log_cell);
+    const MF jump = hn::Gt(t_ball, exits.t);
+    const MI leaf = hn::AndNot(asWhole(jump), used);
+    MI far = hn::And(used, asWhole(jump));
+    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, lanes.place, log_cell);
+    if (hn::AllFalse(n, far)) return;
+    far = hn::AndNot(turn(ball.inside, far, lanes.t, lanes), far);
+    const TopCell before(lanes);
+    leaveNode(before, lanes, moveOn(lanes, exits, jump, t_ball, far));
+  }
+
+  /// The top cell that each lane is in.
+  struct TopCell {
+    VI c[3];
+    explicit TopCell(const Lanes& lanes) {
+      for (int k = 0; k < 3; ++k) c[k] = hn::ShiftRight<LaneBox::kLogUnits>(lanes.cell[k]);
+    }
+    MI same(const TopCell& other) const {
+      return hn::And(hn::Eq(c[0], other.c[0]), hn::And(hn::Eq(c[1], other.c[1]), hn::Eq(c[2], other.c[2])));
+    }
+  };
+
+  /// Lanes that stay in their top cell ask its node again.
+  void leaveNode(const TopCell& before, Lanes& lanes, MI onward) {
+    const MI same = before.same(TopCell(lanes));
     const MI stays = hn::And(onward, same), leaves = hn::AndNot(same, onward);
     if (!hn::AllFalse(n, stays)) appendNode(stays, lanes, lanes.place);
     if (!hn::AllFalse(n, leaves)) arrive(lanes, leaves);
@@ -268,7 +300,7 @@ class Follower {
   void crossLeaf(Lanes& lanes, MI used) {
     const Exits exits = exitsOf(lanes, lanes.log_side);
     const VF t_exit = hn::Min(exits.t, real(1.0F));
-    const Crossing crossing = crossingOf(leafSteps(g_, used, lanes.place, lanes.log_side), lanes, exits, t_exit);
+    const Crossing crossing = crossingOf(leafCorners(g_, lanes, used), lanes, exits, t_exit);
     const MI in_start = asWhole(crossing.in_start), in_end = asWhole(crossing.in_end);
     const MI hard = hn::And(used, asWhole(crossing.hard));
     const MI easy = hn::AndNot(hard, used);
@@ -278,10 +310,7 @@ class Follower {
     over = hn::Or(over, turn(in_end, rest, crossing.t_root, lanes));
     if (!hn::AllFalse(n, hard)) over = hn::Or(over, crossHardLeaves(crossing, hard, t_exit, lanes));
     const MI going = hn::AndNot(over, used);
-    MI done = hn::And(going, asWhole(hn::Ge(exits.t, real(1.0F))));
-    done = hn::Or(done, advance(g_, exits, asReal(none()), exits.t, going, lanes));
-    finish(done, lanes);
-    const MI onward = hn::AndNot(done, going);
+    const MI onward = moveOn(lanes, exits, asReal(none()), exits.t, going);
     if (!hn::AllFalse(n, onward)) arrive(lanes, onward);
   }
 
@@ -323,7 +352,7 @@ class Follower {
     return false;
   }
 
-  const LaneGrid& g_;
+  const Grid& g_;
   bool first_only_;
   FlightWork& work_;
   int refused_ = -1;  ///< a segment that is not within reach
@@ -332,7 +361,11 @@ class Follower {
 
 }  // namespace
 
-int follow(const LaneGrid& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
+int followAdaptive(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
+  return Follower(grid, first_only, work).run(segments, count);
+}
+
+int followEven(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
   return Follower(grid, first_only, work).run(segments, count);
 }
 
@@ -343,12 +376,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace sdf_ccd {
 
-HWY_EXPORT(follow);
+HWY_EXPORT(followAdaptive);
+HWY_EXPORT(followEven);
 
-int followFlights(const LaneGrid& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
-  work.hits.clear();
-  work.lost.clear();
-  return HWY_DYNAMIC_DISPATCH(follow)(grid, first_only, segments, count, work);
+int followFlights(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
+  return HWY_DYNAMIC_DISPATCH(followAdaptive)(grid, first_only, segments, count, work);
+}
+
+int followFlights(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
+  return HWY_DYNAMIC_DISPATCH(followEven)(grid, first_only, segments, count, work);
 }
 
 }  // namespace sdf_ccd

@@ -5,28 +5,50 @@
 #include <vector>
 
 #include "sdf_ccd/field/adaptive_grid.h"
+#include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {
 
-/// An adaptive grid as vector code reads it: raw words, lengths in units.
-struct LaneGrid {
-  explicit LaneGrid(const AdaptiveGrid& grid, double sigma);
+/// A grid as vector code reads it. Lengths are in units, of which a top cell (the coarsest) has kUnits along its side.
+struct LaneBox {
+  static constexpr int kUnits = 128;
+  static constexpr int kLogUnits = 7;
 
-  const std::uint32_t* top;
+  std::array<double, 3> origin;  ///< [m]
+  double units_per_metre;
+  std::array<std::int32_t, 3> top_size;  ///< top cells per axis
+  const std::uint32_t* top;              ///< a word per top cell, x fastest
+  float per_metre;                       ///< units
+  float margin;  ///< a ball of the true distance less this holds no place where the field is sigma [units]
+};
+
+/// An adaptive grid: raw words.
+struct AdaptiveLanes : LaneBox {
+  AdaptiveLanes(const AdaptiveGrid& grid, double sigma);
+
   const std::uint32_t* codes;   ///< four codes a word
   const std::uint32_t* bases;   ///< three a node
   const std::uint32_t* leaves;  ///< two words each
   const std::uint32_t* splits;
-  std::array<double, 3> origin;  ///< [m]
-  double units_per_metre;
-  std::array<std::int32_t, 3> top_size;
-  float per_metre;  ///< units
-  float sigma;      ///< [units]
-  float margin;     ///< |sigma| and the leaves' error: a ball of the true distance less this is free [units]
+  float sigma;                    ///< [units]
   std::array<float, 3> far_step;  ///< [units], by depth
   /// Of leaves' rounding (LeafScale): [units] per step for a leaf of no side, and what a unit of side adds.
   float offset, offset_per_side, corner, corner_per_side;
+};
+
+/// An even grid: a top cell is a brick.
+struct EvenLanes : LaneBox {
+  static constexpr int kLogCell = 4;  ///< of the units along a cell's side
+
+  EvenLanes(const SparseGrid& grid, double sigma);
+
+  /// Whether 32 bits number its samples.
+  static bool canIndex(const SparseGrid& grid);
+
+  const float* samples;  ///< [m]
+  float sigma;           ///< [m]
+  bool exact;            ///< samples are distances: no surface within their balls
 };
 
 /// By the bits of a mask of eight lanes: those that are set, in order; then zeros.
@@ -57,7 +79,7 @@ struct FlightQueue {
   Column<float> enter;                       ///< t since when it is inside; -1: outside
   std::array<Column<std::int32_t>, 3> cell;  ///< unit cube
   Column<std::int32_t> id;                   ///< of the segment
-  Column<std::int32_t> place;                ///< node or leaf that it waits for
+  Column<std::int32_t> place;                ///< node or leaf that it waits for; far: the distance, as its bits
   Column<std::int32_t> log_side;             ///< of that leaf
   int size = 0;
 };
@@ -82,6 +104,7 @@ struct FlightWork {
 
 /// Follows segments 0 to count − 1 to their ends or to their first hit.
 /// @return the number of a segment that is not within reach, where there is one; else −1.
-int followFlights(const LaneGrid& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
+int followFlights(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
+int followFlights(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
 
 }  // namespace sdf_ccd

@@ -1,62 +1,25 @@
 // Included once for each kind of processor that vector code is compiled for.
-#if defined(SDF_CCD_LANE_LEAVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SDF_CCD_LANE_LEAVES_INL_H_
-#undef SDF_CCD_LANE_LEAVES_INL_H_
+#if defined(SDF_CCD_LANE_CROSSING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_CCD_LANE_CROSSING_INL_H_
+#undef SDF_CCD_LANE_CROSSING_INL_H_
 #else
-#define SDF_CCD_LANE_LEAVES_INL_H_
+#define SDF_CCD_LANE_CROSSING_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
-#include "lane_blocks-inl.h"
+#include "lane_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// A leaf's eight corners and the isovalue, in steps of the corners.
-struct LeafSteps {
+/// Each lane's leaf: its eight corners and the isovalue, in any one unit.
+struct LeafCorners {
   VF corner[8];
   VF iso;
 };
-
-/// Of the leaf that each of the lanes in `used` is in.
-inline LeafSteps leafSteps(const LaneGrid& g, MI used, VI leaf, VI log_side) {
-  // The eight corners, in steps.
-  const MI split = hn::Gt(leaf, whole(FlightQueue::kSplit - 1));
-  const VI plain = hn::ShiftLeft<1>(hn::IfThenZeroElse(split, leaf));
-  const bool some_plain = !hn::AllTrue(n, hn::Or(split, hn::Not(used)));
-  VI low = some_plain ? gather(g.leaves, plain) : hn::Zero(n);
-  VI high = some_plain ? gather(g.leaves + 1, plain) : hn::Zero(n);
-  if (!hn::AllFalse(n, split)) {
-    const VI half = hn::ShiftLeft<1>(hn::IfThenElseZero(split, hn::Sub(leaf, whole(FlightQueue::kSplit))));
-    low = hn::IfThenElse(split, gather(g.splits, half), low);
-    high = hn::IfThenElse(split, gather(g.splits + 1, half), high);
-  }
-  const VI byte = whole(0x7F);
-  const auto step = [&](VI word) { return hn::ConvertTo(f, hn::And(word, byte)); };
-  LeafSteps leaf_steps{
-      {step(low), step(hn::ShiftRight<8>(low)), step(hn::ShiftRight<16>(low)), step(hn::ShiftRight<24>(low)),
-       step(high), step(hn::ShiftRight<8>(high)), step(hn::ShiftRight<16>(high)), step(hn::ShiftRight<24>(high))},
-      {}};
-  const auto topBits = [](VI word) {
-    const VI bits =
-        hn::And(hn::BitCast(n, hn::ShiftRight<7>(hn::BitCast(hn::RebindToUnsigned<I>(), word))), whole(0x01010101));
-    const auto packed = hn::BitCast(hn::RebindToUnsigned<I>(), hn::Mul(bits, whole(0x10204080)));
-    return hn::BitCast(n, hn::ShiftRight<28>(packed));
-  };
-  const VI offset_bits = hn::Or(topBits(low), hn::ShiftLeft<4>(topBits(high)));
-  const VF offset = hn::ConvertTo(f, hn::ShiftRight<24>(hn::ShiftLeft<24>(offset_bits)));
-  // The isovalue in the corners' steps.
-  const VF side = hn::ConvertTo(f, hn::Shl(whole(1), log_side));
-  const VF offset_step = hn::MulAdd(side, real(g.offset_per_side), real(g.offset));
-  const VF corner_step = hn::MulAdd(side, real(g.corner_per_side), real(g.corner));
-  const VF scale = hn::Div(real(1.0F), corner_step);
-  const VF shifted = hn::NegMulAdd(offset, offset_step, real(g.sigma));
-  leaf_steps.iso = hn::MulAdd(shifted, scale, real(63.5F));
-  return leaf_steps;
-}
 
 /// What a leaf does to the lanes that pass it: a cubic of u in [0, 1] from where a lane is to where it leaves.
 struct Crossing {
@@ -66,7 +29,7 @@ struct Crossing {
   VF t_root;  ///< where the ends differ and it is not hard
 };
 
-inline Crossing crossingOf(const LeafSteps& steps, const Lanes& lanes, const Exits& exits, VF t_exit) {
+inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Exits& exits, VF t_exit) {
   // The cubic (see cellCubic()) of u in [0, 1] from where the lane is to where it leaves.
   const VF per_side = hn::Div(real(1.0F), hn::ConvertTo(f, exits.side));
   VF from[3], way[3];
@@ -79,7 +42,7 @@ inline Crossing crossingOf(const LeafSteps& steps, const Lanes& lanes, const Exi
     from[k] = clamped(lanes.t);
     way[k] = hn::Sub(clamped(t_exit), from[k]);
   }
-  const VF* q = steps.corner;
+  const VF* q = leaf.corner;
   const VF xy0 = hn::Mul(from[0], from[1]), xy2 = hn::Mul(way[0], way[1]);
   const VF xy1 = hn::MulAdd(from[0], way[1], hn::Mul(from[1], way[0]));
   struct Quadratic {
@@ -90,7 +53,7 @@ inline Crossing crossingOf(const LeafSteps& steps, const Lanes& lanes, const Exi
                      hn::MulAdd(kx, way[0], hn::MulAdd(ky, way[1], hn::Mul(kxy, xy1))), hn::Mul(kxy, xy2)};
   };
   const VF ax = hn::Sub(q[1], q[0]), ay = hn::Sub(q[2], q[0]), axy = hn::Sub(hn::Sub(q[3], q[2]), ax);
-  const Quadratic a = plane(hn::Sub(q[0], steps.iso), ax, ay, axy);
+  const Quadratic a = plane(hn::Sub(q[0], leaf.iso), ax, ay, axy);
   const VF bz = hn::Sub(q[4], q[0]), bx = hn::Sub(hn::Sub(q[5], q[4]), ax);
   const VF by = hn::Sub(hn::Sub(q[6], q[4]), ay);
   const VF bxy = hn::Sub(hn::Sub(hn::Sub(q[7], q[6]), hn::Sub(q[5], q[4])), axy);

@@ -1,0 +1,56 @@
+#include <cmath>
+#include <limits>
+
+#include "segment_lanes.h"
+
+namespace sdf_ccd {
+namespace {
+
+void setBox(LaneBox& box, const Vector3d& origin, double unit, const Vector3i& size, const std::uint32_t* top) {
+  for (int k = 0; k < 3; ++k) {
+    box.origin[k] = origin[k];
+    box.top_size[k] = size[k];
+  }
+  box.top = top;
+  box.units_per_metre = 1.0 / unit;
+  box.per_metre = static_cast<float>(1.0 / unit);
+}
+
+}  // namespace
+
+AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
+  static_assert(LaneBox::kUnits == AdaptiveShape::kUnits, "the same units");
+  const AdaptiveGrid::Arrays& arrays = grid.arrays();
+  const AdaptiveShape& shape = grid.shape();
+  setBox(*this, shape.origin, shape.unit(), shape.size, arrays.top.data);
+  const auto words = [](const void* data) { return static_cast<const std::uint32_t*>(data); };
+  codes = words(arrays.nodes.data);
+  bases = words(arrays.bases.data);
+  leaves = words(arrays.leaves.data);
+  splits = words(arrays.splits.data);
+  const double to_units = units_per_metre;
+  sigma = static_cast<float>(sigma_metres * to_units);
+  margin = static_cast<float>((std::abs(sigma_metres) + shape.error_bound) * to_units);
+  for (int k = 0; k < 3; ++k) far_step[k] = static_cast<float>(grid.farStep(k) * to_units);
+  // Both grow evenly with the side.
+  const LeafScale &one = grid.scale(1), &two = grid.scale(2);
+  offset_per_side = static_cast<float>((two.offset - one.offset) * to_units);
+  corner_per_side = static_cast<float>((two.corner - one.corner) * to_units);
+  offset = static_cast<float>((2.0 * one.offset - two.offset) * to_units);
+  corner = static_cast<float>((2.0 * one.corner - two.corner) * to_units);
+}
+
+EvenLanes::EvenLanes(const SparseGrid& grid, double sigma_metres) {
+  const GridShape& shape = grid.shape();
+  setBox(*this, shape.origin, GridShape::kBrick * shape.cell / kUnits, shape.bricks, grid.words().data);
+  samples = grid.samples().data;
+  sigma = static_cast<float>(sigma_metres);
+  margin = static_cast<float>((std::abs(sigma_metres) + grid.errorBound()) * units_per_metre);
+  exact = shape.exact;
+}
+
+bool EvenLanes::canIndex(const SparseGrid& grid) {
+  return grid.samples().size <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+}
+
+}  // namespace sdf_ccd
