@@ -9,6 +9,7 @@ void addBuildCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addQueryCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
+void addWorkPrecisionCommand(CLI::App& app);
 
 /// Some of what was asked for was done, the rest was reported: exit code 1.
 struct PartlyDone {};

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   sdf_ccd::tools::addInfoCommand(app);
   sdf_ccd::tools::addQueryCommand(app);
   sdf_ccd::tools::addSimulateCommand(app);
+  sdf_ccd::tools::addWorkPrecisionCommand(app);
   try {
     app.parse(argc, argv);
     return 0;

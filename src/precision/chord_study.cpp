@@ -1,0 +1,170 @@
+/// Turning bodies: the study `chord`.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "contact_query.h"
+#include "exact_surface.h"
+#include "sdf_ccd/field/build_field.h"
+#include "studies.h"
+#include "timing.h"
+
+namespace sdf_ccd::precision {
+namespace {
+
+constexpr int kCells = 128;
+constexpr double kSpacing = 0.03;  // of the side
+
+/// When the first point of a shell on its arc meets the mesh, in [0, 1]; 2 if none does. Points move at a constant
+/// speed (the twist is constant), so none gets farther in a time than the surface is away (conservative advancement).
+double exactImpact(const ExactSurface& mesh, const PointShell& shell, const ScrewMotion& motion, double tolerance) {
+  double first = 2.0;
+  for (const Vector3d& p : shell.points) {
+    const double speed = motion.velocity(0.0, p).norm();
+    for (double t = 0.0; t < std::min(first, 1.0);) {
+      const double distance = mesh.distance(motion.pose(t) * p);
+      if (distance <= tolerance) {
+        first = t;
+        break;
+      }
+      t += std::max(distance, tolerance) / speed;
+    }
+  }
+  return first;
+}
+
+struct ExactMotion {
+  Motion motion;
+  double impact;  ///< when, in (0, 1)
+  double travel;  ///< no point moves farther [m]
+};
+
+/// Copies of the body that turn into it: by 0.3 to 1.5 rad, from a twentieth of the side apart on.
+std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& field, const TreeShell& shell,
+                                 const BoundingBall& ball, int count) {
+  const double side = field.surfaceBox().sizes().maxCoeff();
+  const Vector3d middle = field.surfaceBox().center();
+  Random random(4);
+  std::vector<ExactMotion> found;
+  for (int tries = 0; int(found.size()) < count; ++tries) {
+    if (tries > 50 * count) throw std::runtime_error("copies of the body do not touch when they turn");
+    const Matrix3d R = rotation(random);
+    const Vector3d u = direction(random);
+    const double apart = touchingDistance(field, shell, R, u, side) + uniform(random, 0.02, 0.1) * side;
+    const Matrix3d turned = Eigen::AngleAxisd(uniform(random, 0.3, 1.5), direction(random)).toRotationMatrix() * R;
+    Motion motion{Isometry3d::Identity(), Isometry3d::Identity()};
+    motion.X_FP_start.linear() = R;
+    motion.X_FP_start.translation() = middle + apart * u - R * middle;
+    motion.X_FP_end.linear() = turned;
+    motion.X_FP_end.translation() = middle + (apart - 0.15 * side) * u - turned * middle;
+    const ScrewMotion screw(motion.X_FP_start, motion.X_FP_end);
+    const double impact = exactImpact(mesh, shell.shell, screw, 1e-7 * side);
+    if (impact > 0.0 && impact < 1.0) found.push_back({motion, impact, screw.maxTravel(ball)});
+  }
+  return found;
+}
+
+/// As a pair of bodies is checked: chords, hits, the earliest of them.
+class ChordSystem {
+ public:
+  ChordSystem(const DistanceField& field, const TreeShell& shell, const BoundingBall& ball, double tolerance)
+      : field_(field), shell_(shell), ball_(ball) {
+    options_.tolerance = tolerance;
+  }
+
+  double operator()(const Motion& motion) {
+    cutIntoChords({{0.0, 1.0}, {motion.X_FP_start, motion.X_FP_end}}, ball_, options_, path_);
+    shellIntervals(field_, shell_.shell, shell_.tree, path_, {}, result_);
+    double first = -1.0;
+    for (const ShellHit& hit : result_.hits) {
+      const Chord& chord = path_.chords[hit.chord];
+      const double t = chord.t_start + hit.interval.enter * (chord.t_end - chord.t_start);
+      if (first < 0.0 || t < first) first = t;
+    }
+    return first;
+  }
+
+ private:
+  const DistanceField& field_;
+  const TreeShell& shell_;
+  BoundingBall ball_;
+  ChordOptions options_;
+  ChordPath path_;
+  ShellQueryResult result_;
+};
+
+BoundingBall ballOf(const PointShell& shell, const Vector3d& middle) {
+  BoundingBall ball{middle, 0.0};
+  for (const Vector3d& p : shell.points) ball.radius = std::max(ball.radius, (p - middle).norm());
+  return ball;
+}
+
+}  // namespace
+
+StudyResult chordStudy(const StudyInput& input) {
+  StudyResult result{
+      "chord", "Turning bodies: first contact over the chord tolerance", "chord tolerance [m]", "motion of a body", {}};
+  FieldOptions options;
+  options.cells = kCells;
+  const DistanceField field = buildField(input.mesh, options, [&](double share) { input.progress(0.3 * share); });
+  const double side = field.surfaceBox().sizes().maxCoeff();
+  const TreeShell shell(input.mesh, kSpacing * side);
+  const BoundingBall ball = ballOf(shell.shell, field.surfaceBox().center());
+  const ExactSurface mesh(input.mesh);
+  const std::vector<ExactMotion> exact = motions(mesh, field, shell, ball, std::max(10, input.queries / 20));
+  input.progress(0.6);
+
+  std::vector<ImpactSystem> systems;
+  for (const double share : {3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * share * side);
+    auto system = std::make_shared<ChordSystem>(field, shell, ball, share * side);
+    systems.push_back({{"sdf_ccd, chords", text, share * side, Measurement::kNone},
+                       [system](const Isometry3d& start, const Isometry3d& end) {
+                         return (*system)({start, end});
+                       }});
+  }
+  if (input.peers.impacts) {
+    for (ImpactSystem& peer : input.peers.impacts(input.mesh, input.mesh)) systems.push_back(std::move(peer));
+  }
+  std::vector<std::vector<double>> found(systems.size(), std::vector<double>(exact.size()));
+  std::vector<std::function<void()>> tasks;
+  for (std::size_t k = 0; k < systems.size(); ++k) {
+    tasks.push_back([&, k] {
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        found[k][i] = systems[k].impact(exact[i].motion.X_FP_start, exact[i].motion.X_FP_end);
+      }
+    });
+  }
+  const std::vector<double> seconds =
+      secondsPerQuery(tasks, exact.size(), [&](double share) { input.progress(0.6 + 0.4 * share); });
+  for (std::size_t k = 0; k < systems.size(); ++k) {
+    const Label& label = systems[k].label;
+    Measurement row{"time of impact, as a length of travel",
+                    "m",
+                    label.system,
+                    label.setting,
+                    label.value,
+                    seconds[k],
+                    ErrorSummary{},
+                    label.bound,
+                    0};
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      if (found[k][i] >= 0.0) {
+        errors.push_back(std::abs(found[k][i] - exact[i].impact) * exact[i].travel);
+      } else {
+        ++row.missed;
+      }
+    }
+    if (errors.empty()) continue;
+    row.error = summarize(std::move(errors));
+    result.rows.push_back(row);
+  }
+  return result;
+}
+
+}  // namespace sdf_ccd::precision

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "report.h"
+
+namespace sdf_ccd::precision {
+namespace {
+
+constexpr int kPanelWidth = 520, kPanelHeight = 470, kTitleHeight = 50;  // [pixels]
+constexpr double kSmallest = 1e-12;                                      // smaller errors, zero too, are drawn here
+const char* const kColors[] = {"#4c72b0", "#dd8452", "#55a868", "#c44e52", "#8172b3", "#937860", "#da8bc3", "#8c8c8c"};
+
+/// Inside single quotes.
+std::string escaped(std::string text) {
+  for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2) text.insert(at, "'");
+  return text;
+}
+
+std::vector<std::string> distinct(const StudyResult& result, std::string Measurement::*member) {
+  std::vector<std::string> found;
+  for (const Measurement& row : result.rows) {
+    if (std::find(found.begin(), found.end(), row.*member) == found.end()) found.push_back(row.*member);
+  }
+  return found;
+}
+
+/// A system's points in one panel: microseconds, median, 99th percentile, maximum, setting.
+struct Series {
+  std::string block, system, lines;
+  std::size_t color = 0;
+  int points = 0;
+};
+
+Series seriesOf(const StudyResult& result, const std::string& quantity, const std::string& system) {
+  Series series;
+  series.system = system;
+  for (const Measurement& row : result.rows) {
+    if (row.quantity != quantity || row.system != system) continue;
+    char numbers[160];
+    std::snprintf(numbers, sizeof numbers, "%.6g %.6g %.6g %.6g ", 1e6 * row.seconds,
+                  std::max(row.error.median, kSmallest), std::max(row.error.p99, kSmallest),
+                  std::max(row.error.max, kSmallest));
+    series.lines += numbers + ("\"" + row.setting + "\"\n");
+    ++series.points;
+  }
+  return series;
+}
+
+/// What a panel shows along an axis, with room around it; for the names of settings more on the right.
+struct Range {
+  double low = 1e300, high = 0.0;
+
+  Range(const StudyResult& result, const std::string& quantity, bool of_time) {
+    for (const Measurement& row : result.rows) {
+      if (row.quantity != quantity) continue;
+      low = std::min(low, of_time ? 1e6 * row.seconds : row.error.median);
+      high = std::max(high, of_time ? 1e6 * row.seconds : row.error.max);
+    }
+    low = std::max(low, kSmallest);
+    high = std::max(high, low);
+    const double margin = 0.05 * std::log10(high / low) + 0.1;  // powers of ten
+    low /= std::pow(10.0, margin);
+    high *= std::pow(10.0, of_time ? 3.0 * margin : margin);
+  }
+
+  std::string text() const {
+    char text[64];
+    std::snprintf(text, sizeof text, "[%.3g:%.3g]", low, high);
+    return text;
+  }
+
+  /// Powers of ten, and where there are few of them numbers between.
+  std::string tics() const {
+    std::string text;
+    for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade < high; decade *= 10.0) {
+      for (const double digit : {1.0, 1.2, 1.5, 2.0, 3.0, 5.0, 7.0}) {
+        const bool wanted = digit == 1.0 || high < (digit == 2.0 || digit == 5.0 ? 300.0 : 4.0) * low;
+        if (!wanted) continue;
+        char tic[32];
+        std::snprintf(tic, sizeof tic, "%s%g", text.empty() ? "" : ",", digit * decade);
+        text += tic;
+      }
+    }
+    return "(" + text + ")";
+  }
+};
+
+}  // namespace
+
+std::string plotScript(const StudyResult& result, const std::string& svg_path) {
+  const std::vector<std::string> quantities = distinct(result, &Measurement::quantity);
+  const std::vector<std::string> systems = distinct(result, &Measurement::system);
+  std::string blocks, panels;
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    std::string unit, plots;
+    for (const Measurement& row : result.rows) {
+      if (row.quantity == quantities[q]) unit = row.unit;
+    }
+    for (std::size_t s = 0; s < systems.size(); ++s) {
+      const Series series = seriesOf(result, quantities[q], systems[s]);
+      if (series.points == 0) continue;
+      const std::string block = "$d" + std::to_string(q) + "_" + std::to_string(s);
+      const std::string color = std::string(" lc rgb '") + kColors[s % std::size(kColors)] + "'";
+      blocks += block + " << EOD\n" + series.lines + "EOD\n";
+      if (!plots.empty()) plots += ", \\\n  ";
+      plots += block + " using 1:2:(0):($4-$2) with vectors nohead lw 1" + color + " notitle, \\\n  " + block +
+               " using 1:4 with points pt 1 ps 0.4" + color + " notitle, \\\n  " + block +
+               " using 1:3 with points pt 2 ps 0.6" + color + " notitle, \\\n  " + block +
+               " using 1:2 with lines lw 2" + color + " notitle, \\\n  " + block +
+               " using 1:2 with points pt 7 ps 0.7" + color + " title '" + escaped(systems[s]) + "' noenhanced";
+      if (series.points > 1) {
+        plots += ", \\\n  " + block + " using 1:2:5 with labels left offset 0.6,0.5 font ',9' textcolor rgb '" +
+                 kColors[s % std::size(kColors)] + "' notitle noenhanced";
+      }
+    }
+    const Range times(result, quantities[q], true), errors(result, quantities[q], false);
+    panels += "set xrange " + times.text() + "\nset xtics " + times.tics() + "\nset yrange " + errors.text() +
+              "\nset title '" + escaped(quantities[q]) + "' noenhanced\nset ylabel 'error [" + escaped(unit) +
+              "]' noenhanced\nplot " + plots + "\n";
+  }
+  const int width = kPanelWidth * int(quantities.size());
+  return "set terminal svg size " + std::to_string(width) + "," + std::to_string(kPanelHeight + kTitleHeight) +
+         " font 'sans,12' background '#ffffff'\nset output '" + escaped(svg_path) + "'\n" + blocks +
+         "set logscale xy\nset format y '10^{%L}'\nset grid\nset key below\nset bmargin 6\n" +
+         "set xlabel 'median time per " + escaped(result.query) + " [us]' noenhanced\nset multiplot layout 1," +
+         std::to_string(quantities.size()) + " title \"" + result.title +
+         "\\n{/*0.8 dot: median; cross: 99th percentile; bar: up to the maximum}\"\n" + panels + "unset multiplot\n";
+}
+
+bool haveGnuplot() {
+  return std::system("gnuplot --version > /dev/null 2>&1") == 0;
+}
+
+void runGnuplot(const std::string& script) {
+  FILE* pipe = ::popen("gnuplot", "w");
+  if (!pipe) throw std::runtime_error("gnuplot cannot be run");
+  std::fwrite(script.data(), 1, script.size(), pipe);
+  if (::pclose(pipe) != 0) throw std::runtime_error("gnuplot failed");
+}
+
+}  // namespace sdf_ccd::precision

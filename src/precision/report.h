@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "measurement.h"
+
+/// A study's outcome as text.
+namespace sdf_ccd::precision {
+
+/// A line of names, and one per row: study, quantity, error_unit, system, setting, value, seconds_per_query,
+/// error_median, error_p99, error_max, bound, missed, queries. What is not known is empty.
+std::string csvText(const StudyResult& result);
+
+/// For people: a block of aligned columns per quantity.
+std::string tableText(const StudyResult& result);
+
+/// A script for gnuplot that draws a panel per quantity into an SVG file: time per query on x, error on y, both
+/// logarithmic; per system its medians joined by a line, a tick at the 99th percentile, a bar to the maximum.
+std::string plotScript(const StudyResult& result, const std::string& svg_path);
+
+/// True if gnuplot can be run here.
+bool haveGnuplot();
+
+/// Runs gnuplot. @throws std::runtime_error if it fails.
+void runGnuplot(const std::string& script);
+
+}  // namespace sdf_ccd::precision

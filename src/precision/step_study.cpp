@@ -1,0 +1,147 @@
+/// Time steps: the study `step`. Both scenes have closed forms: a point of 1 kg and a half-space, ω = √(k/m) = 1000 /s.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "random_inputs.h"
+#include "sdf_ccd/dynamics/simulation.h"
+#include "studies.h"
+#include "timing.h"
+
+namespace sdf_ccd::precision {
+namespace {
+
+constexpr double kOmega = 1000.0;                       // [rad/s]
+constexpr double kPeriod = 6.283185307179586 / kOmega;  // [s]
+constexpr int kPeriods = 5;
+constexpr int kScenes = 20;
+constexpr double kUseless = 10.0;  // errors beyond this are those of a scheme that explodes
+
+RigidWorld pointOnGround(double zeta) {
+  RigidBody ground, point;
+  ground.name = "ground";
+  ground.fixed = true;
+  ground.shape =
+      std::make_shared<CollisionShape>(makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), ShellOptions{}));
+  point.name = "point";
+  point.mass = 1.0;
+  point.inertia = Matrix3d::Identity();
+  point.shape =
+      std::make_shared<CollisionShape>(makeShape(PointShell{{Vector3d::Zero()}, {-Vector3d::UnitZ()}, {1.0}, 0.0}));
+  RigidWorld world;
+  world.bodies = {ground, point};
+  world.contact.stiffness_per = StiffnessPer::kPoint;
+  world.contact.stiffness = kOmega * kOmega;
+  world.contact.damping = 2.0 * zeta * kOmega;
+  return world;
+}
+
+/// A point at height z that moves at v [m/s].
+std::vector<BodyState> pointAt(double z, double v) {
+  std::vector<BodyState> states(2);
+  states[1].X_OB.translation() = Vector3d(0.0, 0.0, z);
+  states[1].velocity = Vector3d(0.0, 0.0, v);
+  return states;
+}
+
+struct Scene {
+  double zeta;   ///< damping ratio
+  double start;  ///< resting: above its rest, in resting depths. Impact: where in the step it begins, [0, 1)
+};
+
+/// A contact that persists: the largest deviation from the damped oscillation over five periods, in amplitudes.
+double restingError(Scheme scheme, double step, const Scene& scene) {
+  RigidWorld world = pointOnGround(scene.zeta);
+  const double rest = world.gravity.z() / (kOmega * kOmega), amplitude = scene.start * std::abs(rest);
+  const double damped = kOmega * std::sqrt(1.0 - scene.zeta * scene.zeta);
+  Simulation simulation(std::move(world), pointAt(rest + amplitude, 0.0), scheme, step);
+  double worst = 0.0;
+  const int steps = int(std::ceil(kPeriods * kPeriod / step));
+  for (int i = 0; i < steps; ++i) {
+    const double t = simulation.advance().time;
+    const double exact = amplitude * std::exp(-scene.zeta * kOmega * t) *
+                         (std::cos(damped * t) + scene.zeta * kOmega / damped * std::sin(damped * t));
+    const double found = simulation.states()[1].X_OB.translation().z() - rest;
+    worst = std::max(worst, std::abs(found - exact) / amplitude);
+    if (!(worst < kUseless)) break;
+  }
+  return worst;
+}
+
+/// An impact at 1 m/s, no gravity, no damping: how much the rebound's speed differs from it.
+double impactError(Scheme scheme, double step, const Scene& scene) {
+  RigidWorld world = pointOnGround(0.0);
+  world.gravity.setZero();
+  Simulation simulation(std::move(world), pointAt(step * (1.0 + scene.start), -1.0), scheme, step);
+  const int steps = 5 + int(std::ceil(kPeriod / step));
+  for (int i = 0; i < steps; ++i) simulation.advance();
+  return std::min(std::abs(simulation.states()[1].velocity.z() - 1.0), kUseless);
+}
+
+double errorOf(double (*run)(Scheme, double, const Scene&), Scheme scheme, double step, const Scene& scene) {
+  try {
+    return run(scheme, step, scene);
+  } catch (const SimulationError&) {
+    return kUseless;
+  }
+}
+
+}  // namespace
+
+StudyResult stepStudy(const StudyInput& input) {
+  StudyResult result{"step",
+                     "Dynamics: error against closed forms over the time step",
+                     "time step [s]",
+                     "scene (five periods of rest; one impact)",
+                     {}};
+  Random random(5);
+  std::vector<Scene> scenes;
+  for (int i = 0; i < kScenes; ++i) scenes.push_back({uniform(random, 0.05, 0.5), uniform(random, 0.1, 0.5)});
+  std::vector<double> turns{0.8, 0.25, 0.08, 0.025};  // ωΔt
+  if (!input.quick) turns.push_back(0.008);
+  struct Case {
+    const char* quantity;
+    const char* unit;
+    double (*run)(Scheme, double, const Scene&);
+  };
+  const Case cases[] = {{"persistent contact: deviation", "amplitudes", &restingError},
+                        {"impact without damping: speed of the rebound", "of the speed", &impactError}};
+  double done = 0.0;
+  for (const Case& of : cases) {
+    std::vector<Measurement> rows;
+    std::vector<std::vector<double>> errors;
+    std::vector<std::function<void()>> tasks;
+    for (const Scheme scheme : {Scheme::kContinuous, Scheme::kDiscrete, Scheme::kImplicit}) {
+      for (const double s : turns) {
+        const double step = s / kOmega;
+        Measurement row;
+        row.quantity = of.quantity;
+        row.unit = of.unit;
+        row.system = toString(scheme);
+        char text[32];
+        std::snprintf(text, sizeof text, "%g ms", 1e3 * step);
+        row.setting = text;
+        row.value = step;
+        const std::size_t k = rows.size();
+        tasks.push_back([&, k, scheme, step] {
+          for (std::size_t i = 0; i < scenes.size(); ++i) errors[k][i] = errorOf(of.run, scheme, step, scenes[i]);
+        });
+        rows.push_back(row);
+      }
+    }
+    errors.assign(rows.size(), std::vector<double>(scenes.size()));
+    const std::vector<double> seconds =
+        secondsPerQuery(tasks, scenes.size(), [&](double share) { input.progress(0.5 * (done + share)); });
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].seconds = seconds[k];
+      rows[k].error = summarize(errors[k]);
+    }
+    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+    done += 1.0;
+  }
+  return result;
+}
+
+}  // namespace sdf_ccd::precision

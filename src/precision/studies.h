@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measurement.h"
+#include "peers.h"
+
+/// Studies of error against run time. Each asks the same queries of every system at every setting, in turn, on one
+/// thread, and compares the answers with the truth.
+namespace sdf_ccd::precision {
+
+struct StudyInput {
+  TriangleMesh mesh;   ///< closed and oriented (see orientOutward())
+  int queries = 2000;  ///< segments and places; of motions of whole bodies a twentieth
+  bool quick = false;  ///< without the finest settings
+  Peers peers;         ///< other libraries
+  std::function<void(double)> progress = [](double) {};  ///< the share done
+};
+
+struct Study {
+  const char* name;
+  const char* description;  ///< one line
+  StudyResult (*run)(const StudyInput&);
+};
+
+/// In the order in which they are best read.
+const std::vector<Study>& studies();
+
+StudyResult cellStudy(const StudyInput& input);
+StudyResult maxErrorStudy(const StudyInput& input);
+StudyResult chordStudy(const StudyInput& input);
+StudyResult spacingStudy(const StudyInput& input);
+StudyResult quadratureStudy(const StudyInput& input);
+StudyResult stepStudy(const StudyInput& input);
+
+}  // namespace sdf_ccd::precision
