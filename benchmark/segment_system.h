@@ -37,6 +37,14 @@ class SegmentSystem {
   /// @return kAll: crossings of the surface within the segments; else: segments with a contact. A field counts a
   ///         segment that starts inside as in contact, a mesh only sees one that crosses.
   virtual long run(const Segment* segments, std::size_t count, const Question& question) = 0;
+
+  /// True for a system that also says when: see firstTimes().
+  virtual bool tellsTimes() const { return false; }
+
+  /// Parameters in [0, 1] of first hits of the surface, one thread; negative where there is none.
+  virtual void firstTimes(const std::vector<Segment>& segments, std::vector<double>& times) {
+    times.assign(segments.size(), -1.0);
+  }
 };
 
 using SegmentSystems = std::vector<std::unique_ptr<SegmentSystem>>;

@@ -21,6 +21,7 @@ struct StudyOptions {
   std::vector<std::string> errors;   ///< fields to a maximum error, in box sides; as text, it names the case
   std::size_t segments = 1'000'000;  ///< random segments per case
   int pairs = 1000;                  ///< random pose pairs per case
+  std::string plots;                 ///< directory for a study's own plots; none if empty
   MeasureOptions measure;
 };
 

@@ -42,17 +42,31 @@ class Bullet : public SegmentSystem {
     const bool all = question.find == Find::kAll;
     long answers = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const Vector3d &a = segments[i].start, &b = segments[i].end;
-      const btVector3 from(btScalar(a.x()), btScalar(a.y()), btScalar(a.z()));
-      const btVector3 to(btScalar(b.x()), btScalar(b.y()), btScalar(b.z()));
-      CountHits callback(from, to, all);
-      shape_->performRaycast(&callback, from, to);
-      answers += all ? callback.hits : callback.hits > 0;
+      const long hits = cast(segments[i], all).hits;
+      answers += all ? hits : hits > 0;
     }
     return answers;
   }
 
+  bool tellsTimes() const override { return true; }
+  void firstTimes(const std::vector<Segment>& segments, std::vector<double>& times) override {
+    times.resize(segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const CountHits found = cast(segments[i], false);
+      times[i] = found.hits > 0 ? double(found.m_hitFraction) : -1.0;
+    }
+  }
+
  private:
+  CountHits cast(const Segment& segment, bool all) const {
+    const Vector3d &a = segment.start, &b = segment.end;
+    const btVector3 from(btScalar(a.x()), btScalar(a.y()), btScalar(a.z()));
+    const btVector3 to(btScalar(b.x()), btScalar(b.y()), btScalar(b.z()));
+    CountHits callback(from, to, all);
+    shape_->performRaycast(&callback, from, to);
+    return callback;
+  }
+
   std::vector<btVector3> points_;
   std::vector<int> indices_;
   std::unique_ptr<btTriangleIndexVertexArray> triangles_;

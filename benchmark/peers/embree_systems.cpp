@@ -43,6 +43,12 @@ class Embree1 : public SegmentSystem {
     return answers;
   }
 
+  bool tellsTimes() const override { return true; }
+  void firstTimes(const std::vector<Segment>& segments, std::vector<double>& times) override {
+    times.resize(segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) times[i] = scene_->firstHit(segments[i]);
+  }
+
  private:
   std::shared_ptr<const EmbreeScene> scene_;
 };

@@ -23,24 +23,37 @@ class OpenVdb : public SegmentSystem {
   std::size_t bytes() const override { return grid_->memUsage(); }
 
   long run(const Segment* segments, std::size_t count, const Question& question) override {
-    const auto sigma = float(question.sigma);
-    if (sigma != intersector_->getIsoValue()) intersector_.emplace(*grid_, sigma);
-    const double voxel = grid_->voxelSize()[0];
+    setIsoValue(float(question.sigma));
     long answers = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vector3d o = segments[i].start / voxel, d = segments[i].end / voxel - o;
-      const double length = d.norm();
-      const openvdb::math::Ray<double> ray({o.x(), o.y(), o.z()}, {d.x() / length, d.y() / length, d.z() / length},
-                                           openvdb::math::Delta<double>::value(), length);
-      double at = 0.0;
-      openvdb::Vec3d place;
-      // It steps by voxels and may report what lies just behind the end.
-      answers += intersector_->intersectsIS(ray, place, at) && at <= length;
-    }
+    for (std::size_t i = 0; i < count; ++i) answers += firstTime(segments[i]) >= 0.0;
     return answers;
   }
 
+  bool tellsTimes() const override { return true; }
+  void firstTimes(const std::vector<Segment>& segments, std::vector<double>& times) override {
+    setIsoValue(0.0F);
+    times.resize(segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) times[i] = firstTime(segments[i]);
+  }
+
  private:
+  void setIsoValue(float sigma) {
+    if (sigma != intersector_->getIsoValue()) intersector_.emplace(*grid_, sigma);
+  }
+
+  /// Parameter of the first hit; negative if there is none.
+  double firstTime(const Segment& segment) {
+    const double voxel = grid_->voxelSize()[0];
+    const Vector3d o = segment.start / voxel, d = segment.end / voxel - o;
+    const double length = d.norm();
+    const openvdb::math::Ray<double> ray({o.x(), o.y(), o.z()}, {d.x() / length, d.y() / length, d.z() / length},
+                                         openvdb::math::Delta<double>::value(), length);
+    double at = 0.0;
+    openvdb::Vec3d place;
+    // It steps by voxels and may report what lies just behind the end.
+    return intersector_->intersectsIS(ray, place, at) && at <= length ? at / length : -1.0;
+  }
+
   using Intersector = openvdb::tools::LevelSetRayIntersector<openvdb::FloatGrid>;
 
   openvdb::FloatGrid::Ptr grid_;

@@ -16,7 +16,7 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr int kCells = 128;
-constexpr double kSpacing = 0.03;  // of the side
+constexpr double kSpacing = 0.015;  // of the side
 
 /// When the first point of a shell on its arc meets the mesh, in [0, 1]; 2 if none does. Points move at a constant
 /// speed (the twist is constant), so none gets farther in a time than the surface is away (conservative advancement).
@@ -122,7 +122,7 @@ StudyResult chordStudy(const StudyInput& input) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g mm", 1e3 * share * side);
     auto system = std::make_shared<ChordSystem>(field, shell, ball, share * side);
-    systems.push_back({{"sdf_ccd, chords", text, share * side, Measurement::kNone},
+    systems.push_back({{"sdf_ccd (chords)", text, share * side, Measurement::kNone},
                        [system](const Isometry3d& start, const Isometry3d& end) {
                          return (*system)({start, end});
                        }});
@@ -143,7 +143,7 @@ StudyResult chordStudy(const StudyInput& input) {
       secondsPerQuery(tasks, exact.size(), [&](double share) { input.progress(0.6 + 0.4 * share); });
   for (std::size_t k = 0; k < systems.size(); ++k) {
     const Label& label = systems[k].label;
-    Measurement row{"time of impact, as a length of travel",
+    Measurement row{"time of impact (length of travel)",
                     "m",
                     label.system,
                     label.setting,

@@ -85,7 +85,7 @@ void measureHits(const ExactHits& exact, const std::vector<HitSystem>& systems, 
   const std::vector<double> seconds =
       secondsPerQuery(tasks, exact.segments.size(), [&](double share) { input.progress(0.8 + 0.1 * share); });
   for (std::size_t k = 0; k < systems.size(); ++k) {
-    Measurement row = labelled(systems[k].label, "time of impact, as a length along the path");
+    Measurement row = labelled(systems[k].label, "time of impact (length along the path)");
     row.bound = Measurement::kNone;  // on where the surface is, not on when it is met
     row.seconds = seconds[k];
     std::vector<double> errors;
@@ -138,7 +138,7 @@ HitSystem oneByOne(const Label& label, const DistanceField& field) {
 }
 
 HitSystem batched(Label label, const DistanceField& field) {
-  label.system += ", batched";
+  label.system = "sdf_ccd batch (max_error)";
   return {label, [field](const std::vector<Segment>& segments, std::vector<double>& times) {
             thread_local BatchResult batch;
             times.assign(segments.size(), -1.0);
@@ -212,7 +212,7 @@ StudyResult cellStudy(const StudyInput& input) {
     const double cell = study.side() / cells;
     FieldOptions options;
     options.cells = cells;
-    study.addField({"sdf_ccd, even cells", millimetres(cell), cell}, options, false, before, after);
+    study.addField({"sdf_ccd (even cells)", millimetres(cell), cell}, options, false, before, after);
     study.addGrids(cells);
     before = after;
   }
@@ -235,7 +235,7 @@ StudyResult maxErrorStudy(const StudyInput& input) {
     const double after = before + 1.0 / error / all;
     FieldOptions options;
     options.max_error = error * study.side();
-    study.addField({"sdf_ccd, max_error", millimetres(*options.max_error), *options.max_error}, options, true, before,
+    study.addField({"sdf_ccd (max_error)", millimetres(*options.max_error), *options.max_error}, options, true, before,
                    after);
     before = after;
   }

@@ -8,7 +8,7 @@
 
 namespace sdf_ccd::precision {
 
-/// One way to answer, at one setting: what it costs and how wrong it is.
+/// One way to answer, at one setting: what it costs and how wrong it is. Its texts hold no comma.
 struct Measurement {
   std::string quantity;    ///< what is asked; each has a panel of the plot
   std::string unit;        ///< of the errors

@@ -11,7 +11,7 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr int kPanelWidth = 520, kPanelHeight = 470, kTitleHeight = 50;  // [pixels]
+constexpr int kPanelWidth = 520, kPanelHeight = 470, kTitleHeight = 70;  // [pixels]
 constexpr double kSmallest = 1e-12;                                      // smaller errors, zero too, are drawn here
 const char* const kColors[] = {"#4c72b0", "#dd8452", "#55a868", "#c44e52", "#8172b3", "#937860", "#da8bc3", "#8c8c8c"};
 
@@ -31,14 +31,12 @@ std::vector<std::string> distinct(const StudyResult& result, std::string Measure
 
 /// A system's points in one panel: microseconds, median, 99th percentile, maximum, setting.
 struct Series {
-  std::string block, system, lines;
-  std::size_t color = 0;
+  std::string lines;
   int points = 0;
 };
 
 Series seriesOf(const StudyResult& result, const std::string& quantity, const std::string& system) {
   Series series;
-  series.system = system;
   for (const Measurement& row : result.rows) {
     if (row.quantity != quantity || row.system != system) continue;
     char numbers[160];
@@ -49,6 +47,15 @@ Series seriesOf(const StudyResult& result, const std::string& quantity, const st
     ++series.points;
   }
   return series;
+}
+
+/// Systems with several settings in a panel.
+int linesIn(const StudyResult& result, const std::string& quantity) {
+  int lines = 0;
+  for (const std::string& system : distinct(result, &Measurement::system)) {
+    lines += seriesOf(result, quantity, system).points > 1;
+  }
+  return lines;
 }
 
 /// What a panel shows along an axis, with room around it; for the names of settings more on the right.
@@ -101,6 +108,7 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
     for (const Measurement& row : result.rows) {
       if (row.quantity == quantities[q]) unit = row.unit;
     }
+    const bool crowded = linesIn(result, quantities[q]) > 2;
     for (std::size_t s = 0; s < systems.size(); ++s) {
       const Series series = seriesOf(result, quantities[q], systems[s]);
       if (series.points == 0) continue;
@@ -114,7 +122,8 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
                " using 1:2 with lines lw 2" + color + " notitle, \\\n  " + block +
                " using 1:2 with points pt 7 ps 0.7" + color + " title '" + escaped(systems[s]) + "' noenhanced";
       if (series.points > 1) {
-        plots += ", \\\n  " + block + " using 1:2:5 with labels left offset 0.6,0.5 font ',9' textcolor rgb '" +
+        const std::string some = crowded ? " every " + std::to_string(series.points - 1) : "";  // both ends
+        plots += ", \\\n  " + block + some + " using 1:2:5 with labels left offset 0.6,0.5 font ',9' textcolor rgb '" +
                  kColors[s % std::size(kColors)] + "' notitle noenhanced";
       }
     }
@@ -126,7 +135,7 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
   const int width = kPanelWidth * int(quantities.size());
   return "set terminal svg size " + std::to_string(width) + "," + std::to_string(kPanelHeight + kTitleHeight) +
          " font 'sans,12' background '#ffffff'\nset output '" + escaped(svg_path) + "'\n" + blocks +
-         "set logscale xy\nset format y '10^{%L}'\nset grid\nset key below\nset bmargin 6\n" +
+         "set logscale xy\nset format y '10^{%L}'\nset grid\nset key below maxrows 3\nset bmargin 8\n" +
          "set xlabel 'median time per " + escaped(result.query) + " [us]' noenhanced\nset multiplot layout 1," +
          std::to_string(quantities.size()) + " title \"" + result.title +
          "\\n{/*0.8 dot: median; cross: 99th percentile; bar: up to the maximum}\"\n" + panels + "unset multiplot\n";

@@ -68,7 +68,8 @@ StudyResult quadratureStudy(const StudyInput& input) {
       for (std::size_t i = 0; i < queries.size(); ++i)
         errors.push_back((found[k][i] - exact[i]).norm() / exact[i].norm());
       Measurement row;
-      row.quantity = normal == NormalSource::kField ? "impulse, normals of the field" : "impulse, normals of the shell";
+      row.quantity =
+          normal == NormalSource::kField ? "impulse with normals of the field" : "impulse with normals of the shell";
       row.unit = "of the impulse";
       row.system = rules[k].system;
       row.setting = rules[k].setting;

@@ -15,10 +15,6 @@ std::string number(double value, const char* format = "%.6g") {
   return text;
 }
 
-std::string quoted(const std::string& text) {
-  return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
-}
-
 std::string padded(const std::string& text, std::size_t width, bool right) {
   const std::string blanks(width > text.size() ? width - text.size() : 0, ' ');
   return right ? blanks + text : text + blanks;
@@ -46,9 +42,9 @@ std::string csvText(const StudyResult& result) {
       "study,quantity,error_unit,system,setting,value,seconds_per_query,error_median,error_p99,error_max,bound,missed,"
       "queries\n";
   for (const Measurement& row : result.rows) {
-    text += result.study + "," + quoted(row.quantity) + "," + row.unit + "," + quoted(row.system) + "," +
-            quoted(row.setting) + "," + number(row.value) + "," + number(row.seconds) + "," + number(row.error.median) +
-            "," + number(row.error.p99) + "," + number(row.error.max) + "," + number(row.bound) + "," +
+    text += result.study + "," + row.quantity + "," + row.unit + "," + row.system + "," + row.setting + "," +
+            number(row.value) + "," + number(row.seconds) + "," + number(row.error.median) + "," +
+            number(row.error.p99) + "," + number(row.error.max) + "," + number(row.bound) + "," +
             std::to_string(row.missed) + "," + std::to_string(row.error.count + row.missed) + "\n";
   }
   return text;

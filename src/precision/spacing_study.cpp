@@ -20,7 +20,7 @@ constexpr double kReference = 0.004;  // spacing of the shell that is taken for 
 StudyResult spacingStudy(const StudyInput& input) {
   StudyResult result{"spacing",
                      "Shells: force and depth over the spacing of the points, beside a far denser shell",
-                     "spacing [m]",
+                     "spacing (points) [m]",
                      "pair of bodies",
                      {}};
   FieldOptions field_options;
@@ -50,7 +50,7 @@ StudyResult spacingStudy(const StudyInput& input) {
   for (const double share : {0.1, 0.05, 0.025, 0.0125, 0.00625}) {
     shells.push_back(std::make_unique<TreeShell>(input.mesh, share * side));
     char text[48];
-    std::snprintf(text, sizeof text, "%.3g mm, %zu points", 1e3 * share * side, shells.back()->shell.size());
+    std::snprintf(text, sizeof text, "%.3g mm (%zu)", 1e3 * share * side, shells.back()->shell.size());
     Measurement row;
     row.system = "sdf_ccd";
     row.setting = text;

@@ -1,0 +1,133 @@
+/// Error against run time: the studies of `sdf_ccd work-precision` with other libraries beside. Prints rows of
+/// results.csv and draws the studies' plots.
+
+#include <cmath>
+#include <cstdio>
+
+#include "build_systems.h"
+#include "impact_systems.h"
+#include "precision/report.h"
+#include "precision/studies.h"
+#include "segment_system.h"
+#include "study.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+constexpr double kSide = 0.2;  ///< the longest, of every mesh [m]
+
+using precision::Measurement;
+using precision::StudyResult;
+
+precision::Label gridLabel(const std::string& system, const TriangleMesh& mesh, int cells) {
+  const double cell = boundingBox(mesh).sizes().maxCoeff() / cells;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * cell);
+  return {system, text, cell};
+}
+
+std::vector<precision::HitSystem> hitSystems(SegmentSystems systems,
+                                             const std::function<precision::Label(const std::string&)>& label) {
+  std::vector<precision::HitSystem> found;
+  for (auto& system : systems) {
+    if (!system->tellsTimes()) continue;
+    const std::shared_ptr<SegmentSystem> shared = std::move(system);
+    found.push_back({label(shared->name()), [shared](const std::vector<Segment>& segments, std::vector<double>& times) {
+                       shared->firstTimes(segments, times);
+                     }});
+  }
+  return found;
+}
+
+std::vector<precision::HitSystem> meshHits(const TriangleMesh& mesh) {
+  SegmentSystems systems;
+  for (const MeshFactory& factory : meshFactories()) factory(mesh, systems);
+  return hitSystems(std::move(systems), [](const std::string& name) { return precision::Label{name, ""}; });
+}
+
+std::vector<precision::HitSystem> gridHits(const TriangleMesh& mesh, int cells) {
+  SegmentSystems systems;
+  const DistanceField none{Primitive(Sphere{1.0})};  // these systems make grids of their own
+  for (const FieldFactory& factory : fieldFactories()) factory({mesh, none, cells, false}, systems);
+  return hitSystems(std::move(systems), [&](const std::string& name) { return gridLabel(name, mesh, cells); });
+}
+
+std::vector<precision::DistanceSystem> gridDistances(const TriangleMesh& mesh, int cells) {
+  std::vector<precision::DistanceSystem> found;
+  for (const FieldBuilder& builder : fieldBuilders()) {
+    const std::shared_ptr<const BuiltField> field = builder.build(mesh, {builder.name, cells, {}});
+    found.push_back({gridLabel(builder.name, mesh, cells), [field](const Vector3d& p) { return field->distance(p); }});
+  }
+  return found;
+}
+
+std::vector<precision::ImpactSystem> impacts(const TriangleMesh& field, const TriangleMesh& shell) {
+  std::vector<precision::ImpactSystem> found;
+  for (const ImpactFactory& factory : impactFactories()) {
+    for (precision::ImpactSystem& system : factory(field, shell)) found.push_back(std::move(system));
+  }
+  return found;
+}
+
+void printRows(const std::string& mesh, const StudyResult& result) {
+  for (const Measurement& row : result.rows) {
+    const std::string name = mesh + "/" + result.study + "/" + row.quantity + "/" + row.setting;
+    const int queries = int(row.error.count + row.missed);
+    const auto print_one = [&](const char* metric, double value, const std::string& unit) {
+      print({"work-precision", name, row.system, metric, value, unit, queries});
+    };
+    print_one("us_per_query", 1e6 * row.seconds, "us");
+    print_one("error_median", row.error.median, row.unit);
+    print_one("error_p99", row.error.p99, row.unit);
+    print_one("error_max", row.error.max, row.unit);
+    print_one("missed", double(row.missed), "queries");
+    if (!std::isnan(row.bound)) print_one("bound", row.bound, row.unit);
+  }
+}
+
+void draw(const StudyResult& result, const std::string& mesh, const std::string& directory) {
+  precision::runGnuplot(precision::plotScript(result, directory + "/" + mesh + "_" + result.study + ".svg"));
+}
+
+/// Fields of both kinds in one plot; a system without a setting is in both studies.
+void addTo(StudyResult& fields, const StudyResult& result) {
+  const bool first = fields.rows.empty();
+  for (const Measurement& row : result.rows) {
+    if (first || !row.setting.empty()) fields.rows.push_back(row);
+  }
+}
+
+void study(const NamedMesh& named, const StudyOptions& options) {
+  precision::StudyInput input;
+  // Of a robot link's size, so that the figures of different meshes can be compared.
+  input.mesh = scaled(named.mesh, Vector3d::Constant(kSide / boundingBox(named.mesh).sizes().maxCoeff()));
+  input.queries = int(options.segments);
+  input.quick = options.quick;
+  input.peers = {&meshHits, &gridHits, &gridDistances, &impacts};
+  StudyResult fields{"fields", "Error against the exact mesh over run time: " + named.name, "", "segment or place", {}};
+  for (const precision::Study& study : precision::studies()) {
+    if (!isWanted(options.cases, study.name)) continue;
+    const StudyResult result = study.run(input);
+    printRows(named.name, result);
+    if (result.study == "cell" || result.study == "max-error") addTo(fields, result);
+    if (!options.plots.empty()) draw(result, named.name, options.plots);
+  }
+  if (!options.plots.empty() && !fields.rows.empty()) draw(fields, named.name, options.plots);
+}
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark
+
+int main(int argc, char** argv) {
+  using namespace sdf_ccd::benchmark;
+  StudyOptions full;
+  full.segments = 2000;
+  full.meshes = {"bunny3k", "link", "torus"};
+  StudyOptions quick = full;
+  quick.segments = 1000;
+  quick.meshes = {"bunny3k", "torus"};
+  return runStudy(argc, argv, "Error against run time, with other libraries beside", full, quick,
+                  [](const StudyOptions& options) {
+                    for (const NamedMesh& named : studyMeshes(options)) study(named, options);
+                  });
+}
