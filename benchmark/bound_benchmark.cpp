@@ -149,7 +149,7 @@ class FieldStudy {
   Tallies tallies_;
 };
 
-void printVerdicts(const std::string& name, const VerdictTally& tally, double cell) {
+void printVerdicts(const std::string& name, const VerdictTally& tally, double side) {
   const long all = tally.clear + tally.contact + tally.uncertain;
   const auto row = [&](const char* metric, double value, const char* unit) {
     print({"bound", name, "sdf_ccd", metric, value, unit, int(all)});
@@ -158,7 +158,7 @@ void printVerdicts(const std::string& name, const VerdictTally& tally, double ce
   row("contact", double(tally.contact), "motions");
   row("uncertain", double(tally.uncertain), "motions");
   row("uncertain_share", double(tally.uncertain) / double(all), "1");
-  row("error_bound", cell, "box side");
+  row("error_bound", tally.largest_bound / side, "box side");
 }
 
 void study(const NamedMesh& named, const StudyOptions& options) {
@@ -199,7 +199,7 @@ void study(const NamedMesh& named, const StudyOptions& options) {
         tally.printRows(named.name + "/" + query + of_field, side);
         all.try_emplace(query, 1e-12 * side).first->second += tally;
       }
-      printVerdicts(named.name + "/verdict" + of_field, verdict, field.errorBound() / side);
+      printVerdicts(named.name + "/verdict" + of_field, verdict, side);
     });
   }
   for (const auto& [query, tally] : all) tally.printRows(named.name + "/" + query, side);

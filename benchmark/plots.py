@@ -96,7 +96,7 @@ def main():
             kind = 'even cells' if field.isdigit() else 'max_error'
             uncertain.setdefault('%s, %s' % (mesh, kind), []).append((error, share, share, share))
     draw(path('bound_uncertain.svg'), 'Moving pairs that stay UNCERTAIN',
-         ('error bound of the field, box sides', 'share of motions'), uncertain)
+         ('error bound of the verdict, box sides', 'share of motions'), uncertain)
     if any(case.startswith('zeta=') for case in results.cases('stability')):
         script = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'stability.gp')
         subprocess.run(['gnuplot', '-e', "csv='%s'; svg='%s'" % (sys.argv[1], path('stability.svg')), script], check=True)

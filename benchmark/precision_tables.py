@@ -1,4 +1,4 @@
-"""Tables of the study `bound`."""
+"""Tables of the studies `bound` and `work-precision`."""
 
 
 def number(value):
@@ -20,7 +20,7 @@ def bound(results):
 
 
 def verdicts(results):
-    """What the monitor said of moving pairs, over the field's error bound."""
+    """What the monitor said of moving pairs, over its error bound."""
     rows = []
     for case in results.cases('bound'):
         if '/verdict/' not in case:
@@ -30,7 +30,7 @@ def verdicts(results):
             return results.get('bound', case, 'sdf_ccd', metric)
         rows.append([mesh, field, number(get('error_bound')), *('%d' % get(v) for v in ('clear', 'contact', 'uncertain')),
                      '%.0f %%' % (100.0 * get('uncertain_share')), '%d' % get('violations')])
-    return ['mesh', 'field', 'its bound, box sides', 'CLEAR', 'CONTACT', 'UNCERTAIN', 'share', 'contradicted'], rows
+    return ['mesh', 'field', 'bound, box sides', 'CLEAR', 'CONTACT', 'UNCERTAIN', 'share', 'contradicted'], rows
 
 
 def reference(results):
@@ -43,4 +43,23 @@ def reference(results):
     return ['mesh', 'largest difference of distances', 'of first hits', 'segments that one of both takes for a miss'], rows
 
 
-TABLES = {'bound': bound, 'verdicts': verdicts, 'reference': reference}
+def work_precision(results):
+    """Error over run time: a block of rows per mesh and study."""
+    rows = []
+    last = None
+    for case in results.cases('work-precision'):
+        mesh, study, quantity, setting = case.split('/')
+        for system in results.systems('work-precision', case):
+            def get(metric):
+                return results.get('work-precision', case, system, metric)
+            unit = results.unit('work-precision', case, system, 'error_median')
+            block = (mesh, study, '%s [%s]' % (quantity, unit))
+            rows.append([*(block if block != last else ('', '', '')), system, setting, number(get('us_per_query')),
+                         *(number(get(metric)) for metric in ('error_median', 'error_p99', 'error_max', 'bound')),
+                         '%d' % get('missed')])
+            last = block
+    return ['mesh', 'study', 'error of', 'system', 'setting', 'us per query', 'median', 'p99', 'maximum', 'bound',
+            'missed'], rows
+
+
+TABLES = {'bound': bound, 'verdicts': verdicts, 'reference': reference, 'work_precision': work_precision}

@@ -12,8 +12,9 @@ namespace {
 
 using namespace precision;
 
-constexpr int kSamples = 33;          ///< of a motion
-constexpr int kSurfacePlaces = 2000;  ///< that a clearance is held against
+constexpr int kSamples = 33;             ///< of a motion
+constexpr double kFinestSpacing = 5e-3;  ///< of the side: finer shells take minutes
+constexpr int kSurfacePlaces = 2000;     ///< that a clearance is held against
 
 Isometry3d moved(const Isometry3d& X, const Vector3d& middle, const Vector3d& travel, double turn, Random& random) {
   Isometry3d step = Isometry3d::Identity();
@@ -108,7 +109,7 @@ VerdictTally VerdictStudy::run(const FieldOptions& field) const {
   SceneOptions options;
   options.field = field;
   const double error = field.max_error ? *field.max_error : 0.87 * side_ / *field.cells;
-  options.shell.spacing = 1.5 * error;
+  options.shell.spacing = std::max(1.5 * error, kFinestSpacing * side_);
   options.motion_margin = 1e-3 * side_;
   const SceneDescription description{{described("a", mesh_.mesh()), described("b", mesh_.mesh())}, {}};
   MonitorOptions monitor_options;
@@ -127,6 +128,7 @@ VerdictTally VerdictStudy::run(const FieldOptions& field) const {
 }
 
 void VerdictStudy::compare(const ExactMotion& motion, const PairResult& result, VerdictTally& tally) const {
+  tally.largest_bound = std::max(tally.largest_bound, result.error.total());
   const ScrewMotion screw(motion.X_WB_start, motion.X_WB_end);
   const double rounding = 1e-12 * side_;
   if (result.verdict == Verdict::kClear) {

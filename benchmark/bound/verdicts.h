@@ -26,6 +26,7 @@ struct VerdictTally {
   BoundTally clearance;  ///< a clearance that the meshes' distance falls below
   BoundTally depth;      ///< depth of the deepest point against the mesh at its place and time
   long clear = 0, contact = 0, uncertain = 0;
+  double largest_bound = 0.0;  ///< of the verdicts [m]
 };
 
 class VerdictStudy {

@@ -11,8 +11,8 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr int kPanelWidth = 520, kPanelHeight = 470, kTitleHeight = 70;  // [pixels]
-constexpr double kSmallest = 1e-12;                                      // smaller errors, zero too, are drawn here
+constexpr int kPanelWidth = 520, kPanelHeight = 440, kTitleHeight = 50, kKeyHeight = 18;  // [pixels]
+constexpr double kSmallest = 1e-12;  // smaller errors, zero too, are drawn here
 const char* const kColors[] = {"#4c72b0", "#dd8452", "#55a868", "#c44e52", "#8172b3", "#937860", "#da8bc3", "#8c8c8c"};
 
 /// Inside single quotes.
@@ -133,11 +133,12 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
               "]' noenhanced\nplot " + plots + "\n";
   }
   const int width = kPanelWidth * int(quantities.size());
-  return "set terminal svg size " + std::to_string(width) + "," + std::to_string(kPanelHeight + kTitleHeight) +
+  return "set terminal svg size " + std::to_string(width) + "," +
+         std::to_string(kPanelHeight + kTitleHeight + kKeyHeight * int(systems.size())) +
          " font 'sans,12' background '#ffffff'\nset output '" + escaped(svg_path) + "'\n" + blocks +
-         "set logscale xy\nset format y '10^{%L}'\nset grid\nset key below maxrows 3\nset bmargin 8\n" +
-         "set xlabel 'median time per " + escaped(result.query) + " [us]' noenhanced\nset multiplot layout 1," +
-         std::to_string(quantities.size()) + " title \"" + result.title +
+         "set logscale xy\nset format y '10^{%L}'\nset grid\nset key below maxcols 1\nset bmargin " +
+         std::to_string(5 + systems.size()) + "\n" + "set xlabel 'median time per " + escaped(result.query) +
+         " [us]' noenhanced\nset multiplot layout 1," + std::to_string(quantities.size()) + " title \"" + result.title +
          "\\n{/*0.8 dot: median; cross: 99th percentile; bar: up to the maximum}\"\n" + panels + "unset multiplot\n";
 }
 
