@@ -19,13 +19,14 @@ constexpr int kCells = 128;
 constexpr double kSpacing = 0.015;  // of the side
 
 /// When the first point of a shell on its arc meets the mesh, in [0, 1]; 2 if none does. Points move at a constant
-/// speed (the twist is constant), so none gets farther in a time than the surface is away (conservative advancement).
+/// speed (the twist is constant), so none gets farther in a time than the surface is away (conservative advancement),
+/// and one that begins outside stays there, as all do here.
 double exactImpact(const ExactSurface& mesh, const PointShell& shell, const ScrewMotion& motion, double tolerance) {
   double first = 2.0;
   for (const Vector3d& p : shell.points) {
     const double speed = motion.velocity(0.0, p).norm();
     for (double t = 0.0; t < std::min(first, 1.0);) {
-      const double distance = mesh.distance(motion.pose(t) * p);
+      const double distance = mesh.unsignedDistance(motion.pose(t) * p);
       if (distance <= tolerance) {
         first = t;
         break;
@@ -114,7 +115,7 @@ StudyResult chordStudy(const StudyInput& input) {
   const TreeShell shell(input.mesh, kSpacing * side);
   const BoundingBall ball = ballOf(shell.shell, field.surfaceBox().center());
   const ExactSurface mesh(input.mesh);
-  const std::vector<ExactMotion> exact = motions(mesh, field, shell, ball, std::max(10, input.queries / 20));
+  const std::vector<ExactMotion> exact = motions(mesh, field, shell, ball, std::max(10, input.queries / 40));
   input.progress(0.6);
 
   std::vector<ImpactSystem> systems;
@@ -122,8 +123,8 @@ StudyResult chordStudy(const StudyInput& input) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g mm", 1e3 * share * side);
     auto system = std::make_shared<ChordSystem>(field, shell, ball, share * side);
-    systems.push_back({{"sdf_ccd (chords)", text, share * side, Measurement::kNone},
-                       [system](const Isometry3d& start, const Isometry3d& end) {
+    const Label label{"sdf_ccd (chords)", text, share * side};
+    systems.push_back({label, [system](const Isometry3d& start, const Isometry3d& end) {
                          return (*system)({start, end});
                        }});
   }

@@ -13,7 +13,7 @@ namespace sdf_ccd::precision {
 
 struct StudyInput {
   TriangleMesh mesh;   ///< closed and oriented (see orientOutward())
-  int queries = 2000;  ///< segments and places; of motions of whole bodies a twentieth
+  int queries = 2000;  ///< segments and places; of motions of bodies fewer, a twentieth to a fortieth
   bool quick = false;  ///< without the finest settings
   Peers peers;         ///< other libraries
   std::function<void(double)> progress = [](double) {};  ///< the share done

@@ -109,7 +109,7 @@ void addWorkPrecisionCommand(CLI::App& app) {
   command->add_option("--mesh", arguments->mesh,
                       "Closed mesh that fields and shells are made of; default a lumpy ball of 0.2 m (not for step)");
   command->add_option("--queries", arguments->queries,
-                      "Segments or places per setting; default 2000. Of motions of whole bodies a twentieth");
+                      "Segments or places per setting; default 2000. Of motions of bodies fewer");
   command->add_flag("--quick", arguments->quick, "A fifth of the queries, without the finest settings");
   command->callback([arguments] { run(*arguments); });
 }
