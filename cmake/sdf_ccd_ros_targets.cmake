@@ -12,7 +12,10 @@ if(SDF_CCD_ROS_SOURCES)
   install(TARGETS sdf_ccd_ros LIBRARY DESTINATION ${SDF_CCD_LIB_DIR})
 endif()
 
-# The command line tool writes bags where ROS is there.
+# The command line tool reads and writes bags where ROS is there.
+file(GLOB SDF_CCD_BAG_SOURCES CONFIGURE_DEPENDS src/tools/bag/*.cpp)
+target_sources(sdf_ccd_tool PRIVATE ${SDF_CCD_BAG_SOURCES})
+target_include_directories(sdf_ccd_tool PRIVATE src/tools)
 target_link_libraries(sdf_ccd_tool sdf_ccd_ros)
 target_compile_definitions(sdf_ccd_tool PRIVATE SDF_CCD_WITH_ROS)
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include <ros/package.h>
 #include <std_msgs/String.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -96,7 +97,7 @@ void CollisionMonitor::setUp() {
   idle("reading the robot");
   readWhenThere();
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
-  described_ = describeScene(parameters_);
+  described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, ""));
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   world_publisher_.publish(toWorldMarkers(described_.scene));
   buildFields();

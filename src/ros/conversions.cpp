@@ -67,6 +67,16 @@ geometry_msgs::Pose toPose(const Isometry3d& X) {
   return message;
 }
 
+geometry_msgs::TransformStamped toTransformStamped(const TransformName& name, const Isometry3d& X_parent_child) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = name.stamp;
+  message.header.frame_id = name.parent;
+  message.child_frame_id = name.child;
+  message.transform.translation = toVector3(X_parent_child.translation());
+  message.transform.rotation = toPose(X_parent_child).orientation;
+  return message;
+}
+
 geometry_msgs::Vector3 toVector3(const Vector3d& v) {
   geometry_msgs::Vector3 message;
   message.x = v.x();

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/Vector3.h>
 #include <geometry_msgs/Wrench.h>
 #include <ros/time.h>
@@ -22,6 +24,14 @@ Isometry3d toIsometry(const geometry_msgs::Pose& pose);
 Vector3d toEigen(const geometry_msgs::Point& point);
 geometry_msgs::Point toPoint(const Vector3d& p);
 geometry_msgs::Pose toPose(const Isometry3d& X);
+
+/// What a transform says besides the pose: of frame `child` in frame `parent`.
+struct TransformName {
+  ros::Time stamp;
+  std::string parent, child;
+};
+geometry_msgs::TransformStamped toTransformStamped(const TransformName& name, const Isometry3d& X_parent_child);
+
 geometry_msgs::Vector3 toVector3(const Vector3d& v);
 geometry_msgs::Wrench toWrench(const Wrench& wrench);
 

@@ -3,7 +3,6 @@
 #include <array>
 
 #include <resource_retriever/retriever.h>
-#include <ros/package.h>
 
 #include "sdf_ccd/field/octomap_surface.h"
 #include "sdf_ccd/geometry/mesh_file.h"
@@ -66,21 +65,19 @@ BodyDescription toBody(const OctomapObject& octomap, const std::string& frame) {
 
 }  // namespace
 
-ResourceLoader makeResourceLoader() {
-  return [](const std::string& uri) {
+ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory) {
+  return [packages, directory](const std::string& uri) {
     if (uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0) {
       const resource_retriever::MemoryResource memory = resource_retriever::Retriever().get(uri);
       return Resource{{reinterpret_cast<const char*>(memory.data.get()), memory.size}, uri, ""};
     }
-    return loadLocalResource(
-        uri, [](const std::string& package) { return ros::package::getPath(package); }, "");
+    return loadLocalResource(uri, packages, directory);
   };
 }
 
-DescribedScene describeScene(const MonitorParameters& parameters) {
+DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader) {
   const auto robot = std::make_shared<const RobotModel>(parameters.urdf);
   const Srdf srdf = parameters.srdf.empty() ? Srdf() : parseSrdf(parameters.srdf);
-  const ResourceLoader loader = makeResourceLoader();
   const std::string prefix = parameters.tf_prefix.empty() ? "" : parameters.tf_prefix + "/";
 
   DescribedScene described;

@@ -19,12 +19,14 @@ struct DescribedScene {
 };
 
 /// package://, file:// and paths from the disk, http:// and https:// through resource_retriever.
-ResourceLoader makeResourceLoader();
+/// @param packages   finds a package's folder.
+/// @param directory  that relative paths start from; empty: there are none.
+ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory);
 
 /// Reads URDF, SRDF, world objects and the OctoMap. A link or object whose mesh cannot be read is there, with the
 /// reason in BodyDescription::failure.
 /// @throws std::exception if the URDF or the SRDF cannot be read, or two bodies share a name.
-DescribedScene describeScene(const MonitorParameters& parameters);
+DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader);
 
 /// Plans and builds what the scene needs.
 /// @param progress  called with the body's name and the share of all bodies done.

@@ -15,17 +15,6 @@ constexpr double kTimeZero = 1.0;     // [s]
 constexpr double kMarkerEvery = 1.0;  // [s]
 constexpr double kPlaneSize = 2.0;    // [m]
 
-geometry_msgs::TransformStamped transform(const std::string& parent, const std::string& child, const Isometry3d& X,
-                                          const ros::Time& stamp) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform.translation = toVector3(X.translation());
-  message.transform.rotation = toPose(X).orientation;
-  return message;
-}
-
 void setColor(bool fixed, bool plane, std::size_t body, Marker& marker) {
   // Colours that stay apart, one after the other.
   constexpr std::array<std::array<float, 3>, 6> kColors = {{{0.30F, 0.45F, 0.69F},
@@ -77,7 +66,7 @@ SimulationBag::SimulationBag(const std::string& path, const SimulationSetup& set
   const ros::Time stamp(kTimeZero);
   tf2_msgs::TFMessage scene;
   scene.transforms.push_back(
-      transform("world", "scene", Isometry3d(Eigen::Translation3d(setup.world.origin_W)), stamp));
+      toTransformStamped({stamp, "world", "scene"}, Isometry3d(Eigen::Translation3d(setup.world.origin_W))));
   bag_.write("/tf_static", stamp, scene);
 }
 
@@ -89,7 +78,7 @@ void SimulationBag::add(double time, const std::vector<BodyState>& states) {
   const ros::Time stamp(kTimeZero + time);
   tf2_msgs::TFMessage poses;
   for (std::size_t b = 0; b < states.size(); ++b) {
-    poses.transforms.push_back(transform("scene", frames_[b], states[b].X_OB, stamp));
+    poses.transforms.push_back(toTransformStamped({stamp, "scene", frames_[b]}, states[b].X_OB));
   }
   bag_.write("/tf", stamp, poses);
   if (time >= next_markers_) {

@@ -11,6 +11,10 @@ void addQueryCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 void addWorkPrecisionCommand(CLI::App& app);
 
+/// Those that need ROS; in the folder bag/.
+void addCheckBagCommand(CLI::App& app);
+void addPlotBagCommand(CLI::App& app);
+
 /// Some of what was asked for was done, the rest was reported: exit code 1.
 struct PartlyDone {};
 

@@ -23,12 +23,19 @@ int refuse(std::string message) {
 int main(int argc, char** argv) {
   CLI::App app("Signed distance fields of robots and worlds, and queries against them. Lengths are metres.", "sdf_ccd");
   app.require_subcommand(1);
-  app.footer("Exit code: 0 done, 1 partly done (the rest is named on stderr), 2 bad input.");
+  std::string footer = "Exit code: 0 done, 1 partly done (the rest is named on stderr), 2 bad input.";
   sdf_ccd::tools::addBuildCommand(app);
   sdf_ccd::tools::addInfoCommand(app);
   sdf_ccd::tools::addQueryCommand(app);
   sdf_ccd::tools::addSimulateCommand(app);
   sdf_ccd::tools::addWorkPrecisionCommand(app);
+#ifdef SDF_CCD_WITH_ROS
+  sdf_ccd::tools::addCheckBagCommand(app);
+  sdf_ccd::tools::addPlotBagCommand(app);
+#else
+  footer += " Built without ROS: check-bag and plot-bag are left out.";
+#endif
+  app.footer(footer);
   try {
     app.parse(argc, argv);
     return 0;

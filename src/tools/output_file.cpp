@@ -77,6 +77,14 @@ void OutputFile::commit() {
   temporary_.clear();
 }
 
+OutputPath::~OutputPath() {
+  std::remove(part().c_str());
+}
+
+void OutputPath::commit() {
+  if (std::rename(part().c_str(), path_.c_str()) != 0) fail(path_, std::strerror(errno));
+}
+
 OutputDirectory::OutputDirectory(const std::string& path) : path_(path) {
   std::error_code error;
   is_new_ = fs::create_directories(path, error);

@@ -28,6 +28,21 @@ class OutputFile {
   std::ofstream stream_;
 };
 
+/// The same for writers that want a path: they write to part(), beside its place.
+class OutputPath {
+ public:
+  explicit OutputPath(const std::string& path) : path_(path) {}
+  ~OutputPath();  ///< without commit() nothing stays
+  OutputPath(const OutputPath&) = delete;
+  OutputPath& operator=(const OutputPath&) = delete;
+
+  std::string part() const { return path_ + ".part"; }
+  void commit();
+
+ private:
+  std::string path_;
+};
+
 /// Makes a directory; if nothing has been put into it in the end, and it is new, it goes again.
 class OutputDirectory {
  public:

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #ifdef SDF_CCD_WITH_ROS
 #include "ros/simulation_bag.h"
@@ -11,22 +10,16 @@
 namespace sdf_ccd::tools {
 
 #ifdef SDF_CCD_WITH_ROS
-/// Written beside its place under another name, like every output file.
 struct SimulationOutput::Bag {
   Bag(const std::string& path, const SimulationSetup& setup)
-      : path(path), writer(std::make_unique<SimulationBag>(path + ".part", setup)) {}
-  ~Bag() {
-    writer.reset();
-    std::error_code ignored;
-    std::filesystem::remove(path + ".part", ignored);
-  }
+      : path(path), writer(std::make_unique<SimulationBag>(this->path.part(), setup)) {}
   void add(const Simulation& simulation) { writer->add(simulation.last().time, simulation.states()); }
   void commit() {
     writer.reset();
-    std::filesystem::rename(path + ".part", path);
+    path.commit();
   }
 
-  std::string path;
+  OutputPath path;
   std::unique_ptr<SimulationBag> writer;
 };
 #else

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "ros/monitor_loop.h"
+#include "ros/recorded_motion.h"
+
+namespace sdf_ccd {
+
+/// Is told of a bag's check, in the order of the bag's clock.
+class BagObserver {
+ public:
+  virtual ~BagObserver() = default;
+
+  /// Before any cycle that uses them.
+  virtual void onTransforms(const RecordedTransforms& transforms) = 0;
+
+  /// The loop has a new cycle.
+  virtual void onCycle(const ros::Time& now) = 0;
+
+  /// Time has jumped back: what was found before is about another time.
+  virtual void onJump(const ros::Time& now) = 0;
+};
+
+/// Runs the monitor's loop over what a bag recorded, as fast as it goes. The ROS clock is the bag's, as with
+/// `rosbag play --clock`; a cycle is due every 1 / rate of it, as with a live monitor that is never late, and one at
+/// the bag's end.
+void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters, MonitorLoop& loop,
+              BagObserver& observer);
+
+}  // namespace sdf_ccd

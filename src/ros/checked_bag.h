@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <rosbag/bag.h>
+
+#include "ros/cycle_messages.h"
+#include "ros/markers.h"
+#include "ros/recorded_motion.h"
+
+namespace sdf_ccd {
+
+/// Writes what a check found to a bag, with the transforms it was found from, so that rviz shows it as if live.
+///
+/// /tf, /tf_static  tf2_msgs/TFMessage  as they were followed
+/// Below /collision_monitor/, as the nodelet publishes them:
+///   contacts         sdf_ccd/ContactArray            every cycle
+///   state            sdf_ccd/MonitorState            every cycle
+///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle in which the link is in contact
+///   markers          visualization_msgs/MarkerArray  contacts to look at
+///   plan, world      once
+class CheckedBag {
+ public:
+  /// @param loop  is asked for each cycle; must outlive this.
+  /// @throws rosbag::BagException if the file cannot be written.
+  CheckedBag(const std::string& file, const MonitorLoop& loop, const MarkerOptions& markers);
+  ~CheckedBag();
+
+  /// The scene, at the bag's begin.
+  void addScene(const SceneDescription& description, const ros::Time& begin);
+
+  void addTransforms(const RecordedTransforms& transforms);
+
+  /// The loop's last cycle.
+  void addCycle(const ContactArray& contacts, const ros::Time& now);
+
+  /// Deletes all markers.
+  void addJump(const ros::Time& now);
+
+ private:
+  template <class Message>
+  void writeLatched(const std::string& topic, const ros::Time& now, const Message& message);
+
+  const MonitorLoop& loop_;
+  MarkerDrawer drawer_;
+  rosbag::Bag bag_;
+  std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;     // by child frame
+  std::map<std::string, boost::shared_ptr<ros::M_string>> latched_connections_;  // by topic
+};
+
+}  // namespace sdf_ccd

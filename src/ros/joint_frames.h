@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "sdf_ccd/robot/robot_model.h"
+
+namespace sdf_ccd {
+
+/// The transforms that robot_state_publisher sends for a robot: of each link in its parent's frame. Planar and floating
+/// joints have none.
+class JointFrames {
+ public:
+  /// @param prefix  put before the links' names: "", or ending in a slash.
+  JointFrames(std::shared_ptr<const RobotModel> robot, const std::string& prefix);
+
+  /// Frames of all links but the root, which a bag's tf may name; and whether a joint of the robot has this name.
+  std::vector<std::string> frames() const;
+  bool knows(const std::string& joint) const;
+
+  /// Of the links on fixed joints whose frame is wanted.
+  tf2_msgs::TFMessage fixed(const ros::Time& stamp, const std::function<bool(const std::string&)>& is_wanted) const;
+
+  /// Of the links on the joints that the message gives a position for, and on those that mimic them. Names that are not
+  /// the robot's, and positions that are not finite, are passed over.
+  tf2_msgs::TFMessage moved(const sensor_msgs::JointState& joints, const ros::Time& stamp) const;
+
+ private:
+  struct Link {
+    const urdf::Joint* joint;   // to its parent
+    std::size_t index, parent;  // among the robot's links
+  };
+
+  const urdf::Joint& leaderOf(const urdf::Joint& joint) const;  // itself if it mimics none
+  geometry_msgs::TransformStamped transform(const Link& link, const std::vector<Isometry3d>& X_RL,
+                                            const ros::Time& stamp) const;
+
+  std::shared_ptr<const RobotModel> robot_;
+  std::string prefix_;
+  std::vector<Link> links_;  // all but the root
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,250 @@
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include <console_bridge/console.h>
+#include <tbb/global_control.h>
+
+#include "commands.h"
+#include "cycle_report.h"
+#include "print.h"
+#include "progress_bar.h"
+#include "ros/bag_check.h"
+#include "ros/checked_bag.h"
+#include "ros/yaml_parameters.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string bag;
+  std::string urdf;
+  std::string srdf;
+  std::string out;
+  std::string config;
+  RecordedMotionOptions motion;
+  std::optional<double> rate;       // [Hz]; else as configured
+  std::optional<double> max_error;  // [m]; else as configured
+  int threads = 0;                  // 0: one per core
+};
+
+void require(bool is_good, const std::string& what) {
+  if (!is_good) throw std::runtime_error(what);
+}
+
+std::string readText(const std::string& path) {
+  const std::string text = loadLocalResource(path, nullptr, "").bytes;
+  require(!text.empty(), path + ": is empty");
+  return text;
+}
+
+/// The parameters' tree with what the options say instead.
+XmlRpc::XmlRpcValue parameterTree(const Arguments& arguments) {
+  XmlRpc::XmlRpcValue tree;
+  if (!arguments.config.empty()) tree = loadYamlParameters(arguments.config);
+  if (arguments.rate) tree["rate"] = *arguments.rate;
+  if (arguments.max_error) {
+    XmlRpc::XmlRpcValue field;
+    for (const char* kept : {"band", "max_megabytes"}) {
+      if (tree.hasMember("field") && tree["field"].hasMember(kept)) field[kept] = tree["field"][kept];
+    }
+    field["max_error"] = *arguments.max_error;
+    tree["field"] = field;
+  }
+  return tree;
+}
+
+MonitorParameters parametersOf(const Arguments& arguments) {
+  const std::string prefix = arguments.config.empty() ? "" : arguments.config + ": ";
+  const XmlRpc::XmlRpcValue tree = parameterTree(arguments);
+  MonitorParameters parameters;
+  try {
+    parameters = parseParameters(tree, "~");
+  } catch (const ParameterError& error) {
+    throw std::runtime_error(prefix + error.what());
+  }
+  parameters.urdf = readText(arguments.urdf);
+  if (!arguments.srdf.empty()) parameters.srdf = readText(arguments.srdf);
+  for (const std::string& name : parameters.unknown) {
+    std::cerr << "sdf_ccd: " << prefix << "nothing reads parameter " << name << std::endl;
+  }
+  return parameters;
+}
+
+/// The files of a check. Without commit() nothing stays.
+struct CheckFiles {
+  explicit CheckFiles(const std::string& path)
+      : directory(path),
+        summary(directory.file("summary.txt")),
+        plan(directory.file("plan.txt")),
+        bag(directory.file("checked.bag")),
+        report(directory) {}
+
+  /// @param title  of the plot.
+  void commit(const std::string& title) {
+    if (!report.commit(title)) std::cerr << "sdf_ccd: no error_time.svg: gnuplot is missing, or failed" << std::endl;
+    bag.commit();
+    plan.commit();
+    summary.commit();
+  }
+
+  OutputDirectory directory;
+  OutputFile summary, plan;
+  OutputPath bag;
+  CycleReport report;
+};
+
+/// Passes what the loop finds on to the files, and shows how far it is.
+class Recorder : public BagObserver {
+ public:
+  Recorder(const RecordedMotion& motion, const MonitorLoop& loop, CheckedBag& bag, CycleReport& report)
+      : begin_(motion.begin()), length_((motion.end() - begin_).toSec()), loop_(loop), bag_(bag), report_(report) {}
+
+  void onTransforms(const RecordedTransforms& transforms) override {
+    bag_.addTransforms(transforms);
+    bar_(length_ > 0.0 ? (transforms.recorded - begin_).toSec() / length_ : 1.0);
+  }
+  void onCycle(const ros::Time& now) override {
+    const ContactArray contacts = toContactArray(loop_);
+    bag_.addCycle(contacts, now);
+    report_.add(contacts);
+  }
+  void onJump(const ros::Time& now) override { bag_.addJump(now); }
+
+ private:
+  ProgressBar bar_{"cycles"};
+  ros::Time begin_;
+  double length_;  // [s]
+  const MonitorLoop& loop_;
+  CheckedBag& bag_;
+  CycleReport& report_;
+};
+
+std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const SceneOptions& options) {
+  ProgressBar bar("fields and shells");
+  return buildDescribed(described, options, [&](const std::string&, double share) { bar(share); });
+}
+
+std::string planText(const Scene& scene, const std::vector<std::string>& warnings) {
+  std::string text = planTable(scene);
+  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
+/// How long it took [s].
+double check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
+             MonitorLoop& loop, CheckFiles& files) {
+  const auto start = std::chrono::steady_clock::now();
+  CheckedBag bag(files.bag.part(), loop, parameters.markers);
+  bag.addScene(described.scene, motion.begin());
+  Recorder recorder(motion, loop, bag, files.report);
+  checkBag(motion, parameters, loop, recorder);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
+  const std::vector<CycleRecord>& cycles = statistics.cycles();
+  const std::vector<std::string> never_checked = statistics.neverChecked();
+  require(!cycles.empty(), bag + ": no cycle: the robot's transforms are never known at the same time");
+  require(std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& cycle) { return cycle.hasBound(); }),
+          bag + ": nothing could be checked" +
+              (never_checked.empty() ? ": there are no pairs" : ", as " + never_checked.front()));
+}
+
+/// Names on stderr what was never checked.
+void requireComplete(const CycleStatistics& statistics, const Scene& scene) {
+  bool is_complete = true;
+  for (const Body& body : scene.bodies) {
+    if (body.failure.empty()) continue;
+    std::cerr << "sdf_ccd: not checked: " << body.failure << std::endl;
+    is_complete = false;
+  }
+  const std::vector<std::string> never_checked = statistics.neverChecked();
+  if (!never_checked.empty()) {
+    std::cerr << "sdf_ccd: " << never_checked.size() << " pairs were checked in no cycle, as " << never_checked.front()
+              << std::endl;
+    is_complete = false;
+  }
+  if (!is_complete) throw PartlyDone();
+}
+
+void run(const Arguments& arguments) {
+  const MonitorParameters parameters = parametersOf(arguments);
+  const std::string urdf_directory = fs::absolute(arguments.urdf).parent_path().string();
+  const DescribedScene described =
+      describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), urdf_directory));
+  const RecordedMotion motion(arguments.bag, described, arguments.motion);
+  CheckFiles files(arguments.out);
+  const std::shared_ptr<const Scene> scene = buildWithBar(described, parameters.scene);
+  MonitorLoop loop(scene, described.fixed_frame, parameters);
+  const double took = check(motion, parameters, described, loop, files);
+  const CycleStatistics& statistics = files.report.statistics();
+  requireChecked(statistics, arguments.bag);
+
+  const double length = (motion.end() - motion.begin()).toSec();
+  std::ostringstream text;
+  text << "bag              " << arguments.bag << ": " << rounded(length, 3) << " s from " << timeText(motion.begin())
+       << ", followed by " << motion.source() << "\n"
+       << "robot            " << described.robot->urdf().getName() << ": " << scene->bodies.size()
+       << " bodies with the world's, " << scene->pairs.size() << " pairs, fixed frame " << described.fixed_frame << "\n"
+       << statistics.summary(motion.begin()) << "speed            " << rounded(length, 1) << " s in " << shortly(took)
+       << " s: " << shortly(length / took) << " times real time\n";
+  std::cout << text.str() << std::flush;
+  files.summary.stream() << text.str();
+  files.plan.stream() << planText(*scene, described.warnings);
+  files.commit("Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
+  requireComplete(statistics, *scene);
+}
+
+void checkThenRun(const Arguments& arguments) {
+  require(arguments.motion.start >= 0.0, "--start must not be negative");
+  require(arguments.motion.duration > 0.0, "--duration must be positive");
+  require(!arguments.rate || *arguments.rate > 0.0, "--rate must be positive");
+  require(!arguments.max_error || *arguments.max_error > 0.0, "--max-error must be positive");
+  require(arguments.threads >= 0, "--threads must not be negative");
+  std::unique_ptr<tbb::global_control> limit;
+  if (arguments.threads > 0) {
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
+  }
+  console_bridge::noOutputHandler();  // what broken transforms leave unchecked is reported as that
+  run(arguments);
+}
+
+}  // namespace
+
+void addCheckBagCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("check-bag", "What the collision monitor finds in a recorded bag");
+  command->footer(
+      "Runs the monitor's cycles over the bag on the bag's own clock, without a roscore. The robot is followed by tf; "
+      "where tf names none of its links, by joint_states and the URDF. Writes to DIR: checked.bag (the transforms, and "
+      "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
+      "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
+      "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
+      "code 1: some bodies or pairs were never checked.");
+  command->add_option("bag", arguments->bag, "Bag to read")->required();
+  command->add_option("--urdf", arguments->urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")->required();
+  command->add_option("--srdf", arguments->srdf, "Pairs that need no check");
+  command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
+  command->add_option("--config", arguments->config, "The monitor's parameters, as config/monitor.yaml");
+  command->add_option_function<double>(
+      "--rate", [arguments](double rate) { arguments->rate = rate; },
+      "Cycles per second of the bag [Hz]; default as configured, else 30");
+  command->add_option_function<double>(
+      "--max-error", [arguments](double max_error) { arguments->max_error = max_error; },
+      "Bound on the error of meshes' distances [m], instead of the configured cells");
+  command->add_option("--start", arguments->motion.start, "Where to begin, from the bag's begin [s]; default 0");
+  command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
+  command->add_option("--joint-states", arguments->motion.joint_states,
+                      "Topic of joint states; default joint_states, else the only one");
+  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  command->callback([arguments] { checkThenRun(*arguments); });
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,57 @@
+#include "cycle_record.h"
+
+#include <cstdio>
+
+namespace sdf_ccd::tools {
+
+CycleRecord toRecord(const ContactArray& message) {
+  CycleRecord record;
+  record.start = message.cycle_start;
+  record.end = message.header.stamp;
+  record.complete_until = message.complete_until;
+  record.verdict = static_cast<Verdict>(message.verdict);
+  record.error_bound = message.error_bound;
+  record.run_time = message.run_time;
+  record.checked = message.checked;
+  record.skipped = message.skipped;
+  record.not_checked = message.not_checked;
+  record.delayed = message.delayed;
+  for (const PairContact& pair : message.pairs) {
+    record.in_contact += pair.verdict == PairContact::CONTACT;
+    record.uncertain += pair.verdict == PairContact::UNCERTAIN;
+    if (pair.intervals.empty() || pair.depth <= record.depth) continue;
+    record.depth = pair.depth;
+    record.body_a = pair.body_a;
+    record.body_b = pair.body_b;
+  }
+  return record;
+}
+
+std::string timeText(const ros::Time& time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%u.%09u", time.sec, time.nsec);
+  return text;
+}
+
+std::string cycleColumns() {
+  return "t0,t1,complete_until,verdict,error_bound,run_time,checked,skipped,not_checked,delayed,contact,uncertain,"
+         "depth,"
+         "body_a,body_b\n";
+}
+
+std::string toRow(const CycleRecord& r) {
+  char numbers[192];
+  std::snprintf(numbers, sizeof numbers, ",%.6g,%.6g,%u,%u,%u,%u,%u,%u,%.6g,", r.error_bound, r.run_time, r.checked,
+                r.skipped, r.not_checked, r.delayed, r.in_contact, r.uncertain, r.depth);
+  return timeText(r.start) + "," + timeText(r.end) + "," + timeText(r.complete_until) + "," + toString(r.verdict) +
+         numbers + csvText(r.body_a) + "," + csvText(r.body_b) + "\n";
+}
+
+std::string csvText(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace sdf_ccd::tools

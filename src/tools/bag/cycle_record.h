@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/query/verdict.h"
+
+namespace sdf_ccd::tools {
+
+/// What a table and a plot tell of one cycle.
+struct CycleRecord {
+  ros::Time start, end, complete_until;
+  Verdict verdict = Verdict::kNotChecked;
+  double error_bound = 0.0;  ///< [m]
+  double run_time = 0.0;     ///< [s]
+  unsigned checked = 0, skipped = 0, not_checked = 0, delayed = 0;
+  unsigned in_contact = 0, uncertain = 0;  ///< of those checked
+  double depth = 0.0;                      ///< of the deepest point [m]; 0 if nothing touches
+  std::string body_a, body_b;              ///< whose it is
+
+  bool hasBound() const { return checked + skipped > 0; }
+};
+
+CycleRecord toRecord(const ContactArray& message);
+
+/// Seconds with nine decimals.
+std::string timeText(const ros::Time& time);
+
+/// cycles.csv: the columns' names, and a cycle's row.
+std::string cycleColumns();
+std::string toRow(const CycleRecord& record);
+
+/// A text as a field of CSV: in quotes where it needs them.
+std::string csvText(const std::string& text);
+
+}  // namespace sdf_ccd::tools

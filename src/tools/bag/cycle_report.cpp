@@ -1,0 +1,35 @@
+#include "cycle_report.h"
+
+#include <regex>
+
+#include "error_time_plot.h"
+
+namespace sdf_ccd::tools {
+
+CycleReport::CycleReport(const OutputDirectory& directory)
+    : cycles_file_(directory.file("cycles.csv")),
+      contacts_file_(directory.file("contacts.csv")),
+      plot_file_(directory.file("error_time.svg")) {
+  cycles_file_.stream() << cycleColumns();
+  contacts_file_.stream() << contactColumns();
+}
+
+void CycleReport::add(const ContactArray& message) {
+  statistics_.add(message);
+  cycles_file_.stream() << toRow(statistics_.cycles().back());
+}
+
+bool CycleReport::commit(const std::string& title) {
+  std::string subtitle = std::to_string(statistics_.cycles().size()) + " cycles";
+  for (const std::string& line : statistics_.runTimesAndBounds()) {
+    subtitle += ", " + std::regex_replace(line, std::regex(" +"), " ");
+  }
+  const bool is_plotted = plotErrorTime(statistics_.cycles(), {title, subtitle}, plot_file_.part());
+  for (const ContactRecord& contact : statistics_.contacts()) contacts_file_.stream() << toRow(contact);
+  cycles_file_.commit();
+  contacts_file_.commit();
+  if (is_plotted) plot_file_.commit();
+  return is_plotted;
+}
+
+}  // namespace sdf_ccd::tools

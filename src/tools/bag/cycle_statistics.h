@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "contact_record.h"
+#include "cycle_record.h"
+
+namespace sdf_ccd::tools {
+
+/// Counts what a monitor said, cycle by cycle, and sums it up in a few lines.
+class CycleStatistics {
+ public:
+  void add(const ContactArray& message);
+
+  const std::vector<CycleRecord>& cycles() const { return cycles_; }
+  std::vector<ContactRecord> contacts() const { return joiner_.contacts(); }
+
+  /// "body - body: reason" of the pairs that were NOT_CHECKED in every cycle.
+  std::vector<std::string> neverChecked() const;
+
+  /// Cycles by verdict, what was checked, pairs in contact and in doubt, run times and error bounds.
+  /// @param begin  what times are told from.
+  std::string summary(const ros::Time& begin) const;
+
+  /// Median, 99th percentile and longest; median and largest. A line each, where there are any.
+  std::vector<std::string> runTimesAndBounds() const;
+
+ private:
+  struct PairCount {
+    std::size_t in_contact = 0, uncertain = 0, not_checked = 0;  // cycles
+    std::string reason;                                          // the first that it was not checked for
+  };
+
+  std::string verdictLine() const;
+  std::string timeLine(const ros::Time& begin) const;
+  std::string contactLines(const ros::Time& begin) const;
+  std::string uncertainLines() const;
+  std::string notCheckedLines() const;
+
+  std::vector<CycleRecord> cycles_;
+  ContactJoiner joiner_;
+  std::map<std::string, PairCount> pairs_;  // by "body - body"
+};
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cycle_record.h"
+
+namespace sdf_ccd::tools {
+
+/// A line of each.
+struct PlotTitle {
+  std::string title, subtitle;
+};
+
+/// Draws with gnuplot: the error bound of each cycle over its run time, and both over time, coloured by verdict. Cycles
+/// that checked no pair have no bound, and are drawn only with their run times.
+/// @param svg  file to write.
+/// @return false, and writes nothing, if gnuplot is missing or fails, or no cycle has a bound.
+bool plotErrorTime(const std::vector<CycleRecord>& cycles, const PlotTitle& title, const std::string& svg);
+
+}  // namespace sdf_ccd::tools

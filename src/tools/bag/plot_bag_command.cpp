@@ -1,0 +1,86 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <set>
+
+#include <rosbag/view.h>
+
+#include "commands.h"
+#include "cycle_report.h"
+#include "progress_bar.h"
+#include "ros/read_bag.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+struct Arguments {
+  std::string bag;
+  std::string out;
+  std::string topic;
+};
+
+std::string topicOf(const rosbag::Bag& bag, const Arguments& arguments) {
+  rosbag::View view(bag);
+  std::set<std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    if (connection->datatype == "sdf_ccd/ContactArray") topics.insert(connection->topic);
+  }
+  if (topics.empty()) throw std::runtime_error(arguments.bag + ": holds no sdf_ccd/ContactArray");
+  if (arguments.topic.empty() && topics.size() > 1) {
+    throw std::runtime_error(arguments.bag + ": holds contacts on " + *topics.begin() + " and others: use --topic");
+  }
+  const std::string& topic = arguments.topic.empty() ? *topics.begin() : arguments.topic;
+  if (topics.count(topic) == 0) throw std::runtime_error(arguments.bag + ": holds no contacts on " + topic);
+  return topic;
+}
+
+/// Adds all messages of the topic; the start of the first cycle.
+ros::Time addAll(const rosbag::Bag& bag, const std::string& topic, CycleReport& report) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  ProgressBar bar("contacts");
+  ros::Time begin;
+  std::size_t count = 0;
+  for (const rosbag::MessageInstance& message : view) {
+    bar(double(++count) / double(view.size()));
+    const auto contacts = message.instantiate<ContactArray>();
+    if (!contacts) throw std::runtime_error(topic + " is of another version of sdf_ccd/ContactArray");
+    if (report.statistics().cycles().empty()) begin = contacts->cycle_start;
+    report.add(*contacts);
+  }
+  return begin;
+}
+
+void run(const Arguments& arguments) {
+  readBag(arguments.bag, [&] {
+    rosbag::Bag bag(arguments.bag);
+    const std::string topic = topicOf(bag, arguments);
+    OutputDirectory out(arguments.out);
+    CycleReport report(out);
+    const ros::Time begin = addAll(bag, topic, report);
+    std::cout << report.statistics().summary(begin) << std::flush;
+    if (report.commit("Error and run time of " + topic + " in " +
+                      std::filesystem::path(arguments.bag).filename().string())) {
+      return;
+    }
+    std::cerr << "sdf_ccd: no error_time.svg: gnuplot is missing or failed, or no cycle has a bound" << std::endl;
+    throw PartlyDone();
+  });
+}
+
+}  // namespace
+
+void addPlotBagCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("plot-bag", "Error bound against run time of a monitor whose contacts were recorded");
+  command->footer(
+      "Every cycle's message carries its error bound and run time. Writes to DIR: error_time.svg (gnuplot), cycles.csv "
+      "(a row per cycle), contacts.csv (a row per pair and contact, over however many cycles it lasts). Times are "
+      "seconds, lengths metres.");
+  command->add_option("bag", arguments->bag, "Bag with contacts of the monitor, or of check-bag")->required();
+  command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
+  command->add_option("--topic", arguments->topic, "Topic of the contacts; default the only one");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,260 @@
+#include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/MonitorState.h"
+#include "tools/tool_run.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::kBadInput;
+using test::kDone;
+using test::kPartlyDone;
+using test::readText;
+using test::ToolRun;
+
+using Row = std::map<std::string, std::string>;  // by the column's name
+
+constexpr double kBegin = 100.0, kPeriod = 1.0 / 30.0;  // [s]
+constexpr int kBefore = 20, kAfter = 20;                // samples at rest
+// config/demo/arm.urdf, with the hand pointing down: the finger stands upright, this far from the axis of yaw.
+constexpr double kReach = 0.5, kTipHeight = 0.31, kFinger = 0.008;        // [m]
+constexpr double kPlateY = 0.18, kPlateHalf = 0.0005;                     // config/demo/world.yaml [m]
+constexpr double kFirstYaw = 0.2, kYawStep = 0.1, kLastYaw = 0.6 + 1e-9;  // [rad]
+
+double timeOfYaw(double yaw) {
+  return kBegin + kPeriod * (kBefore - 1 + (yaw - kFirstYaw) / kYawStep);
+}
+
+std::vector<Row> readCsv(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, cell;
+  std::vector<std::string> names;
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line + ",");
+    std::vector<std::string> values;
+    while (std::getline(cells, cell, ',')) values.push_back(cell);
+    if (names.empty()) {
+      names = values;
+      continue;
+    }
+    rows.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) rows.back()[names[i]] = values.at(i);
+  }
+  return rows;
+}
+
+/// The demo's arm swings its finger through the demo's plate, so fast that no sample sees it there.
+class CheckBag : public test::ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    ::setenv("ROS_PACKAGE_PATH", SDF_CCD_SOURCE_DIR, 1);
+    const std::string world = readText(SDF_CCD_SOURCE_DIR "/config/demo/world.yaml");
+    write("arm.yaml", world + "cache_directory: cache\nfield: {cell_size: 0.006}\nshell: {spacing: 0.003}\n");
+    writeJointStates();
+  }
+
+  /// Joint states of the sweep, stamped 5 ms before they are recorded.
+  void writeJointStates() {
+    constexpr double kUpperArm = 0.4, kForearm = 0.35, kHand = 0.212, kShoulderHeight = 0.35;
+    const double h = kTipHeight + kHand - kShoulderHeight, d = std::hypot(kReach, h);
+    const double lift = std::acos((kUpperArm * kUpperArm + d * d - kForearm * kForearm) / (2.0 * kUpperArm * d));
+    const double shoulder = -(std::atan2(h, kReach) + lift);
+    const double elbow =
+        M_PI - std::acos((kUpperArm * kUpperArm + kForearm * kForearm - d * d) / (2.0 * kUpperArm * kForearm));
+    std::vector<double> yaws(kBefore - 1, kFirstYaw);
+    for (double yaw = kFirstYaw; yaw < kLastYaw; yaw += kYawStep) yaws.push_back(yaw);
+    yaws.insert(yaws.end(), kAfter, yaws.back());
+    rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Write);
+    for (std::size_t i = 0; i < yaws.size(); ++i) {
+      sensor_msgs::JointState state;
+      state.header.stamp = ros::Time(kBegin + kPeriod * double(i));
+      state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
+      state.position = {yaws[i], shoulder, elbow, M_PI_2 - shoulder - elbow, 0.0, 1.0};
+      bag.write("joint_states", state.header.stamp + ros::Duration(0.005), state);
+    }
+  }
+
+  /// The command line, with a configuration unless the options name one.
+  std::string check(const std::string& bag, const std::string& out, const std::string& options = "") const {
+    const std::string config = options.find("--config") == std::string::npos ? "--config arm.yaml " : "";
+    return "check-bag " + bag + " --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf " + config + options + " --out " +
+           out;
+  }
+  std::vector<Row> table(const std::string& name) const { return readCsv(readText(path(name))); }
+};
+
+TEST_F(CheckBag, FindsTheContactBetweenTwoSamples) {
+  const ToolRun result = run(check("arm.bag", "made"));
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find("followed by joint_states"), std::string::npos) << result.out;
+  EXPECT_EQ(readText(path("made/summary.txt")), result.out);
+  EXPECT_NE(readText(path("made/plan.txt")).find("plate"), std::string::npos);
+
+  const std::vector<Row> contacts = table("made/contacts.csv");
+  ASSERT_EQ(contacts.size(), 1u) << readText(path("made/contacts.csv"));
+  Row contact = contacts[0];
+  EXPECT_EQ(contact["body_a"] + " " + contact["body_b"], "hand plate");
+  EXPECT_EQ(contact["verdict"], "CONTACT");
+  const double enter = timeOfYaw(std::asin((kPlateY - kPlateHalf - kFinger) / kReach));
+  const double leave = timeOfYaw(std::asin((kPlateY + kPlateHalf + kFinger) / kReach));
+  EXPECT_NEAR(std::stod(contact["start"]), enter, 1e-3);
+  EXPECT_NEAR(std::stod(contact["end"]), leave, 1e-3);
+  EXPECT_EQ(contact["seen_at_samples"], "0");
+  EXPECT_NEAR(std::stod(contact["depth"]), kFinger, 1e-3);  // the plate's middle at the finger's axis
+  EXPECT_NEAR(std::stod(contact["y"]), kPlateY, kPlateHalf + 1e-3);
+  EXPECT_GT(std::stod(contact["error_bound"]), 0.003);
+}
+
+TEST_F(CheckBag, HasARowForEveryCycleWithoutAGap) {
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  std::vector<Row> cycles = table("made/cycles.csv");
+  ASSERT_GT(cycles.size(), 38u);
+  double deepest = 0.0;
+  int in_contact = 0;
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    EXPECT_EQ(cycles[i]["t0"], cycles[i > 0 ? i - 1 : 0][i > 0 ? "t1" : "t0"]);
+    EXPECT_GT(std::stod(cycles[i]["t1"]), std::stod(cycles[i]["t0"]));
+    EXPECT_GT(std::stod(cycles[i]["run_time"]), 0.0);
+    EXPECT_GT(std::stod(cycles[i]["error_bound"]), 0.0);
+    EXPECT_EQ(cycles[i]["not_checked"] + cycles[i]["delayed"], "00");
+    deepest = std::max(deepest, std::stod(cycles[i]["depth"]));
+    in_contact += cycles[i]["verdict"] == "CONTACT";
+  }
+  EXPECT_EQ(in_contact, 1);
+  EXPECT_NEAR(deepest, kFinger, 1e-3);
+}
+
+TEST_F(CheckBag, WritesABagThatHoldsWhatTheMonitorPublishes) {
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  std::map<std::string, std::size_t> counts;
+  rosbag::Bag bag(path("made/checked.bag").string());
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    ++counts[message.getTopic()];
+    if (const auto state = message.instantiate<MonitorState>()) {
+      EXPECT_GT(state->run_time, 0.0);
+      EXPECT_GT(state->error_bound, 0.0);
+      EXPECT_EQ(state->header.frame_id, "base");
+    }
+  }
+  const std::size_t cycles = table("made/cycles.csv").size();
+  EXPECT_EQ(counts["/collision_monitor/contacts"], cycles);
+  EXPECT_EQ(counts["/collision_monitor/state"], cycles);
+  EXPECT_EQ(counts["/collision_monitor/wrenches/hand"], 1u);
+  EXPECT_GE(counts["/collision_monitor/markers"], 2u);  // shown, and deleted
+  EXPECT_EQ(counts["/collision_monitor/plan"], 1u);
+  EXPECT_EQ(counts["/collision_monitor/world"], 1u);
+  EXPECT_EQ(counts["/tf_static"], 1u);
+  EXPECT_EQ(counts["/tf"], std::size_t(kBefore + 4 + kAfter));
+}
+
+TEST_F(CheckBag, TfAndRatesAndPlotsTellTheSameContacts) {
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  const std::string contacts = readText(path("made/contacts.csv"));
+
+  // The checked bag holds tf, made from the joint states.
+  const ToolRun again = run(check("made/checked.bag", "again"));
+  ASSERT_EQ(again.exit_code, kDone) << again.error;
+  EXPECT_NE(again.out.find("followed by tf\n"), std::string::npos) << again.out;
+  EXPECT_EQ(readText(path("again/contacts.csv")), contacts);
+
+  const ToolRun plot = run("plot-bag made/checked.bag --out plot");
+  EXPECT_LE(plot.exit_code, kPartlyDone) << plot.error;  // partly without gnuplot
+  EXPECT_EQ(readText(path("plot/contacts.csv")), contacts);
+  EXPECT_EQ(readText(path("plot/cycles.csv")), readText(path("made/cycles.csv")));
+  EXPECT_EQ(std::filesystem::exists(path("plot/error_time.svg")), plot.exit_code == kDone);
+
+  // Cycles that end within the contact cut it; the table joins it again.
+  ASSERT_EQ(run(check("arm.bag", "often", "--rate 200 --threads 1")).exit_code, kDone);
+  Row once = table("made/contacts.csv")[0], often = table("often/contacts.csv").at(0);
+  EXPECT_EQ(table("often/contacts.csv").size(), 1u);
+  EXPECT_NEAR(std::stod(once["start"]), std::stod(often["start"]), 1e-6);
+  EXPECT_NEAR(std::stod(once["end"]), std::stod(often["end"]), 1e-6);
+}
+
+TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  {
+    rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Append);
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    geometry_msgs::TransformStamped& transform = message.transforms[0];
+    transform.header.frame_id = "/odom";
+    transform.child_frame_id = "/base";
+    transform.transform.rotation.w = 1.0;
+    for (double time = kBegin; time < kBegin + 2.0; time += kPeriod) {
+      transform.header.stamp = ros::Time(time);
+      bag.write("/tf", transform.header.stamp, message);
+    }
+    bag.write("/controller/joint_states", ros::Time(kBegin), sensor_msgs::JointState());  // not the robot's
+  }
+  write("odom.yaml", readText(path("arm.yaml")) + "fixed_frame: odom\n");
+  const ToolRun result = run(check("arm.bag", "odom", "--config odom.yaml"));
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find("followed by joint_states"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("fixed frame odom"), std::string::npos) << result.out;
+  Row still = table("made/contacts.csv").at(0), moved = table("odom/contacts.csv").at(0);
+  EXPECT_NEAR(std::stod(still["start"]), std::stod(moved["start"]), 1e-6);
+  EXPECT_EQ(still["depth"], moved["depth"]);
+  expectRefused(check("arm.bag", "no", "--joint-states /nowhere"), "holds no joint states on /nowhere");
+}
+
+TEST_F(CheckBag, StartAndDurationChooseAPart) {
+  ASSERT_EQ(run(check("arm.bag", "part", "--start 0.1 --duration 0.4")).exit_code, kDone);
+  const std::vector<Row> cycles = table("part/cycles.csv");
+  ASSERT_FALSE(cycles.empty());
+  EXPECT_NEAR(std::stod(Row(cycles.front())["t0"]), kBegin + 0.1, 2.0 * kPeriod);
+  EXPECT_NEAR(std::stod(Row(cycles.back())["t1"]), kBegin + 0.5, 2.0 * kPeriod);
+  EXPECT_TRUE(table("part/contacts.csv").empty());
+}
+
+TEST_F(CheckBag, BadBagsAreRefused) {
+  const std::string bytes = readText(path("arm.bag"));
+  write("cut.bag", bytes.substr(0, bytes.size() / 2));
+  write("empty.bag", "");
+  write("text.bag", "not a bag");
+  rosbag::Bag(path("none.bag").string(), rosbag::bagmode::Write).close();
+  for (const char* bag : {"cut.bag", "empty.bag", "text.bag", "none.bag", "missing.bag"}) {
+    expectRefused(check(bag, "no"), bag);
+    expectRefused("plot-bag " + std::string(bag) + " --out no", bag);
+  }
+  expectRefused("plot-bag arm.bag --out no", "holds no sdf_ccd/ContactArray");
+  expectRefused(check("arm.bag", "no", "--start 1000"), "nothing is left after the start at 1000 s");
+  for (const char* option : {"--rate -1", "--max-error 0", "--threads -1", "--start nan", "--duration 0"}) {
+    expectRefused(check("arm.bag", "no", option), std::string(option).substr(0, std::string(option).find(' ')));
+  }
+  write("bad.yaml", "rate: fast\n");
+  expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: parameter ~/rate is fast");
+  expectRefused(check("arm.bag", "no", "--srdf missing.srdf"), "missing.srdf");
+}
+
+TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
+  const std::string link = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+  write("other.urdf", "<robot name='other'><link name='a'>" + link + "</link><link name='b'>" + link +
+                          "</link><joint name='ab' type='continuous'><parent link='a'/><child link='b'/><origin "
+                          "xyz='1 0 0'/></joint></robot>");
+  expectRefused("check-bag arm.bag --urdf other.urdf --out no", "neither tf nor joint_states is about the robot");
+  write("map.yaml", "fixed_frame: map\n");
+  expectRefused(check("arm.bag", "no", "--config map.yaml"), "the fixed frame map is neither in tf nor a link");
+}
+
+TEST_F(CheckBag, WhatCannotBeCheckedIsNamed) {
+  ::setenv("ROS_PACKAGE_PATH", path("").c_str(), 1);
+  const ToolRun result = run(check("arm.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("not checked: link hand: package://sdf_ccd/"), std::string::npos) << result.error;
+  EXPECT_EQ(table("made/cycles.csv")[0]["verdict"], "NOT_CHECKED");
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace sdf_ccd::test {
+
+namespace fs = std::filesystem;
+
+constexpr int kDone = 0;
+constexpr int kPartlyDone = 1;
+constexpr int kBadInput = 2;
+
+struct ToolRun {
+  int exit_code;
+  std::string out;
+  std::string error;
+};
+
+inline std::string readText(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What was said on stderr, but for the progress of work that takes over a second, as on a loaded computer.
+inline std::string withoutProgress(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, rest;
+  while (std::getline(lines, line)) {
+    if (line.empty() || line.back() != '%') rest += line + "\n";
+  }
+  return rest;
+}
+
+/// Runs the tool in a directory of its own, which goes with the test.
+class ToolTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("sdf_ccd_tool_" + std::to_string(::getpid()));
+    fs::create_directories(directory_ / "work");
+  }
+  void TearDown() override {
+    fs::permissions(directory_ / "work", fs::perms::owner_all);
+    fs::remove_all(directory_);
+  }
+
+  /// Runs the tool in the work directory.
+  ToolRun run(const std::string& arguments) {
+    const std::string command = "cd '" + (directory_ / "work").string() + "' && '" SDF_CCD_TOOL "' " + arguments +
+                                " > ../out.txt 2> ../error.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(directory_ / "out.txt"),
+            withoutProgress(readText(directory_ / "error.txt"))};
+  }
+
+  /// Bad input: exit code 2, one line that holds `reason`, and no file that was not there before.
+  void expectRefused(const std::string& arguments, const std::string& reason) {
+    const std::size_t files = countFiles();
+    const ToolRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, kBadInput) << arguments;
+    EXPECT_NE(result.error.find(reason), std::string::npos) << arguments << ": " << result.error;
+    EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
+    EXPECT_EQ(countFiles(), files) << arguments;
+  }
+
+  std::size_t countFiles() const {
+    const fs::recursive_directory_iterator files(directory_ / "work");
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+  }
+
+  fs::path path(const std::string& name) const { return directory_ / "work" / name; }
+  void write(const std::string& name, const std::string& bytes) {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+  }
+
+  fs::path directory_;
+};
+
+}  // namespace sdf_ccd::test
