@@ -69,11 +69,11 @@ void AdaptiveBuilder::measureCenters() {
   const SignedSurface& exact = surface_.exact();
   tbb::parallel_for(0, shape_.size.z(), [&](int z) {
     for (int y = 0; y < shape_.size.y(); ++y) {
-      double last = 0.0;
+      SignedSurface::Nearest last{};
       for (int x = 0; x < shape_.size.x(); ++x) {
         const Vector3d p = topCenter({x, y, z});
-        last = x == 0 ? exact.signedDistance(p) : exact.nextDistance(p, last, shape_.cell);
-        centers_[(std::size_t(z) * shape_.size.y() + y) * shape_.size.x() + x] = last;
+        last = x == 0 ? exact.nearest(p) : exact.next(p, last, shape_.cell);
+        centers_[(std::size_t(z) * shape_.size.y() + y) * shape_.size.x() + x] = last.distance;
       }
     }
   });

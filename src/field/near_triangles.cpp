@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "sdf_ccd/geometry/separating_triangles.h"
-#include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 constexpr double kSlack = 1e-9;
 
 double distanceTo(const SurfaceIndex::Triangle& t, const Vector3d& p) {
-  return (closestOnTriangle(t.a, t.b, t.c, p) - p).norm();
+  return (t.shape.closest(p) - p).norm();
 }
 
 /// How far a triangle may be from the centre of a ball and still be the closest to a place in it: that place is within
@@ -30,13 +29,8 @@ SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) : exact_(mesh) {
   triangles_.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
-    Triangle s{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], {}, 0.0, {}, separates[i] != 0};
-    s.center = 0.5 * (s.a.cwiseMin(s.b).cwiseMin(s.c) + s.a.cwiseMax(s.b).cwiseMax(s.c));
-    s.radius = std::sqrt(std::max(
-                   {(s.a - s.center).squaredNorm(), (s.b - s.center).squaredNorm(), (s.c - s.center).squaredNorm()})) *
-               (1.0 + kSlack);
-    s.normal = areaNormal(mesh, static_cast<int>(i)).normalized();
-    triangles_.push_back(s);
+    const MeasuredTriangle shape(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    triangles_.push_back({shape, areaNormal(mesh, static_cast<int>(i)).normalized(), separates[i] != 0});
   }
 }
 
@@ -56,8 +50,7 @@ NearTriangles::NearTriangles(const NearTriangles& around, const Ball& ball, doub
   for (const Entry& entry : around.entries_) {
     if (entry.distance - apart > most) break;
     const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
-    const double limit = most + t.radius;
-    if ((t.center - ball.center).squaredNorm() > limit * limit) continue;
+    if (!t.shape.mayBeWithin(most, ball.center)) continue;
     const double d = distanceTo(t, ball.center);
     if (d <= most) entries_.push_back({d, entry.triangle});
   }
@@ -102,9 +95,8 @@ NearTriangles::Closest NearTriangles::closest(const Vector3d& p) const {
   for (const Entry& entry : entries_) {
     if (entry.distance - apart > best) break;
     const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
-    const double limit = best + t.radius;
-    if ((t.center - p).squaredNorm() > limit * limit) continue;
-    const Vector3d q = closestOnTriangle(t.a, t.b, t.c, p);
+    if (!t.shape.mayBeWithin(best, p)) continue;
+    const Vector3d q = t.shape.closest(p);
     const double distance2 = (q - p).squaredNorm();
     if (distance2 > best2 * (1.0 + kTie)) continue;
     const int sign = !t.separates ? 0 : (p - q).dot(t.normal) < 0.0 ? -1 : 1;
@@ -143,8 +135,7 @@ DirectionCone NearTriangles::gradientCone(const Ball& ball) const {
   for (const Entry& entry : entries_) {
     if (entry.distance - apart > most) break;
     const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
-    const double limit = most + t.radius;
-    if ((t.center - ball.center).squaredNorm() > limit * limit) continue;
+    if (!t.shape.mayBeWithin(most, ball.center)) continue;
     if (distanceTo(t, ball.center) <= most) found.push_back(entry);
   }
   return coneOf(found);

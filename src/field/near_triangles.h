@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sdf_ccd/geometry/triangle.h"
 #include "signed_surface.h"
 
 namespace sdf_ccd {
@@ -13,9 +14,7 @@ class SurfaceIndex {
   explicit SurfaceIndex(const TriangleMesh& mesh);
 
   struct Triangle {
-    Vector3d a, b, c;
-    Vector3d center;
-    double radius;    ///< of the ball about `center` that holds the triangle
+    MeasuredTriangle shape;
     Vector3d normal;  ///< of length one
     bool separates;   ///< see separatingTriangles()
   };
@@ -54,6 +53,8 @@ class NearTriangles {
 
   /// Holds the gradient of the signed distance wherever it is defined in a ball within this one.
   DirectionCone gradientCone(const Ball& ball) const;
+
+  std::size_t size() const { return entries_.size(); }
 
   double centerDistance() const { return distance_; }
 

@@ -6,15 +6,16 @@ namespace sdf_ccd {
 
 SignedSurface::SignedSurface(const TriangleMesh& mesh) : tree_(mesh), closed_(isClosed(mesh)) {}
 
-double SignedSurface::signedDistance(const Vector3d& p) const {
-  const double d = tree_.closestPoint(p).distance;
-  return inside(p) ? -d : d;
+SignedSurface::Nearest SignedSurface::nearest(const Vector3d& p) const {
+  const TriangleTree::ClosestPoint found = tree_.closestPoint(p);
+  return {inside(p) ? -found.distance : found.distance, found.triangle};
 }
 
-double SignedSurface::nextDistance(const Vector3d& p, double last, double step) const {
-  const double d = tree_.closestPoint(p, (std::abs(last) + step) * (1.0 + 1e-9)).distance;
-  if (closed_ && d + std::abs(last) > step * (1.0 + 1e-9)) return last < 0.0 ? -d : d;
-  return inside(p) ? -d : d;
+SignedSurface::Nearest SignedSurface::next(const Vector3d& p, const Nearest& last, double step) const {
+  const TriangleTree::ClosestPoint found = tree_.closestPointNear(p, last.triangle);
+  const bool same_side = closed_ && found.distance + std::abs(last.distance) > step * (1.0 + 1e-9);
+  const bool is_inside = same_side ? last.distance < 0.0 : inside(p);
+  return {is_inside ? -found.distance : found.distance, found.triangle};
 }
 
 }  // namespace sdf_ccd

@@ -16,11 +16,19 @@ class SignedSurface {
 
   bool inside(const Vector3d& p) const { return tree_.windingNumber(p) > 0.5; }
 
-  double signedDistance(const Vector3d& p) const;
+  double signedDistance(const Vector3d& p) const { return nearest(p).distance; }
 
-  /// The signed distance at a place `step` away from one where it is `last`: it differs by the step at most, and where
-  /// the two balls without surface meet, the sign is the same (if the mesh is closed).
-  double nextDistance(const Vector3d& p, double last, double step) const;
+  /// A signed distance, and the triangle it is to.
+  struct Nearest {
+    double distance;
+    int triangle;
+  };
+
+  Nearest nearest(const Vector3d& p) const;
+
+  /// The same at a place `step` away from one where it is `last`. Where the two balls without surface meet, the sign is
+  /// the same (if the mesh is closed).
+  Nearest next(const Vector3d& p, const Nearest& last, double step) const;
 
  private:
   TriangleTree tree_;

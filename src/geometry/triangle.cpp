@@ -29,6 +29,31 @@ Vector3d closestByRegions(const Vector3d& a, const Vector3d& b, const Vector3d& 
   return a + ab * (vb * scale) + ac * (vc * scale);
 }
 
+bool isSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d ab = b - a, ac = c - a;
+  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  return !(ab.cross(ac).squaredNorm() > kSliver * longest2 * longest2);
+}
+
+Vector3d closestOnSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+  Vector3d best = closestOnSegment(a, b, p);
+  const auto offer = [&](const Vector3d& q) {
+    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
+  };
+  offer(closestOnSegment(b, c, p));
+  offer(closestOnSegment(c, a, p));
+  // The interior, by the foot of the perpendicular and its barycentric coordinates, forced into the triangle.
+  const Vector3d ab = b - a, ac = c - a, normal = ab.cross(ac);
+  const double area2 = normal.squaredNorm();
+  if (area2 > 0) {
+    const Vector3d ap = p - a;
+    const double v = std::clamp(ap.cross(ac).dot(normal) / area2, 0.0, 1.0);
+    const double w = std::clamp(ab.cross(ap).dot(normal) / area2, 0.0, 1.0 - v);
+    offer(a + ab * v + ac * w);
+  }
+  return best;
+}
+
 }  // namespace
 
 Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
@@ -41,26 +66,22 @@ Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& 
 }
 
 Vector3d closestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
-  const Vector3d ab = b - a, ac = c - a;
-  const double area2 = ab.cross(ac).squaredNorm();
-  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-  if (area2 > kSliver * longest2 * longest2) return closestByRegions(a, b, c, p);
+  return isSliver(a, b, c) ? closestOnSliver(a, b, c, p) : closestByRegions(a, b, c, p);
+}
 
-  Vector3d best = closestOnSegment(a, b, p);
-  const auto offer = [&](const Vector3d& q) {
-    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-  };
-  offer(closestOnSegment(b, c, p));
-  offer(closestOnSegment(c, a, p));
-  // The interior, by the foot of the perpendicular and its barycentric coordinates, forced into the triangle.
-  const Vector3d normal = ab.cross(ac);
-  if (area2 > 0) {
-    const Vector3d ap = p - a;
-    const double v = std::clamp(ap.cross(ac).dot(normal) / area2, 0.0, 1.0);
-    const double w = std::clamp(ab.cross(ap).dot(normal) / area2, 0.0, 1.0 - v);
-    offer(a + ab * v + ac * w);
-  }
-  return best;
+MeasuredTriangle::MeasuredTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
+    : a_(a),
+      b_(b),
+      c_(c),
+      center_(0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c))),
+      // A little more than that, for rounding.
+      radius_(
+          std::sqrt(std::max({(a - center_).squaredNorm(), (b - center_).squaredNorm(), (c - center_).squaredNorm()})) *
+          (1.0 + 1e-9)),
+      sliver_(isSliver(a, b, c)) {}
+
+Vector3d MeasuredTriangle::closest(const Vector3d& p) const {
+  return sliver_ ? closestOnSliver(a_, b_, c_, p) : closestByRegions(a_, b_, c_, p);
 }
 
 double solidAngleFraction(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {

@@ -24,7 +24,20 @@ double squaredDistance(const AlignedBox3d& box, const Vector3d& p) {
 
 TriangleTree::ClosestPoint TriangleTree::closestPoint(const Vector3d& p, double max_distance) const {
   ClosestPoint best{p, max_distance, -1};
-  double best2 = max_distance * max_distance;
+  search(p, max_distance * max_distance, best);
+  return best;
+}
+
+TriangleTree::ClosestPoint TriangleTree::closestPointNear(const Vector3d& p, int likely) const {
+  const Vector3d q = triangles_[places_[likely]].closest(p);
+  const double distance2 = (q - p).squaredNorm();
+  ClosestPoint best{q, std::sqrt(distance2), likely};
+  search(p, distance2, best);
+  return best;
+}
+
+/// Looks for what is nearer than √best2.
+void TriangleTree::search(const Vector3d& p, double best2, ClosestPoint& best) const {
   std::array<Pending, kStackSize> stack;
   int size = 0;
   stack[size++] = {squaredDistance(nodes_[0].box, p), 0};
@@ -45,17 +58,15 @@ TriangleTree::ClosestPoint TriangleTree::closestPoint(const Vector3d& p, double 
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const Vector3d q = closestOnTriangle(triangles_[i].a, triangles_[i].b, triangles_[i].c, p);
+      if (!triangles_[i].mayBeWithin(best.distance, p)) continue;
+      const Vector3d q = triangles_[i].closest(p);
       const double distance2 = (q - p).squaredNorm();
       if (distance2 < best2) {
         best2 = distance2;
-        best.point = q;
-        best.triangle = ids_[i];
+        best = {q, std::sqrt(distance2), ids_[i]};
       }
     }
   }
-  if (best.triangle >= 0) best.distance = std::sqrt(best2);
-  return best;
 }
 
 void TriangleTree::trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const {
@@ -73,7 +84,8 @@ void TriangleTree::trianglesWithin(const Vector3d& p, double radius, std::vector
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const Vector3d q = closestOnTriangle(triangles_[i].a, triangles_[i].b, triangles_[i].c, p);
+      if (!triangles_[i].mayBeWithin(radius, p)) continue;
+      const Vector3d q = triangles_[i].closest(p);
       if ((q - p).squaredNorm() <= radius2) triangles.push_back(ids_[i]);
     }
   }
@@ -100,7 +112,7 @@ double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      sum += solidAngleFraction(triangles_[i].a, triangles_[i].b, triangles_[i].c, p);
+      sum += solidAngleFraction(triangles_[i].a(), triangles_[i].b(), triangles_[i].c(), p);
     }
   }
   return sum;

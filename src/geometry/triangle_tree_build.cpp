@@ -46,8 +46,10 @@ class TriangleTree::Builder {
     tree_.triangles_.reserve(count);
     for (const std::int32_t id : tree_.ids_) {
       const Vector3i& t = mesh_.triangles[id];
-      tree_.triangles_.push_back({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
+      tree_.triangles_.emplace_back(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
     }
+    tree_.places_.resize(count);
+    for (int i = 0; i < count; ++i) tree_.places_[tree_.ids_[i]] = i;
     tree_.expansions_.resize(tree_.nodes_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree_.nodes_.size(), 64), [this](const auto& range) {
       for (std::size_t node = range.begin(); node < range.end(); ++node) {

@@ -12,18 +12,18 @@ TriangleTree::Expansion TriangleTree::expand(const Triangle* begin, const Triang
   double area = 0;
   Vector3d weighted = Vector3d::Zero();
   for (const Triangle* t = begin; t != end; ++t) {
-    box.extend(t->a).extend(t->b).extend(t->c);
-    const double weight = (t->b - t->a).cross(t->c - t->a).norm();
+    box.extend(t->a()).extend(t->b()).extend(t->c());
+    const double weight = (t->b() - t->a()).cross(t->c() - t->a()).norm();
     area += weight;
     // Relative to the first corner, because the sum loses digits far from the origin.
-    weighted += weight * ((t->a - begin->a) + (t->b - begin->a) + (t->c - begin->a)) / 3;
+    weighted += weight * ((t->a() - begin->a()) + (t->b() - begin->a()) + (t->c() - begin->a())) / 3;
   }
-  result.center = area > 0 ? Vector3d(begin->a + weighted / area) : box.center();
+  result.center = area > 0 ? Vector3d(begin->a() + weighted / area) : box.center();
 
   Matrix3d first = Matrix3d::Zero();  // rows: n, columns: d
   std::array<Matrix3d, 3> second = {Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
   for (const Triangle* t = begin; t != end; ++t) {
-    const Vector3d a = t->a - result.center, b = t->b - result.center, c = t->c - result.center;
+    const Vector3d a = t->a() - result.center, b = t->b() - result.center, c = t->c() - result.center;
     result.radius2 = std::max({result.radius2, a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
     const Vector3d normal = (b - a).cross(c - a) / 2;  // area · n
     const Vector3d sum = a + b + c;

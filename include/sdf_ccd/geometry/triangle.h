@@ -14,6 +14,31 @@ Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& 
 /// the Voronoi tests of that method cancel there.
 Vector3d closestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p);
 
+/// A triangle with what its closest points ask for again and again, measured once.
+class MeasuredTriangle {
+ public:
+  MeasuredTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+
+  /// As closestOnTriangle().
+  Vector3d closest(const Vector3d& p) const;
+
+  /// False if every place of the triangle surely is farther than `distance` from p.
+  bool mayBeWithin(double distance, const Vector3d& p) const {
+    const double most = (distance + radius_) * (1.0 + 1e-12);
+    return (center_ - p).squaredNorm() <= most * most;
+  }
+
+  const Vector3d& a() const { return a_; }
+  const Vector3d& b() const { return b_; }
+  const Vector3d& c() const { return c_; }
+
+ private:
+  Vector3d a_, b_, c_;
+  Vector3d center_;  ///< of its box
+  double radius_;    ///< of a ball about the centre that holds it
+  bool sliver_;
+};
+
 /// Signed solid angle of the triangle seen from p, over 4π: positive where p lies behind the counter-clockwise
 /// side. Zero at the corners and along the edges, ±½ inside the triangle, never NaN.
 ///
