@@ -213,8 +213,8 @@ int main(int argc, char** argv) {
   StudyOptions full;
   full.cells = {32, 64, 128};
   full.errors = {"1e-2", "3e-3", "1e-3"};
-  full.segments = 5'000;
-  full.pairs = 400;
+  full.segments = 2'500;
+  full.pairs = 100;
   full.meshes = {"bunny3k", "bunny75k", "armadillo", "link", "robot_link", "torus", "box"};
   StudyOptions quick = full;
   quick.cells = {32};

@@ -12,7 +12,6 @@
 #include "segment_cases.h"
 #include "segment_system.h"
 #include "study_fields.h"
-#include "surface_points.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

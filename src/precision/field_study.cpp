@@ -138,7 +138,7 @@ HitSystem oneByOne(const Label& label, const DistanceField& field) {
 }
 
 HitSystem batched(Label label, const DistanceField& field) {
-  label.system = "sdf_ccd batch (max_error)";
+  label.system.replace(0, std::string("sdf_ccd").size(), "sdf_ccd batch");
   return {label, [field](const std::vector<Segment>& segments, std::vector<double>& times) {
             thread_local BatchResult batch;
             times.assign(segments.size(), -1.0);
@@ -159,14 +159,14 @@ class FieldStudy {
 
   double side() const { return side_; }
 
-  void addField(Label label, FieldOptions options, bool with_batch, double share_before, double share_after) {
+  void addField(Label label, FieldOptions options, double share_before, double share_after) {
     options.band = std::max(options.band, 2.0 * kDeepest * side_);
     const DistanceField field = buildField(input_.mesh, options, [&](double share) {
       input_.progress(0.8 * (share_before + share * (share_after - share_before)));
     });
     label.bound = field.errorBound();
     hits_.push_back(oneByOne(label, field));
-    if (with_batch) batches_.push_back(batched(label, field));
+    batches_.push_back(batched(label, field));
     distances_.push_back({label, [field](const Vector3d& p) { return field.sample(p).value; }});
   }
 
@@ -212,7 +212,7 @@ StudyResult cellStudy(const StudyInput& input) {
     const double cell = study.side() / cells;
     FieldOptions options;
     options.cells = cells;
-    study.addField({"sdf_ccd (even cells)", millimetres(cell), cell}, options, false, before, after);
+    study.addField({"sdf_ccd (even cells)", millimetres(cell), cell}, options, before, after);
     study.addGrids(cells);
     before = after;
   }
@@ -235,7 +235,7 @@ StudyResult maxErrorStudy(const StudyInput& input) {
     const double after = before + 1.0 / error / all;
     FieldOptions options;
     options.max_error = error * study.side();
-    study.addField({"sdf_ccd (max_error)", millimetres(*options.max_error), *options.max_error}, options, true, before,
+    study.addField({"sdf_ccd (max_error)", millimetres(*options.max_error), *options.max_error}, options, before,
                    after);
     before = after;
   }
