@@ -5,9 +5,12 @@
 #include <stdexcept>
 
 #include "body_shell.h"
+#include "coarsen.h"
 #include "mesh_pool.h"
+#include "pair_bound.h"
 #include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/shell/contact_gap.h"
 
 namespace sdf_ccd {
 namespace {
@@ -73,7 +76,8 @@ class BodyBuilder {
     return parts;
   }
 
-  PointShell makeShell(const std::vector<BodyPart>& parts) {
+  /// @param edges_only  the body is one box, whose faces get no points.
+  PointShell makeShell(const std::vector<BodyPart>& parts, bool edges_only) {
     std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings have them in any case
     primitives.reserve(meshes_.size());
     std::vector<ShellPart> shells;
@@ -82,7 +86,7 @@ class BodyBuilder {
       if (!meshes_[i]) {
         const Primitive& primitive = primitiveOf(geometry);
         primitives.emplace_back(primitive);
-        shells.push_back({geometry.X_BG, sampleSurface(primitive, options_.shell), &primitives.back()});
+        shells.push_back({geometry.X_BG, makeShell(primitive, edges_only), &primitives.back()});
       } else {
         note(pool_.makeShell(*meshes_[i]).outcome);
         const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
@@ -93,6 +97,20 @@ class BodyBuilder {
   }
 
  private:
+  PointShell makeShell(const Primitive& primitive, bool edges_only) {
+    ShellOptions options = options_.shell;
+    std::string warning;
+    const auto make = [&](double gap) {
+      options.edge_gap = gap;
+      options.spacing = std::max(options.spacing, gap);
+      if (edges_only) return sampleEdges(tessellate(primitive, gap), options);  // a box, which is its tessellation
+      return sampleSurface(primitive, options);
+    };
+    PointShell shell = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
+    if (!warning.empty()) report_.warnings.push_back(warning);
+    return shell;
+  }
+
   static const Primitive& primitiveOf(const GeometryDescription& geometry) {
     return std::get<Primitive>(geometry.shape);
   }
@@ -108,25 +126,44 @@ class BodyBuilder {
   std::vector<PooledMesh*> meshes_;  // per geometry; null for a primitive
 };
 
-void build(const BodyDescription& description, bool needs_field, bool needs_shell, const SceneOptions& options,
-           MeshPool& pool, const Progress& progress, Body& body, BodyReport& report) {
-  BodyBuilder builder(description, options, pool, report);
-  if (needs_field) body.parts = builder.makeParts(progress);
-  if (!needs_shell) return;
-  body.shell = builder.makeShell(body.parts);
+/// What the plan has for one body.
+struct Needs {
+  bool field, shell, edges_only;
+};
+
+void build(const Needs& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
+  if (needs.field) body.parts = builder.makeParts(progress);
+  if (!needs.shell) return;
+  body.shell = builder.makeShell(body.parts, needs.edges_only);
   body.tree = buildSphereTree(body.shell);
   body.ball = boundingBall(body.shell);
   report.shell_points = body.shell.size();
   report.shell_bytes =
       body.shell.size() * (2 * sizeof(Vector3d) + sizeof(double)) + body.tree.nodes.size() * sizeof(SphereTree::Node);
-  report.covering_radius = body.shell.covering_radius;
+  report.gap = contactGap(body.shell, body.shell);
+}
+
+bool isLarger(const ErrorBound& a, const ErrorBound& b) {
+  return a.total() > b.total();
+}
+
+void setBounds(const SceneOptions& options, Scene& scene) {
+  for (const PlannedPair& pair : scene.pairs) {
+    ErrorBound bound = pairBound(scene, pair);
+    if (bound.total() == 0.0) continue;  // of a body that was not built
+    bound.chord = options.motion_margin;
+    for (ErrorBound* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
+      if (isLarger(bound, *largest)) *largest = bound;
+  }
 }
 
 }  // namespace
 
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options,
                  const std::function<void(const std::string&, double)>& progress) {
+  const auto start = Clock::now();
   Scene scene;
+  scene.max_error = options.max_error;
   scene.pairs = plan.pairs;
   scene.left_out = plan.left_out;
   MeshPool pool(options);
@@ -151,7 +188,8 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     report_progress(0.0);
     if (body.failure.empty() && (plan.needs_field[i] || plan.needs_shell[i])) {
       try {
-        build(described, plan.needs_field[i], plan.needs_shell[i], options, pool, report_progress, body, report);
+        build({plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i]},
+              BodyBuilder(described, options, pool, report), report_progress, body, report);
       } catch (const std::exception& error) {
         body.failure = error.what();
         body.parts.clear();
@@ -164,6 +202,8 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     scene.reports.push_back(std::move(report));
   }
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
+  setBounds(options, scene);
+  scene.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return scene;
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "coarsen.h"
 #include "sdf_ccd/field/content_hash.h"
 #include "sdf_ccd/field/field_cache.h"
+#include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/shell/shell_cache.h"
 
 namespace sdf_ccd {
@@ -48,21 +50,44 @@ FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
   if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
   if (options.cell_size) cell = *options.cell_size;
   if (options.max_error) cell = *options.max_error / to_error;
-  const double margin = 1.1 * (options_.shell.spacing + to_error * cell + options_.motion_margin);
+  const double gap = !mesh.voxels && options_.shell.edge_gap > 0.0
+                         ? std::min(options_.shell.edge_gap, options_.shell.spacing)
+                         : options_.shell.spacing;
+  const double margin = 1.1 * (gap + to_error * cell + options_.motion_margin);
   options.band = std::max(options.band, std::min(margin, kWidestBand * cell));
   return options;
 }
 
 MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   if (mesh.field) return {};
-  CachedField made = cachedField(cache_, mesh.mesh, fieldOptions(mesh), progress);
+  FieldOptions options = fieldOptions(mesh);
+  std::string warning;
+  const bool one_knob = options_.max_error && options.max_error;
+  const auto make = [&](double error) {
+    if (options.max_error) options.max_error = error;
+    return cachedField(cache_, mesh.mesh, options, progress);
+  };
+  CachedField made = makeCoarser(options.max_error.value_or(0.0), one_knob, make, warning);
   mesh.field = std::move(made.field);
+  if (options.max_error && mesh.field->errorBound() > 1.001 * *options.max_error) {
+    warning = "field: an error of " + numberText(mesh.field->errorBound()) + " m is reached, not " +
+              numberText(*options.max_error) + ": its cells are at their smallest";
+  }
+  if (!warning.empty()) made.outcome.warning = warning;
   return {true, made.outcome};
 }
 
 MeshPool::Made MeshPool::makeShell(PooledMesh& mesh) {
   if (mesh.shell) return {};
-  CachedShell made = cachedShell(cache_, mesh.mesh, options_.shell);
+  ShellOptions options = options_.shell;
+  std::string warning;
+  const auto make = [&](double gap) {
+    options.edge_gap = gap;
+    options.spacing = std::max(options.spacing, gap);
+    return cachedShell(cache_, mesh.mesh, options);
+  };
+  CachedShell made = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
+  if (!warning.empty()) made.outcome.warning = warning;
   mesh.shell = std::move(made.shell);
   return {true, made.outcome};
 }

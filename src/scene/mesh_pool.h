@@ -32,12 +32,15 @@ class MeshPool {
     bool now = false;  ///< false: it was there already, for another body
     CacheOutcome outcome;
   };
+  /// How the field of a mesh is made. @throws std::invalid_argument for options that no field can have.
+  FieldOptions fieldOptions(const PooledMesh& mesh) const;
+
+  /// Where SceneOptions::max_error asks for more than a field or shell may cost, a coarser one is made; the outcome's
+  /// warning says so.
   Made makeField(PooledMesh& mesh, const Progress& progress);
   Made makeShell(PooledMesh& mesh);
 
  private:
-  FieldOptions fieldOptions(const PooledMesh& mesh) const;
-
   const SceneOptions& options_;
   FileCache cache_;
   std::unordered_map<std::string, PooledMesh> meshes_;  // by the content's hash

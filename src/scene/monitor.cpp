@@ -88,6 +88,7 @@ struct Monitor::Impl {
     const bool any = std::any_of(result.pairs.begin(), result.pairs.end(), advanced);
     result.verdict = any ? Verdict::kClear : Verdict::kNotChecked;
     result.error_bound = 0.0;
+    result.error = {};
     result.checked = result.skipped = result.not_checked = result.delayed = 0;
     for (const PairResult& pair : result.pairs) {
       if (pair.span.empty()) {
@@ -100,7 +101,9 @@ struct Monitor::Impl {
         continue;
       }
       ++(pair.skipped ? result.skipped : result.checked);
-      result.error_bound = std::max(result.error_bound, pair.error.total());
+      if (pair.error.total() <= result.error_bound) continue;
+      result.error = pair.error;
+      result.error_bound = pair.error.total();
     }
   }
 };

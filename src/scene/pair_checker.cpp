@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "sdf_ccd/shell/contact_gap.h"
+#include "pair_bound.h"
 
 namespace sdf_ccd {
 namespace {
@@ -32,13 +32,6 @@ void requireFinite(const ErrorBound& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
 
-double gapOf(const std::vector<PairRole>& roles) {
-  if (roles.empty()) return 0.0;
-  const PointShell& shell = roles.front().shell().shell;
-  if (roles.size() == 2) return contactGap(shell, roles.back().shell().shell);
-  return roles.front().fieldIsPlane() ? contactGapToPlane(shell) : shell.covering_radius;
-}
-
 /// As new, but with its memory and its span.
 void clear(PairResult& result) {
   result.verdict = Verdict::kNotChecked;
@@ -59,13 +52,13 @@ void clear(PairResult& result) {
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
                          const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)
     : scene_(scene), pair_(pair), siblings_(siblings), options_(options) {
-  const auto addRole = [&](int shell, int field) {
+  const auto addRole = [&](int shell, int field, bool edges_only) {
     if (scene.bodies[shell].shell.size() > 0 && !scene.bodies[field].parts.empty())
-      roles_.emplace_back(scene, shell, field);
+      roles_.emplace_back(scene, shell, field, !edges_only);
   };
-  if (pair.a_shell_b_field) addRole(pair.body_a, pair.body_b);
-  if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a);
-  gap_ = gapOf(roles_);
+  if (pair.a_shell_b_field) addRole(pair.body_a, pair.body_b, pair.a_edges_only);
+  if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a, pair.b_edges_only);
+  bound_ = pairBound(scene, pair);
 }
 
 void PairChecker::run(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
@@ -94,14 +87,13 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
   double motion_error = 0.0;
   if (!motion.motion_error.empty())
     motion_error = motion.motion_error[pair_.body_a] + motion.motion_error[pair_.body_b];
+  result.error = bound_;
   double travel = std::numeric_limits<double>::infinity(), jump = travel;
   for (PairRole& role : roles_) {
     role.setMotion(motion, result.span);
-    result.error.field = std::max(result.error.field, role.fieldError());
     travel = std::min(travel, role.travel());
     jump = std::min(jump, role.jump());
   }
-  result.error.gap = gap_;
   result.error.chord = motion_error;
   result.error.root = kRootTolerance * travel;
   requireFinite(result.error);
@@ -129,7 +121,7 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
   // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
   clearance_ = std::numeric_limits<double>::infinity();
   for (const PairRole& role : roles_) clearance_ = std::min(clearance_, role.pointClearanceAtEnd(0.5 * near));
-  clearance_ -= gap_;
+  clearance_ -= bound_.gap;
   result.clearance = clearance_;
 }
 
@@ -154,10 +146,12 @@ void PairChecker::cutRoles(double motion_error, PairResult& result) {
 
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
   collector_.begin(motion, result);
-  const double weight = 1.0 / double(roles_.size());
+  const auto bears = [](const PairRole& role) { return role.bearsForce(); };
+  const double weight = 1.0 / double(std::count_if(roles_.begin(), roles_.end(), bears));
   for (PairRole& role : roles_) {
     const bool shell_is_a = role.fieldBody() == pair_.body_b;
-    collector_.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact, request.wrenches);
+    collector_.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact,
+                   request.wrenches && role.bearsForce());
   }
   collector_.finish(request, result);
   const bool proven = !result.intervals.empty() && result.deepest.depth > result.error.point();

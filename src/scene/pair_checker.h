@@ -37,7 +37,7 @@ class PairChecker {
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
   std::vector<PairRole> roles_;  // one or two
-  double gap_ = 0.0;             // see contact_gap.h
+  ErrorBound bound_;             // of field and gap
   double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
   ContactCollector collector_;
 };

@@ -7,19 +7,12 @@
 
 namespace sdf_ccd {
 
-PairRole::PairRole(const Scene& scene, int shell_body, int field_body)
+PairRole::PairRole(const Scene& scene, int shell_body, int field_body, bool bears_force)
     : shell_(&scene.bodies[shell_body]),
       field_(&scene.bodies[field_body]),
       shell_body_(shell_body),
-      field_body_(field_body) {
-  for (const BodyPart& part : field_->parts) field_error_ = std::max(field_error_, part.field.errorBound());
-}
-
-bool PairRole::fieldIsPlane() const {
-  return std::all_of(field_->parts.begin(), field_->parts.end(), [](const BodyPart& part) {
-    return part.field.primitive() && std::holds_alternative<HalfSpace>(*part.field.primitive());
-  });
-}
+      field_body_(field_body),
+      bears_force_(bears_force) {}
 
 void PairRole::setMotion(const CycleMotion& motion, const KnotSpan& span) {
   const bool first = motion_.X_FP.empty();

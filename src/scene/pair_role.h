@@ -18,13 +18,13 @@ inline Isometry3d relativePose(const Isometry3d& X_WF, const Isometry3d& X_WP) {
 /// One way to test a pair: the shell of one body (frame P) against the field of the other (frame F).
 class PairRole {
  public:
-  PairRole(const Scene& scene, int shell_body, int field_body);
+  /// @param bears_force  false: it shows where the shell touches, another role's impulse stands for the pair.
+  PairRole(const Scene& scene, int shell_body, int field_body, bool bears_force);
 
   const Body& shell() const { return *shell_; }
   const Body& field() const { return *field_; }
   int fieldBody() const { return field_body_; }
-  bool fieldIsPlane() const;
-  double fieldError() const { return field_error_; }
+  bool bearsForce() const { return bears_force_; }
 
   /// Takes the relative motion over a part of a cycle. Distances may have shrunk by travel() within it and by jump()
   /// between the last one's end and its start.
@@ -60,7 +60,7 @@ class PairRole {
   const Body* field_;
   int shell_body_;
   int field_body_;
-  double field_error_ = 0.0;
+  bool bears_force_;
   RelativePath motion_;
   double travel_ = 0.0;
   double jump_ = 0.0;

@@ -61,11 +61,25 @@ std::string leftOutLines(const std::vector<LeftOut>& left_out) {
   return text;
 }
 
+/// "error bound: 0.99 mm, within the max_error of 1.00; of it field 0.55, gap between points 0.35, motion 0.09".
+std::string boundLine(const Scene& scene) {
+  const ErrorBound& bound = scene.bound;
+  if (bound.total() == 0.0) return "";
+  std::string text = "error bound: " + number(1e3 * bound.total(), 2) + " mm";
+  if (scene.max_error) {
+    const bool reached = bound.total() <= *scene.max_error;
+    text +=
+        ", " + std::string(reached ? "within" : "MORE than") + " the max_error of " + number(1e3 * *scene.max_error, 2);
+  }
+  return text + "; of it field " + number(1e3 * bound.field, 2) + ", gap between points " + number(1e3 * bound.gap, 2) +
+         ", motion " + number(1e3 * bound.chord, 2) + "\n";
+}
+
 }  // namespace
 
 std::string planTable(const Scene& scene) {
   std::vector<Row> rows = {
-      {"body", "geometry", "field", "cells", "MB", "error mm", "shell points", "covering mm", "pairs"}};
+      {"body", "geometry", "field", "cells", "MB", "field mm", "shell points", "gap mm", "bound mm", "pairs"}};
   double megabytes = 0.0;
   std::size_t cells = 0, points = 0;
   for (const BodyReport& report : scene.reports) {
@@ -73,14 +87,17 @@ std::string planTable(const Scene& scene) {
     megabytes += mb;
     cells += report.cells;
     points += report.shell_points;
-    const bool has_shell = report.shell_points > 0;
+    const bool has_shell = report.shell_points > 0, has_bound = report.bound.total() > 0.0;
     rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), number(mb, 1),
                     number(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : "left out",
-                    has_shell ? number(1e3 * report.covering_radius, 1) : "", std::to_string(report.pairs)});
+                    has_shell ? number(1e3 * report.gap, 2) : "",
+                    has_bound ? number(1e3 * report.bound.total(), 2) : "", std::to_string(report.pairs)});
   }
   rows.push_back({"total", "", "", std::to_string(cells), number(megabytes, 1), "", std::to_string(points), "",
-                  std::to_string(scene.pairs.size())});
+                  number(1e3 * scene.bound.total(), 2), std::to_string(scene.pairs.size())});
   std::string text = aligned(rows, 3);
+
+  text += boundLine(scene);
 
   std::string failures, warnings;
   for (const Body& body : scene.bodies)

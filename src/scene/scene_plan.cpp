@@ -55,6 +55,11 @@ bool isLarge(const BodyDescription& body, const PlanOptions& options) {
   return surfaceArea(*primitive) / (options.shell_spacing * options.shell_spacing) > options.large_shell_points;
 }
 
+bool isBox(const BodyDescription& body) {
+  const auto* primitive = std::get_if<Primitive>(&body.geometry.front().shape);
+  return primitive && std::holds_alternative<Box>(*primitive);
+}
+
 std::map<Names, std::string> disabledPairs(const SceneDescription& description) {
   std::set<std::string> names;
   for (const BodyDescription& body : description.bodies) {
@@ -91,6 +96,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
   ScenePlan plan;
   plan.needs_field.assign(count, false);
   plan.needs_shell.assign(count, false);
+  std::vector<bool> needs_faces(count, false);
   std::vector<bool> has_pair(count, false), is_large(count, false);
   std::vector<Extent> extents(count);
   for (int i = 0; i < count; ++i) {
@@ -114,9 +120,13 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       }
       const bool checkable = a.failure.empty() && b.failure.empty();
       const bool a_can = checkable && whyNoShell(a).empty(), b_can = checkable && whyNoShell(b).empty();
-      const bool a_shell = a_can && !(b_can && isOnlyAField(i, k));
-      const bool b_shell = b_can && !(a_can && isOnlyAField(k, i));
-      plan.pairs.push_back({i, k, a_shell, b_shell});
+      const bool a_faces = a_can && !(b_can && isOnlyAField(i, k)), b_faces = b_can && !(a_can && isOnlyAField(k, i));
+      const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);
+      const bool b_edges = !b_faces && b_can && options.edge_gap > 0.0 && isBox(b);
+      const bool a_shell = a_faces || a_edges, b_shell = b_faces || b_edges;
+      plan.pairs.push_back({i, k, a_shell, b_shell, a_edges, b_edges});
+      if (a_faces) needs_faces[i] = true;
+      if (b_faces) needs_faces[k] = true;
       has_pair[i] = has_pair[k] = true;
       if (a_shell) plan.needs_shell[i] = plan.needs_field[k] = true;
       if (b_shell) plan.needs_shell[k] = plan.needs_field[i] = true;
@@ -125,12 +135,14 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
 
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];
+    plan.edges_only.push_back(plan.needs_shell[i] && !needs_faces[i]);
     if (!body.failure.empty() || body.geometry.empty()) continue;
     std::string no_shell = whyNoShell(body);
     if (no_shell.empty() && is_large[i] && has_pair[i]) no_shell = "large, and the shells of smaller bodies do";
     const std::string idle = has_pair[i] ? "the others of its pairs cannot be checked" : "no pair needs it";
     if (!plan.needs_field[i])
       plan.left_out.push_back({"field of " + body.name, plan.needs_shell[i] ? "only ever a shell" : idle});
+    if (plan.edges_only[i]) plan.left_out.push_back({"full-shell of " + body.name, no_shell});
     if (!plan.needs_shell[i]) plan.left_out.push_back({"shell of " + body.name, no_shell.empty() ? idle : no_shell});
   }
   return plan;

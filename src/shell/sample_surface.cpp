@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -89,6 +90,23 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& asked, co
     shell.edge_radius = sampling.radius;
     shell.flatness = sampling.flatness;
   }
+  return shell;
+}
+
+PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
+  validate(mesh);
+  validate(options);
+  if (options.edge_gap == 0.0) throw std::invalid_argument("a shell of edges needs an edge gap above 0");
+  const TriangleMesh surface = welded(mesh);
+  const EdgeSampling sampling(options);
+  SurfaceFiller filler(surface, options);
+  filler.addVertices();
+  filler.fillEdges(edgesOfFlatPieces(surface, sampling.flatness), sampling.radius);
+  PointShell shell = filler.take();
+  shell.areas.assign(shell.size(), 0.0);
+  shell.covering_radius = std::numeric_limits<double>::infinity();
+  shell.edge_radius = sampling.radius;
+  shell.flatness = sampling.flatness;
   return shell;
 }
 

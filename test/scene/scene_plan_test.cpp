@@ -113,5 +113,19 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   EXPECT_EQ(two.left_out[0].what, "shell of table");
 }
 
+TEST(ScenePlan, LargeBoxKeepsItsEdges) {
+  const SceneDescription scene{{body("table", Primitive(Box{{1.0, 0.5, 0.02}})), body("hand", kBall)}, {}};
+  PlanOptions options;
+  options.shell_spacing = 0.005;
+  options.edge_gap = 0.001;
+  const ScenePlan plan = planScene(scene, options);
+  ASSERT_EQ(plan.pairs.size(), 1U);
+  EXPECT_TRUE(plan.pairs[0].a_shell_b_field);
+  EXPECT_TRUE(plan.pairs[0].a_edges_only);
+  EXPECT_FALSE(plan.pairs[0].b_edges_only);
+  EXPECT_EQ(plan.edges_only, (std::vector<bool>{true, false}));
+  EXPECT_EQ(reasonOf(plan, "full-shell of table"), "large, and the shells of smaller bodies do");
+}
+
 }  // namespace
 }  // namespace sdf_ccd

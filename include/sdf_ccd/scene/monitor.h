@@ -74,6 +74,7 @@ struct CycleResult {
   Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs not delayed: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
                                            ///< NOT_CHECKED if there are none
   double error_bound = 0.0;                ///< largest of the pairs checked [m]
+  ErrorBound error;                        ///< of that pair, by source
   int checked = 0;
   int skipped = 0;
   int not_checked = 0;

@@ -2,12 +2,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/field/field_options.h"
 #include "sdf_ccd/motion/screw_motion.h"
+#include "sdf_ccd/query/verdict.h"
 #include "sdf_ccd/scene/scene_description.h"
 #include "sdf_ccd/scene/scene_plan.h"
 #include "sdf_ccd/shell/sample_surface.h"
@@ -34,14 +36,18 @@ struct Body {
   BoundingBall ball;  ///< holds the shell's points
 };
 
-/// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing + the field's own error +
-/// motion_margin), so that they hold the margin at which a pair ceases to be CLEAR; at most to 32 cells, beyond which
-/// the bounds that every field has anywhere are fine enough.
+/// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing, or edge_gap if there is
+/// one, + the field's own error + motion_margin), so that they hold the margin at which a pair ceases to be CLEAR; at
+/// most to 32 cells, beyond which the bounds that every field has anywhere are fine enough.
 struct SceneOptions {
   FieldOptions field;
   ShellOptions shell;
   double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
   std::string cache_directory;  ///< empty: nothing is read or written
+
+  /// The bound that field, shell and motion_margin are shares of (see error_budget.h) [m]. If it is set, a field or
+  /// shell that would be too large is made coarser, and its body's report says so; else the body cannot be checked.
+  std::optional<double> max_error;
 };
 
 /// What was built for one body; a row of the plan's table.
@@ -54,8 +60,9 @@ struct BodyReport {
   double field_error = 0.0;     ///< [m]
   std::size_t shell_points = 0;
   std::size_t shell_bytes = 0;
-  double covering_radius = 0.0;  ///< [m]
+  double gap = 0.0;  ///< between its shell's points, against a body with a like shell [m]
   std::size_t pairs = 0;
+  ErrorBound bound;  ///< the largest of its pairs; chord: what the options allow for
   std::vector<std::string> warnings;
 };
 
@@ -64,7 +71,18 @@ struct Scene {
   std::vector<PlannedPair> pairs;
   std::vector<LeftOut> left_out;
   std::vector<BodyReport> reports;
+  ErrorBound bound;                 ///< the largest of all pairs; chord: what the options allow for
+  std::optional<double> max_error;  ///< that was wanted [m]
+  double build_seconds = 0.0;
 };
+
+/// What planScene() has to know of the options.
+inline PlanOptions planOptions(const SceneOptions& options) {
+  PlanOptions plan;
+  plan.shell_spacing = options.shell.spacing;
+  plan.edge_gap = options.shell.edge_gap < options.shell.spacing ? options.shell.edge_gap : 0.0;
+  return plan;
+}
 
 /// Builds, or takes from the cache, what the plan needs; meshes of equal content once. A body whose field or shell
 /// cannot be built keeps its place with Body::failure set; the others are not touched by it.
@@ -77,8 +95,8 @@ struct Scene {
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options,
                  const std::function<void(const std::string&, double)>& progress = {});
 
-/// The plan as one table for the log: body, geometry, field, shell, cells, bytes, pairs; below it what
-/// failed, what to know, and what was left out, by reason.
+/// The plan as one table for the log: body, geometry, field, shell, cells, bytes, error bound by source, pairs; below
+/// it what failed, what to know, and what was left out, by reason.
 std::string planTable(const Scene& scene);
 
 }  // namespace sdf_ccd

@@ -13,6 +13,8 @@ struct PlannedPair {
   int body_b;
   bool a_shell_b_field;
   bool b_shell_a_field;
+  bool a_edges_only = false;  ///< A's shell shows where its edges touch, and bears no force: B's does
+  bool b_edges_only = false;
 };
 
 struct LeftOut {
@@ -25,21 +27,24 @@ struct ScenePlan {
   std::vector<PlannedPair> pairs;
   std::vector<bool> needs_field;  ///< per body
   std::vector<bool> needs_shell;  ///< per body
+  std::vector<bool> edges_only;   ///< per body: of its shell no pair needs more
   std::vector<LeftOut> left_out;
 };
 
 struct PlanOptions {
   double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
   double large_shell_points = 2e4;  ///< a primitive that needs more is not sampled for the sake of smaller bodies
+  double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled apart
 };
 
 /// Leaves out pairs that are disabled, both of the world, in the same frame, or of a body without geometry; fields
 /// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (they cannot
 /// be covered with points), and pairs of two such bodies. A body that is one large primitive (a table, a wall) is only
-/// a field to bodies too small to hold it: their shells against its exact field see every contact of the surfaces.
-/// All others are tested in both roles.
-/// A pair with a body that cannot be checked stays, asks for nothing to be built, and is NOT_CHECKED.
-/// A disabled pair may name bodies that the scene does not have (an SRDF's links without collision geometry).
+/// a field to bodies too small to hold it: their shells against its exact field see every contact of the surfaces. If
+/// it is a box and edges are sampled apart, its edges stay: with them, contacts are seen to the edge gap, not the
+/// spacing. All others are tested in both roles. A pair with a body that cannot be checked stays, asks for nothing to
+/// be built, and is NOT_CHECKED. A disabled pair may name bodies that the scene does not have (an SRDF's links without
+/// collision geometry).
 /// @throws std::invalid_argument if two bodies share a name, or a disabled pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 

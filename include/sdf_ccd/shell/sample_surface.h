@@ -31,6 +31,11 @@ struct ShellOptions {
 /// @throws std::invalid_argument if the mesh or the options are not valid.
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
 
+/// The points on vertices and edges alone, by options.edge_gap: no point stands for an area, and the covering radius is
+/// infinite. They show where the surface touches, not how hard.
+/// @throws as sampleSurface(); std::invalid_argument also if the edge gap is 0.
+PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options);
+
 /// About how many points sampleSurface() would take, from the areas and edges alone; few vertices are assumed.
 double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options);
 

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/scene_case.h"
+#include "sdf_ccd/scene/error_budget.h"
+#include "sdf_ccd/scene/scene_cost.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+SceneOptions knob(double max_error) {
+  const ErrorBudget budget = shareOut(max_error);
+  SceneOptions options;
+  options.field.max_error = budget.field;
+  options.shell.spacing = budget.face_spacing;
+  options.shell.edge_gap = budget.edge_gap;
+  options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
+  options.max_error = max_error;
+  return options;
+}
+
+MonitorOptions chords(double max_error) {
+  MonitorOptions options = soft();
+  options.chords.tolerance = shareOut(max_error).chord_tolerance;
+  return options;
+}
+
+TEST(MaxError, ReportedBoundIsKeptAndTrue) {
+  // Two balls of 5 cm as meshes, one swinging past the other: how near they come is known.
+  constexpr double kRadius = 0.05;
+  const TriangleMesh ball = icosphere(kRadius, 4);
+  for (const double max_error : {0.005, 0.001}) {
+    const auto scene = build({body("still", meshShape(ball)), body("swung", meshShape(ball))}, knob(max_error));
+    EXPECT_LE(scene->bound.total(), max_error);
+    EXPECT_GT(scene->bound.total(), 0.8 * max_error);
+    Monitor monitor(scene, chords(max_error));
+    int open = 0;
+    for (const double apart : {-1.5, -0.5, -0.1, 0.1, 0.5, 1.5}) {  // of max_error
+      const double distance = 2.0 * kRadius + apart * max_error;
+      // On a circle about a place opposite, nearest in the middle of the turn.
+      const Vector3d pivot(distance + 0.3, 0.0, 0.0), arm(-0.3, 0.0, 0.0);
+      const Isometry3d from = translation(pivot) * pose({0, 0, 0}, -0.3, {0, 0, 1}) * translation(arm);
+      const Isometry3d to = translation(pivot) * pose({0, 0, 0}, 0.3, {0, 0, 1}) * translation(arm);
+      monitor.reset();
+      const PairResult& pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {from, to}}), {}).pairs[0];
+      EXPECT_LE(pair.error.total(), max_error);
+      // Chords of the icosphere's faces are inside of the ball by this at most.
+      const double inside = 2.0 * kRadius * 0.002;
+      if (apart * max_error > inside) EXPECT_NE(pair.verdict, Verdict::kContact) << apart;
+      if (apart < 0.0 && -apart * max_error > inside) EXPECT_NE(pair.verdict, Verdict::kClear) << apart;
+      if (apart > 1.0) EXPECT_EQ(pair.verdict, Verdict::kClear) << max_error;
+      if (apart < -1.0) EXPECT_EQ(pair.verdict, Verdict::kContact) << max_error;
+      open += pair.verdict == Verdict::kUncertain;
+    }
+    EXPECT_GE(open, 1);
+  }
+}
+
+TEST(MaxError, BoxesAreToldApartAtAMillimetre) {
+  const auto scene =
+      build({body("a", meshShape(boxMesh({0.1, 0.05, 0.03}))), body("b", meshShape(boxMesh({0.1, 0.05, 0.03})))},
+            knob(0.001));
+  Monitor monitor(scene, chords(0.001));
+  const auto verdictAt = [&](double apart) {
+    monitor.reset();
+    return monitor
+        .run(cycle(0.1, {still(Isometry3d::Identity()), still(pose({0, 0, 0.06 + apart}, 0.5, {0, 0, 1}))}), {})
+        .pairs[0]
+        .verdict;
+  };
+  EXPECT_EQ(verdictAt(0.0017), Verdict::kClear);  // the bound, and what the field may be off by
+  EXPECT_EQ(verdictAt(-0.0017), Verdict::kContact);
+}
+
+TEST(MaxError, ATableIsHeldToTheEdgeGap) {
+  const SceneDescription description{
+      {body("table", Primitive(Box{{1.0, 0.6, 0.02}}), true), body("link", meshShape(boxMesh({0.1, 0.05, 0.03})))}, {}};
+  const SceneOptions options = knob(0.001);
+  const ScenePlan plan = planScene(description, planOptions(options));
+  ASSERT_EQ(plan.edges_only, (std::vector<bool>{true, false}));
+  const auto scene = std::make_shared<const Scene>(buildScene(description, plan, options));
+  EXPECT_LE(scene->bound.total(), 0.001);
+  EXPECT_LT(scene->bodies[0].shell.size(), 30000u);
+  // The table bears no force of its own: what presses is the link's whole shell, not half of it.
+  const auto force = [](const std::shared_ptr<const Scene>& scene) {
+    Monitor monitor(scene, soft());
+    return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.045}))}), {})
+        .pairs[0]
+        .on_b_W.force.z();
+  };
+  constexpr double kPressed = kStiffness * 0.2 * 0.1 * 0.005;
+  EXPECT_NEAR(force(scene), kPressed, 0.15 * kPressed);
+  // A corner of the table in the middle of the link's large face is seen.
+  Monitor monitor(scene, chords(0.001));
+  const Isometry3d tilted =
+      translation({1.0, 0.6, 0.02}) * pose({0, 0, 0}, 0.9, {1, -1, 0}) * translation({0, 0, 0.029});
+  EXPECT_EQ(monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(tilted)}), {}).pairs[0].verdict,
+            Verdict::kContact);
+}
+
+TEST(MaxError, WhatWouldBeTooLargeIsMadeCoarserAndSaysSo) {
+  SceneOptions options = knob(0.0005);
+  options.field.max_bytes = 100'000;
+  options.shell.max_points = 3000;
+  const SceneDescription description{{body("a", meshShape(icosphere(0.1, 3))), body("b", Primitive(Sphere{0.1}))}, {}};
+  const auto scene = build(description, options);
+  for (const Body& body : scene->bodies) EXPECT_EQ(body.failure, "");
+  EXPECT_GT(scene->bound.total(), 0.0005);
+  ASSERT_EQ(scene->reports[0].warnings.size(), 2u);
+  EXPECT_NE(scene->reports[0].warnings[0].find("m instead"), std::string::npos) << scene->reports[0].warnings[0];
+  EXPECT_EQ(scene->reports[1].warnings.size(), 1u);
+  EXPECT_NE(planTable(*scene).find("MORE than the max_error"), std::string::npos);
+  options.max_error.reset();  // settings that were asked for one by one are not changed
+  EXPECT_NE(build(description, options)->bodies[0].failure, "");
+}
+
+TEST(MaxError, CostIsExpectedWithinAFactorOfThree) {
+  const TriangleMesh ball = icosphere(0.1, 4);
+  const SceneDescription description{
+      {body("a", meshShape(ball)), body("b", meshShape(boxMesh({0.2, 0.1, 0.05}))), body("c", meshShape(ball)),
+       body("table", Primitive(Box{{1.0, 0.6, 0.02}}), true)},
+      {}};
+  for (const double max_error : {0.005, 0.002}) {
+    const SceneOptions options = knob(max_error);
+    const ScenePlan plan = planScene(description, planOptions(options));
+    const SceneCost cost = expectedCost(description, plan, options);
+    const Scene scene = buildScene(description, plan, options);
+    double bytes = 0.0;
+    for (const BodyReport& report : scene.reports) bytes += double(report.field_bytes + report.shell_bytes);
+    EXPECT_LT(cost.bytes, 3.0 * bytes);
+    EXPECT_GT(cost.bytes, bytes / 3.0);
+    EXPECT_GT(cost.seconds, 0.0);
+    EXPECT_EQ(cost.bodies.size(), 4u);
+    EXPECT_EQ(summary(cost).find("about "), 0u) << summary(cost);
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
