@@ -9,6 +9,7 @@
 
 #include "ros/cycle_messages.h"
 #include "ros/world_markers.h"
+#include "sdf_ccd/scene/scene_cost.h"
 
 namespace sdf_ccd {
 namespace {
@@ -113,6 +114,9 @@ void CollisionMonitor::setUp() {
 
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
+  const SceneCost cost =
+      expectedCost(described_.scene, planScene(described_.scene, planOptions(parameters_.scene)), parameters_.scene);
+  NODELET_INFO("Expected: %s", summary(cost).c_str());
   scene_ = buildDescribed(described_, parameters_.scene, [this](const std::string& body, double share) {
     if (!waitFor(0.0)) throw Stopped();
     const std::string progress = "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
@@ -130,6 +134,7 @@ void CollisionMonitor::buildFields() {
     }
   }
   health_.wanted_rate = parameters_.rate;
+  health_.max_error = parameters_.scene.max_error.value_or(0.0);
   health_.pairs = static_cast<int>(scene_->pairs.size());
   health_.pairs_left_out = static_cast<int>(described_.scene.disabled.size());
   std_msgs::String table;
@@ -198,6 +203,7 @@ void CollisionMonitor::publishState() {
   health_.stalled = false;
   health_.latency = state.latency;
   health_.run_time = state.run_time;
+  health_.error = loop_->result().error;
   health_.missing = missingBodies(*loop_);
   health_.pairs_delayed = loop_->result().delayed;
   health_.out_of_order = loop_->history().outOfOrder();

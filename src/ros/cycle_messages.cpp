@@ -5,6 +5,19 @@
 
 namespace sdf_ccd {
 
+namespace {
+
+template <typename Message>
+void setErrorBound(const CycleResult& result, Message& message) {
+  message.error_bound = result.error_bound;
+  message.error_field = result.error.field;
+  message.error_chord = result.error.chord;
+  message.error_root = result.error.root;
+  message.error_gap = result.error.gap;
+}
+
+}  // namespace
+
 CycleContext contextOf(const MonitorLoop& loop) {
   return {loop.scene(), loop.cycle().motion, loop.cycle().samples, loop.cycle().origin};
 }
@@ -19,7 +32,7 @@ ContactArray toContactArray(const MonitorLoop& loop) {
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
   message.verdict = static_cast<std::uint8_t>(result.verdict);
-  message.error_bound = result.error_bound;
+  setErrorBound(result, message);
   message.pairs = toPairContacts(result, contextOf(loop));
   message.checked = result.checked;
   message.skipped = result.skipped;
@@ -46,7 +59,7 @@ MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
   message.latency = (now - cycle.end).toSec();
-  message.error_bound = result.error_bound;
+  setErrorBound(result, message);
   message.pairs_checked = result.checked;
   message.pairs_skipped = result.skipped;
   message.pairs_not_checked = result.not_checked;

@@ -106,7 +106,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
 
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const SceneOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {
-  const ScenePlan plan = planScene(described.scene, {options.shell.spacing});
+  const ScenePlan plan = planScene(described.scene, planOptions(options));
   return std::make_shared<const Scene>(buildScene(described.scene, plan, options, progress));
 }
 

@@ -34,12 +34,19 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::ERROR, "no new transforms: nothing is checked");
   } else if (health_.run_time * health_.wanted_rate > 1.0) {
     status.summary(DiagnosticStatus::WARN, "a check takes longer than its period");
+  } else if (health_.max_error > 0.0 && health_.error.total() > health_.max_error) {
+    status.summary(DiagnosticStatus::WARN, "running, but the error bound exceeds max_error");
   } else {
     status.summary(DiagnosticStatus::OK, "running");
   }
   status.addf("rate [Hz]", "%.1f", health_.rate);
   status.addf("latency [ms]", "%.1f", 1e3 * health_.latency);
   status.addf("run time [ms]", "%.2f", 1e3 * health_.run_time);
+  status.addf("error bound [mm]", "%.3f", 1e3 * health_.error.total());
+  status.addf("of it field [mm]", "%.3f", 1e3 * health_.error.field);
+  status.addf("of it chords and motion [mm]", "%.3f", 1e3 * health_.error.chord);
+  status.addf("of it contact times [mm]", "%.3f", 1e3 * health_.error.root);
+  status.addf("of it gaps between points [mm]", "%.3f", 1e3 * health_.error.gap);
   status.add("pairs", health_.pairs);
   status.add("pairs left out", health_.pairs_left_out);
 }

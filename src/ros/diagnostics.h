@@ -5,6 +5,8 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
+#include "sdf_ccd/query/verdict.h"
+
 namespace sdf_ccd {
 
 /// What /diagnostics tells of the monitor.
@@ -16,6 +18,8 @@ struct MonitorHealth {
   double rate = 0.0;         ///< of cycles [Hz]
   double latency = 0.0;      ///< of the last cycle [s]
   double run_time = 0.0;     ///< of the last check [s]
+  ErrorBound error;          ///< of the last cycle's pair where it is largest
+  double max_error = 0.0;    ///< wanted [m]; 0: none
   int pairs = 0;             ///< to be checked in each cycle
   int pairs_left_out = 0;
   std::vector<std::string> missing;     ///< "body: reason" of the last cycle

@@ -25,6 +25,8 @@ class ParameterReader {
   /// @param name  of the tree, for errors: "/collision_monitor"
   ParameterReader(XmlRpc::XmlRpcValue tree, std::string name);
 
+  const std::string& name() const { return name_; }
+
   bool has(const std::string& key) const;
 
   double number(const std::string& key, double fallback);

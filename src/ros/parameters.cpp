@@ -1,13 +1,19 @@
 #include "ros/parameters.h"
 
+#include <cmath>
 #include <cstdlib>
 
 #include "ros/parameter_reader.h"
+#include "sdf_ccd/scene/error_budget.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr double kDefaultCellSize = 0.004;  // [m]
+
+// What one field and one shell may cost under max_error before they are made coarser.
+constexpr double kKnobMegabytes = 256.0;
+constexpr std::size_t kKnobPoints = 3'000'000;
 
 Isometry3d readPose(ParameterReader& reader) {
   const Vector3d rpy = reader.vector("rpy", Vector3d::Zero());
@@ -55,7 +61,30 @@ WorldObject readWorldObject(ParameterReader& reader) {
   return object;
 }
 
-FieldOptions readField(ParameterReader reader, std::vector<std::string>& unknown) {
+double fieldError(const FieldOptions& field) {
+  return field.cell_size ? std::sqrt(3.0) / 2.0 * *field.cell_size : *field.max_error;
+}
+
+/// Reads max_error and shares it out. What field, shell and chord_tolerance set themselves has to fit in.
+std::optional<ErrorBudget> readBudget(ParameterReader& reader) {
+  if (!reader.has("max_error")) return std::nullopt;
+  const double max_error = reader.positive("max_error", 0.0);
+  ParameterReader field = reader.group("field"), shell = reader.group("shell");
+  GivenShares given;
+  if (field.has("max_error")) given.field = field.positive("max_error", 0.0);
+  if (field.has("cell_size")) given.field = fieldError({{}, field.positive("cell_size", 0.0), {}});
+  if (shell.has("edge_gap")) given.edge_gap = shell.positive("edge_gap", 0.0);
+  if (reader.has("chord_tolerance")) given.chord_tolerance = reader.positive("chord_tolerance", 0.0);
+  try {
+    return shareOut(max_error, given);
+  } catch (const std::invalid_argument& error) {
+    throw ParameterError(reader.name() + "/max_error: " + error.what() +
+                         " (field/max_error or field/cell_size, shell/edge_gap, three times chord_tolerance)");
+  }
+}
+
+FieldOptions readField(ParameterReader reader, const std::optional<ErrorBudget>& budget,
+                       std::vector<std::string>& unknown) {
   FieldOptions field;
   const int given = reader.has("cells") + reader.has("cell_size") + reader.has("max_error");
   if (given > 1) reader.fail("cells", "only one of cells, cell_size and max_error to be set");
@@ -63,19 +92,25 @@ FieldOptions readField(ParameterReader reader, std::vector<std::string>& unknown
     field.cells = reader.integer("cells", 0, 2);
   } else if (reader.has("max_error")) {
     field.max_error = reader.positive("max_error", 0.0);
+  } else if (budget && !reader.has("cell_size")) {
+    field.max_error = budget->field;
   } else {
     field.cell_size = reader.positive("cell_size", kDefaultCellSize);
   }
   field.band = reader.notNegative("band", field.band);
-  const double megabytes = reader.positive("max_megabytes", static_cast<double>(field.max_bytes >> 20));
+  const double most = budget ? kKnobMegabytes : static_cast<double>(field.max_bytes >> 20);
+  const double megabytes = reader.positive("max_megabytes", most);
   field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
   for (const std::string& name : reader.unread()) unknown.push_back(name);
   return field;
 }
 
-ShellOptions readShell(ParameterReader reader, std::vector<std::string>& unknown) {
+ShellOptions readShell(ParameterReader reader, const std::optional<ErrorBudget>& budget,
+                       std::vector<std::string>& unknown) {
   ShellOptions shell;
-  shell.spacing = reader.positive("spacing", 0.005);
+  shell.spacing = reader.positive("spacing", budget ? budget->face_spacing : 0.005);
+  shell.edge_gap = reader.notNegative("edge_gap", budget ? budget->edge_gap : shell.edge_gap);
+  if (budget) shell.max_points = kKnobPoints;
   shell.vertex_spacing = reader.notNegative("vertex_spacing", 0.002);
   shell.seed = reader.integer("seed", static_cast<int>(shell.seed), 0);
   for (const std::string& name : reader.unread()) unknown.push_back(name);
@@ -138,8 +173,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     for (const std::string& unread : object.unread()) parameters.unknown.push_back(unread);
   }
   parameters.octomap = readOctomap(reader.group("octomap"), parameters.unknown);
-  parameters.scene.field = readField(reader.group("field"), parameters.unknown);
-  parameters.scene.shell = readShell(reader.group("shell"), parameters.unknown);
+  const std::optional<ErrorBudget> budget = readBudget(reader);
+  parameters.scene.field = readField(reader.group("field"), budget, parameters.unknown);
+  parameters.scene.shell = readShell(reader.group("shell"), budget, parameters.unknown);
   if (reader.flag("cache", true)) {
     parameters.scene.cache_directory = reader.text("cache_directory", "");
     if (parameters.scene.cache_directory.empty()) parameters.scene.cache_directory = defaultCacheDirectory();
@@ -149,7 +185,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
 
   parameters.monitor.contact = readContact(reader.group("contact"), parameters.unknown);
   ChordOptions& chords = parameters.monitor.chords;
-  chords.tolerance = reader.positive("chord_tolerance", chords.tolerance);
+  chords.tolerance = reader.positive("chord_tolerance", budget ? budget->chord_tolerance : chords.tolerance);
+  parameters.scene.motion_margin = ErrorBudget::kChords * chords.tolerance;
+  if (budget) parameters.scene.max_error = reader.positive("max_error", 0.0);
   chords.max_chords = reader.integer("max_chords", chords.max_chords, 1);
   parameters.tf.sampling.tolerance = chords.tolerance;
   parameters.tf.max_latency = reader.positive("max_latency", parameters.tf.max_latency);

@@ -51,6 +51,7 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.scene.field.cell_size, defaults.scene.field.cell_size);
   EXPECT_EQ(documented.scene.field.max_bytes, defaults.scene.field.max_bytes);
   EXPECT_EQ(documented.scene.shell.spacing, defaults.scene.shell.spacing);
+  EXPECT_EQ(documented.scene.shell.edge_gap, defaults.scene.shell.edge_gap);
   EXPECT_EQ(documented.scene.shell.vertex_spacing, defaults.scene.shell.vertex_spacing);
   EXPECT_EQ(documented.scene.cache_directory, defaults.scene.cache_directory);
   EXPECT_EQ(documented.monitor.contact.stiffness, defaults.monitor.contact.stiffness);
@@ -59,6 +60,45 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.tf.max_cycle, defaults.tf.max_cycle);
   EXPECT_EQ(documented.rate, defaults.rate);
   EXPECT_EQ(documented.max_points, defaults.max_points);
+}
+
+TEST(YamlParameters, OneKnobSetsTheSharesThatAreNotGiven) {
+  const auto parse = [](const std::string& text) { return parseParameters(load(text), "~"); };
+  const MonitorParameters knob = parse("max_error: 0.001");
+  EXPECT_EQ(knob.scene.max_error, 0.001);
+  const auto total = [](const MonitorParameters& p) {
+    return *p.scene.field.max_error + p.scene.shell.edge_gap + 3.0 * p.monitor.chords.tolerance;
+  };
+  EXPECT_NEAR(total(knob), 0.00099, 1e-12);
+  EXPECT_NEAR(knob.scene.motion_margin, 3.0 * knob.monitor.chords.tolerance, 1e-15);
+  EXPECT_EQ(knob.tf.sampling.tolerance, knob.monitor.chords.tolerance);
+  EXPECT_EQ(knob.scene.shell.spacing, 0.005);
+  EXPECT_LT(knob.scene.field.max_bytes, std::size_t{1} << 30);
+
+  const MonitorParameters given =
+      parse("max_error: 0.001\nfield: {max_error: 0.0002}\nshell: {spacing: 0.002}\nchord_tolerance: 0.00002");
+  EXPECT_EQ(given.scene.field.max_error, 0.0002);
+  EXPECT_EQ(given.scene.shell.spacing, 0.002);
+  EXPECT_EQ(given.monitor.chords.tolerance, 0.00002);
+  EXPECT_NEAR(total(given), 0.00099, 1e-12);
+  const MonitorParameters even = parse("max_error: 0.001\nfield: {cell_size: 0.0005}");
+  EXPECT_EQ(even.scene.field.cell_size, 0.0005);
+  EXPECT_FALSE(even.scene.field.max_error);
+  EXPECT_LT(even.scene.shell.edge_gap, knob.scene.shell.edge_gap * 1.5);
+
+  EXPECT_FALSE(parse("").scene.max_error);
+  EXPECT_EQ(parse("").scene.field.cell_size, 0.004);
+}
+
+TEST(YamlParameters, WhatContradictsTheKnobIsNamed) {
+  EXPECT_EQ(errorOf("max_error: 0.001\nfield: {cell_size: 0.004}"),
+            "~/max_error: a max_error of 0.001 m cannot be kept: what is given takes 0.0034641 m of it "
+            "(field/max_error or field/cell_size, shell/edge_gap, three times chord_tolerance)");
+  EXPECT_NE(errorOf("max_error: 0.001\nchord_tolerance: 0.0004").find("cannot be kept"), std::string::npos);
+  EXPECT_NE(errorOf("max_error: 0.001\nshell: {edge_gap: 0.0}").find("shell/edge_gap is 0"), std::string::npos);
+  EXPECT_NE(errorOf("max_error: -0.001").find("~/max_error is -0.001"), std::string::npos);
+  EXPECT_NE(errorOf("max_error: 0.001\nfield: {cell_size: 0.0002, max_error: 0.0002}").find("only one of cells"),
+            std::string::npos);
 }
 
 TEST(YamlParameters, ErrorsNameFileLineAndParameter) {
