@@ -16,6 +16,7 @@ struct StudyOptions {
   std::vector<std::string> mesh_files;                        ///< NAME=FILE
   std::vector<std::string> meshes;                            ///< names; only those, all if empty
   std::vector<std::string> paper_meshes{"bunny3k", "torus"};  ///< those that the paper's dense grids are built for
+  std::vector<std::string> robots;                            ///< NAME=URDF[,SRDF]
   std::vector<std::string> cases;                             ///< only those, all if empty
   std::vector<int> cells;                                     ///< uniform fields: cells along the longest side
   std::vector<std::string> errors;   ///< fields to a maximum error, in box sides; as text, it names the case

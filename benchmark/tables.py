@@ -12,6 +12,7 @@ import sys
 
 import dynamics_tables
 import precision_tables
+import robots_tables
 from results import Results
 
 SEGMENT_SYSTEMS = ['paper_uniform', 'paper_octree', 'sdf_ccd', 'sdf_ccd_batch', 'openvdb', 'embree', 'embree16',
@@ -164,7 +165,7 @@ def scaling(results):
 TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree, 'segments': segments, 'build': build,
           'shells': shells, 'scaling': scaling,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
-             {**dynamics_tables.TABLES, **precision_tables.TABLES}.items()}}
+             {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES}.items()}}
 
 
 def main():

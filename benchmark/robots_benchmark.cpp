@@ -1,0 +1,163 @@
+// The one knob: what a robot's max_error costs in memory, start-up and cycle time, and what verdicts it leaves open.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "results.h"
+#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/scene/error_budget.h"
+#include "sdf_ccd/scene/monitor.h"
+#include "sdf_ccd/scene/scene_cost.h"
+#include "study.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string read(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) throw std::runtime_error(file + ": cannot be read");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+struct Robot {
+  std::string name;
+  RobotModel model;
+  SceneDescription scene;
+};
+
+/// NAME=URDF or NAME=URDF,SRDF; meshes of packages are looked up in ROS_PACKAGE_PATH.
+Robot loadRobot(const std::string& argument) {
+  const std::size_t equals = argument.find('='), comma = argument.find(',', equals);
+  if (equals == std::string::npos) throw std::invalid_argument("--robot " + argument + ": NAME=URDF[,SRDF] is wanted");
+  const std::string urdf = argument.substr(equals + 1, comma == std::string::npos ? comma : comma - equals - 1);
+  const Srdf srdf = comma == std::string::npos ? Srdf() : parseSrdf(read(argument.substr(comma + 1)));
+  const std::string directory = urdf.substr(0, urdf.find_last_of('/') + 1);
+  const PackageFinder packages = packagesFromEnvironment();
+  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); };
+  Robot robot{argument.substr(0, equals), RobotModel(read(urdf)), {}};
+  std::vector<std::string> warnings;
+  robot.scene = describeRobot(robot.model, srdf, loader, {}, warnings);
+  return robot;
+}
+
+SceneOptions sceneOptions(double max_error, MonitorOptions& monitor) {
+  SceneOptions options;
+  options.shell.vertex_spacing = 0.002;
+  if (max_error == 0.0) {  // the monitor without its knob
+    options.field.cell_size = 0.004;
+    options.shell.spacing = 0.005;
+    options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
+    return options;
+  }
+  const ErrorBudget budget = shareOut(max_error);
+  options.field.max_error = budget.field;
+  options.field.max_bytes = std::size_t{256} << 20;
+  options.shell.spacing = budget.face_spacing;
+  options.shell.edge_gap = budget.edge_gap;
+  options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
+  options.max_error = max_error;
+  monitor.chords.tolerance = budget.chord_tolerance;
+  return options;
+}
+
+/// Positions of all movable joints within their limits.
+JointPositions randomPositions(const RobotModel& robot, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  JointPositions positions;
+  for (const auto& [name, joint] : robot.urdf().joints_) {
+    if (joint->mimic || joint->type < urdf::Joint::REVOLUTE || joint->type > urdf::Joint::PRISMATIC) continue;
+    const bool limited = joint->type != urdf::Joint::CONTINUOUS && joint->limits;
+    const double low = limited ? joint->limits->lower : -3.14, high = limited ? joint->limits->upper : 3.14;
+    positions[name] = low + (high - low) * uniform(random);
+  }
+  return positions;
+}
+
+/// A cycle from one pose of the robot towards another, as far as it turns by 0.02 rad or moves by 2 cm.
+CycleMotion shortCycle(const Robot& robot, const Scene& scene, const JointPositions& from, const JointPositions& to) {
+  constexpr double kStep = 0.02;
+  JointPositions next = from;
+  for (auto& [name, position] : next) position += std::clamp(to.at(name) - position, -kStep, kStep);
+  const auto start = robot.model.forwardKinematics(from), end = robot.model.forwardKinematics(next);
+  CycleMotion motion;
+  motion.times = {0.0, 1.0 / 30.0};
+  const std::vector<std::string>& links = robot.model.links();
+  for (const Body& body : scene.bodies) {
+    const std::size_t link = std::find(links.begin(), links.end(), body.frame) - links.begin();
+    motion.X_WB.push_back({start[link], end[link]});
+  }
+  return motion;
+}
+
+void study(const Robot& robot, double max_error, const StudyOptions& options) {
+  MonitorOptions monitor_options;
+  const SceneOptions scene_options = sceneOptions(max_error, monitor_options);
+  const ScenePlan plan = planScene(robot.scene, planOptions(scene_options));
+  const SceneCost expected = expectedCost(robot.scene, plan, scene_options);
+  const auto start = Clock::now();
+  const auto scene = std::make_shared<const Scene>(buildScene(robot.scene, plan, scene_options));
+  const double build_seconds = secondsSince(start);
+  std::fprintf(stderr, "%s", planTable(*scene).c_str());
+  double bytes = 0.0;
+  for (const BodyReport& report : scene->reports) bytes += double(report.field_bytes + report.shell_bytes);
+
+  Monitor monitor(scene, monitor_options);
+  std::mt19937_64 random(1);
+  std::vector<double> milliseconds;
+  double bound = 0.0, verdicts[4] = {};
+  for (int i = 0; i < options.pairs; ++i) {
+    const JointPositions from = randomPositions(robot.model, random), to = randomPositions(robot.model, random);
+    monitor.reset();
+    const CycleResult& result = monitor.run(shortCycle(robot, *scene, from, to), {});
+    milliseconds.push_back(1e3 * result.run_time);
+    bound = std::max(bound, result.error_bound);
+    for (const PairResult& pair : result.pairs) ++verdicts[static_cast<int>(pair.verdict)];
+  }
+  std::nth_element(milliseconds.begin(), milliseconds.begin() + milliseconds.size() / 2, milliseconds.end());
+  const double pairs = double(scene->pairs.size()) * options.pairs;
+  char name[64];
+  std::snprintf(name, sizeof name, "%s/%s", robot.name.c_str(),
+                max_error > 0.0 ? std::to_string(int(std::lround(1e6 * max_error))).append("um").c_str() : "cells");
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    print({"robots", name, "sdf_ccd", metric, value, unit, options.pairs});
+  };
+  row("bound", 1e3 * bound, "mm");
+  row("memory", 1e-6 * bytes, "MB");
+  row("expected_memory", 1e-6 * expected.bytes, "MB");
+  row("build", build_seconds, "s");
+  row("expected_build", expected.seconds, "s");
+  row("cycle", milliseconds[milliseconds.size() / 2], "ms");
+  row("uncertain", 100.0 * verdicts[static_cast<int>(Verdict::kUncertain)] / pairs, "%");
+  row("contact", 100.0 * verdicts[static_cast<int>(Verdict::kContact)] / pairs, "%");
+}
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark
+
+int main(int argc, char** argv) {
+  using namespace sdf_ccd::benchmark;
+  StudyOptions full;
+  full.errors = {"0", "0.01", "0.005", "0.002", "0.001"};
+  StudyOptions quick = full;
+  quick.errors = {"0", "0.01"};
+  quick.pairs = 100;
+  return runStudy(argc, argv, "A robot's max_error against memory, start-up and cycle time", full, quick,
+                  [](const StudyOptions& options) {
+                    for (const std::string& argument : options.robots) {
+                      const Robot robot = loadRobot(argument);
+                      for (const std::string& error : options.errors) study(robot, std::stod(error), options);
+                    }
+                  });
+}
