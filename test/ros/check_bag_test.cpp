@@ -1,5 +1,6 @@
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +66,8 @@ class CheckBag : public test::ToolTest {
   }
 
   /// Joint states of the sweep, stamped 5 ms before they are recorded.
-  void writeJointStates() {
+  /// @param later  adds them again to the bag, recorded so much later [s].
+  void writeJointStates(double later = 0.0) {
     constexpr double kUpperArm = 0.4, kForearm = 0.35, kHand = 0.212, kShoulderHeight = 0.35;
     const double h = kTipHeight + kHand - kShoulderHeight, d = std::hypot(kReach, h);
     const double lift = std::acos((kUpperArm * kUpperArm + d * d - kForearm * kForearm) / (2.0 * kUpperArm * d));
@@ -75,13 +77,13 @@ class CheckBag : public test::ToolTest {
     std::vector<double> yaws(kBefore - 1, kFirstYaw);
     for (double yaw = kFirstYaw; yaw < kLastYaw; yaw += kYawStep) yaws.push_back(yaw);
     yaws.insert(yaws.end(), kAfter, yaws.back());
-    rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Write);
+    rosbag::Bag bag(path("arm.bag").string(), later > 0.0 ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     for (std::size_t i = 0; i < yaws.size(); ++i) {
       sensor_msgs::JointState state;
       state.header.stamp = ros::Time(kBegin + kPeriod * double(i));
       state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
       state.position = {yaws[i], shoulder, elbow, M_PI_2 - shoulder - elbow, 0.0, 1.0};
-      bag.write("joint_states", state.header.stamp + ros::Duration(0.005), state);
+      bag.write("joint_states", state.header.stamp + ros::Duration(0.005 + later), state);
     }
   }
 
@@ -207,6 +209,23 @@ TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
   EXPECT_NEAR(std::stod(still["start"]), std::stod(moved["start"]), 1e-6);
   EXPECT_EQ(still["depth"], moved["depth"]);
   expectRefused(check("arm.bag", "no", "--joint-states /nowhere"), "holds no joint states on /nowhere");
+}
+
+TEST_F(CheckBag, TimeThatJumpsBackBeginsAnew) {
+  writeJointStates(10.0);
+  const ToolRun result = run(check("arm.bag", "made"));
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  const std::vector<Row> contacts = table("made/contacts.csv");
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_EQ(Row(contacts[0])["start"], Row(contacts[1])["start"]);
+  bool has_cleared = false;
+  rosbag::Bag bag(path("made/checked.bag").string());
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    const auto markers = message.instantiate<visualization_msgs::MarkerArray>();
+    has_cleared |=
+        markers && !markers->markers.empty() && markers->markers[0].action == visualization_msgs::Marker::DELETEALL;
+  }
+  EXPECT_TRUE(has_cleared);
 }
 
 TEST_F(CheckBag, StartAndDurationChooseAPart) {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <sstream>
 
 #include <console_bridge/console.h>
@@ -11,11 +10,11 @@
 
 #include "commands.h"
 #include "cycle_report.h"
+#include "monitor_config.h"
 #include "print.h"
 #include "progress_bar.h"
 #include "ros/bag_check.h"
 #include "ros/checked_bag.h"
-#include "ros/yaml_parameters.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -24,57 +23,14 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string bag;
-  std::string urdf;
-  std::string srdf;
   std::string out;
-  std::string config;
+  MonitorConfig config;
   RecordedMotionOptions motion;
-  std::optional<double> rate;       // [Hz]; else as configured
-  std::optional<double> max_error;  // [m]; else as configured
-  int threads = 0;                  // 0: one per core
+  int threads = 0;  // 0: one per core
 };
 
 void require(bool is_good, const std::string& what) {
   if (!is_good) throw std::runtime_error(what);
-}
-
-std::string readText(const std::string& path) {
-  const std::string text = loadLocalResource(path, nullptr, "").bytes;
-  require(!text.empty(), path + ": is empty");
-  return text;
-}
-
-/// The parameters' tree with what the options say instead.
-XmlRpc::XmlRpcValue parameterTree(const Arguments& arguments) {
-  XmlRpc::XmlRpcValue tree;
-  if (!arguments.config.empty()) tree = loadYamlParameters(arguments.config);
-  if (arguments.rate) tree["rate"] = *arguments.rate;
-  if (arguments.max_error) {
-    XmlRpc::XmlRpcValue field;
-    for (const char* kept : {"band", "max_megabytes"}) {
-      if (tree.hasMember("field") && tree["field"].hasMember(kept)) field[kept] = tree["field"][kept];
-    }
-    field["max_error"] = *arguments.max_error;
-    tree["field"] = field;
-  }
-  return tree;
-}
-
-MonitorParameters parametersOf(const Arguments& arguments) {
-  const std::string prefix = arguments.config.empty() ? "" : arguments.config + ": ";
-  const XmlRpc::XmlRpcValue tree = parameterTree(arguments);
-  MonitorParameters parameters;
-  try {
-    parameters = parseParameters(tree, "~");
-  } catch (const ParameterError& error) {
-    throw std::runtime_error(prefix + error.what());
-  }
-  parameters.urdf = readText(arguments.urdf);
-  if (!arguments.srdf.empty()) parameters.srdf = readText(arguments.srdf);
-  for (const std::string& name : parameters.unknown) {
-    std::cerr << "sdf_ccd: " << prefix << "nothing reads parameter " << name << std::endl;
-  }
-  return parameters;
 }
 
 /// The files of a check. Without commit() nothing stays.
@@ -175,8 +131,8 @@ void requireComplete(const CycleStatistics& statistics, const Scene& scene) {
 }
 
 void run(const Arguments& arguments) {
-  const MonitorParameters parameters = parametersOf(arguments);
-  const std::string urdf_directory = fs::absolute(arguments.urdf).parent_path().string();
+  const MonitorParameters parameters = readParameters(arguments.config);
+  const std::string urdf_directory = fs::absolute(arguments.config.urdf).parent_path().string();
   const DescribedScene described =
       describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), urdf_directory));
   const RecordedMotion motion(arguments.bag, described, arguments.motion);
@@ -205,8 +161,8 @@ void run(const Arguments& arguments) {
 void checkThenRun(const Arguments& arguments) {
   require(arguments.motion.start >= 0.0, "--start must not be negative");
   require(arguments.motion.duration > 0.0, "--duration must be positive");
-  require(!arguments.rate || *arguments.rate > 0.0, "--rate must be positive");
-  require(!arguments.max_error || *arguments.max_error > 0.0, "--max-error must be positive");
+  require(!arguments.config.rate || *arguments.config.rate > 0.0, "--rate must be positive");
+  require(!arguments.config.max_error || *arguments.config.max_error > 0.0, "--max-error must be positive");
   require(arguments.threads >= 0, "--threads must not be negative");
   std::unique_ptr<tbb::global_control> limit;
   if (arguments.threads > 0) {
@@ -229,16 +185,17 @@ void addCheckBagCommand(CLI::App& app) {
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
       "code 1: some bodies or pairs were never checked.");
   command->add_option("bag", arguments->bag, "Bag to read")->required();
-  command->add_option("--urdf", arguments->urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")->required();
-  command->add_option("--srdf", arguments->srdf, "Pairs that need no check");
+  command->add_option("--urdf", arguments->config.urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")
+      ->required();
+  command->add_option("--srdf", arguments->config.srdf, "Pairs that need no check");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
-  command->add_option("--config", arguments->config, "The monitor's parameters, as config/monitor.yaml");
+  command->add_option("--config", arguments->config.parameters, "The monitor's parameters, as config/monitor.yaml");
   command->add_option_function<double>(
-      "--rate", [arguments](double rate) { arguments->rate = rate; },
+      "--rate", [arguments](double rate) { arguments->config.rate = rate; },
       "Cycles per second of the bag [Hz]; default as configured, else 30");
   command->add_option_function<double>(
-      "--max-error", [arguments](double max_error) { arguments->max_error = max_error; },
-      "Bound on the error of meshes' distances [m], instead of the configured cells");
+      "--max-error", [arguments](double max_error) { arguments->config.max_error = max_error; },
+      "Bound on what a verdict may be wrong by [m], instead of the configured cells, gaps and chords");
   command->add_option("--start", arguments->motion.start, "Where to begin, from the bag's begin [s]; default 0");
   command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
   command->add_option("--joint-states", arguments->motion.joint_states,

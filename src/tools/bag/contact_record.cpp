@@ -21,6 +21,8 @@ const PointContact* deepestWithin(const PairContact& pair, const TimeInterval& i
 }  // namespace
 
 void ContactJoiner::add(const ContactArray& message) {
+  if (message.cycle_start < until_) last_.clear();  // time has jumped back: nothing goes on
+  until_ = message.header.stamp;
   for (const PairContact& pair : message.pairs) {
     bool is_first = true;
     for (const TimeInterval& interval : pair.intervals) {

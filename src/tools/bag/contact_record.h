@@ -24,13 +24,14 @@ struct ContactRecord {
 /// Joins the intervals of contact that cycles cut.
 class ContactJoiner {
  public:
-  /// @param message  of the next cycle.
+  /// @param message  of the next cycle; one that begins before the last one's end begins anew.
   void add(const ContactArray& message);
 
   /// All contacts up to now, by their start.
   std::vector<ContactRecord> contacts() const;
 
  private:
+  ros::Time until_;  // the last cycle's end
   std::vector<ContactRecord> contacts_;
   std::map<std::pair<std::string, std::string>, std::size_t> last_;  // of each pair
 };

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "ros/parameters.h"
+
+namespace sdf_ccd::tools {
+
+/// The monitor's parameters from files, and what options say instead.
+struct MonitorConfig {
+  std::string urdf, srdf;           ///< files; no SRDF if empty
+  std::string parameters;           ///< file, as config/monitor.yaml; defaults if empty
+  std::optional<double> rate;       ///< [Hz]
+  std::optional<double> max_error;  ///< [m]; then the file's own shares of it are passed over
+};
+
+/// Reads them; parameters that nothing reads are named on stderr.
+/// @throws std::runtime_error that names the file, or the parameter and its value.
+MonitorParameters readParameters(const MonitorConfig& config);
+
+}  // namespace sdf_ccd::tools
