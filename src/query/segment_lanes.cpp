@@ -39,7 +39,7 @@ class Follower {
       boarded = board(segments, boarded, count);
       if (refused_ >= 0) return refused_;
       const int flying = this->flying();
-      if (flying == 0) return -1;
+      if (flying == 0 && boarded >= count) return -1;
       if (flying != last_flying) pass = 0;
       last_flying = flying;
       next_ ^= 1;
@@ -243,7 +243,8 @@ class Follower {
       return live;
     }
     const Exits exits = exitsOf(lanes, log_side);
-    const MF jump = hn::Gt(t_ball, exits.t);
+    // Covered lanes go the way they go without neighbours that are not.
+    const MF jump = hn::Or(asReal(covered), hn::Gt(t_ball, exits.t));
     return moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_ball, exits.t), live);
   }
 

@@ -19,7 +19,7 @@ Segment along(const Chord& chord, const Vector3d& p_P) {
   return {chord.X_FP_start * p_P, chord.X_FP_end * p_P};
 }
 
-/// Points whose segments are asked together, on fields that answer batches faster.
+/// Points whose segments are asked together: grids answer batches faster.
 class PointBatch {
  public:
   PointBatch(const DistanceField& field, double sigma, std::vector<ShellHit>& hits)
@@ -71,7 +71,7 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
   // A point's roots are those of the interpolated field, the node's test is about the true distance.
   const double outside_margin = options.sigma + field.errorBound(), inside_margin = field.errorBound() - options.sigma;
   const SegmentOptions segment_options{options.sigma, options.any};
-  const bool batched = field.adaptive() != nullptr && !options.any;
+  const bool batched = !field.primitive() && !options.any;
   PointBatch batch(field, options.sigma, result.hits);
   thread_local Intervals intervals;
   std::vector<std::int32_t>& stack = nodeStack();

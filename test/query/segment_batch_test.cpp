@@ -210,6 +210,20 @@ TEST(SegmentBatch, DefinedForNoSegmentsNoLengthAndNoGrid) {
   EXPECT_EQ(result.hits[3].enter, 0.0F);
 }
 
+/// Segments that miss the grid's box end before they begin; those behind them must not be forgotten.
+TEST(SegmentBatch, GoesOnAfterManyThatMissTheBox) {
+  for (const DistanceField& field : {torus(), evenTorus()}) {
+    std::vector<Segment> segments(3000, {Vector3d(5, 5, 5), Vector3d(6, 5, 5)});
+    segments.push_back({Vector3d(0.2, 0, -0.2), Vector3d(0.2, 0, 0.2)});
+    for (const SegmentMode mode : {SegmentMode::kFirst, SegmentMode::kAll}) {
+      BatchResult result;
+      segmentIntervals(field, segments.data(), segments.size(), {0.0, mode}, result);
+      ASSERT_EQ(result.hits.size(), 1U);
+      EXPECT_EQ(result.hits[0].segment, 3000U);
+    }
+  }
+}
+
 TEST(SegmentBatch, RefusesWhatIsNotFiniteOrOutsideTheBand) {
   const DistanceField field = torus();
   std::vector<Segment> segments(3, Segment{Vector3d::Zero(), Vector3d::Ones()});

@@ -8,6 +8,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/query/segment_batch.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
 namespace sdf_ccd {
@@ -19,16 +20,24 @@ BoundingBall rootBall(const SphereTree& tree) {
   return {tree.nodes[0].center, tree.nodes[0].radius};
 }
 
-/// Every point on every chord, without the tree.
+/// Every point on every chord, without the tree. Grids are asked in batches, as the shell query asks them.
 std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& shell, const ChordPath& path,
                                  double sigma) {
   std::vector<ShellHit> hits;
-  for (std::size_t c = 0; c < path.chords.size(); ++c)
-    for (std::size_t i = 0; i < shell.size(); ++i)
-      for (const Interval& interval : segmentIntervals(
-               field, {path.chords[c].X_FP_start * shell.points[i], path.chords[c].X_FP_end * shell.points[i]},
-               {sigma, false}))
-        hits.push_back({int(i), int(c), interval});
+  for (int c = 0; c < int(path.chords.size()); ++c) {
+    std::vector<Segment> segments;
+    for (const Vector3d& p : shell.points)
+      segments.push_back({path.chords[c].X_FP_start * p, path.chords[c].X_FP_end * p});
+    if (field.primitive()) {
+      for (int i = 0; i < int(segments.size()); ++i)
+        for (const Interval& interval : segmentIntervals(field, segments[i], {sigma, false}))
+          hits.push_back({i, c, interval});
+      continue;
+    }
+    BatchResult found;
+    segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kAll}, found);
+    for (const SegmentHit& hit : found.hits) hits.push_back({int(hit.segment), c, {hit.enter, hit.exit}});
+  }
   return hits;
 }
 

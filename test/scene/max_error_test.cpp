@@ -49,10 +49,18 @@ TEST(MaxError, ReportedBoundIsKeptAndTrue) {
       EXPECT_LE(pair.error.total(), max_error);
       // Chords of the icosphere's faces are inside of the ball by this at most.
       const double inside = 2.0 * kRadius * 0.002;
-      if (apart * max_error > inside) EXPECT_NE(pair.verdict, Verdict::kContact) << apart;
-      if (apart < 0.0 && -apart * max_error > inside) EXPECT_NE(pair.verdict, Verdict::kClear) << apart;
-      if (apart > 1.0) EXPECT_EQ(pair.verdict, Verdict::kClear) << max_error;
-      if (apart < -1.0) EXPECT_EQ(pair.verdict, Verdict::kContact) << max_error;
+      if (apart * max_error > inside) {
+        EXPECT_NE(pair.verdict, Verdict::kContact) << apart;
+      }
+      if (apart < 0.0 && -apart * max_error > inside) {
+        EXPECT_NE(pair.verdict, Verdict::kClear) << apart;
+      }
+      if (apart > 1.0) {
+        EXPECT_EQ(pair.verdict, Verdict::kClear) << max_error;
+      }
+      if (apart < -1.0) {
+        EXPECT_EQ(pair.verdict, Verdict::kContact) << max_error;
+      }
       open += pair.verdict == Verdict::kUncertain;
     }
     EXPECT_GE(open, 1);
