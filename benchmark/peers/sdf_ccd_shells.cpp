@@ -1,3 +1,4 @@
+#include "sdf_ccd/query/segment_batch.h"
 #include "shell_system.h"
 
 namespace sdf_ccd::benchmark {
@@ -7,7 +8,7 @@ ChordPath straight(const PosePair& pair) {
   return {{{0.0, 1.0, pair.X_FP_start, pair.X_FP_end, 0}}, 0.0};
 }
 
-/// Every point of the shell against the field.
+/// Every point of the shell against the field, in one batch, as the tree asks those that it leaves.
 class Linear : public ShellSystem {
  public:
   explicit Linear(const ShellSubject& subject) : subject_(subject) {}
@@ -17,20 +18,21 @@ class Linear : public ShellSystem {
   ShellAnswer run(const PosePair* pairs, std::size_t count) override {
     ShellAnswer answer;
     for (std::size_t i = 0; i < count; ++i) {
-      long contacts = 0;
+      segments_.clear();
       for (const Vector3d& p : subject_.shell.points) {
-        segmentIntervals(subject_.field, {pairs[i].X_FP_start * p, pairs[i].X_FP_end * p}, {}, intervals_);
-        contacts += long(intervals_.size());
+        segments_.push_back({pairs[i].X_FP_start * p, pairs[i].X_FP_end * p});
       }
-      answer.contacts += contacts;
-      answer.pairs_in_contact += contacts > 0;
+      segmentIntervals(subject_.field, segments_.data(), segments_.size(), {0.0, SegmentMode::kAll}, found_);
+      answer.contacts += long(found_.hits.size());
+      answer.pairs_in_contact += !found_.hits.empty();
     }
     return answer;
   }
 
  private:
   ShellSubject subject_;
-  Intervals intervals_;
+  std::vector<Segment> segments_;
+  BatchResult found_;
 };
 
 /// Through the tree of spheres.
