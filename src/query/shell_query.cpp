@@ -71,6 +71,8 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
   // A point's roots are those of the interpolated field, the node's test is about the true distance.
   const double outside_margin = options.sigma + field.errorBound(), inside_margin = field.errorBound() - options.sigma;
   const SegmentOptions segment_options{options.sigma, options.any};
+  constexpr double kFarSweep = 4.0;  // radii
+  constexpr std::int32_t kFewPoints = 16;
   const bool batched = !field.primitive() && !options.any;
   PointBatch batch(field, options.sigma, result.hits);
   thread_local Intervals intervals;
@@ -94,7 +96,11 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
         }
         continue;
       }
-      if (node.first_child >= 0) {
+      // A sphere's test costs as much as several points of a batch: not for few points, nor where spheres are swept far
+      // and rarely miss what their parent meets.
+      const bool few = batched && node.end - node.begin <= kFewPoints;
+      const bool swept_far = batched && (center.end - center.start).norm() > kFarSweep * node.radius;
+      if (node.first_child >= 0 && !few && !swept_far) {
         for (std::int32_t i = node.child_count; i-- > 0;) stack.push_back(node.first_child + i);
         continue;
       }
