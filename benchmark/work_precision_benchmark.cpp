@@ -6,6 +6,7 @@
 
 #include "build_systems.h"
 #include "impact_systems.h"
+#include "precision/gnuplot.h"
 #include "precision/report.h"
 #include "precision/studies.h"
 #include "segment_system.h"

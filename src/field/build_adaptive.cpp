@@ -11,11 +11,10 @@
 #include "cell_fit.h"
 #include "near_triangles.h"
 #include "progress_counter.h"
+#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd {
 namespace {
-
-constexpr double kHalfSqrt3 = 0.8660254037844386;
 
 /// What stands in a cell's place.
 struct BuiltCell {

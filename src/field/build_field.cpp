@@ -15,8 +15,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kSqrt3 = 1.7320508075688772;
-
 double cellSize(const FieldOptions& options, const AlignedBox3d& surface_box) {
   if (options.cell_size) return *options.cell_size;
   return surface_box.sizes().maxCoeff() / *options.cells;
@@ -83,7 +81,7 @@ class Sampler {
 
   Ball ballAround(const Vector3i& brick, const Block& block) const {
     const Vector3d center = block.low.cast<double>().array() + 0.5 * block.side;
-    return {place(brick, center), 0.5 * kSqrt3 * block.side * shape_.cell};
+    return {place(brick, center), kHalfSqrt3 * block.side * shape_.cell};
   }
 
   void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, float* samples) const {
@@ -147,9 +145,9 @@ bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vec
   }
   if (negative % 8 != 0) return true;
   const double needed = shape.band + shape.cell;
-  if (nearest > needed + kSqrt3 * side) return false;
+  if (nearest > needed + 2.0 * kHalfSqrt3 * side) return false;
   const Vector3d center = shape.origin + side * (brick.cast<double>().array() + 0.5).matrix();
-  const double reach = needed + 0.5 * kSqrt3 * side;
+  const double reach = needed + kHalfSqrt3 * side;
   return sampler.surface().tree().closestPoint(center, reach).distance < reach;
 }
 

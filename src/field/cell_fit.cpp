@@ -9,8 +9,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kHalfSqrt3 = 0.8660254037844386;
-
 Vector3i corner(int k) {
   return {k & 1, (k >> 1) & 1, k >> 2};
 }

@@ -10,8 +10,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kHalfSqrt3 = 0.8660254037844386;
-
 struct OwnedGrid {
   GridData data;
   std::vector<std::uint32_t> words;

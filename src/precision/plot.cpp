@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "gnuplot.h"
 #include "report.h"
 
 namespace sdf_ccd::precision {
@@ -14,12 +13,6 @@ namespace {
 constexpr int kPanelWidth = 520, kPanelHeight = 440, kTitleHeight = 50, kKeyHeight = 18;  // [pixels]
 constexpr double kSmallest = 1e-12;  // smaller errors, zero too, are drawn here
 const char* const kColors[] = {"#4c72b0", "#dd8452", "#55a868", "#c44e52", "#8172b3", "#937860", "#da8bc3", "#8c8c8c"};
-
-/// Inside single quotes.
-std::string escaped(std::string text) {
-  for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2) text.insert(at, "'");
-  return text;
-}
 
 std::vector<std::string> distinct(const StudyResult& result, std::string Measurement::*member) {
   std::vector<std::string> found;
@@ -120,7 +113,7 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
                " using 1:4 with points pt 1 ps 0.4" + color + " notitle, \\\n  " + block +
                " using 1:3 with points pt 2 ps 0.6" + color + " notitle, \\\n  " + block +
                " using 1:2 with lines lw 2" + color + " notitle, \\\n  " + block +
-               " using 1:2 with points pt 7 ps 0.7" + color + " title '" + escaped(systems[s]) + "' noenhanced";
+               " using 1:2 with points pt 7 ps 0.7" + color + " title " + quoted(systems[s]) + " noenhanced";
       if (series.points > 1) {
         const std::string some = crowded ? " every " + std::to_string(series.points - 1) : "";  // both ends
         plots += ", \\\n  " + block + some + " using 1:2:5 with labels left offset 0.6,0.5 font ',9' textcolor rgb '" +
@@ -129,28 +122,18 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
     }
     const Range times(result, quantities[q], true), errors(result, quantities[q], false);
     panels += "set xrange " + times.text() + "\nset xtics " + times.tics() + "\nset yrange " + errors.text() +
-              "\nset title '" + escaped(quantities[q]) + "' noenhanced\nset ylabel 'error [" + escaped(unit) +
-              "]' noenhanced\nplot " + plots + "\n";
+              "\nset title " + quoted(quantities[q]) + " noenhanced\nset ylabel " + quoted("error [" + unit + "]") +
+              " noenhanced\nplot " + plots + "\n";
   }
   const int width = kPanelWidth * int(quantities.size());
   return "set terminal svg size " + std::to_string(width) + "," +
          std::to_string(kPanelHeight + kTitleHeight + kKeyHeight * int(systems.size())) +
-         " font 'sans,12' background '#ffffff'\nset output '" + escaped(svg_path) + "'\n" + blocks +
+         " font 'sans,12' background '#ffffff'\nset output " + quoted(svg_path) + "\n" + blocks +
          "set logscale xy\nset format y '10^{%L}'\nset grid\nset key below maxcols 1\nset bmargin " +
-         std::to_string(5 + systems.size()) + "\n" + "set xlabel 'median time per " + escaped(result.query) +
-         " [us]' noenhanced\nset multiplot layout 1," + std::to_string(quantities.size()) + " title \"" + result.title +
+         std::to_string(5 + systems.size()) + "\n" + "set xlabel " +
+         quoted("median time per " + result.query + " [us]") + " noenhanced\nset multiplot layout 1," +
+         std::to_string(quantities.size()) + " title \"" + result.title +
          "\\n{/*0.8 dot: median; cross: 99th percentile; bar: up to the maximum}\"\n" + panels + "unset multiplot\n";
-}
-
-bool haveGnuplot() {
-  return std::system("gnuplot --version > /dev/null 2>&1") == 0;
-}
-
-void runGnuplot(const std::string& script) {
-  FILE* pipe = ::popen("gnuplot", "w");
-  if (!pipe) throw std::runtime_error("gnuplot cannot be run");
-  std::fwrite(script.data(), 1, script.size(), pipe);
-  if (::pclose(pipe) != 0) throw std::runtime_error("gnuplot failed");
 }
 
 }  // namespace sdf_ccd::precision

@@ -18,10 +18,4 @@ std::string tableText(const StudyResult& result);
 /// logarithmic; per system its medians joined by a line, a tick at the 99th percentile, a bar to the maximum.
 std::string plotScript(const StudyResult& result, const std::string& svg_path);
 
-/// True if gnuplot can be run here.
-bool haveGnuplot();
-
-/// Runs gnuplot. @throws std::runtime_error if it fails.
-void runGnuplot(const std::string& script);
-
 }  // namespace sdf_ccd::precision

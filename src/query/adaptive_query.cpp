@@ -37,13 +37,7 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
       const Vector3d center =
           shape.origin + shape.unit() * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
       const double radius = (std::abs(block.distance) - margin) * (1.0 - 1e-9);
-      const double t_ball = ball_exit(center, radius, t_exit);
-      if (block.distance < 0.0) appendSpan(intervals, walk.t(), std::min(t_ball, walk.end()));
-      if (t_ball > t_exit) {
-        walk.skipTo(t_ball);
-      } else {
-        walk.advance();
-      }
+      passOneSided(ball_exit(center, radius, t_exit), t_exit, block.distance < 0.0, walk, intervals);
     }
     // Complete once something else follows it.
     if (options.first_only && !intervals.empty() && intervals.back().exit < walk.t()) break;

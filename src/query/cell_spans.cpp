@@ -7,6 +7,15 @@
 
 namespace sdf_ccd {
 
+void passOneSided(double t, double t_exit, bool inside, GridWalk& walk, Intervals& intervals) {
+  if (inside) appendSpan(intervals, walk.t(), std::min(std::max(t, t_exit), walk.end()));
+  if (t > t_exit) {
+    walk.skipTo(t);
+  } else {
+    walk.advance();
+  }
+}
+
 void appendCellSpans(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma,
                      Intervals& intervals) {
   // The corners bound the cell exactly.

@@ -14,6 +14,10 @@ struct WalkedCell {
   double t_exit;  ///< where the walk leaves it
 };
 
+/// Takes a walk to t, or at least out of the block that it leaves at t_exit (GridWalk::exit() was asked for), all on
+/// one side: appends the span if that is the inside.
+void passOneSided(double t, double t_exit, bool inside, GridWalk& walk, Intervals& intervals);
+
 /// Appends the spans of the walk's parameter in which the trilinear function of eight corner values is at most sigma.
 void appendCellSpans(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma,
                      Intervals& intervals);

@@ -50,22 +50,13 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
   const double sigma = options.sigma;
   GridWalk walk({grid.shape().origin, grid.shape().cell, grid.shape().cells()}, segment);
   const BallExit ball_exit(segment);
-  /// To t, all on one side.
-  const auto pass = [&](double t, double t_exit, bool inside) {
-    if (inside) appendSpan(intervals, walk.t(), std::min(std::max(t, t_exit), walk.end()));
-    if (t > t_exit) {
-      walk.skipTo(t);
-    } else {
-      walk.advance();
-    }
-  };
   while (walk.inside()) {
     const Vector3i brick = walk.cell() / kBrick;
     const std::uint32_t word = grid.word(brick);
     if (brick_word::isFar(word)) {
       const double t_exit = walk.exit(kBrick * brick, kBrick * brick.array() + kBrick);
       const FreeBall ball = brickBall(grid, brick, word, sigma);
-      pass(ball_exit(ball.center, ball.radius, t_exit), t_exit, ball.inside);
+      passOneSided(ball_exit(ball.center, ball.radius, t_exit), t_exit, ball.inside, walk, intervals);
     } else {
       const std::int32_t slot = grid.slot(brick);
       const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
@@ -76,7 +67,7 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
       }
       const double t_ball = ball_exit(ball.center, ball.radius, walk.t());
       if (t_ball > t_exit) {
-        pass(t_ball, t_exit, ball.inside);
+        passOneSided(t_ball, t_exit, ball.inside, walk, intervals);
       } else {
         const auto corners = grid.cellCorners(slot, walk.cell() - kBrick * brick);
         appendCellSpans(corners, walk, {walk.cell(), 1, t_exit}, sigma, intervals);

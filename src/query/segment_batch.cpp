@@ -98,38 +98,48 @@ class Chunk {
 
 #endif
 
+/// Segments in chunks, on all threads. @param ask  called with a chunk's first segment, that after its last, and hits.
+template <class Ask>
+void askInChunks(std::size_t count, const Ask& ask, Hits& hits) {
+  constexpr std::size_t kChunk = 8192;
+#ifdef SDF_CCD_HIGHWAY
+  static_assert(kChunk == FlightWork::kSegments, "a chunk fills one thread's room");
+#endif
+  const std::size_t chunks = (count + kChunk - 1) / kChunk;
+  if (chunks <= 1) {
+    if (chunks == 1) ask(std::size_t{0}, count, hits);
+    return;
+  }
+  std::vector<Hits> found(chunks);
+  const auto askChunk = [&](std::size_t i) { ask(i * kChunk, std::min(count, (i + 1) * kChunk), found[i]); };
+  // Isolated: while it waits, this thread must not begin other work of the caller's that shares its memory.
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, chunks, askChunk); });
+  for (const Hits& some : found) hits.insert(hits.end(), some.begin(), some.end());
+}
+
 }  // namespace
 
 void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
                       const BatchOptions& options, BatchResult& result) {
   checkIsovalue(field, options.sigma);
   result.hits.clear();
-  constexpr std::size_t kChunk = 8192;
-  const std::size_t chunks = (count + kChunk - 1) / kChunk;
-  const auto askChunk = [&](std::size_t chunk, Hits& hits) {
-    const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
 #ifdef SDF_CCD_HIGHWAY
-    static_assert(kChunk == FlightWork::kSegments, "a chunk fills one thread's room");
-    thread_local const std::unique_ptr<Chunk> flights = std::make_unique<Chunk>();
-    const auto ask = [&](const auto& lanes) {
+  const auto askLanes = [&](const auto& lanes) {
+    const auto ask = [&](std::size_t first, std::size_t last, Hits& hits) {
+      thread_local const std::unique_ptr<Chunk> flights = std::make_unique<Chunk>();
       flights->ask(field, lanes, segments, first, static_cast<int>(last - first), options, hits);
     };
-    if (const AdaptiveGrid* grid = field.adaptive()) return ask(AdaptiveLanes(*grid, options.sigma));
-    if (const SparseGrid* grid = field.grid(); grid && EvenLanes::canIndex(*grid)) {
-      return ask(EvenLanes(*grid, options.sigma));
-    }
+    askInChunks(count, ask, result.hits);
+  };
+  if (const AdaptiveGrid* grid = field.adaptive()) return askLanes(AdaptiveLanes(*grid, options.sigma));
+  if (const SparseGrid* grid = field.grid(); grid && EvenLanes::canIndex(*grid)) {
+    return askLanes(EvenLanes(*grid, options.sigma));
+  }
 #endif
+  const auto ask = [&](std::size_t first, std::size_t last, Hits& hits) {
     askSingly(field, segments, first, last, options, hits);
   };
-  if (chunks <= 1) {
-    if (chunks == 1) askChunk(0, result.hits);
-    return;
-  }
-  std::vector<Hits> found(chunks);
-  // Isolated: while it waits, this thread must not begin other work of the caller's that shares its memory.
-  tbb::this_task_arena::isolate(
-      [&] { tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t i) { askChunk(i, found[i]); }); });
-  for (const Hits& hits : found) result.hits.insert(result.hits.end(), hits.begin(), hits.end());
+  askInChunks(count, ask, result.hits);
 }
 
 }  // namespace sdf_ccd

@@ -1,9 +1,9 @@
 #include "ros/parameters.h"
 
-#include <cmath>
 #include <cstdlib>
 
 #include "ros/parameter_reader.h"
+#include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/scene/error_budget.h"
 
 namespace sdf_ccd {
@@ -62,7 +62,7 @@ WorldObject readWorldObject(ParameterReader& reader) {
 }
 
 double fieldError(const FieldOptions& field) {
-  return field.cell_size ? std::sqrt(3.0) / 2.0 * *field.cell_size : *field.max_error;
+  return field.cell_size ? kHalfSqrt3 * *field.cell_size : *field.max_error;
 }
 
 /// Reads max_error and shares it out. What field, shell and chord_tolerance set themselves has to fit in.

@@ -1,12 +1,12 @@
 #include "mesh_pool.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "coarsen.h"
 #include "sdf_ccd/field/content_hash.h"
 #include "sdf_ccd/field/field_cache.h"
+#include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/shell/shell_cache.h"
 
@@ -45,15 +45,14 @@ FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
     options.cell_size = mesh.cell_size;
   }
   validate(options);
-  const double to_error = std::sqrt(3.0) / 2.0;  // of a cell's side (design §3.3)
   double cell = 0.0;
   if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
   if (options.cell_size) cell = *options.cell_size;
-  if (options.max_error) cell = *options.max_error / to_error;
+  if (options.max_error) cell = *options.max_error / kHalfSqrt3;
   const double gap = !mesh.voxels && options_.shell.edge_gap > 0.0
                          ? std::min(options_.shell.edge_gap, options_.shell.spacing)
                          : options_.shell.spacing;
-  const double margin = 1.1 * (gap + to_error * cell + options_.motion_margin);
+  const double margin = 1.1 * (gap + kHalfSqrt3 * cell + options_.motion_margin);
   options.band = std::max(options.band, std::min(margin, kWidestBand * cell));
   return options;
 }

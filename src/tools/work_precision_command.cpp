@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
 #include "commands.h"
 #include "output_file.h"
+#include "precision/gnuplot.h"
 #include "precision/report.h"
 #include "precision/studies.h"
 #include "progress_bar.h"
@@ -55,9 +55,9 @@ TriangleMesh meshOf(const std::string& file) {
 }
 
 void writePlot(const StudyResult& result, const std::string& path) {
-  const std::string part = path + ".part";
-  precision::runGnuplot(precision::plotScript(result, part));
-  std::filesystem::rename(part, path);
+  OutputPath plot(path);
+  precision::runGnuplot(precision::plotScript(result, plot.part()));
+  plot.commit();
 }
 
 void run(const Arguments& arguments) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "precision/error_summary.h"
 #include "print.h"
 
 namespace sdf_ccd::tools {
@@ -11,18 +11,11 @@ namespace {
 
 constexpr std::size_t kNamed = 10;  // of a list in a summary
 
-/// Of values that are not empty: the one that this share of them does not exceed.
-double quantile(std::vector<double> values, double share) {
-  const auto rank = static_cast<std::size_t>(std::ceil(share * double(values.size())));
-  const auto nth = values.begin() + std::ptrdiff_t(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 /// In thousandths, between slashes.
-std::string quantiles(const std::vector<double>& values, const std::vector<double>& shares) {
+std::string quantiles(std::vector<double> values, const std::vector<double>& shares) {
   std::string text;
-  for (const double share : shares) text += (text.empty() ? "" : " / ") + shortly(1e3 * quantile(values, share));
+  for (const double share : shares)
+    text += (text.empty() ? "" : " / ") + shortly(1e3 * precision::quantile(values, share));
   return text;
 }
 

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
+
+#include "precision/gnuplot.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -104,13 +105,6 @@ void writePlot(const std::string& name, const Points& points, const std::string&
   script << "\n";
 }
 
-/// In single quotes for gnuplot.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
 std::string scriptOf(const std::vector<CycleRecord>& cycles, const PlotTitle& title, const std::string& svg) {
   // Logarithms of run times, so that points are thinned as they are drawn.
   Points error_time, error, run_time;
@@ -127,12 +121,14 @@ std::string scriptOf(const std::vector<CycleRecord>& cycles, const PlotTitle& ti
     error_time[v].push_back({took, 1e3 * cycle.error_bound});
   }
   std::ostringstream script;
-  script << "set terminal svg size 1100,560 font 'sans,13' background 'white'\nset output " << quoted(svg) << "\n";
+  script << "set terminal svg size 1100,560 font 'sans,13' background 'white'\nset output " << precision::quoted(svg)
+         << "\n";
   writeData("error_time", error_time, script);
   writeData("error", error, script);
   writeData("run_time", run_time, script);
-  script << "set label 1 " << quoted(title.title) << " at screen 0.5,0.965 center noenhanced font ',15'\nset label 2 "
-         << quoted(title.subtitle) << " at screen 0.5,0.92 center noenhanced font ',12'\n"
+  script << "set label 1 " << precision::quoted(title.title)
+         << " at screen 0.5,0.965 center noenhanced font ',15'\nset label 2 " << precision::quoted(title.subtitle)
+         << " at screen 0.5,0.92 center noenhanced font ',12'\n"
          << kLeft;
   writePlot("error_time", error_time, "(10**$1):2", script);
   script << kUpperRight << "set xrange [" << first << ":" << last << "]\n";
@@ -147,12 +143,13 @@ std::string scriptOf(const std::vector<CycleRecord>& cycles, const PlotTitle& ti
 
 bool plotErrorTime(const std::vector<CycleRecord>& cycles, const PlotTitle& title, const std::string& svg) {
   const bool has_bound = std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& r) { return r.hasBound(); });
-  if (!has_bound || std::system("gnuplot --version > /dev/null 2>&1") != 0) return false;
-  const std::string script = scriptOf(cycles, title, svg);
-  std::FILE* gnuplot = ::popen("gnuplot 2> /dev/null", "w");
-  if (!gnuplot) return false;
-  const bool is_written = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
-  return ::pclose(gnuplot) == 0 && is_written;
+  if (!has_bound || !precision::haveGnuplot()) return false;
+  try {
+    precision::runGnuplot(scriptOf(cycles, title, svg));
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 }  // namespace sdf_ccd::tools

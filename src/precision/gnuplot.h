@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace sdf_ccd::precision {
+
+/// True if gnuplot can be run here.
+bool haveGnuplot();
+
+/// Runs gnuplot. @throws std::runtime_error if it fails.
+void runGnuplot(const std::string& script);
+
+/// A text in single quotes, as gnuplot reads it.
+std::string quoted(const std::string& text);
+
+}  // namespace sdf_ccd::precision
