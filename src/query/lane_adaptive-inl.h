@@ -6,7 +6,8 @@
 #define SDF_CCD_LANE_ADAPTIVE_INL_H_
 #endif
 
-#include <hwy/cache_control.h>
+#include <cstring>
+
 #include <hwy/highway.h>
 
 #include "lane_crossing-inl.h"
@@ -30,76 +31,78 @@ inline void enterSplits(MI split, const VI* cell, Blocks& b) {
   b.place = hn::IfThenElse(split, leaf, b.place);
 }
 
-/// By the top grid alone.
-inline Blocks locateTop(const AdaptiveLanes& g, const VI* cell) {
-  const VI word = topWord(g, cell);
+/// What the words of the lanes' top cells say.
+inline Blocks locateTop(const AdaptiveLanes& g, VI word, const VI* cell) {
   const VI kind = hn::And(word, whole(3));
   Blocks b;
   b.far = hn::Eq(kind, whole(0));
   b.node = hn::Eq(kind, whole(3));
   b.radius = hn::Mul(hn::BitCast(f, hn::AndNot(whole(3), word)), real(g.per_metre));
   b.log_side = whole(LaneBox::kLogUnits);
-  b.place = hn::And(hn::ShiftRight<2>(word), whole(0x3FFFFFFF));
+  const hn::RebindToUnsigned<I> bits;
+  b.place = hn::BitCast(n, hn::ShiftRight<2>(hn::BitCast(bits, word)));
   enterSplits(hn::Eq(kind, whole(2)), cell, b);
   return b;
 }
 
-/// Below a top cell's node.
-inline Blocks locateBelow(const AdaptiveLanes& g, const VI* cell, VI node_index) {
-  Blocks b;
-  b.far = b.node = none();
-  b.radius = real(0.0F);
-  b.log_side = whole(LaneBox::kLogUnits);
-  b.place = hn::Zero(n);
-  MI split = none(), node = hn::FirstN(n, hn::Lanes(n));
-  int shift = LaneBox::kLogUnits - 2;
-  for (int depth = 0; !hn::AllFalse(n, node); ++depth, shift -= 2) {
-    const VI three = whole(3), by = whole(shift);
-    const VI child =
-        hn::Or(hn::And(hn::Shr(cell[0], by), three), hn::Or(hn::ShiftLeft<2>(hn::And(hn::Shr(cell[1], by), three)),
-                                                            hn::ShiftLeft<4>(hn::And(hn::Shr(cell[2], by), three))));
-    const VI place = hn::Add(hn::ShiftLeft<6>(node_index), child);
-    const VI four = gather(g.codes, hn::ShiftRight<2>(place));
-    const VI code = hn::And(hn::Shr(four, hn::ShiftLeft<3>(hn::And(place, three))), whole(255));
-    const MI far = hn::And(node, hn::Gt(code, whole(node_code::kFar - 1)));
-    const VI magnitude = hn::And(code, whole(31));
-    const VI signed_steps = hn::IfThenElse(hn::Eq(hn::And(code, whole(32)), whole(0)), magnitude, hn::Neg(magnitude));
-    const VF radius = hn::Mul(hn::ConvertTo(f, signed_steps), real(g.far_step[depth]));
-    b.radius = hn::IfThenElse(asReal(far), radius, b.radius);
-    b.far = hn::Or(b.far, far);
-    b.log_side = hn::IfThenElse(node, by, b.log_side);
-    const MI inner = hn::AndNot(far, node);
-    if (hn::AllFalse(n, inner)) break;
-    // Codes 0 to 63 are leaves, 64 to 127 nodes, 128 to 191 splits; a node's bases are those of leaves, splits, nodes.
-    const VI rank = hn::And(code, whole(63));
-    const MI is_node = hn::And(inner, hn::Eq(hn::ShiftRight<6>(code), whole(1)));
-    const MI is_split = hn::And(inner, hn::Eq(hn::ShiftRight<6>(code), whole(2)));
-    const VI which = hn::IfThenElse(is_node, whole(2), hn::IfThenElseZero(is_split, whole(1)));
-    const VI safe = hn::IfThenElseZero(inner, node_index);
-    const VI base = gather(g.bases, hn::Add(hn::Add(safe, hn::ShiftLeft<1>(safe)), which));
-    const VI found = hn::Add(base, rank);
-    b.place = hn::IfThenElse(inner, found, b.place);
-    split = hn::Or(split, is_split);
-    node = is_node;
-    node_index = hn::IfThenElseZero(node, found);
+/// Reads the codes of the children that flights are in, and where the children of that kind begin.
+inline void fetchBelow(const AdaptiveLanes& g, const FlightQueue& queue, Fetched& fetched) {
+  const VI three = whole(3);
+  for (int i = 0; i < queue.size; i += static_cast<int>(hn::Lanes(n))) {
+    const VI log_child = hn::Max(hn::Sub(hn::LoadU(n, queue.log_side.data() + i), whole(2)), hn::Zero(n));
+    const auto step = [&](int k) { return hn::And(hn::Shr(hn::LoadU(n, queue.cell[k].data() + i), log_child), three); };
+    const VI child = hn::Or(step(0), hn::Or(hn::ShiftLeft<2>(step(1)), hn::ShiftLeft<4>(step(2))));
+    hn::StoreU(child, n, fetched.word.data() + i);
   }
-  enterSplits(split, cell, b);
+  const AdaptiveNode* nodes = g.nodes;
+  const NodeBases* bases = g.bases;
+  const std::int32_t* place = queue.place.data();
+  std::int32_t *word = fetched.word.data(), *base = fetched.base.data();
+  for (int i = 0, size = queue.size; i < size; ++i) {
+    const int code = nodes[place[i]].codes[word[i]];
+    const NodeBases& by_kind = bases[place[i]];
+    const std::uint32_t not_leaf = code < node_code::kSplit ? by_kind.node : by_kind.split;
+    word[i] = code;
+    base[i] = static_cast<std::int32_t>(code < node_code::kNode ? by_kind.leaf : not_leaf);
+  }
+}
+
+/// What the codes of the lanes' children say; lanes.log_side is their parent's.
+inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched, int first) {
+  const VI code = hn::LoadU(n, fetched.word.data() + first), base = hn::LoadU(n, fetched.base.data() + first);
+  // Codes 0 to 63 are leaves, 64 to 127 nodes, 128 to 191 splits, and from 192 on far.
+  const VI kind = hn::ShiftRight<6>(code);
+  Blocks b;
+  b.far = hn::Eq(kind, whole(3));
+  b.node = hn::Eq(kind, whole(1));
+  b.log_side = hn::Sub(lanes.log_side, whole(2));
+  const VI magnitude = hn::And(code, whole(31));
+  const VI steps = hn::IfThenElse(hn::Eq(hn::And(code, whole(32)), whole(0)), magnitude, hn::Neg(magnitude));
+  const VF parent = hn::ConvertTo(f, hn::Shl(whole(1), lanes.log_side));
+  b.radius = hn::Mul(hn::ConvertTo(f, steps), hn::MulAdd(parent, real(g.far_step_per_side), real(g.far_step)));
+  b.place = hn::Add(base, hn::And(code, whole(63)));
+  enterSplits(hn::Eq(kind, whole(2)), lanes.cell, b);
   return b;
 }
 
-/// Of the lanes in `used`; in steps of the corners.
-inline LeafCorners leafCorners(const AdaptiveLanes& g, const Lanes& lanes, MI used) {
-  const VI leaf = lanes.place, log_side = lanes.log_side;
-  const MI split = hn::Gt(leaf, whole(FlightQueue::kSplit - 1));
-  const VI plain = hn::ShiftLeft<1>(hn::IfThenZeroElse(split, leaf));
-  const bool some_plain = !hn::AllTrue(n, hn::Or(split, hn::Not(used)));
-  VI low = some_plain ? gather(g.leaves, plain) : hn::Zero(n);
-  VI high = some_plain ? gather(g.leaves + 1, plain) : hn::Zero(n);
-  if (!hn::AllFalse(n, split)) {
-    const VI half = hn::ShiftLeft<1>(hn::IfThenElseZero(split, hn::Sub(leaf, whole(FlightQueue::kSplit))));
-    low = hn::IfThenElse(split, gather(g.splits, half), low);
-    high = hn::IfThenElse(split, gather(g.splits + 1, half), high);
+inline const LeafWord* leafOf(const AdaptiveLanes& g, std::int32_t place) {
+  const std::int32_t half = place - FlightQueue::kSplit;
+  return half >= 0 ? &g.splits[half >> 3].leaves[half & 7] : g.leaves + place;
+}
+
+inline void fetchLeaves(const AdaptiveLanes& g, const FlightQueue& queue, Fetched& fetched) {
+  const AdaptiveLanes lanes = g;
+  const std::int32_t* place = queue.place.data();
+  std::int32_t* pair = fetched.pairs[0].data();
+  for (int i = 0, size = queue.size; i < size; ++i) {
+    std::memcpy(pair + 2 * i, leafOf(lanes, place[i]), sizeof(LeafWord));
   }
+}
+
+/// In steps of the corners.
+inline LeafCorners leafCorners(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched, int first) {
+  VI low, high;
+  hn::LoadInterleaved2(n, fetched.pairs[0].data() + 2 * first, low, high);
   const VI byte = whole(0x7F);
   const auto step = [&](VI word) { return hn::ConvertTo(f, hn::And(word, byte)); };
   LeafCorners corners{
@@ -115,23 +118,13 @@ inline LeafCorners leafCorners(const AdaptiveLanes& g, const Lanes& lanes, MI us
   const VI offset_bits = hn::Or(topBits(low), hn::ShiftLeft<4>(topBits(high)));
   const VF offset = hn::ConvertTo(f, hn::ShiftRight<24>(hn::ShiftLeft<24>(offset_bits)));
   // The isovalue in the corners' steps.
-  const VF side = hn::ConvertTo(f, hn::Shl(whole(1), log_side));
+  const VF side = hn::ConvertTo(f, hn::Shl(whole(1), lanes.log_side));
   const VF offset_step = hn::MulAdd(side, real(g.offset_per_side), real(g.offset));
   const VF corner_step = hn::MulAdd(side, real(g.corner_per_side), real(g.corner));
   const VF scale = hn::Div(real(1.0F), corner_step);
   const VF shifted = hn::NegMulAdd(offset, offset_step, real(g.sigma));
   corners.iso = hn::MulAdd(shifted, scale, real(63.5F));
   return corners;
-}
-
-inline void prefetchNode(const AdaptiveLanes& g, const FlightQueue& queue, int i) {
-  hwy::Prefetch(g.codes + 16 * std::size_t(queue.place[i]));
-  hwy::Prefetch(g.bases + 3 * std::size_t(queue.place[i]));
-}
-
-inline void prefetchLeaf(const AdaptiveLanes& g, const FlightQueue& queue, int i) {
-  const std::int32_t place = queue.place[i];
-  hwy::Prefetch(place >= FlightQueue::kSplit ? g.splits + 2 * (place - FlightQueue::kSplit) : g.leaves + 2 * place);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 
 #include <hwy/highway.h>
 
@@ -21,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Segments on their way into a queue, clipped to the grid's box in double precision: a segment may start far outside.
 struct Boarding {
-  static constexpr int kGroup = 16;
+  static constexpr int kGroup = 32;
   static constexpr double kSurelyWithinReach = 4e11;  ///< from the grid's origin, and along the segment [m]
 
   float o[3][kGroup], d[3][kGroup];
@@ -29,34 +30,60 @@ struct Boarding {
   std::int32_t within[kGroup];   ///< 1, or 0 for those that do not meet the box
   bool doubtful = false;         ///< one may not be within reach
 
+  /// Of a group; of less, the last one stands in for the others.
   Boarding(const LaneBox& g, const Segment* segments, int count) {
-    // Number by number: gathers take longer.
-    alignas(64) double at[3][kGroup], way[3][kGroup];
-    for (int i = 0; i < kGroup; ++i) {
-      const Segment& s = segments[std::min(i, count - 1)];
-      for (int k = 0; k < 3; ++k) {
-        at[k][i] = s.start[k];
-        way[k][i] = s.end[k];
-      }
+    if (count < kGroup) {
+      std::array<Segment, kGroup> filled;
+      for (int i = 0; i < kGroup; ++i) filled[i] = segments[std::min(i, count - 1)];
+      clipAll(g, filled.data());
+    } else {
+      clipAll(g, segments);
     }
-    for (int i = 0; i < kGroup; i += int(hn::Lanes(wide))) clip(g, at, way, i);
   }
 
  private:
   using Wide = hn::ScalableTag<double>;
+  using V = hn::Vec<Wide>;
   static constexpr Wide wide{};
 
-  void clip(const LaneBox& g, const double (*starts)[kGroup], const double (*ends)[kGroup], int i) {
-    const hn::Rebind<float, Wide> narrow;
-    const hn::Rebind<std::int32_t, Wide> whole_narrow;
-    using V = hn::Vec<Wide>;
+  void clipAll(const LaneBox& g, const Segment* segments) {
+    for (int i = 0; i < kGroup; i += int(hn::Lanes(wide))) clip(g, segments + i, i);
+  }
+
+  /// Starts and ends of as many segments as there are lanes.
+  static void load(const Segment* segments, V* starts, V* ends) {
+#if HWY_TARGET == HWY_SCALAR
+    for (int k = 0; k < 3; ++k) {
+      starts[k] = hn::Set(wide, segments->start[k]);
+      ends[k] = hn::Set(wide, segments->end[k]);
+    }
+#else
+    static_assert(sizeof(Segment) == 6 * sizeof(double), "numbers without gaps");
+    const double* numbers = segments->start.data();
+    V low[3], high[3];  // a start, an end, a start, ...
+    hn::LoadInterleaved3(wide, numbers, low[0], low[1], low[2]);
+    hn::LoadInterleaved3(wide, numbers + 3 * hn::Lanes(wide), high[0], high[1], high[2]);
+    for (int k = 0; k < 3; ++k) {
+      starts[k] = hn::ConcatEven(wide, high[k], low[k]);
+      ends[k] = hn::ConcatOdd(wide, high[k], low[k]);
+    }
+#endif
+  }
+
+  void clip(const LaneBox& g, const Segment* segments, int i) {
     const V zero = hn::Zero(wide), one = hn::Set(wide, 1.0), units = hn::Set(wide, g.units_per_metre);
     V at[3], way[3];
+    load(segments, at, way);
+    auto inside = hn::Eq(zero, zero);
     for (int k = 0; k < 3; ++k) {
-      const V start = hn::LoadU(wide, starts[k] + i), end = hn::LoadU(wide, ends[k] + i);
-      at[k] = hn::Mul(hn::Sub(start, hn::Set(wide, g.origin[k])), units);
-      way[k] = hn::Mul(hn::Sub(end, start), units);
+      const V origin = hn::Set(wide, g.origin[k]), size = hn::Set(wide, double(g.top_size[k]) * LaneBox::kUnits);
+      const V start = hn::Mul(hn::Sub(at[k], origin), units), end = hn::Mul(hn::Sub(way[k], origin), units);
+      inside = hn::And(inside, hn::And(hn::Ge(hn::Min(start, end), zero), hn::Le(hn::Max(start, end), size)));
+      way[k] = hn::Mul(hn::Sub(way[k], at[k]), units);
+      at[k] = start;
     }
+    if (hn::AllTrue(wide, inside)) return store(at, way, zero, one, one, i);
+
     const V reach = hn::Set(wide, kSurelyWithinReach * g.units_per_metre);
     V from = zero, to = one;
     for (int k = 0; k < 3; ++k) {
@@ -71,15 +98,23 @@ struct Boarding {
       to = hn::Min(to, hn::IfThenElse(still, one, hn::Max(a, b)));
       to = hn::IfThenElse(beside, hn::Set(wide, -1.0), to);
     }
-    const auto store = [&](V v, float* column) { hn::StoreU(hn::DemoteTo(narrow, v), narrow, column + i); };
     const V length = hn::Sub(to, from);
     for (int k = 0; k < 3; ++k) {
-      store(hn::MulAdd(from, way[k], at[k]), o[k]);
-      store(hn::Mul(length, way[k]), d[k]);
+      at[k] = hn::MulAdd(from, way[k], at[k]);
+      way[k] = hn::Mul(length, way[k]);
     }
-    store(from, t0);
-    store(to, t1);
-    const V meets = hn::IfThenElseZero(hn::Le(from, to), one);
+    store(at, way, from, to, hn::IfThenElseZero(hn::Le(from, to), one), i);
+  }
+
+  void store(const V* at, const V* way, V from, V to, V meets, int i) {
+    const hn::Rebind<float, Wide> narrow;
+    const hn::Rebind<std::int32_t, Wide> whole_narrow;
+    for (int k = 0; k < 3; ++k) {
+      hn::StoreU(hn::DemoteTo(narrow, at[k]), narrow, o[k] + i);
+      hn::StoreU(hn::DemoteTo(narrow, way[k]), narrow, d[k] + i);
+    }
+    hn::StoreU(hn::DemoteTo(narrow, from), narrow, t0 + i);
+    hn::StoreU(hn::DemoteTo(narrow, to), narrow, t1 + i);
     hn::StoreU(hn::DemoteTo(whole_narrow, meets), whole_narrow, within + i);
   }
 };

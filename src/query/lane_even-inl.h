@@ -6,7 +6,8 @@
 #define SDF_CCD_LANE_EVEN_INL_H_
 #endif
 
-#include <hwy/cache_control.h>
+#include <cstring>
+
 #include <hwy/highway.h>
 
 #include "lane_crossing-inl.h"
@@ -17,8 +18,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// By the bricks: 1 in the last bit, and a slot above it; or a distance.
-inline Blocks locateTop(const EvenLanes& g, const VI* cell) {
-  const VI word = topWord(g, cell);
+inline Blocks locateTop(const EvenLanes& g, VI word, const VI* /*cell*/) {
   Blocks b;
   b.far = hn::Eq(hn::And(word, whole(1)), hn::Zero(n));
   b.node = hn::Not(b.far);
@@ -28,11 +28,36 @@ inline Blocks locateTop(const EvenLanes& g, const VI* cell) {
   return b;
 }
 
-/// Index of a sample of each lane's brick, `x` of 0 to 8 per axis.
-inline VI sampleIndex(VI slot, const VI* x) {
-  const VI row = hn::Add(hn::Mul(x[2], whole(GridShape::kSide)), x[1]);
-  const VI in_brick = hn::Add(hn::Mul(row, whole(GridShape::kSide)), x[0]);
-  return hn::Add(hn::Mul(slot, whole(GridShape::kSamples)), in_brick);
+/// The sample that is nearest to each lane in its brick.
+struct NearestSample {
+  VI x[3];       ///< 0 to 8
+  VF center[3];  ///< [units]
+
+  explicit NearestSample(const Lanes& lanes) {
+    constexpr float kCell = 1 << EvenLanes::kLogCell;
+    for (int k = 0; k < 3; ++k) {
+      const VI low = hn::And(lanes.cell[k], whole(-LaneBox::kUnits));
+      const VF from_low = hn::Sub(lanes.at(k), hn::ConvertTo(f, low));
+      const VI nearest = hn::ConvertTo(n, hn::MulAdd(from_low, real(1.0F / kCell), real(0.5F)));
+      x[k] = hn::Min(hn::Max(nearest, hn::Zero(n)), whole(GridShape::kBrick));
+      center[k] = hn::ConvertTo(f, hn::Add(low, hn::ShiftLeft<EvenLanes::kLogCell>(x[k])));
+    }
+  }
+};
+
+/// Reads the samples that are nearest to the flights.
+inline void fetchBelow(const EvenLanes& g, const FlightQueue& queue, Fetched& fetched) {
+  if (!g.exact) return;
+  const MI all = hn::FirstN(n, hn::Lanes(n));
+  for (int i = 0; i < queue.size; i += static_cast<int>(hn::Lanes(n))) {
+    const NearestSample nearest(Lanes(queue, i, all));
+    const VI row = hn::Add(hn::Mul(nearest.x[2], whole(GridShape::kSide)), nearest.x[1]);
+    hn::StoreU(hn::Add(hn::Mul(row, whole(GridShape::kSide)), nearest.x[0]), n, fetched.word.data() + i);
+  }
+  for (int i = 0; i < queue.size; ++i) {
+    const float* samples = g.samples + std::size_t(queue.place[i]) * GridShape::kSamples;
+    std::memcpy(&fetched.word[i], samples + fetched.word[i], sizeof(float));
+  }
 }
 
 /// The ball about the sample nearest to each lane, in a brick: no place of it has the value sigma (design §3.3).
@@ -42,18 +67,11 @@ struct SampleBall {
   MI inside;     ///< its places are below sigma
 };
 
-inline SampleBall nearestBall(const EvenLanes& g, const Lanes& lanes) {
+inline SampleBall nearestBall(const EvenLanes& g, const Lanes& lanes, const Fetched& fetched, int first) {
   constexpr float kCell = 1 << EvenLanes::kLogCell;
-  SampleBall ball;
-  VI x[3];
-  for (int k = 0; k < 3; ++k) {
-    const VI low = hn::And(lanes.cell[k], whole(-LaneBox::kUnits));
-    const VF from_low = hn::Sub(lanes.at(k), hn::ConvertTo(f, low));
-    const VI nearest = hn::ConvertTo(n, hn::MulAdd(from_low, real(1.0F / kCell), real(0.5F)));
-    x[k] = hn::Min(hn::Max(nearest, hn::Zero(n)), whole(GridShape::kBrick));
-    ball.center[k] = hn::ConvertTo(f, hn::Add(low, hn::ShiftLeft<EvenLanes::kLogCell>(x[k])));
-  }
-  const VF value = hn::GatherIndex(f, g.samples, sampleIndex(lanes.place, x));
+  const NearestSample nearest(lanes);
+  SampleBall ball{{nearest.center[0], nearest.center[1], nearest.center[2]}, {}, {}};
+  const VF value = hn::BitCast(f, hn::LoadU(n, fetched.word.data() + first));
   const VF above = hn::Sub(value, real(g.sigma));
   ball.inside = asWhole(hn::Lt(above, real(0.0F)));
   // Less what single precision makes of it.
@@ -63,33 +81,29 @@ inline SampleBall nearestBall(const EvenLanes& g, const Lanes& lanes) {
   return ball;
 }
 
-/// Of each lane's cell, in metres.
-inline LeafCorners leafCorners(const EvenLanes& g, const Lanes& lanes, MI /*used*/) {
-  VI x[3];
-  for (int k = 0; k < 3; ++k) {
-    x[k] = hn::And(hn::ShiftRight<EvenLanes::kLogCell>(lanes.cell[k]), whole(GridShape::kBrick - 1));
-  }
-  const VI first = sampleIndex(lanes.place, x);
-  constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
-  const auto at = [&](int offset) { return hn::GatherIndex(f, g.samples + offset, first); };
-  return {{at(0), at(1), at(kY), at(kY + 1), at(kZ), at(kZ + 1), at(kZ + kY), at(kZ + kY + 1)}, real(g.sigma)};
-}
-
-inline const float* firstSample(const EvenLanes& g, const FlightQueue& queue, int i) {
+/// Reads the corners of the flights' cells: those that are next to each other along x lie together.
+inline void fetchLeaves(const EvenLanes& g, const FlightQueue& queue, Fetched& fetched) {
   constexpr int kSide = GridShape::kSide;
-  const auto in_brick = [&](int k) { return (queue.cell[k][i] >> EvenLanes::kLogCell) & (GridShape::kBrick - 1); };
-  return g.samples + std::size_t(queue.place[i]) * GridShape::kSamples + (in_brick(2) * kSide + in_brick(1)) * kSide +
-         in_brick(0);
+  for (int i = 0; i < queue.size; ++i) {
+    const auto in_brick = [&](int k) { return (queue.cell[k][i] >> EvenLanes::kLogCell) & (GridShape::kBrick - 1); };
+    const float* first = g.samples + std::size_t(queue.place[i]) * GridShape::kSamples +
+                         (in_brick(2) * kSide + in_brick(1)) * kSide + in_brick(0);
+    const float* pairs[] = {first, first + kSide, first + kSide * kSide, first + kSide * kSide + kSide};
+    for (int k = 0; k < 4; ++k) std::memcpy(&fetched.pairs[k][2 * i], pairs[k], 2 * sizeof(float));
+  }
 }
 
-inline void prefetchNode(const EvenLanes& g, const FlightQueue& queue, int i) {
-  hwy::Prefetch(firstSample(g, queue, i));
-}
-
-inline void prefetchLeaf(const EvenLanes& g, const FlightQueue& queue, int i) {
-  const float* first = firstSample(g, queue, i);
-  hwy::Prefetch(first);
-  hwy::Prefetch(first + GridShape::kSide * GridShape::kSide);
+/// Of each lane's cell, in metres.
+inline LeafCorners leafCorners(const EvenLanes& g, const Lanes& /*lanes*/, const Fetched& fetched, int first) {
+  LeafCorners corners;
+  for (int k = 0; k < 4; ++k) {
+    VI even, odd;
+    hn::LoadInterleaved2(n, fetched.pairs[k].data() + 2 * first, even, odd);
+    corners.corner[2 * k] = hn::BitCast(f, even);
+    corners.corner[2 * k + 1] = hn::BitCast(f, odd);
+  }
+  corners.iso = real(g.sigma);
+  return corners;
 }
 
 }  // namespace

@@ -23,16 +23,18 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
   const AdaptiveShape& shape = grid.shape();
   setBox(*this, shape.origin, shape.unit(), shape.size, arrays.top.data);
-  const auto words = [](const void* data) { return static_cast<const std::uint32_t*>(data); };
-  codes = words(arrays.nodes.data);
-  bases = words(arrays.bases.data);
-  leaves = words(arrays.leaves.data);
-  splits = words(arrays.splits.data);
+  nodes = arrays.nodes.data;
+  bases = arrays.bases.data;
+  leaves = arrays.leaves.data;
+  splits = arrays.splits.data;
   const double to_units = units_per_metre;
   sigma = static_cast<float>(sigma_metres * to_units);
   margin = static_cast<float>((std::abs(sigma_metres) + shape.error_bound) * to_units);
-  for (int k = 0; k < 3; ++k) far_step[k] = static_cast<float>(grid.farStep(k) * to_units);
-  // Both grow evenly with the side.
+  // All grow evenly with the side.
+  const double none = AdaptiveGrid::farStepFor(0.0, shape.band),
+               unit = AdaptiveGrid::farStepFor(shape.unit(), shape.band);
+  far_step = static_cast<float>(none * to_units);
+  far_step_per_side = static_cast<float>((unit - none) * to_units);
   const LeafScale &one = grid.scale(1), &two = grid.scale(2);
   offset_per_side = static_cast<float>((two.offset - one.offset) * to_units);
   corner_per_side = static_cast<float>((two.corner - one.corner) * to_units);

@@ -43,10 +43,6 @@ inline MI none() {
   return hn::FirstN(n, 0);
 }
 
-inline VI gather(const std::uint32_t* base, VI index) {
-  return hn::GatherIndex(n, reinterpret_cast<const std::int32_t*>(base), index);
-}
-
 /// The lanes' segments: a vector of a queue's flights.
 struct Lanes {
   VF o[3], d[3];
@@ -55,17 +51,16 @@ struct Lanes {
   VI id;
   VI place, log_side;
 
-  /// Lanes that are not used stand in the first cell, at the first place: all lanes read memory.
   Lanes(const FlightQueue& queue, int first, MI used) {
     for (int k = 0; k < 3; ++k) {
       o[k] = hn::LoadU(f, queue.o[k].data() + first);
       d[k] = hn::LoadU(f, queue.d[k].data() + first);
-      cell[k] = hn::IfThenElseZero(used, hn::LoadU(n, queue.cell[k].data() + first));
+      cell[k] = hn::LoadU(n, queue.cell[k].data() + first);
     }
     t = hn::LoadU(f, queue.t.data() + first);
     enter = hn::LoadU(f, queue.enter.data() + first);
     id = hn::LoadU(n, queue.id.data() + first);
-    place = hn::IfThenElseZero(used, hn::LoadU(n, queue.place.data() + first));
+    place = hn::LoadU(n, queue.place.data() + first);
     log_side = hn::IfThenElseZero(used, hn::LoadU(n, queue.log_side.data() + first));
   }
 
@@ -114,8 +109,8 @@ class Front {
   Indices indices_;
 };
 
-/// Puts the lanes of a mask at the end of a queue. @return how many.
-inline int append(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
+/// Puts the lanes of a mask at the end of a queue.
+HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
   const int end = queue.size;
   const Front front(which);
   // Whole vectors: what stands beyond the end is written next.
@@ -133,9 +128,7 @@ inline int append(MI which, const Lanes& lanes, VI place, VI log_side, FlightQue
   putWhole(lanes.id, queue.id);
   putWhole(place, queue.place);
   putWhole(log_side, queue.log_side);
-  const int added = static_cast<int>(hn::CountTrue(n, which));
-  queue.size = end + added;
-  return added;
+  queue.size = end + static_cast<int>(hn::CountTrue(n, which));
 }
 
 /// The block that each lane is in.
@@ -147,12 +140,12 @@ struct Blocks {
   MI node;  ///< to be asked further; neither far nor node: a leaf
 };
 
-/// The word of each lane's top cell.
-inline VI topWord(const LaneBox& g, const VI* cell) {
+/// The index of each lane's top cell.
+inline VI topIndex(const LaneBox& g, const VI* cell) {
   const VI x = hn::ShiftRight<LaneBox::kLogUnits>(cell[0]), y = hn::ShiftRight<LaneBox::kLogUnits>(cell[1]),
            z = hn::ShiftRight<LaneBox::kLogUnits>(cell[2]);
   const VI row = hn::Add(hn::Mul(z, whole(g.top_size[1])), y);
-  return gather(g.top, hn::Add(hn::Mul(row, whole(g.top_size[0])), x));
+  return hn::Add(hn::Mul(row, whole(g.top_size[0])), x);
 }
 
 /// Where each lane leaves a block, and through which face.
@@ -162,7 +155,7 @@ struct Exits {
   MF axis[3];
 };
 
-inline Exits exitsOf(const Lanes& lanes, VI log_side) {
+HWY_INLINE Exits exitsOf(const Lanes& lanes, VI log_side) {
   Exits e;
   e.side = hn::Shl(whole(1), log_side);
   const VI mask = hn::Neg(e.side);
@@ -183,13 +176,14 @@ inline Exits exitsOf(const Lanes& lanes, VI log_side) {
 }
 
 /// Steps lanes to t: through the exit's face, or (`jump`) anywhere. @return lanes that have left the grid.
-inline MI advance(const LaneBox& g, const Exits& e, MF jump, VF t, MI moving, Lanes& lanes) {
+HWY_INLINE MI advance(const LaneBox& g, const Exits& e, MF jump, VF t, MI moving, Lanes& lanes) {
   MI outside = none();
   VI next[3];
   for (int k = 0; k < 3; ++k) {
     const VI high = hn::Add(e.low[k], e.side);
     const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
-    const VI at = hn::ConvertTo(n, hn::Floor(hn::MulAdd(lanes.d[k], t, lanes.o[k])));
+    // Towards zero; what is below is clamped.
+    const VI at = hn::ConvertTo(n, hn::MulAdd(lanes.d[k], t, lanes.o[k]));
     const VI within = hn::Min(hn::Max(at, e.low[k]), hn::Sub(high, whole(1)));
     const MF forward = hn::Gt(lanes.d[k], real(0.0F));
     const VI beyond = hn::IfThenElse(asWhole(forward), high, hn::Sub(e.low[k], whole(1)));
@@ -199,9 +193,7 @@ inline MI advance(const LaneBox& g, const Exits& e, MF jump, VF t, MI moving, La
     outside = hn::Or(outside, hn::Or(hn::Lt(cell, whole(0)), hn::Gt(cell, last)));
     next[k] = cell;
   }
-  // Lanes outside stay where they were: all lanes read memory, also those that are done.
-  const MI inside = hn::AndNot(outside, moving);
-  for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::IfThenElse(inside, next[k], lanes.cell[k]);
+  for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::IfThenElse(moving, next[k], lanes.cell[k]);
   lanes.t = hn::IfThenElse(asReal(moving), t, lanes.t);
   return hn::And(moving, outside);
 }

@@ -5,7 +5,6 @@
 #define HWY_TARGET_INCLUDE "segment_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -21,8 +20,8 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Segments wait in queues for the same kind of step: through a far cell of the top grid, through a child of a node,
-/// through a leaf. A pass takes every flight one step further and prefetches what its next step will read.
+/// Segments wait in queues for the memory that their next step reads: a top cell's word, a node's code, a leaf. A pass
+/// reads it for all of a queue, then takes the queue's flights one step further in vectors.
 template <class Grid>
 class Follower {
  public:
@@ -31,7 +30,8 @@ class Follower {
   int run(const Segment* segments, int count) {
     work_.hits.clear();
     work_.lost.clear();
-    for (Queues* queues : {&work_.far, &work_.node, &work_.leaf}) (*queues)[0].size = (*queues)[1].size = 0;
+    for (Queues* queues : {&work_.top, &work_.node}) (*queues)[0].size = (*queues)[1].size = 0;
+    work_.leaf.size = 0;
     // Each pass takes each flight through a cell; none meets more than this.
     const int most = 4 * LaneBox::kUnits * (g_.top_size[0] + g_.top_size[1] + g_.top_size[2]);
     int boarded = 0, last_flying = 0;
@@ -43,11 +43,15 @@ class Follower {
       if (flying != last_flying) pass = 0;
       last_flying = flying;
       next_ ^= 1;
-      takeAll(work_.far, [&](Lanes& lanes, MI used) { crossFar(lanes, used); });
-      takeAll(work_.node, [&](Lanes& lanes, MI used) { descend(g_, lanes, used); });
-      takeAll(work_.leaf, [&](Lanes& lanes, MI used) { crossLeaf(lanes, used); });
+      FlightQueue &top = work_.top[next_ ^ 1], &node = work_.node[next_ ^ 1], &leaf = work_.leaf;
+      fetchTop(top);
+      takeAll(top, [&](Lanes& lanes, MI used, int first) { crossTop(lanes, used, first, node); });
+      fetchBelow(g_, node, work_.fetched);
+      takeAll(node, [&](Lanes& lanes, MI used, int first) { descend(g_, lanes, used, first); });
+      fetchLeaves(g_, leaf, work_.fetched);
+      takeAll(leaf, [&](Lanes& lanes, MI used, int first) { crossLeaf(lanes, used, first); });
     }
-    for (Queues* queues : {&work_.far, &work_.node, &work_.leaf}) {
+    for (Queues* queues : {&work_.top, &work_.node}) {
       const FlightQueue& queue = (*queues)[next_];
       work_.lost.insert(work_.lost.end(), queue.id.begin(), queue.id.begin() + queue.size);
     }
@@ -60,23 +64,21 @@ class Follower {
   /// Enough that memory answers before a flight's turn comes again, and few enough to stay in the cache themselves.
   static constexpr int kFlying = 512;
 
-  int flying() const { return work_.far[next_].size + work_.node[next_].size + work_.leaf[next_].size; }
+  int flying() const { return work_.top[next_].size + work_.node[next_].size; }
 
   template <class Step>
-  void takeAll(Queues& queues, const Step& step) {
-    FlightQueue& queue = queues[next_ ^ 1];
+  void takeAll(FlightQueue& queue, const Step& step) {
     const int width = static_cast<int>(hn::Lanes(f));
     for (int i = 0; i < queue.size; i += width) {
       const MI used = hn::FirstN(n, static_cast<std::size_t>(queue.size - i));
       Lanes lanes(queue, i, used);
-      step(lanes, used);
+      step(lanes, used, i);
     }
     queue.size = 0;
   }
 
   /// Fills up with segments from number `first` on. @return the first that still waits.
   int board(const Segment* segments, int first, int count) {
-    const int width = static_cast<int>(hn::Lanes(f));
     for (int room = kFlying - flying(); first < count && room >= Boarding::kGroup; room -= Boarding::kGroup) {
       const int group = std::min(Boarding::kGroup, count - first);
       const Boarding boarding(g_, segments + first, group);
@@ -88,15 +90,11 @@ class Follower {
       std::fill_n(work_.first.data() + first, Boarding::kGroup, -1.0F);
       std::copy_n(boarding.t0, Boarding::kGroup, work_.begin.data() + first);
       std::copy_n(boarding.t1, Boarding::kGroup, work_.end.data() + first);
-      const auto within = [&](const Lanes& lanes) {
-        return hn::And(hn::Lt(lanes.id, whole(count)), hn::Gt(lanes.place, hn::Zero(n)));
-      };
-      for (int i = 0; i < Boarding::kGroup; i += 2 * width) {
-        Lanes a(boarding, i, first), b(boarding, std::min(i + width, Boarding::kGroup - width), first);
-        const MI which_a = within(a), which_b = i + width < Boarding::kGroup ? within(b) : none();
-        findCells(a, which_a);
-        findCells(b, which_b);
-        arrive(a, which_a, b, which_b);
+      for (int i = 0; i < Boarding::kGroup; i += static_cast<int>(hn::Lanes(f))) {
+        Lanes lanes(boarding, i, first);
+        const MI which = hn::And(hn::Lt(lanes.id, whole(count)), hn::Gt(lanes.place, hn::Zero(n)));
+        findCells(lanes);
+        arrive(lanes, which);
       }
       first += Boarding::kGroup;
     }
@@ -138,67 +136,45 @@ class Follower {
     forEach(inside, [&](std::size_t i) { hit(ids[i], enters[i], 1.0F); });
   }
 
-  /// Lanes whose t is anywhere in a far cell: their unit cubes.
-  void findCells(Lanes& lanes, MI which) const {
+  /// The unit cubes of lanes whose t is anywhere in a far cell.
+  HWY_INLINE void findCells(Lanes& lanes) const {
     for (int k = 0; k < 3; ++k) {
       const VI last = whole(g_.top_size[k] * LaneBox::kUnits - 1);
-      const VI cell = hn::Min(hn::Max(hn::ConvertTo(n, hn::Floor(lanes.at(k))), hn::Zero(n)), last);
-      lanes.cell[k] = hn::IfThenElse(which, cell, lanes.cell[k]);
+      // Towards zero; what is below is clamped.
+      lanes.cell[k] = hn::Min(hn::Max(hn::ConvertTo(n, lanes.at(k)), hn::Zero(n)), last);
     }
   }
 
-  /// Lanes that have come to a new place: while most of a vector stands in far cells those go on at once.
-  void arrive(Lanes& lanes, MI which) {
-    Blocks at = locateTop(g_, lanes.cell);
-    MI far = hn::And(which, at.far);
-    while (2 * hn::CountTrue(n, far) > hn::Lanes(n)) {
-      which = hn::Or(hn::AndNot(far, which), passFar(lanes, at.log_side, at.radius, far));
-      at = locateTop(g_, lanes.cell);
-      far = hn::And(which, at.far);
-    }
-    queue(lanes, which, at);
+  /// Lanes that have come to a new place.
+  HWY_INLINE void arrive(const Lanes& lanes, MI which) {
+    append(which, lanes, topIndex(g_, lanes.cell), lanes.log_side, work_.top[next_]);
   }
 
-  /// The same for two vectors in turn: one goes on while memory answers the other.
-  void arrive(Lanes& a, MI which_a, Lanes& b, MI which_b) {
-    Blocks at_a = locateTop(g_, a.cell), at_b = locateTop(g_, b.cell);
-    MI far_a = hn::And(which_a, at_a.far), far_b = hn::And(which_b, at_b.far);
-    while (hn::CountTrue(n, far_a) + hn::CountTrue(n, far_b) > hn::Lanes(n)) {
-      which_a = hn::Or(hn::AndNot(far_a, which_a), passFar(a, at_a.log_side, at_a.radius, far_a));
-      which_b = hn::Or(hn::AndNot(far_b, which_b), passFar(b, at_b.log_side, at_b.radius, far_b));
-      at_a = locateTop(g_, a.cell);
-      at_b = locateTop(g_, b.cell);
-      far_a = hn::And(which_a, at_a.far);
-      far_b = hn::And(which_b, at_b.far);
-    }
-    queue(a, which_a, at_a);
-    queue(b, which_b, at_b);
+  void fetchTop(const FlightQueue& queue) {
+    const std::uint32_t* top = g_.top;
+    const std::int32_t* place = queue.place.data();
+    std::int32_t* word = work_.fetched.word.data();
+    for (int i = 0, size = queue.size; i < size; ++i) word[i] = static_cast<std::int32_t>(top[place[i]]);
   }
 
-  /// Sends lanes to the queue of what stands where they are.
-  void queue(const Lanes& lanes, MI which, const Blocks& at) {
-    const MI far = hn::And(which, at.far), node = hn::And(which, at.node);
-    if (!hn::AllFalse(n, far)) append(far, lanes, hn::BitCast(n, at.radius), at.log_side, work_.far[next_]);
-    if (!hn::AllFalse(n, node)) appendNode(node, lanes, at.place);
-    const MI leaf = hn::AndNot(hn::Or(at.far, at.node), which);
-    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.place, at.log_side);
+  /// By what the top cell's word says: through a far cell, or to the queue of what stands there.
+  HWY_INLINE void crossTop(Lanes& lanes, MI used, int first, FlightQueue& nodes) {
+    const Blocks at = locateTop(g_, hn::LoadU(n, work_.fetched.word.data() + first), lanes.cell);
+    sort(at, lanes, used, nodes);
   }
 
-  void appendNode(MI which, const Lanes& lanes, VI node) {
-    FlightQueue& queue = work_.node[next_];
-    const int added = append(which, lanes, node, node, queue);
-    for (int i = queue.size - added; i < queue.size; ++i) prefetchNode(g_, queue, i);
-  }
-
-  void appendLeaf(MI which, const Lanes& lanes, VI leaf, VI log_side) {
-    FlightQueue& queue = work_.leaf[next_];
-    const int added = append(which, lanes, leaf, log_side, queue);
-    for (int i = queue.size - added; i < queue.size; ++i) prefetchLeaf(g_, queue, i);
+  /// Lanes at blocks: through far ones, to the queues of others.
+  HWY_INLINE void sort(const Blocks& at, Lanes& lanes, MI used, FlightQueue& nodes) {
+    const MI far = hn::And(used, at.far), node = hn::And(used, at.node);
+    const MI leaf = hn::AndNot(hn::Or(at.far, at.node), used);
+    if (!hn::AllFalse(n, node)) append(node, lanes, at.place, at.log_side, nodes);
+    if (!hn::AllFalse(n, leaf)) append(leaf, lanes, at.place, at.log_side, work_.leaf);
+    if (!hn::AllFalse(n, far)) arrive(lanes, passFar(lanes, at.log_side, at.radius, far));
   }
 
   /// Where lanes leave a ball that holds them; t where it does not. In numbers relative to where the lanes are: small,
   /// so that little is rounded.
-  static VF ballExit(const Lanes& lanes, const VF* center, VF radius2) {
+  static HWY_INLINE VF ballExit(const Lanes& lanes, const VF* center, VF radius2) {
     VF b = real(0.0F), c = real(0.0F), length2 = real(1e-20F);
     for (int k = 0; k < 3; ++k) {
       const VF from = hn::Sub(lanes.at(k), center[k]);
@@ -213,7 +189,7 @@ class Follower {
   }
 
   /// Moves lanes to t: anywhere (`jump`), or through their exit. @return those that are not done.
-  MI moveOn(Lanes& lanes, const Exits& exits, MF jump, VF t, MI live) {
+  HWY_INLINE MI moveOn(Lanes& lanes, const Exits& exits, MF jump, VF t, MI live) {
     const MI ended = hn::And(live, asWhole(hn::Ge(t, real(1.0F))));
     const MI done = hn::Or(ended, advance(g_, exits, jump, t, live, lanes));
     finish(done, lanes);
@@ -222,7 +198,7 @@ class Follower {
 
   /// Through far blocks: to the exit of the ball about the centre that is free of the isosurface, or of the block.
   /// @return lanes that are neither done nor hit; they stand in their new cells.
-  MI passFar(Lanes& lanes, VI log_side, VF distance, MI live) {
+  HWY_INLINE MI passFar(Lanes& lanes, VI log_side, VF distance, MI live) {
     const MI inside = asWhole(hn::Lt(distance, real(0.0F)));
     live = hn::AndNot(turn(inside, live, lanes.t, lanes), live);
     const VI side = hn::Shl(whole(1), log_side), mask = hn::Neg(side);
@@ -235,12 +211,11 @@ class Follower {
     // A ball that holds all of the block is left later than the block.
     const MI covered = asWhole(hn::Gt(radius, hn::Mul(half, real(1.7330F))));
     if (hn::AllFalse(n, hn::AndNot(covered, live))) {
-      lanes.t = hn::IfThenElse(asReal(live), t_ball, lanes.t);
       const MI done = hn::And(live, asWhole(hn::Ge(t_ball, real(1.0F))));
       finish(done, lanes);
-      live = hn::AndNot(done, live);
-      findCells(lanes, live);
-      return live;
+      lanes.t = t_ball;
+      findCells(lanes);
+      return hn::AndNot(done, live);
     }
     const Exits exits = exitsOf(lanes, log_side);
     // Covered lanes go the way they go without neighbours that are not.
@@ -248,60 +223,31 @@ class Follower {
     return moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_ball, exits.t), live);
   }
 
-  void crossFar(Lanes& lanes, MI used) {
-    arrive(lanes, passFar(lanes, whole(LaneBox::kLogUnits), hn::BitCast(f, lanes.place), used));
-  }
-
-  /// To what a node says of the lane's place: a leaf, or through a far child.
-  void descend(const AdaptiveLanes& grid, Lanes& lanes, MI used) {
-    const Blocks at = locateBelow(grid, lanes.cell, lanes.place);
-    const MI leaf = hn::AndNot(at.far, used), far = hn::And(used, at.far);
-    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, at.place, at.log_side);
-    if (hn::AllFalse(n, far)) return;
-    const TopCell before(lanes);
-    leaveNode(before, lanes, passFar(lanes, at.log_side, at.radius, far));
+  /// To what a node says of the lane's place.
+  HWY_INLINE void descend(const AdaptiveLanes& grid, Lanes& lanes, MI used, int first) {
+    sort(locateBelow(grid, lanes, work_.fetched, first), lanes, used, work_.node[next_]);
   }
 
   /// In a brick: through the ball about the nearest sample, if that takes the lane out of its cell; else to the cell.
-  void descend(const EvenLanes& grid, Lanes& lanes, MI used) {
+  HWY_INLINE void descend(const EvenLanes& grid, Lanes& lanes, MI used, int first) {
     const VI log_cell = whole(EvenLanes::kLogCell);
-    if (!grid.exact) return appendLeaf(used, lanes, lanes.place, log_cell);
-    const SampleBall ball = nearestBall(grid, lanes);
+    if (!grid.exact) return append(used, lanes, lanes.place, log_cell, work_.leaf);
+    const SampleBall ball = nearestBall(grid, lanes, work_.fetched, first);
     const VF t_ball = ballExit(lanes, ball.center, ball.radius2);
     const Exits exits = exitsOf(lanes, log_cell);
     const MF jump = hn::Gt(t_ball, exits.t);
     const MI leaf = hn::AndNot(asWhole(jump), used);
     MI far = hn::And(used, asWhole(jump));
-    if (!hn::AllFalse(n, leaf)) appendLeaf(leaf, lanes, lanes.place, log_cell);
+    if (!hn::AllFalse(n, leaf)) append(leaf, lanes, lanes.place, log_cell, work_.leaf);
     if (hn::AllFalse(n, far)) return;
     far = hn::AndNot(turn(ball.inside, far, lanes.t, lanes), far);
-    const TopCell before(lanes);
-    leaveNode(before, lanes, moveOn(lanes, exits, jump, t_ball, far));
+    arrive(lanes, moveOn(lanes, exits, jump, t_ball, far));
   }
 
-  /// The top cell that each lane is in.
-  struct TopCell {
-    VI c[3];
-    explicit TopCell(const Lanes& lanes) {
-      for (int k = 0; k < 3; ++k) c[k] = hn::ShiftRight<LaneBox::kLogUnits>(lanes.cell[k]);
-    }
-    MI same(const TopCell& other) const {
-      return hn::And(hn::Eq(c[0], other.c[0]), hn::And(hn::Eq(c[1], other.c[1]), hn::Eq(c[2], other.c[2])));
-    }
-  };
-
-  /// Lanes that stay in their top cell ask its node again.
-  void leaveNode(const TopCell& before, Lanes& lanes, MI onward) {
-    const MI same = before.same(TopCell(lanes));
-    const MI stays = hn::And(onward, same), leaves = hn::AndNot(same, onward);
-    if (!hn::AllFalse(n, stays)) appendNode(stays, lanes, lanes.place);
-    if (!hn::AllFalse(n, leaves)) arrive(lanes, leaves);
-  }
-
-  void crossLeaf(Lanes& lanes, MI used) {
+  HWY_INLINE void crossLeaf(Lanes& lanes, MI used, int first) {
     const Exits exits = exitsOf(lanes, lanes.log_side);
     const VF t_exit = hn::Min(exits.t, real(1.0F));
-    const Crossing crossing = crossingOf(leafCorners(g_, lanes, used), lanes, exits, t_exit);
+    const Crossing crossing = crossingOf(leafCorners(g_, lanes, work_.fetched, first), lanes, exits, t_exit);
     const MI in_start = asWhole(crossing.in_start), in_end = asWhole(crossing.in_end);
     const MI hard = hn::And(used, asWhole(crossing.hard));
     const MI easy = hn::AndNot(hard, used);

@@ -27,13 +27,14 @@ struct LaneBox {
 struct AdaptiveLanes : LaneBox {
   AdaptiveLanes(const AdaptiveGrid& grid, double sigma);
 
-  const std::uint32_t* codes;   ///< four codes a word
-  const std::uint32_t* bases;   ///< three a node
-  const std::uint32_t* leaves;  ///< two words each
-  const std::uint32_t* splits;
-  float sigma;                    ///< [units]
-  std::array<float, 3> far_step;  ///< [units], by depth
-  /// Of leaves' rounding (LeafScale): [units] per step for a leaf of no side, and what a unit of side adds.
+  const AdaptiveNode* nodes;
+  const NodeBases* bases;
+  const LeafWord* leaves;
+  const SplitLeaves* splits;
+  float sigma;  ///< [units]
+  /// [units] per step for a node or leaf of no side, and what a unit of side adds: of far children's distances
+  /// (AdaptiveGrid::farStep) and of leaves' rounding (LeafScale).
+  float far_step, far_step_per_side;
   float offset, offset_per_side, corner, corner_per_side;
 };
 
@@ -79,9 +80,19 @@ struct FlightQueue {
   Column<float> enter;                       ///< t since when it is inside; -1: outside
   std::array<Column<std::int32_t>, 3> cell;  ///< unit cube
   Column<std::int32_t> id;                   ///< of the segment
-  Column<std::int32_t> place;                ///< node or leaf that it waits for; far: the distance, as its bits
-  Column<std::int32_t> log_side;             ///< of that leaf
+  Column<std::int32_t> place;                ///< top cell, node or leaf whose memory it waits for
+  Column<std::int32_t> log_side;             ///< of that block
   int size = 0;
+};
+
+/// What a queue's flights wait for, read flight by flight before they are taken on in vectors: of plain loads many are
+/// under way at once, and each costs less than a lane of a gather.
+struct Fetched {
+  using Pairs = std::array<std::int32_t, 2 * std::tuple_size_v<FlightQueue::Column<std::int32_t>>>;
+
+  FlightQueue::Column<std::int32_t> word;  ///< of a top cell; a node's code; a sample's bits
+  FlightQueue::Column<std::int32_t> base;  ///< of a node's children of that code's kind
+  std::array<Pairs, 4> pairs;              ///< of a leaf's corners: two words a flight
 };
 
 /// Something inside: of segment number `id`.
@@ -94,12 +105,15 @@ struct FlightHit {
 /// What following segments needs and gives; reused.
 struct FlightWork {
   static constexpr int kSegments = 8192;  ///< at most
+  static constexpr int kSlack = 32;
 
-  std::array<FlightQueue, 2> far, node, leaf;    ///< in turn: one is read, the other written
-  std::array<float, kSegments + 16> begin, end;  ///< the part of each segment that is within the grid's box
-  std::array<float, kSegments + 16> first;       ///< of each segment the first hit, if only that is asked; −1: none
-  std::vector<FlightHit> hits;                   ///< all others; of one segment in order of time
-  std::vector<std::int32_t> lost;                ///< to be asked one by one: those that did not end
+  std::array<FlightQueue, 2> top, node;  ///< in turn: one is read, the other written
+  FlightQueue leaf;
+  Fetched fetched;
+  std::array<float, kSegments + kSlack> begin, end;  ///< the part of each segment that is within the grid's box
+  std::array<float, kSegments + kSlack> first;  ///< of each segment the first hit, if only that is asked; −1: none
+  std::vector<FlightHit> hits;                  ///< all others; of one segment in order of time
+  std::vector<std::int32_t> lost;               ///< to be asked one by one: those that did not end
 };
 
 /// Follows segments 0 to count − 1 to their ends or to their first hit.
