@@ -103,7 +103,7 @@ class FieldStudy {
     const double error = field_.errorBound();
     const std::optional<double> exact = mesh_.firstHit(segment);
     const auto first = [&](double sigma) {
-      const Intervals found = segmentIntervals(field_, segment, {sigma, true});
+      const Intervals found = segmentIntervals(field_, segment, {sigma, false, true});
       return found.empty() ? std::optional<double>() : found.front().enter;
     };
     const std::optional<double> earliest = first(error), middle = first(0.0), latest = first(-error);

@@ -24,8 +24,8 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
   const double margin = std::abs(options.sigma) + shape.error_bound;
   while (walk.inside()) {
     const AdaptiveBlock block = grid.block(walk.cell());
-    const double t_exit = walk.exit(block.low, block.low.array() + block.side);
     if (block.leaf) {
+      const double t_exit = walk.exit(block.low, block.low.array() + block.side);
       // A leaf that is met in one of its corners only says nothing: its neighbours' values there may differ.
       if (t_exit > walk.t()) {
         appendCellSpans(grid.corners(block), walk, {block.low, block.side, t_exit}, options.sigma, intervals);
@@ -34,15 +34,15 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
     } else {
       // All of the block is on one side, and so is the ball about its centre that reaches to the isosurface. Less a
       // little: the ball is measured in metres and the walk in units.
-      const Vector3d center =
-          shape.origin + shape.unit() * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
-      const double radius = (std::abs(block.distance) - margin) * (1.0 - 1e-9);
-      passOneSided(ball_exit(center, radius, t_exit), t_exit, block.distance < 0.0, walk, intervals);
+      const double side = shape.unit() * block.side;
+      const FreeBall ball{shape.origin + shape.unit() * block.low.cast<double>() + Vector3d::Constant(0.5 * side),
+                          (std::abs(block.distance) - margin) * (1.0 - 1e-9), block.distance < 0.0};
+      passFree(block.low, block.side, ball, ball_exit, walk, intervals);
     }
+    if (options.enter_only && !intervals.empty()) break;
     // Complete once something else follows it.
     if (options.first_only && !intervals.empty() && intervals.back().exit < walk.t()) break;
   }
-  if (options.first_only && intervals.size() > 1) intervals.resize(1);
 }
 
 void adaptivePieces(const AdaptiveGrid& grid, const Segment& segment, const Interval& interval,

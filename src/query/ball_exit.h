@@ -11,7 +11,10 @@ namespace sdf_ccd {
 class BallExit {
  public:
   explicit BallExit(const Segment& segment)
-      : start_(segment.start), step_(segment.end - segment.start), length2_(step_.squaredNorm()) {}
+      : start_(segment.start),
+        step_(segment.end - segment.start),
+        length2_(step_.squaredNorm()),
+        per_length2_(1.0 / length2_) {}
 
   double operator()(const Vector3d& center, double radius, double t) const {
     if (!(radius > 0.0) || !(length2_ > 0.0)) return t;
@@ -19,13 +22,13 @@ class BallExit {
     const double half_b = from.dot(step_), c = from.squaredNorm() - radius * radius;
     const double discriminant = half_b * half_b - length2_ * c;
     if (!(discriminant > 0.0)) return t;
-    const double root = std::sqrt(discriminant), enter = (-half_b - root) / length2_;
-    return enter <= t ? std::max(t, (root - half_b) / length2_) : t;
+    const double root = std::sqrt(discriminant), enter = (-half_b - root) * per_length2_;
+    return enter <= t ? std::max(t, (root - half_b) * per_length2_) : t;
   }
 
  private:
   Vector3d start_, step_;
-  double length2_;
+  double length2_, per_length2_;
 };
 
 }  // namespace sdf_ccd

@@ -4,16 +4,27 @@
 
 #include "cell_cubic.h"
 #include "representation_queries.h"
+#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd {
 
-void passOneSided(double t, double t_exit, bool inside, GridWalk& walk, Intervals& intervals) {
-  if (inside) appendSpan(intervals, walk.t(), std::min(std::max(t, t_exit), walk.end()));
-  if (t > t_exit) {
-    walk.skipTo(t);
-  } else {
-    walk.advance();
+void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals) {
+  if (inside) appendSpan(intervals, walk.t(), std::min(t, walk.end()));
+  walk.skipTo(t);
+}
+
+void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
+              Intervals& intervals) {
+  // A ball that holds the block is left later; but not by a segment of no length.
+  if (ball.radius > kHalfSqrt3 * side * walk.lattice().cell * (1.0 + 1e-9)) {
+    const double t = ball_exit(ball.center, ball.radius, walk.t());
+    if (t > walk.t()) return passTo(t, ball.inside, walk, intervals);
   }
+  const double t_exit = walk.exit(low, low.array() + side);
+  const double t = ball_exit(ball.center, ball.radius, t_exit);
+  if (t > t_exit) return passTo(t, ball.inside, walk, intervals);
+  if (ball.inside) appendSpan(intervals, walk.t(), t_exit);
+  walk.advance();
 }
 
 void appendCellSpans(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma,

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "ball_exit.h"
 #include "grid_walk.h"
 #include "sdf_ccd/query/interval.h"
 
@@ -14,9 +15,20 @@ struct WalkedCell {
   double t_exit;  ///< where the walk leaves it
 };
 
-/// Takes a walk to t, or at least out of the block that it leaves at t_exit (GridWalk::exit() was asked for), all on
-/// one side: appends the span if that is the inside.
-void passOneSided(double t, double t_exit, bool inside, GridWalk& walk, Intervals& intervals);
+/// Places without the value sigma, all on one side of it.
+struct FreeBall {
+  Vector3d center;  ///< [m]
+  double radius;    ///< [m]
+  bool inside;
+};
+
+/// Takes a walk to t, within which all is on one side: appends the span if that is the inside.
+void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals);
+
+/// Takes a walk out of a block of cells [low, low + side) that is as free as the ball about its centre, and on to where
+/// it leaves that.
+void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
+              Intervals& intervals);
 
 /// Appends the spans of the walk's parameter in which the trilinear function of eight corner values is at most sigma.
 void appendCellSpans(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma,

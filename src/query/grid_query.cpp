@@ -12,13 +12,6 @@ namespace {
 
 constexpr int kBrick = GridShape::kBrick;
 
-/// Places without the value sigma, all on one side of it.
-struct FreeBall {
-  Vector3d center;
-  double radius;
-  bool inside;
-};
-
 /// About a far brick's centre.
 FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, std::uint32_t word, double sigma) {
   const GridShape& shape = grid.shape();
@@ -54,30 +47,29 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
     const Vector3i brick = walk.cell() / kBrick;
     const std::uint32_t word = grid.word(brick);
     if (brick_word::isFar(word)) {
-      const double t_exit = walk.exit(kBrick * brick, kBrick * brick.array() + kBrick);
       const FreeBall ball = brickBall(grid, brick, word, sigma);
-      passOneSided(ball_exit(ball.center, ball.radius, t_exit), t_exit, ball.inside, walk, intervals);
+      passFree(kBrick * brick, kBrick, ball, ball_exit, walk, intervals);
     } else {
       const std::int32_t slot = grid.slot(brick);
-      const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
       FreeBall ball{Vector3d::Zero(), 0.0, false};
       if (grid.shape().exact) {
         const Vector3d place = segment.start + walk.t() * (segment.end - segment.start);
         ball = sampleBall(grid, brick, slot, place, sigma);
       }
+      const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
       const double t_ball = ball_exit(ball.center, ball.radius, walk.t());
       if (t_ball > t_exit) {
-        passOneSided(t_ball, t_exit, ball.inside, walk, intervals);
+        passTo(t_ball, ball.inside, walk, intervals);
       } else {
         const auto corners = grid.cellCorners(slot, walk.cell() - kBrick * brick);
         appendCellSpans(corners, walk, {walk.cell(), 1, t_exit}, sigma, intervals);
         walk.advance();
       }
     }
+    if (options.enter_only && !intervals.empty()) break;
     // Complete once something else follows it.
     if (options.first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
   }
-  if (options.first_only && intervals.size() > 1) intervals.resize(1);
 }
 
 void gridPieces(const SparseGrid& grid, const Segment& segment, const Interval& interval, std::vector<double>& breaks) {

@@ -1,7 +1,7 @@
 #include "grid_walk.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace sdf_ccd {
 
@@ -19,42 +19,15 @@ bool clipToBox(const Vector3d& start, const Vector3d& step, const Vector3d& size
 }
 
 GridWalk::GridWalk(const CellLattice& lattice, const Segment& segment)
-    : size_(lattice.size),
+    : lattice_(lattice),
       start_((segment.start - lattice.origin) / lattice.cell),
       step_((segment.end - segment.start) / lattice.cell) {
-  if (!clipToBox(start_, step_, size_.cast<double>(), t_, t_end_)) return;
+  // Of the smallest steps the inverse is not finite; what they do not reach is as far as it is.
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  for (int k = 0; k < 3; ++k) per_step_[k] = std::clamp(1.0 / step_[k], -kLargest, kLargest);
+  if (!clipToBox(start_, step_, lattice_.size.cast<double>(), t_, t_end_)) return;
   findCell();
   inside_ = true;
-}
-
-void GridWalk::findCell() {
-  for (int k = 0; k < 3; ++k) {
-    cell_[k] = static_cast<int>(std::clamp(std::floor(start_[k] + t_ * step_[k]), 0.0, double(size_[k] - 1)));
-  }
-}
-
-double GridWalk::exit(const Vector3i& low, const Vector3i& high) {
-  low_ = low;
-  high_ = high;
-  axis_ = -1;
-  t_exit_ = t_end_;
-  for (int k = 0; k < 3; ++k) {
-    if (step_[k] == 0.0) continue;
-    const double plane = step_[k] > 0.0 ? high[k] : low[k];
-    const double t = (plane - start_[k]) / step_[k];
-    if (t < t_exit_) {
-      t_exit_ = t;
-      axis_ = k;
-    }
-  }
-  t_exit_ = std::max(t_exit_, t_);
-  return t_exit_;
-}
-
-void GridWalk::skipTo(double t) {
-  inside_ = t < t_end_;
-  t_ = std::min(t, t_end_);
-  findCell();
 }
 
 void GridWalk::advance() {
@@ -65,12 +38,11 @@ void GridWalk::advance() {
   }
   for (int k = 0; k < 3; ++k) {
     if (k == axis_ || step_[k] == 0.0) continue;
-    const int at =
-        static_cast<int>(std::clamp(std::floor(start_[k] + t_ * step_[k]), double(low_[k]), double(high_[k] - 1)));
+    const int at = cellAt(k, low_[k], high_[k] - 1);
     cell_[k] = step_[k] > 0.0 ? std::max(cell_[k], at) : std::min(cell_[k], at);
   }
   cell_[axis_] = step_[axis_] > 0.0 ? high_[axis_] : low_[axis_] - 1;
-  inside_ = cell_[axis_] >= 0 && cell_[axis_] < size_[axis_];
+  inside_ = cell_[axis_] >= 0 && cell_[axis_] < lattice_.size[axis_];
 }
 
 }  // namespace sdf_ccd

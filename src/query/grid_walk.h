@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "sdf_ccd/geometry/eigen_types.h"
 #include "sdf_ccd/query/segment_query.h"
 
@@ -27,6 +29,8 @@ class GridWalk {
   /// False once the segment has ended or left the grid (or if it never meets it).
   bool inside() const { return inside_; }
 
+  const CellLattice& lattice() const { return lattice_; }
+
   const Vector3i& cell() const { return cell_; }
 
   /// Parameter at which the current block was entered.
@@ -37,13 +41,32 @@ class GridWalk {
 
   /// Parameter at which the block of cells [low, high) around the current cell is left, at most the segment's end;
   /// remembers through which face.
-  double exit(const Vector3i& low, const Vector3i& high);
+  double exit(const Vector3i& low, const Vector3i& high) {
+    low_ = low;
+    high_ = high;
+    axis_ = -1;
+    t_exit_ = t_end_;
+    for (int k = 0; k < 3; ++k) {
+      if (step_[k] == 0.0) continue;
+      const double t = ((step_[k] > 0.0 ? high[k] : low[k]) - start_[k]) * per_step_[k];
+      if (t < t_exit_) {
+        t_exit_ = t;
+        axis_ = k;
+      }
+    }
+    t_exit_ = std::max(t_exit_, t_);
+    return t_exit_;
+  }
 
   /// Steps through the face that exit() found.
   void advance();
 
-  /// Leaves out all that lies before t, which is not before exit() and at most the segment's end.
-  void skipTo(double t);
+  /// Leaves out all that lies before t, which is not before the current block's exit() and at most the segment's end.
+  void skipTo(double t) {
+    inside_ = t < t_end_;
+    t_ = std::min(t, t_end_);
+    findCell();
+  }
 
   /// The segment's place at t, in cells from `origin_cell`'s first corner.
   Vector3d local(double t, const Vector3i& origin_cell) const {
@@ -51,10 +74,18 @@ class GridWalk {
   }
 
  private:
-  void findCell();
+  /// Along one axis, in [low, high].
+  int cellAt(int k, double low, double high) const {
+    return static_cast<int>(std::min(std::max(start_[k] + t_ * step_[k], low), high));
+  }
 
-  Vector3i size_;
+  void findCell() {
+    for (int k = 0; k < 3; ++k) cell_[k] = cellAt(k, 0.0, lattice_.size[k] - 1);
+  }
+
+  CellLattice lattice_;
   Vector3d start_, step_;  // in cells
+  Vector3d per_step_;      // 1 / step, where that is not zero
   Vector3i cell_ = Vector3i::Zero();
   double t_ = 0.0, t_end_ = 1.0;
   bool inside_ = false;

@@ -7,7 +7,8 @@
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/query/segment_query.h"
 
-/// The segment query on each kind of field that a DistanceField can hold.
+/// The segment query on each kind of field that a DistanceField can hold. Of options they need only stop early: more than
+/// is asked for is cut away by segmentIntervals().
 namespace sdf_ccd {
 
 /// Spans that follow each other nearer than this on the path are one: two cells agree on their common face only to

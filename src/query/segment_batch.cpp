@@ -23,12 +23,12 @@ using Hits = std::vector<SegmentHit>;
 void askSingly(const DistanceField& field, const Segment* segments, std::size_t first, std::size_t last,
                const BatchOptions& options, Hits& hits) {
   thread_local Intervals intervals;
-  const bool first_only = options.mode != SegmentMode::kAll;
+  SegmentOptions single{options.sigma};
+  single.enter_only = options.mode != SegmentMode::kAll;
   for (std::size_t i = first; i < last; ++i) {
-    segmentIntervals(field, segments[i], {options.sigma, first_only}, intervals);
+    segmentIntervals(field, segments[i], single, intervals);
     for (const Interval& found : intervals) {
-      const auto enter = static_cast<float>(found.enter);
-      hits.push_back({static_cast<std::uint32_t>(i), enter, first_only ? enter : static_cast<float>(found.exit)});
+      hits.push_back({static_cast<std::uint32_t>(i), static_cast<float>(found.enter), static_cast<float>(found.exit)});
     }
   }
 }

@@ -295,23 +295,49 @@ TEST(SegmentQuery, ReversedInTimeGivesTheMirroredIntervals) {
   }
 }
 
-TEST(SegmentQuery, FirstOnlyGivesTheFirst) {
-  FieldOptions options;
-  options.cells = 32;
-  const DistanceField field = buildField(test::torusMesh(0.2, 0.08, 32, 16), options);
+/// What stops early equals what is first in the whole.
+void expectFirstOfAll(const DistanceField& field) {
   Random random(8);
   int several = 0;
   for (int i = 0; i < 5000; ++i) {
     const Segment s = randomSegment(field, random, 0);
     const Intervals all = segmentIntervals(field, s), first = segmentIntervals(field, s, {0.0, true});
+    const Intervals enter = segmentIntervals(field, s, {0.0, false, true});
     ASSERT_EQ(first.size(), std::min<std::size_t>(all.size(), 1));
+    ASSERT_EQ(enter.size(), first.size());
     several += all.size() > 1;
     if (!first.empty()) {
       EXPECT_EQ(first[0].enter, all[0].enter);
       EXPECT_EQ(first[0].exit, all[0].exit);
+      EXPECT_EQ(enter[0].enter, all[0].enter);
+      EXPECT_EQ(enter[0].exit, all[0].enter);
     }
   }
   EXPECT_GT(several, 100);
+}
+
+TEST(SegmentQuery, FirstIsTheFirstOfAllOnATorus) {
+  FieldOptions options;
+  options.cells = 32;
+  expectFirstOfAll(buildField(test::torusMesh(0.2, 0.08, 32, 16), options));
+}
+
+TEST(SegmentQuery, FirstIsTheFirstOfAllOnAnAdaptiveTorus) {
+  FieldOptions options;
+  options.max_error = 0.004;
+  expectFirstOfAll(buildField(test::torusMesh(0.2, 0.08, 32, 16), options));
+}
+
+TEST(SegmentQuery, FirstIsTheFirstOfAllOnAPrimitive) {
+  const DistanceField field(Primitive{Sphere{0.3}});
+  Random random(8);
+  const AlignedBox3d box(Vector3d::Constant(-0.5), Vector3d::Constant(0.5));
+  for (int i = 0; i < 1000; ++i) {
+    const Segment s{test::uniformIn(random, box), test::uniformIn(random, box)};
+    const Intervals all = segmentIntervals(field, s), enter = segmentIntervals(field, s, {0.0, false, true});
+    ASSERT_EQ(enter.size(), all.size());
+    if (!all.empty()) EXPECT_EQ(enter[0].exit, all[0].enter);
+  }
 }
 
 TEST(SegmentQuery, MayTouchNeverDeniesATouch) {

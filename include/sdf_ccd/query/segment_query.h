@@ -21,6 +21,7 @@ inline bool isWithinReach(const Segment& segment) {
 struct SegmentOptions {
   double sigma = 0.0;       ///< isovalue [m]; 0 is the surface
   bool first_only = false;  ///< stop after the first interval
+  bool enter_only = false;  ///< stop where the first interval begins, and give it no length
 };
 
 /// Times during which a moving point is on or inside the isosurface φ = σ.
