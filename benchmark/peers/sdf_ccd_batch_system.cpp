@@ -8,9 +8,9 @@ namespace {
 /// This package, many segments a call.
 class BatchQuery : public SegmentSystem {
  public:
-  explicit BatchQuery(const DistanceField& field) : field_(field) {}
+  BatchQuery(const std::string& name, const DistanceField& field) : name_(name), field_(field) {}
 
-  std::string name() const override { return "sdf_ccd_batch"; }
+  std::string name() const override { return name_; }
   bool answers(const Question& question) const override { return std::abs(question.sigma) <= field_.band(); }
   std::size_t bytes() const override { return field_.bytes(); }
   bool batched() const override { return true; }
@@ -29,12 +29,14 @@ class BatchQuery : public SegmentSystem {
   }
 
  private:
+  std::string name_;
   DistanceField field_;
   BatchResult result_;
 };
 
 const Registered kBatch{FieldFactory([](const FieldSubject& subject, SegmentSystems& systems) {
-  systems.push_back(std::make_unique<BatchQuery>(subject.field));
+  systems.push_back(std::make_unique<BatchQuery>("sdf_ccd_batch", subject.field));
+  if (subject.floats) systems.push_back(std::make_unique<BatchQuery>("sdf_ccd_float_batch", *subject.floats));
 })};
 
 }  // namespace

@@ -6,9 +6,9 @@ namespace {
 /// This package, one query a call.
 class SingleQuery : public SegmentSystem {
  public:
-  explicit SingleQuery(const DistanceField& field) : field_(field) {}
+  SingleQuery(const std::string& name, const DistanceField& field) : name_(name), field_(field) {}
 
-  std::string name() const override { return "sdf_ccd"; }
+  std::string name() const override { return name_; }
   bool answers(const Question& question) const override { return std::abs(question.sigma) <= field_.band(); }
   std::size_t bytes() const override { return field_.bytes(); }
 
@@ -27,12 +27,14 @@ class SingleQuery : public SegmentSystem {
   }
 
  private:
+  std::string name_;
   DistanceField field_;
   Intervals intervals_;
 };
 
 const Registered kSingle{FieldFactory([](const FieldSubject& subject, SegmentSystems& systems) {
-  systems.push_back(std::make_unique<SingleQuery>(subject.field));
+  systems.push_back(std::make_unique<SingleQuery>("sdf_ccd", subject.field));
+  if (subject.floats) systems.push_back(std::make_unique<SingleQuery>("sdf_ccd_float", *subject.floats));
 })};
 
 }  // namespace

@@ -20,11 +20,6 @@ struct ShapeRecord {
 static_assert(sizeof(ShapeRecord) == 112, "the file's layout must not depend on the compiler");
 static_assert(sizeof(NodeBases) == 12 && sizeof(AdaptiveNode) == 64 && sizeof(SplitLeaves) == 64, "as above");
 
-template <class T>
-FileSection sectionOf(const View<T>& view) {
-  return {view.data, view.size * sizeof(T)};
-}
-
 }  // namespace
 
 void saveAdaptive(const AdaptiveGrid& grid, const std::string& path) {

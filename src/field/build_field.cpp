@@ -1,6 +1,7 @@
 #include "sdf_ccd/field/build_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -131,6 +132,10 @@ class Sampler {
   GridShape shape_;
 };
 
+Vector3i cubeCorner(int k) {
+  return {k & 1, (k >> 1) & 1, k >> 2};
+}
+
 /// Bricks that need samples: the distance at the centre, or a sign that changes between the corners, says that
 /// |φ| ≤ band (and its interpolation error) may be met inside.
 bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vector<float>& corners,
@@ -139,7 +144,7 @@ bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vec
   double nearest = TriangleTree::kInfinity;
   int negative = 0;
   for (int k = 0; k < 8; ++k) {
-    const float c = corners[shape.cornerIndex(brick + Vector3i(k & 1, (k >> 1) & 1, k >> 2))];
+    const float c = corners[shape.cornerIndex(brick + cubeCorner(k))];
     nearest = std::min(nearest, std::abs(double(c)));
     negative += c < 0.0F;
   }
@@ -151,13 +156,22 @@ bool needsSamples(const Sampler& sampler, const GridShape& shape, const std::vec
   return sampler.surface().tree().closestPoint(center, reach).distance < reach;
 }
 
+/// What no sample of a brick exceeds: distances differ by no more than places do.
+double largestSample(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick) {
+  double nearest = TriangleTree::kInfinity;
+  for (int k = 0; k < 8; ++k) {
+    nearest = std::min(nearest, std::abs(double(corners[shape.cornerIndex(brick + cubeCorner(k))])));
+  }
+  return nearest + 2.0 * kHalfSqrt3 * GridShape::kBrick * shape.cell;
+}
+
 }  // namespace
 
 DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress) {
   validate(mesh);
   validate(options);
   if (options.max_error) return DistanceField(buildAdaptive(mesh, options, progress));
-  const GridShape shape = shapeFor(mesh, options);
+  GridShape shape = shapeFor(mesh, options);
   const std::size_t bricks = shape.brickCount();
   const std::size_t coarse_bytes = shape.cornerCount() * sizeof(float) + bricks * sizeof(std::int32_t);
   const auto refuse = [&](std::size_t bytes) {
@@ -189,6 +203,7 @@ DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, 
       }
   });
   std::vector<Vector3i> sampled;
+  double largest = 0.0;
   for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
     for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
       for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
@@ -196,14 +211,26 @@ DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, 
         if (slot == SparseGrid::kFar) continue;
         slot = static_cast<std::int32_t>(sampled.size());
         sampled.push_back(b);
+        largest = std::max(largest, largestSample(shape, data.corners, b));
       }
-  const std::size_t bytes = coarse_bytes + sampled.size() * GridShape::kSamples * sizeof(float);
+  const bool in_steps = options.sample_bits == 16;
+  const std::size_t samples = sampled.size() * GridShape::kSamples;
+  const std::size_t bytes = coarse_bytes + samples * (in_steps ? sizeof(std::int16_t) : sizeof(float));
   if (bytes > options.max_bytes) refuse(bytes);
 
-  data.samples.resize(sampled.size() * GridShape::kSamples);
+  if (in_steps) shape.step = GridShape::stepFor(largest);
+  in_steps ? data.steps.resize(samples) : data.samples.resize(samples);
   ProgressCounter counter(progress, sampled.size());
   tbb::parallel_for(std::size_t{0}, sampled.size(), [&](std::size_t i) {
-    sampler.fill(sampled[i], data.samples.data() + i * GridShape::kSamples);
+    const std::size_t first = i * GridShape::kSamples;
+    if (in_steps) {
+      std::array<float, GridShape::kSamples> metres;
+      sampler.fill(sampled[i], metres.data());
+      std::transform(metres.begin(), metres.end(), data.steps.begin() + std::ptrdiff_t(first),
+                     [&](float metres) { return shape.inSteps(metres); });
+    } else {
+      sampler.fill(sampled[i], data.samples.data() + first);
+    }
     counter.add();
   });
   return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));

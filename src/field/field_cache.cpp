@@ -16,7 +16,7 @@ constexpr double kMeaning = 2;
 
 std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options) {
   return contentHash(mesh, {double(options.cells.value_or(0)), options.cell_size.value_or(0.0),
-                            options.max_error.value_or(0.0), options.band, kMeaning}) +
+                            options.max_error.value_or(0.0), options.band, double(options.sample_bits), kMeaning}) +
          ".field";
 }
 

@@ -52,7 +52,7 @@ SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
   const auto owned = std::make_shared<OwnedGrid>();
   owned->data = std::move(data);
   const std::vector<std::int32_t>& slots = owned->data.slots;
-  arrays_ = {viewOf(owned->data.corners), {}, viewOf(owned->data.samples)};
+  arrays_ = {viewOf(owned->data.corners), {}, viewOf(owned->data.samples), viewOf(owned->data.steps)};
   if (slots.size() != shape.brickCount() || arrays_.corners.size != shape.cornerCount()) {
     throw std::invalid_argument("sparse grid: " + std::to_string(slots.size()) + " slots and " +
                                 std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
@@ -68,9 +68,11 @@ SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
   arrays_.words = viewOf(owned->words);
   owned->data.slots = {};
   owner_ = owned;
-  float largest = 0.0F;
-  for (std::size_t i = 0; i < arrays_.samples.size; ++i) largest = std::max(largest, std::abs(arrays_.samples[i]));
-  error_bound_ = kHalfSqrt3 * shape_.cell + 2.0 * largest * std::numeric_limits<float>::epsilon();
+  double largest = GridShape::kMostSteps * shape.step;
+  for (std::size_t i = 0; i < arrays_.samples.size; ++i) {
+    largest = std::max(largest, std::abs(double(arrays_.samples[i])));
+  }
+  error_bound_ = kHalfSqrt3 * shape_.cell + rounding() + 2.0 * largest * std::numeric_limits<float>::epsilon();
   check();
 }
 
@@ -92,8 +94,10 @@ void SparseGrid::check() const {
   if (arrays_.corners.size != shape_.cornerCount()) {
     fail(std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
   }
-  if (arrays_.samples.size % GridShape::kSamples != 0) fail("samples end within a brick");
-  const auto stored = static_cast<std::uint32_t>(arrays_.samples.size / GridShape::kSamples);
+  if (!(shape_.step >= 0.0) || !std::isfinite(shape_.step)) fail("step " + std::to_string(shape_.step));
+  if ((shape_.step > 0.0 ? arrays_.samples.size : arrays_.steps.size) != 0) fail("samples of the other kind");
+  if (sampleCount() % GridShape::kSamples != 0) fail("samples end within a brick");
+  const auto stored = static_cast<std::uint32_t>(sampleCount() / GridShape::kSamples);
   for (std::size_t i = 0; i < arrays_.words.size; ++i) {
     const std::uint32_t word = arrays_.words[i];
     if (!brick_word::isFar(word) && word >> 1 >= stored) fail("slot " + std::to_string(word >> 1));
@@ -107,7 +111,7 @@ std::array<double, 8> SparseGrid::brickCorners(const Vector3i& brick) const {
 
 std::size_t SparseGrid::bytes() const {
   return arrays_.corners.size * sizeof(float) + arrays_.words.size * sizeof(std::uint32_t) +
-         arrays_.samples.size * sizeof(float);
+         arrays_.samples.size * sizeof(float) + arrays_.steps.size * sizeof(std::int16_t);
 }
 
 Vector3d trilinearGradient(const std::array<double, 8>& c, const Vector3d& u) {

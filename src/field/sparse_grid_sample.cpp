@@ -35,8 +35,9 @@ double farValue(const SparseGrid& grid, const LocatedCell& cell, double interpol
 }
 
 /// Of the interpolated distance in its cell or brick [m].
-double errorAt(const LocatedCell& cell, double interpolated) {
-  return lipschitzError(cell.u, cell.side) + 4.0 * std::numeric_limits<float>::epsilon() * std::abs(interpolated);
+double errorAt(const SparseGrid& grid, const LocatedCell& cell, double interpolated) {
+  return lipschitzError(cell.u, cell.side) + (cell.sampled ? grid.rounding() : 0.0) +
+         4.0 * std::numeric_limits<float>::epsilon() * std::abs(interpolated);
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ double errorAt(const LocatedCell& cell, double interpolated) {
 DistanceBounds boundsWithin(const SparseGrid& grid, const Vector3d& p_F) {
   const double band = grid.shape().band;
   const LocatedCell cell = locate(grid, p_F);
-  const double interpolated = trilinear(cell.corners, cell.u), error = errorAt(cell, interpolated);
+  const double interpolated = trilinear(cell.corners, cell.u), error = errorAt(grid, cell, interpolated);
   DistanceBounds bounds{interpolated - error, interpolated + error};
   if (!cell.sampled && cell.corners[0] > 0.0) bounds.low = std::max(bounds.low, band);
   if (!cell.sampled && cell.corners[0] < 0.0) bounds.high = std::min(bounds.high, -band);
@@ -55,7 +56,7 @@ FieldSample sampleWithin(const SparseGrid& grid, const Vector3d& p_F) {
   const LocatedCell cell = locate(grid, p_F);
   const double interpolated = trilinear(cell.corners, cell.u);
   const double value = cell.sampled ? interpolated : farValue(grid, cell, interpolated);
-  return {value, errorAt(cell, interpolated), trilinearGradient(cell.corners, cell.u) / cell.side};
+  return {value, errorAt(grid, cell, interpolated), trilinearGradient(cell.corners, cell.u) / cell.side};
 }
 
 }  // namespace sdf_ccd

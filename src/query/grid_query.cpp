@@ -21,17 +21,16 @@ FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, std::uint32_t 
 }
 
 /// About the sample nearest to a place of a sampled brick. With v the sample and h the cell no place nearer than
-/// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3).
+/// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3); v less its own rounding and that of those around it.
 FreeBall sampleBall(const SparseGrid& grid, const Vector3i& brick, std::int32_t slot, const Vector3d& p_F,
                     double sigma) {
   const GridShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.cell - (kBrick * brick).cast<double>();
   const Vector3i i = (g.array() + 0.5).floor().max(0.0).min(double(kBrick)).matrix().cast<int>();
-  const double above = grid.samples()[std::size_t(slot) * GridShape::kSamples +
-                                      (i.z() * GridShape::kSide + i.y()) * GridShape::kSide + i.x()] -
-                       sigma;
-  const double free = std::abs(above) * (1.0 - 1e-6) - std::numeric_limits<float>::epsilon() * std::abs(sigma);
-  const double radius2 = free * free - 0.75 * shape.cell * shape.cell;
+  const double above = grid.sample(slot, i) - sigma;
+  const double free =
+      std::abs(above) * (1.0 - 1e-6) - 2.0 * grid.rounding() - std::numeric_limits<float>::epsilon() * std::abs(sigma);
+  const double radius2 = std::max(free, 0.0) * free - 0.75 * shape.cell * shape.cell;
   return {shape.origin + shape.cell * (kBrick * brick + i).cast<double>(), radius2 > 0.0 ? std::sqrt(radius2) : 0.0,
           above < 0.0};
 }

@@ -54,9 +54,11 @@ inline void fetchBelow(const EvenLanes& g, const FlightQueue& queue, Fetched& fe
     const VI row = hn::Add(hn::Mul(nearest.x[2], whole(GridShape::kSide)), nearest.x[1]);
     hn::StoreU(hn::Add(hn::Mul(row, whole(GridShape::kSide)), nearest.x[0]), n, fetched.word.data() + i);
   }
-  for (int i = 0; i < queue.size; ++i) {
-    const float* samples = g.samples + std::size_t(queue.place[i]) * GridShape::kSamples;
-    std::memcpy(&fetched.word[i], samples + fetched.word[i], sizeof(float));
+  const auto sampleOf = [&](int i) { return std::size_t(queue.place[i]) * GridShape::kSamples + fetched.word[i]; };
+  if (g.steps) {
+    for (int i = 0; i < queue.size; ++i) fetched.word[i] = g.steps[sampleOf(i)];
+  } else {
+    for (int i = 0; i < queue.size; ++i) std::memcpy(&fetched.word[i], g.samples + sampleOf(i), sizeof(float));
   }
 }
 
@@ -71,36 +73,53 @@ inline SampleBall nearestBall(const EvenLanes& g, const Lanes& lanes, const Fetc
   constexpr float kCell = 1 << EvenLanes::kLogCell;
   const NearestSample nearest(lanes);
   SampleBall ball{{nearest.center[0], nearest.center[1], nearest.center[2]}, {}, {}};
-  const VF value = hn::BitCast(f, hn::LoadU(n, fetched.word.data() + first));
-  const VF above = hn::Sub(value, real(g.sigma));
+  const VI word = hn::LoadU(n, fetched.word.data() + first);
+  const VF above = hn::Sub(g.steps ? hn::ConvertTo(f, word) : hn::BitCast(f, word), real(g.sigma));
   ball.inside = asWhole(hn::Lt(above, real(0.0F)));
   // Less what single precision makes of it.
-  const VF free = hn::MulAdd(hn::Abs(above), real(g.per_metre * (1.0F - 1e-5F)), real(-0.02F));
+  const VF free = hn::MulAdd(hn::Abs(above), real(g.per_sample * (1.0F - 1e-5F)), real(-0.02F - g.rounding));
   const VF radius2 = hn::MulSub(free, free, real(0.75F * kCell * kCell));
   ball.radius2 = hn::IfThenElse(hn::Gt(free, real(0.0F)), radius2, real(-1.0F));
   return ball;
 }
 
 /// Reads the corners of the flights' cells: those that are next to each other along x lie together.
-inline void fetchLeaves(const EvenLanes& g, const FlightQueue& queue, Fetched& fetched) {
+/// @param words  that a pair takes.
+template <int words, class Sample>
+inline void fetchPairs(const Sample* samples, const FlightQueue& queue, Fetched& fetched) {
+  static_assert(words * sizeof(std::int32_t) == 2 * sizeof(Sample), "two samples");
   constexpr int kSide = GridShape::kSide;
   for (int i = 0; i < queue.size; ++i) {
     const auto in_brick = [&](int k) { return (queue.cell[k][i] >> EvenLanes::kLogCell) & (GridShape::kBrick - 1); };
-    const float* first = g.samples + std::size_t(queue.place[i]) * GridShape::kSamples +
-                         (in_brick(2) * kSide + in_brick(1)) * kSide + in_brick(0);
-    const float* pairs[] = {first, first + kSide, first + kSide * kSide, first + kSide * kSide + kSide};
-    for (int k = 0; k < 4; ++k) std::memcpy(&fetched.pairs[k][2 * i], pairs[k], 2 * sizeof(float));
+    const Sample* first = samples + std::size_t(queue.place[i]) * GridShape::kSamples +
+                          (in_brick(2) * kSide + in_brick(1)) * kSide + in_brick(0);
+    const Sample* pairs[] = {first, first + kSide, first + kSide * kSide, first + kSide * kSide + kSide};
+    for (int k = 0; k < 4; ++k) std::memcpy(&fetched.pairs[k][words * i], pairs[k], 2 * sizeof(Sample));
   }
 }
 
-/// Of each lane's cell, in metres.
+inline void fetchLeaves(const EvenLanes& g, const FlightQueue& queue, Fetched& fetched) {
+  if (g.steps) {
+    fetchPairs<1>(g.steps, queue, fetched);
+  } else {
+    fetchPairs<2>(g.samples, queue, fetched);
+  }
+}
+
+/// Of each lane's cell, in metres or steps.
 inline LeafCorners leafCorners(const EvenLanes& g, const Lanes& /*lanes*/, const Fetched& fetched, int first) {
   LeafCorners corners;
   for (int k = 0; k < 4; ++k) {
-    VI even, odd;
-    hn::LoadInterleaved2(n, fetched.pairs[k].data() + 2 * first, even, odd);
-    corners.corner[2 * k] = hn::BitCast(f, even);
-    corners.corner[2 * k + 1] = hn::BitCast(f, odd);
+    if (g.steps) {
+      const VI both = hn::LoadU(n, fetched.pairs[k].data() + first);  // the left one's bits are the lower ones
+      corners.corner[2 * k] = hn::ConvertTo(f, hn::ShiftRight<16>(hn::ShiftLeft<16>(both)));
+      corners.corner[2 * k + 1] = hn::ConvertTo(f, hn::ShiftRight<16>(both));
+    } else {
+      VI even, odd;
+      hn::LoadInterleaved2(n, fetched.pairs[k].data() + 2 * first, even, odd);
+      corners.corner[2 * k] = hn::BitCast(f, even);
+      corners.corner[2 * k + 1] = hn::BitCast(f, odd);
+    }
   }
   corners.iso = real(g.sigma);
   return corners;

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include "segment_lanes.h"
 
@@ -46,13 +45,14 @@ EvenLanes::EvenLanes(const SparseGrid& grid, double sigma_metres) {
   const GridShape& shape = grid.shape();
   setBox(*this, shape.origin, GridShape::kBrick * shape.cell / kUnits, shape.bricks, grid.words().data);
   samples = grid.samples().data;
-  sigma = static_cast<float>(sigma_metres);
+  const bool in_steps = shape.step > 0.0;
+  steps = in_steps ? grid.steps().data : nullptr;
+  const double unit = in_steps ? shape.step : 1.0;
+  sigma = static_cast<float>(sigma_metres / unit);
+  per_sample = static_cast<float>(unit * units_per_metre);
+  rounding = static_cast<float>(2.0 * grid.rounding() * units_per_metre);
   margin = static_cast<float>((std::abs(sigma_metres) + grid.errorBound()) * units_per_metre);
   exact = shape.exact;
-}
-
-bool EvenLanes::canIndex(const SparseGrid& grid) {
-  return grid.samples().size <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
 }
 
 }  // namespace sdf_ccd

@@ -132,9 +132,7 @@ void segmentIntervals(const DistanceField& field, const Segment* segments, std::
     askInChunks(count, ask, result.hits);
   };
   if (const AdaptiveGrid* grid = field.adaptive()) return askLanes(AdaptiveLanes(*grid, options.sigma));
-  if (const SparseGrid* grid = field.grid(); grid && EvenLanes::canIndex(*grid)) {
-    return askLanes(EvenLanes(*grid, options.sigma));
-  }
+  if (const SparseGrid* grid = field.grid()) return askLanes(EvenLanes(*grid, options.sigma));
 #endif
   const auto ask = [&](std::size_t first, std::size_t last, Hits& hits) {
     askSingly(field, segments, first, last, options, hits);

@@ -44,12 +44,12 @@ struct EvenLanes : LaneBox {
 
   EvenLanes(const SparseGrid& grid, double sigma);
 
-  /// Whether 32 bits number its samples.
-  static bool canIndex(const SparseGrid& grid);
-
-  const float* samples;  ///< [m]
-  float sigma;           ///< [m]
-  bool exact;            ///< samples are distances: no surface within their balls
+  const float* samples;       ///< [m]
+  const std::int16_t* steps;  ///< null where samples are floats
+  float sigma;                ///< in what samples count, metres or steps
+  float per_sample;           ///< units in one of those
+  float rounding;             ///< by which two samples may differ more than their distances do [units]
+  bool exact;                 ///< samples are distances: no surface within their balls
 };
 
 /// By the bits of a mask of eight lanes: those that are set, in order; then zeros.
@@ -92,7 +92,7 @@ struct Fetched {
 
   FlightQueue::Column<std::int32_t> word;  ///< of a top cell; a node's code; a sample's bits
   FlightQueue::Column<std::int32_t> base;  ///< of a node's children of that code's kind
-  std::array<Pairs, 4> pairs;              ///< of a leaf's corners: two words a flight
+  std::array<Pairs, 4> pairs;              ///< of a leaf's corners: two words a flight, or one
 };
 
 /// Something inside: of segment number `id`.

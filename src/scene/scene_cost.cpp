@@ -93,7 +93,7 @@ class CostEstimate {
     } else {
       const double cell = field.cell_size ? *field.cell_size : boundingBox(mesh.mesh).sizes().maxCoeff() / *field.cells;
       const double samples = evenSamples(mesh.mesh, cell, field.band);
-      bytes = samples * sizeof(float);
+      bytes = samples * field.sample_bits / 8.0;
       one_thread = kSecondsPerSample * samples;
     }
     cost.field_bytes += bytes;

@@ -46,8 +46,8 @@ std::string describe(const DistanceField& field) {
            accuracy;
   }
   const Vector3i cells = field.grid()->shape().cells();
-  return format("%d×%d×%d cells of %.4g m, %zu of them stored, ", cells.x(), cells.y(), cells.z(),
-                field.grid()->shape().cell, field.cells()) +
+  return format("%d×%d×%d cells of %.4g m, %zu of them stored, %d bits a sample, ", cells.x(), cells.y(), cells.z(),
+                field.grid()->shape().cell, field.cells(), field.grid()->sampleBits()) +
          accuracy;
 }
 

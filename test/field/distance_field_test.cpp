@@ -12,38 +12,98 @@ namespace {
 
 using test::Random;
 
-FieldOptions cells(int n) {
+FieldOptions cells(int n, int sample_bits = FieldOptions().sample_bits) {
   FieldOptions options;
   options.cells = n;
+  options.sample_bits = sample_bits;
   return options;
 }
 
 const Vector3d kHalf(0.3, 0.2, 0.1);
 
 /// A box as a mesh is the same solid as the primitive, so its field has an analytic answer everywhere.
-DistanceField boxField(int n) {
-  return buildField(test::boxMesh(kHalf), cells(n));
+DistanceField boxField(int n, int sample_bits = FieldOptions().sample_bits) {
+  return buildField(test::boxMesh(kHalf), cells(n, sample_bits));
 }
 
-TEST(DistanceField, SamplesAreExactAtGridPoints) {
-  const DistanceField field = boxField(40);
+/// Calls visit(brick, slot) for all bricks with samples.
+template <class Visit>
+void forEachSampled(const SparseGrid& grid, const Visit& visit) {
+  const Vector3i bricks = grid.shape().bricks;
+  for (Vector3i b(0, 0, 0); b.z() < bricks.z(); ++b.z())
+    for (b.y() = 0; b.y() < bricks.y(); ++b.y())
+      for (b.x() = 0; b.x() < bricks.x(); ++b.x())
+        if (const std::int32_t slot = grid.slot(b); slot != SparseGrid::kFar) visit(b, slot);
+}
+
+class SampleBits : public testing::TestWithParam<int> {};
+
+TEST_P(SampleBits, SamplesAreExactAtGridPointsToTheirRounding) {
+  const DistanceField field = boxField(40, GetParam());
   const SparseGrid& grid = *field.grid();
   const GridShape& shape = grid.shape();
+  EXPECT_EQ(grid.sampleBits(), GetParam());
+  double worst = 0.0;
   int seen = 0;
-  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
-    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
-      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
-        if (grid.slot(b) == SparseGrid::kFar) continue;
-        const Vector3i cell(3, 5, 1);
-        const Vector3d p = shape.origin + shape.cell * (8 * b + cell).cast<double>();
-        EXPECT_NEAR(grid.cellCorners(grid.slot(b), cell)[0], signedDistance(Primitive(Box{kHalf}), p), 1e-7);
-        ++seen;
-      }
-  EXPECT_GT(seen, 50);
+  forEachSampled(grid, [&](const Vector3i& b, std::int32_t slot) {
+    for (const Vector3i& place : {Vector3i(3, 5, 1), Vector3i(8, 0, 8), Vector3i(7, 8, 4)}) {
+      const Vector3d p = shape.origin + shape.cell * (8 * b + place).cast<double>();
+      const double error = std::abs(grid.sample(slot, place) - signedDistance(Primitive(Box{kHalf}), p));
+      ASSERT_LE(error, grid.rounding() + 1e-7);
+      worst = std::max(worst, error);
+      ++seen;
+    }
+    const std::array<double, 8> corners = grid.cellCorners(slot, {3, 5, 7});
+    for (int k = 0; k < 8; ++k) {
+      ASSERT_EQ(corners[k], grid.sample(slot, Vector3i(3 + (k & 1), 5 + (k >> 1 & 1), 7 + (k >> 2))));
+    }
+  });
+  EXPECT_GT(seen, 150);
+  EXPECT_GE(worst, 0.9 * grid.rounding());
+  if (GetParam() == 32) {
+    EXPECT_EQ(grid.rounding(), 0.0);
+  } else {
+    EXPECT_GT(grid.rounding(), 1e-4 * shape.cell);
+    EXPECT_LT(grid.rounding(), 1e-3 * shape.cell);
+  }
 }
 
-TEST(DistanceField, ErrorBoundHoldsEverywhereAndIsReached) {
-  const DistanceField field = boxField(40);
+/// Sixteen bits change what is sampled by their rounding at most, and say so.
+TEST(DistanceField, SixteenBitsDifferFromFloatsByTheirRounding) {
+  const DistanceField floats = boxField(64, 32), steps = boxField(64, 16);
+  const double rounding = steps.grid()->rounding();
+  EXPECT_NEAR(steps.errorBound() - floats.errorBound(), rounding, 0.02 * rounding);
+  EXPECT_LT(double(steps.bytes()), 0.52 * double(floats.bytes()));
+  Random random(9);
+  double worst = 0.0;
+  for (int i = 0; i < 100000; ++i) {
+    const Vector3d p = test::uniformIn(random, floats.box());
+    const FieldSample exact = floats.sample(p), rounded = steps.sample(p);
+    ASSERT_LE(std::abs(rounded.value - exact.value), rounding + 1e-9);
+    if (rounded.value != exact.value) {
+      ASSERT_NEAR(rounded.error - exact.error, rounding, 0.02 * rounding);
+    }
+    worst = std::max(worst, std::abs(rounded.value - exact.value));
+  }
+  EXPECT_GT(worst, 0.7 * rounding);
+}
+
+/// Without its lid the box has a sign that changes far from any triangle: no sample may leave the range of 16 bits.
+TEST(DistanceField, SixteenBitsHoldAnOpenMeshsDistances) {
+  TriangleMesh open = test::boxMesh(kHalf);
+  open.triangles.resize(10);
+  const DistanceField floats = buildField(open, cells(128, 32)), steps = buildField(open, cells(128, 16));
+  const SparseGrid &exact = *floats.grid(), &rounded = *steps.grid();
+  forEachSampled(exact, [&](const Vector3i& b, std::int32_t slot) {
+    for (int k = 0; k < GridShape::kSamples; ++k) {
+      const Vector3i place(k % 9, k / 9 % 9, k / 81);
+      ASSERT_NEAR(rounded.sample(rounded.slot(b), place), exact.sample(slot, place), rounded.rounding() + 1e-9);
+    }
+  });
+}
+
+TEST_P(SampleBits, ErrorBoundHoldsEverywhereAndIsReached) {
+  const DistanceField field = boxField(40, GetParam());
   const Primitive exact = Box{kHalf};
   Random random(1);
   double worst = 0.0, worst_share = 0.0;
@@ -101,10 +161,11 @@ TEST(DistanceField, ErrorShrinksWithTheCell) {
   }
 }
 
-TEST(DistanceField, GradientPointsOut) {
-  const DistanceField field = boxField(64);
-  EXPECT_TRUE(field.sample({0.301, 0.02, 0.03}).gradient.isApprox(Vector3d(1, 0, 0), 1e-5));
-  EXPECT_TRUE(field.sample({0.0, -0.199, 0.0}).gradient.isApprox(Vector3d(0, -1, 0), 1e-5));
+TEST_P(SampleBits, GradientPointsOut) {
+  const DistanceField field = boxField(64, GetParam());
+  const double rounding = 2.0 * field.grid()->rounding() / field.grid()->shape().cell + 1e-5;
+  EXPECT_TRUE(field.sample({0.301, 0.02, 0.03}).gradient.isApprox(Vector3d(1, 0, 0), rounding));
+  EXPECT_TRUE(field.sample({0.0, -0.199, 0.0}).gradient.isApprox(Vector3d(0, -1, 0), rounding));
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
     const Vector3d p = test::uniformIn(random, {-kHalf, kHalf}), d = 1e-7 * test::direction(random);
@@ -171,9 +232,9 @@ TEST(DistanceField, FarBricksSayHowFarTheSurfaceIs) {
 }
 
 /// Design §3.3: with v the sample at c and h the cell, no place nearer to c than √((v − σ)² − ¾h²) is interpolated to
-/// σ.
-TEST(DistanceField, NothingNearASampleIsInterpolatedToAnIsovalue) {
-  const DistanceField field = boxField(40);
+/// σ, where v is the distance; where it is rounded it is less by its own rounding and that of the samples around it.
+TEST_P(SampleBits, NothingNearASampleIsInterpolatedToAnIsovalue) {
+  const DistanceField field = boxField(40, GetParam());
   const SparseGrid& grid = *field.grid();
   const GridShape& shape = grid.shape();
   Random random(8);
@@ -186,8 +247,9 @@ TEST(DistanceField, NothingNearASampleIsInterpolatedToAnIsovalue) {
     const Vector3d c = shape.origin + shape.cell * (8 * b + in_brick).cast<double>();
     const double v = grid.cellCorners(grid.slot(b), in_brick)[0];
     const double sigma = std::uniform_real_distribution<double>(-1.0, 1.0)(random) * field.band();
-    const double radius2 = (v - sigma) * (v - sigma) - 0.75 * shape.cell * shape.cell;
-    if (radius2 <= 0.0) continue;
+    const double free = std::abs(v - sigma) - 2.0 * grid.rounding();
+    const double radius2 = free * free - 0.75 * shape.cell * shape.cell;
+    if (free <= 0.0 || radius2 <= 0.0) continue;
     const Vector3d q = c + std::sqrt(radius2) * (1.0 - 1e-6) * test::direction(random);
     const double at = field.sample(q).value;
     ASSERT_EQ(at > sigma, v > sigma) << q.transpose();
@@ -197,14 +259,15 @@ TEST(DistanceField, NothingNearASampleIsInterpolatedToAnIsovalue) {
   EXPECT_LT(least, 0.1);  // the bound is nearly reached
 }
 
-TEST(DistanceField, SameForAnyNumberOfThreads) {
+TEST_P(SampleBits, SameForAnyNumberOfThreads) {
   const TriangleMesh mesh = test::torusMesh(0.2, 0.08, 40, 20);
   const auto bytesOf = [&](int threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    const DistanceField field = buildField(mesh, cells(48));
+    const DistanceField field = buildField(mesh, cells(48, GetParam()));
     const SparseGrid& g = *field.grid();
-    std::vector<float> all(g.corners().data, g.corners().data + g.corners().size);
+    std::vector<double> all(g.corners().data, g.corners().data + g.corners().size);
     all.insert(all.end(), g.samples().data, g.samples().data + g.samples().size);
+    all.insert(all.end(), g.steps().data, g.steps().data + g.steps().size);
     return all;
   };
   EXPECT_EQ(bytesOf(1), bytesOf(2));
@@ -244,6 +307,7 @@ TEST(DistanceField, RefusesBadInput) {
   FieldOptions both = cells(10);
   both.cell_size = 0.1;
   EXPECT_THROW(buildField(mesh, both), std::invalid_argument);
+  EXPECT_THROW(buildField(mesh, cells(10, 8)), std::invalid_argument);
   FieldOptions tiny;
   tiny.cell_size = 1e-7;
   EXPECT_THROW(buildField(mesh, tiny), std::length_error);
@@ -260,6 +324,8 @@ TEST(DistanceField, PrimitiveIsExact) {
   EXPECT_EQ(sphere.grid(), nullptr);
   EXPECT_THROW(DistanceField(Primitive(Sphere{-1.0})), std::invalid_argument);
 }
+
+INSTANTIATE_TEST_SUITE_P(DistanceField, SampleBits, testing::Values(16, 32));
 
 TEST(Trilinear, JensenBoundHoldsForEveryLipschitzFunction) {
   // Cones of slope one in random places: the least smooth functions that a distance may be (design §3.3).

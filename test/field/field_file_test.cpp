@@ -56,9 +56,15 @@ void expectSame(const DistanceField& a, const DistanceField& b) {
 }
 
 TEST_F(FieldFile, RoundTripIsExact) {
-  const DistanceField field = buildField(mesh_, options_);
-  saveField(field, path("a.field"));
-  expectSame(field, loadField(path("a.field")));
+  for (const int bits : {16, 32}) {
+    options_.sample_bits = bits;
+    const DistanceField field = buildField(mesh_, options_);
+    saveField(field, path("a.field"));
+    const DistanceField loaded = loadField(path("a.field"));
+    expectSame(field, loaded);
+    EXPECT_EQ(loaded.grid()->sampleBits(), bits);
+    EXPECT_EQ(loaded.bytes(), field.bytes());
+  }
   EXPECT_EQ(fileCount(), 1U) << "a temporary file was left";
   EXPECT_TRUE(isCheckedFile(path("a.field"), "field"));
   EXPECT_FALSE(isCheckedFile(path("a.field"), "shell"));
@@ -87,6 +93,36 @@ TEST_F(FieldFile, EveryDamageIsNoticed) {
   }
 }
 
+/// A file whose checksum fits: its shape may still be nonsense.
+TEST_F(FieldFile, BadStepsAreRefused) {
+  saveField(buildField(mesh_, options_), path("a.field"));
+  const auto loadWith = [&](double step, std::int32_t sample_bits) {
+    const auto file = CheckedFile::open(path("a.field"), "field", 3);
+    std::vector<std::string> bytes(file->sectionCount());
+    std::vector<FileSection> sections;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      std::size_t count = 0;
+      const char* data = file->section<char>(i, count);
+      bytes[i].assign(data, count);
+      sections.push_back({bytes[i].data(), count});
+    }
+    // The shape ends with them.
+    bytes[0].replace(bytes[0].size() - 12, 4, reinterpret_cast<const char*>(&sample_bits), 4);
+    bytes[0].replace(bytes[0].size() - 8, 8, reinterpret_cast<const char*>(&step), 8);
+    writeCheckedFile(path("b.field"), "field", 3, sections);
+    return loadField(path("b.field"));
+  };
+  EXPECT_EQ(loadWith(1e-5, 16).grid()->shape().step, 1e-5);
+  for (const double step : {-1e-5, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(loadWith(step, 16), std::runtime_error) << step;
+    EXPECT_THROW(loadWith(step, 32), std::runtime_error) << step;
+  }
+  EXPECT_THROW(loadWith(0.0, 32), std::runtime_error);
+  EXPECT_THROW(loadWith(0.0, 16), std::runtime_error);
+  EXPECT_THROW(loadWith(1e-5, 32), std::runtime_error);
+  EXPECT_THROW(loadWith(1e-5, 8), std::runtime_error);
+}
+
 TEST_F(FieldFile, SaysWhatIsWrong) {
   const auto reason = [&](const std::string& file) -> std::string {
     try {
@@ -107,7 +143,9 @@ TEST_F(FieldFile, SaysWhatIsWrong) {
   EXPECT_NE(reason(path("other")).find("holds a shell"), std::string::npos);
   writeCheckedFile(path("later"), "field", 99, {{&value, sizeof value}});
   EXPECT_NE(reason(path("later")).find("version 99"), std::string::npos);
-  writeCheckedFile(path("short"), "field", 2, {{&value, sizeof value}});
+  writeCheckedFile(path("earlier"), "field", 2, {{&value, sizeof value}});
+  EXPECT_NE(reason(path("earlier")).find("version 2"), std::string::npos);
+  writeCheckedFile(path("short"), "field", 3, {{&value, sizeof value}});
   EXPECT_NE(reason(path("short")).find("damaged"), std::string::npos);
   EXPECT_THROW(saveField(DistanceField(Primitive(Sphere{1})), path("s")), std::invalid_argument);
   EXPECT_THROW(saveField(buildField(mesh_, options_), path("no/such/folder")), std::runtime_error);
@@ -145,6 +183,9 @@ TEST_F(FieldFile, CacheKeyIsTheContent) {
   FieldOptions wider = options_;
   wider.band = 0.1;
   EXPECT_NE(fieldFileName(mesh_, wider), name);
+  FieldOptions floats = options_;
+  floats.sample_bits = 32;
+  EXPECT_NE(fieldFileName(mesh_, floats), name);
   EXPECT_EQ(fieldFileName(mesh_, options_), name);
 }
 

@@ -1,5 +1,10 @@
 #include "sdf_ccd/query/segment_batch.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstring>
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -24,9 +29,10 @@ DistanceField torus() {
   return buildField(test::torusMesh(0.2, 0.08, 48, 24), options);
 }
 
-DistanceField evenTorus() {
+DistanceField evenTorus(int sample_bits = 16) {
   FieldOptions options;
   options.cells = 64;
+  options.sample_bits = sample_bits;
   return buildField(test::torusMesh(0.2, 0.08, 48, 24), options);
 }
 
@@ -115,7 +121,7 @@ Compared compare(const DistanceField& field, const std::vector<Segment>& segment
 }
 
 TEST(SegmentBatch, EqualsSingleQueries) {
-  for (const DistanceField& field : {torus(), evenTorus()}) {
+  for (const DistanceField& field : {torus(), evenTorus(16), evenTorus(32)}) {
     const std::vector<Segment> segments = randomSegments(field, 30000);
     for (const double sigma : {0.0, 0.004, -0.004}) {
       const Compared compared = compare(field, segments, sigma);
@@ -134,9 +140,42 @@ TEST(SegmentBatch, EqualsSingleQueriesOnNoise) {
   EXPECT_GT(compared.hits, 1000);
 }
 
+/// Samples of 16 bits are read two at a time: not beyond the last one, behind which a mapped file may end.
+TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
+  const DistanceField field = evenTorus(16);
+  const SparseGrid& grid = *field.grid();
+  const std::size_t bytes = grid.steps().size * sizeof(std::int16_t);
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), pages = (bytes + page - 1) / page * page;
+  char* memory =
+      static_cast<char*>(mmap(nullptr, pages + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+  ASSERT_NE(memory, MAP_FAILED);
+  ASSERT_EQ(mprotect(memory + pages, page, PROT_NONE), 0);
+  std::memcpy(memory + pages - bytes, grid.steps().data, bytes);
+  const View<std::int16_t> steps{reinterpret_cast<const std::int16_t*>(memory + pages - bytes), grid.steps().size};
+  const DistanceField at_end(std::make_shared<const SparseGrid>(
+      grid.shape(), SparseGrid::Arrays{grid.corners(), grid.words(), {}, steps}, grid.errorBound(), nullptr));
+  EXPECT_GT(compare(at_end, randomSegments(field, 30000), 0.0).hits, 3000);
+  // The last brick's last corner, from all sides.
+  Vector3i brick(0, 0, 0);
+  for (const auto last = static_cast<std::int32_t>(grid.steps().size / GridShape::kSamples) - 1;
+       grid.slot(brick) != last;) {
+    if (++brick.x() == grid.shape().bricks.x()) brick = {0, brick.y() + 1, brick.z()};
+    if (brick.y() == grid.shape().bricks.y()) brick = {0, 0, brick.z() + 1};
+  }
+  const Vector3d corner = grid.shape().origin + grid.shape().cell * (8 * brick.array() + 8).cast<double>().matrix();
+  Random random(5);
+  std::vector<Segment> segments;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector3d start = corner + 3.0 * grid.shape().cell * test::direction(random);
+    segments.push_back({start, 2.0 * corner - start});
+  }
+  compare(at_end, segments, 0.0);
+  munmap(memory, pages + page);
+}
+
 #ifdef SDF_CCD_HIGHWAY
 TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
-  const DistanceField field = torus(), even = evenTorus();
+  const DistanceField field = torus(), even = evenTorus(16), floats = evenTorus(32);
   const std::vector<Segment> segments = randomSegments(field, 4000);
   int kinds = 0;
   for (std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS; targets != 0; targets &= targets - 1) {
@@ -146,6 +185,7 @@ TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     EXPECT_GT(compare(field, segments, 0.0).hits, 300);
     EXPECT_GT(compare(even, segments, 0.0).hits, 300);
+    EXPECT_GT(compare(floats, segments, 0.0).hits, 300);
     ++kinds;
   }
   hwy::SetSupportedTargetsForTest(0);

@@ -59,6 +59,21 @@ TEST_F(Tool, BuildWritesAFieldAndAShellOfAMesh) {
   EXPECT_LE(loadShell(path("made/ball.shell").string()).covering_radius, 0.05);
 }
 
+TEST_F(Tool, SamplesHaveSixteenBitsUnlessToldOtherwise) {
+  ASSERT_EQ(run("build --mesh ball.off --out made --resolution 32").exit_code, kDone);
+  ASSERT_EQ(run("build --mesh ball.off --out floats --resolution 32 --sample-bits 32").exit_code, kDone);
+  EXPECT_NE(run("info made/ball.field").out.find("16 bits a sample"), std::string::npos);
+  EXPECT_NE(run("info floats/ball.field").out.find("32 bits a sample"), std::string::npos);
+  const DistanceField steps = loadField(path("made/ball.field").string());
+  const DistanceField floats = loadField(path("floats/ball.field").string());
+  EXPECT_LT(steps.bytes(), 0.6 * double(floats.bytes()));
+  EXPECT_GT(steps.errorBound(), floats.errorBound());
+  EXPECT_LT(steps.errorBound(), 1.001 * floats.errorBound());
+  expectRefused("build --mesh ball.off --out no --sample-bits 8", "--sample-bits");
+  expectRefused("build --mesh ball.off --out no --max-error 0.01 --sample-bits 16", "--max-error");
+  expectRefused("info made/ball.field --sample-bits 16", "--sample-bits");
+}
+
 TEST_F(Tool, InfoTellsWhatFilesHold) {
   ASSERT_EQ(run("build --mesh ball.off --out made --resolution 16").exit_code, kDone);
   EXPECT_NE(run("info made/ball.field").out.find("cells of 0.0625 m"), std::string::npos);

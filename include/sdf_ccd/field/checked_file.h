@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sdf_ccd/field/view.h"
+
 namespace sdf_ccd {
 
 /// What goes into one section of a checked file.
@@ -13,6 +15,11 @@ struct FileSection {
   const void* data;
   std::size_t bytes;
 };
+
+template <class T>
+FileSection sectionOf(const View<T>& view) {
+  return {view.data, view.size * sizeof(T)};
+}
 
 /// Writes sections as one little-endian file with kind, version and a checksum over everything. The file appears
 /// under `path` complete or not at all: it is written to a temporary name beside it, synced and renamed.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,12 @@ struct GridShape {
   double band = 0.0;                   ///< [m]
   AlignedBox3d surface_box;            ///< of the mesh [m]
   bool exact = false;  ///< values are true distances, to rounding: a ball of that radius about them is free of surface
+  double step = 0.0;   ///< of samples that are whole numbers of 16 bits [m]; 0: samples are floats
+
+  static constexpr double kMostSteps = 32767.0;  ///< of a sample
+  /// For samples whose magnitude is at most `largest` [m].
+  static double stepFor(double largest) { return largest / kMostSteps; }
+  std::int16_t inSteps(double metres) const { return static_cast<std::int16_t>(std::lround(metres / step)); }
 
   Vector3i cells() const { return kBrick * bricks; }
   std::size_t brickCount() const { return std::size_t(bricks.x()) * bricks.y() * bricks.z(); }
@@ -41,6 +48,7 @@ struct GridData {
   std::vector<float> corners;       ///< distance at every brick's corners, x fastest [m]
   std::vector<std::int32_t> slots;  ///< per brick: where its samples lie, or kFar
   std::vector<float> samples;       ///< kSamples per slot, x fastest [m]
+  std::vector<std::int16_t> steps;  ///< in their place where the shape has a step: how many of it
 };
 
 /// What a brick's word says: with its last bit set a slot, above it; else the bits of a distance.
@@ -72,6 +80,7 @@ class SparseGrid {
     View<float> corners;        ///< as GridData
     View<std::uint32_t> words;  ///< per brick
     View<float> samples;        ///< as GridData
+    View<std::int16_t> steps;   ///< as GridData
   };
 
   /// The same on memory that `owner` keeps alive (a mapped file).
@@ -81,20 +90,31 @@ class SparseGrid {
   View<float> corners() const { return arrays_.corners; }
   View<std::uint32_t> words() const { return arrays_.words; }
   View<float> samples() const { return arrays_.samples; }
+  View<std::int16_t> steps() const { return arrays_.steps; }
+  int sampleBits() const { return shape_.step > 0.0 ? 16 : 32; }
+  std::size_t sampleCount() const { return arrays_.samples.size + arrays_.steps.size; }
+
+  /// What whole numbers of steps change a sample by at most, and so all that is interpolated between samples [m].
+  double rounding() const { return 0.5 * shape_.step; }
 
   /// Bound on |interpolated − true distance| in a brick with samples [m]: for exact samples of a 1-Lipschitz function
-  /// Jensen's inequality on the trilinear weights gives √(Σ u(1−u)) h ≤ √3/2 h (design §3.3), plus rounding.
+  /// Jensen's inequality on the trilinear weights gives √(Σ u(1−u)) h ≤ √3/2 h (design §3.3), plus rounding().
   double errorBound() const { return error_bound_; }
 
   std::size_t bytes() const;
-  std::size_t storedCells() const { return arrays_.samples.size / GridShape::kSamples * 512; }
+  std::size_t storedCells() const { return sampleCount() / GridShape::kSamples * 512; }
 
   /// Corner values of a cell in a brick with samples: bit 0 of the index is x, bit 1 y, bit 2 z.
   std::array<double, 8> cellCorners(std::int32_t slot, const Vector3i& cell_in_brick) const {
-    const float* s = arrays_.samples.data + std::size_t(slot) * GridShape::kSamples +
-                     (cell_in_brick.z() * GridShape::kSide + cell_in_brick.y()) * GridShape::kSide + cell_in_brick.x();
-    constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
-    return {s[0], s[1], s[kY], s[kY + 1], s[kZ], s[kZ + 1], s[kZ + kY], s[kZ + kY + 1]};
+    const std::size_t first = sampleIndex(slot, cell_in_brick);
+    return shape_.step > 0.0 ? cornersFrom(arrays_.steps.data + first, shape_.step)
+                             : cornersFrom(arrays_.samples.data + first, 1.0);
+  }
+
+  /// A sample of a brick [m], `place` of 0 to kBrick per axis.
+  double sample(std::int32_t slot, const Vector3i& place) const {
+    const std::size_t i = sampleIndex(slot, place);
+    return shape_.step > 0.0 ? shape_.step * arrays_.steps[i] : double(arrays_.samples[i]);
   }
 
   /// Distances at a brick's corners, ordered like cellCorners().
@@ -110,6 +130,18 @@ class SparseGrid {
 
  private:
   void check() const;
+
+  static std::size_t sampleIndex(std::int32_t slot, const Vector3i& place) {
+    return std::size_t(slot) * GridShape::kSamples + (place.z() * GridShape::kSide + place.y()) * GridShape::kSide +
+           place.x();
+  }
+
+  template <class Sample>
+  static std::array<double, 8> cornersFrom(const Sample* s, double unit) {
+    constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
+    return {unit * s[0],  unit * s[1],      unit * s[kY],      unit * s[kY + 1],
+            unit * s[kZ], unit * s[kZ + 1], unit * s[kZ + kY], unit * s[kZ + kY + 1]};
+  }
 
   GridShape shape_;
   Arrays arrays_;
