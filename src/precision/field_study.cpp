@@ -208,13 +208,17 @@ StudyResult cellStudy(const StudyInput& input) {
   double before = 0.0, all = 0.0;
   for (const int cells : counts) all += double(cells) * cells;
   for (const int cells : counts) {
-    const double after = before + double(cells) * cells / all;
     const double cell = study.side() / cells;
     FieldOptions options;
     options.cells = cells;
-    study.addField({"sdf_ccd (even cells)", millimetres(cell), cell}, options, before, after);
+    for (const int bits : {16, 32}) {
+      const double after = before + 0.5 * double(cells) * cells / all;
+      options.sample_bits = bits;
+      const std::string system = "sdf_ccd (even cells " + std::to_string(bits) + " bit)";
+      study.addField({system, millimetres(cell), cell}, options, before, after);
+      before = after;
+    }
     study.addGrids(cells);
-    before = after;
   }
   study.measure(result);
   return result;

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kPanelWidth = 520, kPanelHeight = 440, kTitleHeight = 50, kKeyHeight = 18;  // [pixels]
 constexpr double kSmallest = 1e-12;  // smaller errors, zero too, are drawn here
-const char* const kColors[] = {"#4c72b0", "#dd8452", "#55a868", "#c44e52", "#8172b3", "#937860", "#da8bc3", "#8c8c8c"};
+const char* const kColors[] = {"#4c72b0", "#dd8452", "#55a868", "#c44e52", "#8172b3", "#937860",
+                               "#da8bc3", "#8c8c8c", "#ccb974", "#64b5cd", "#1b4f72", "#7d6608"};
 
 std::vector<std::string> distinct(const StudyResult& result, std::string Measurement::*member) {
   std::vector<std::string> found;
@@ -22,31 +23,20 @@ std::vector<std::string> distinct(const StudyResult& result, std::string Measure
   return found;
 }
 
-/// A system's points in one panel: microseconds, median, 99th percentile, maximum, setting.
-struct Series {
-  std::string lines;
-  int points = 0;
-};
-
-Series seriesOf(const StudyResult& result, const std::string& quantity, const std::string& system) {
-  Series series;
+/// A system's points in one panel.
+std::vector<Measurement> pointsOf(const StudyResult& result, const std::string& quantity, const std::string& system) {
+  std::vector<Measurement> points;
   for (const Measurement& row : result.rows) {
-    if (row.quantity != quantity || row.system != system) continue;
-    char numbers[160];
-    std::snprintf(numbers, sizeof numbers, "%.6g %.6g %.6g %.6g ", 1e6 * row.seconds,
-                  std::max(row.error.median, kSmallest), std::max(row.error.p99, kSmallest),
-                  std::max(row.error.max, kSmallest));
-    series.lines += numbers + ("\"" + row.setting + "\"\n");
-    ++series.points;
+    if (row.quantity == quantity && row.system == system) points.push_back(row);
   }
-  return series;
+  return points;
 }
 
 /// Systems with several settings in a panel.
 int linesIn(const StudyResult& result, const std::string& quantity) {
   int lines = 0;
   for (const std::string& system : distinct(result, &Measurement::system)) {
-    lines += seriesOf(result, quantity, system).points > 1;
+    lines += pointsOf(result, quantity, system).size() > 1;
   }
   return lines;
 }
@@ -67,6 +57,9 @@ struct Range {
     low /= std::pow(10.0, margin);
     high *= std::pow(10.0, of_time ? 3.0 * margin : margin);
   }
+
+  /// Where a value lies between low, 0, and high, 1.
+  double share(double value) const { return std::log(value / low) / std::log(high / low); }
 
   std::string text() const {
     char text[64];
@@ -90,6 +83,46 @@ struct Range {
   }
 };
 
+/// The names of settings in one panel, where there is room for them.
+class PlacedNames {
+ public:
+  PlacedNames(const Range& times, const Range& errors) : times_(times), errors_(errors) {}
+
+  /// Whether a name that begins at this point covers none that is there already.
+  bool place(const Measurement& point) {
+    const Place at{times_.share(1e6 * point.seconds), errors_.share(std::max(point.error.median, kSmallest))};
+    for (const Place& other : placed_) {
+      if (std::abs(at.x - other.x) < 0.15 && std::abs(at.y - other.y) < 0.04) return false;
+    }
+    placed_.push_back(at);
+    return true;
+  }
+
+ private:
+  struct Place {
+    double x, y;
+  };
+
+  Range times_, errors_;
+  std::vector<Place> placed_;
+};
+
+/// Lines of microseconds, median, 99th percentile, maximum and the setting's name, which is empty where it is not
+/// shown. @param ends_only  names but the first and the last setting.
+std::string dataLines(const std::vector<Measurement>& points, bool ends_only, PlacedNames& names) {
+  std::string lines;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Measurement& row = points[i];
+    char numbers[160];
+    std::snprintf(numbers, sizeof numbers, "%.6g %.6g %.6g %.6g ", 1e6 * row.seconds,
+                  std::max(row.error.median, kSmallest), std::max(row.error.p99, kSmallest),
+                  std::max(row.error.max, kSmallest));
+    const bool wanted = points.size() > 1 && (!ends_only || i == 0 || i + 1 == points.size());
+    lines += numbers + ("\"" + (wanted && names.place(row) ? row.setting : "") + "\"\n");
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string plotScript(const StudyResult& result, const std::string& svg_path) {
@@ -102,25 +135,25 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
       if (row.quantity == quantities[q]) unit = row.unit;
     }
     const bool crowded = linesIn(result, quantities[q]) > 2;
+    const Range times(result, quantities[q], true), errors(result, quantities[q], false);
+    PlacedNames names(times, errors);
     for (std::size_t s = 0; s < systems.size(); ++s) {
-      const Series series = seriesOf(result, quantities[q], systems[s]);
-      if (series.points == 0) continue;
+      const std::vector<Measurement> points = pointsOf(result, quantities[q], systems[s]);
+      if (points.empty()) continue;
       const std::string block = "$d" + std::to_string(q) + "_" + std::to_string(s);
       const std::string color = std::string(" lc rgb '") + kColors[s % std::size(kColors)] + "'";
-      blocks += block + " << EOD\n" + series.lines + "EOD\n";
+      blocks += block + " << EOD\n" + dataLines(points, crowded, names) + "EOD\n";
       if (!plots.empty()) plots += ", \\\n  ";
       plots += block + " using 1:2:(0):($4-$2) with vectors nohead lw 1" + color + " notitle, \\\n  " + block +
                " using 1:4 with points pt 1 ps 0.4" + color + " notitle, \\\n  " + block +
                " using 1:3 with points pt 2 ps 0.6" + color + " notitle, \\\n  " + block +
                " using 1:2 with lines lw 2" + color + " notitle, \\\n  " + block +
                " using 1:2 with points pt 7 ps 0.7" + color + " title " + quoted(systems[s]) + " noenhanced";
-      if (series.points > 1) {
-        const std::string some = crowded ? " every " + std::to_string(series.points - 1) : "";  // both ends
-        plots += ", \\\n  " + block + some + " using 1:2:5 with labels left offset 0.6,0.5 font ',9' textcolor rgb '" +
+      if (points.size() > 1) {
+        plots += ", \\\n  " + block + " using 1:2:5 with labels left offset 0.6,0.5 font ',9' textcolor rgb '" +
                  kColors[s % std::size(kColors)] + "' notitle noenhanced";
       }
     }
-    const Range times(result, quantities[q], true), errors(result, quantities[q], false);
     panels += "set xrange " + times.text() + "\nset xtics " + times.tics() + "\nset yrange " + errors.text() +
               "\nset title " + quoted(quantities[q]) + " noenhanced\nset ylabel " + quoted("error [" + unit + "]") +
               " noenhanced\nplot " + plots + "\n";
