@@ -19,6 +19,10 @@ Corners cornersOf(const TriangleMesh& mesh, int triangle) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
+double longestEdge(const Corners& c) {
+  return std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
+}
+
 double distanceToTriangle(const Corners& t, const Vector3d& p) {
   return (closestOnTriangle(t[0], t[1], t[2], p) - p).norm();
 }
@@ -89,14 +93,69 @@ bool cut(const TriangleMesh& mesh, int first, int second, double eps) {
 }
 
 /// For each triangle, whether the neighbours at all its edges agree with it about the outside.
-std::vector<std::uint8_t> agreeWithNeighbours(const TriangleMesh& mesh) {
+std::vector<std::uint8_t> agreeWithNeighbours(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   std::vector<std::uint8_t> agree(mesh.triangles.size(), 1);
-  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+  forEachEdge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
     if (imbalance(first, last) == 0) return;
     for (; first != last; ++first) agree[first->triangle] = 0;
   });
   return agree;
 }
+
+/// Leaves those triangles that face the outside, as the winding number just before and behind them says.
+class OutsideTest {
+ public:
+  OutsideTest(const TriangleMesh& mesh, const TriangleTree& tree) : mesh_(mesh), tree_(tree) {}
+
+  bool passes(std::int32_t triangle, bool closed) const {
+    const Corners c = cornersOf(mesh_, triangle);
+    const Vector3d area_normal = areaNormal(mesh_, triangle), center = (c[0] + c[1] + c[2]) / 3.0;
+    // Near enough that nothing else lies between, far enough for rounding.
+    const Vector3d step = 1e-6 * area_normal / longestEdge(c);
+    for (const Vector3d& towards : {center, c[0], c[1], c[2]}) {
+      // Over a triangle that nothing cuts the winding number of a closed mesh is the same everywhere.
+      if (closed && towards != center) break;
+      const Vector3d p = center + 0.9 * (towards - center);
+      if (tree_.windingNumber(p + step) > 0.5 || tree_.windingNumber(p - step) <= 0.5) return false;
+    }
+    return true;
+  }
+
+  void each(std::vector<std::uint8_t>& separates) const {
+    tbb::parallel_for(std::size_t{0}, separates.size(), [&](std::size_t i) {
+      if (separates[i] != 0) separates[i] = passes(static_cast<std::int32_t>(i), false);
+    });
+  }
+
+  /// For closed meshes. Just before the surface nothing lies between triangles that share an edge with no third one and
+  /// that nothing cuts: the winding number is the same there. So one of a connected set speaks for all.
+  void eachPatch(const std::vector<EdgeUse>& uses, std::vector<std::uint8_t>& separates) const {
+    TriangleSets sets(separates.size());
+    forEachEdge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+      const bool pair = last - first == 2 && separates[first[0].triangle] != 0 && separates[first[1].triangle] != 0;
+      if (pair) sets.join(first[0].triangle, first[1].triangle);
+    });
+    const auto area = [&](std::int32_t i) { return areaNormal(mesh_, i).squaredNorm(); };
+    std::vector<std::int32_t> largest(separates.size(), -1);  // of the set that a triangle names
+    for (std::size_t i = 0; i < separates.size(); ++i) {
+      if (separates[i] == 0) continue;
+      const auto triangle = static_cast<std::int32_t>(i);
+      std::int32_t& held = largest[sets.find(triangle)];
+      if (held < 0 || area(triangle) > area(held)) held = triangle;
+    }
+    std::vector<std::uint8_t> passed(separates.size(), 0);
+    tbb::parallel_for(std::size_t{0}, separates.size(), [&](std::size_t i) {
+      if (largest[i] >= 0) passed[i] = passes(largest[i], true);
+    });
+    for (std::size_t i = 0; i < separates.size(); ++i) {
+      if (separates[i] != 0) separates[i] = passed[sets.find(static_cast<std::int32_t>(i))];
+    }
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  const TriangleTree& tree_;
+};
 
 }  // namespace
 
@@ -105,27 +164,16 @@ std::vector<std::uint8_t> separatingTriangles(const TriangleMesh& mesh, const Tr
   const double size =
       std::max(box.sizes().maxCoeff(), 1e-6 * box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff());
   const double eps = 1e-12 * size;
-  const std::vector<std::uint8_t> agrees = agreeWithNeighbours(mesh);
-  const bool closed = isClosed(mesh);
-  const auto facesOutside = [&](const Corners& c, const Vector3d& normal, double step) {
-    // Over a triangle that nothing cuts the winding number of a closed mesh is the same everywhere.
-    const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
-    for (const Vector3d& towards : {center, c[0], c[1], c[2]}) {
-      if (closed && towards != center) break;
-      const Vector3d p = center + 0.9 * (towards - center);
-      if (tree.windingNumber(p + step * normal) > 0.5 || tree.windingNumber(p - step * normal) <= 0.5) return false;
-    }
-    return true;
-  };
+  const std::vector<EdgeUse> uses = edgeUses(mesh);
+  const std::vector<std::uint8_t> agrees = agreeWithNeighbours(mesh, uses);
 
   std::vector<std::uint8_t> separates(mesh.triangles.size(), 0);
   tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
   tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
     const int triangle = static_cast<int>(i);
     const Corners c = cornersOf(mesh, triangle);
-    const Vector3d area_normal = areaNormal(mesh, triangle);
-    const double longest = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
-    const double height = area_normal.norm() / std::max(longest, 1e-300);
+    const double longest = longestEdge(c);
+    const double height = areaNormal(mesh, triangle).norm() / std::max(longest, 1e-300);
     if (!(height > 1e-6 * longest) || !(height > 10.0 * eps) || agrees[i] == 0) return;
     const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
     const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
@@ -134,9 +182,14 @@ std::vector<std::uint8_t> separatingTriangles(const TriangleMesh& mesh, const Tr
     for (const int other : near) {
       if (other != triangle && cut(mesh, triangle, other, eps)) return;
     }
-    // Near enough that nothing else lies between, far enough for rounding.
-    separates[i] = facesOutside(c, area_normal.normalized(), 1e-6 * height);
+    separates[i] = 1;
   });
+  const OutsideTest outside(mesh, tree);
+  if (isClosed(mesh)) {
+    outside.eachPatch(uses, separates);
+  } else {
+    outside.each(separates);
+  }
   return separates;
 }
 
