@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <tbb/concurrent_vector.h>
 #include <tbb/parallel_for.h>
 
 #include "cell_fit.h"
@@ -27,22 +28,24 @@ struct BuiltCell {
 
 class AdaptiveBuilder {
  public:
-  AdaptiveBuilder(const TriangleMesh& mesh, const AdaptiveShape& shape, const FieldOptions& options)
-      : surface_(mesh), shape_(shape), error_(shape.error_bound), max_bytes_(options.max_bytes) {}
+  AdaptiveBuilder(const TriangleMesh& mesh, const AdaptiveShape& shape, std::size_t max_bytes, const Progress& progress)
+      : surface_(mesh),
+        shape_(shape),
+        error_(shape.error_bound),
+        max_bytes_(max_bytes),
+        counter_(progress, shape.count()) {}
 
-  AdaptiveGrid build(const Progress& progress);
+  AdaptiveGrid build();
 
  private:
-  Vector3d topCenter(const Vector3i& i) const {
-    return shape_.origin + shape_.cell * (i.cast<double>().array() + 0.5).matrix();
-  }
-  void measureCenters();
-  BuiltCell cell(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth);
+  /// Measures the top cells of a cube of them, and builds those that are near the surface.
+  void block(const NearTriangles& near, const Vector3i& low, int side);
+  BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth);
   /// Whether a proved leaf shows that |φ| exceeds the band all over it, on the side that its cell's centre is on.
   bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
   /// Whether a far cell at this depth can tell its side: the rounded distance of its centre is not zero.
   bool holdsFar(double center_distance, int depth) const;
-  BuiltCell divide(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth);
+  BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth);
   void count(std::size_t bytes);
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
 
@@ -50,7 +53,8 @@ class AdaptiveBuilder {
   AdaptiveShape shape_;
   double error_;
   std::size_t max_bytes_;
-  std::vector<double> centers_;  ///< signed distances at the top cells' centres [m]
+  tbb::concurrent_vector<std::pair<std::size_t, BuiltCell>> built_;  ///< top cells near the surface, in no order
+  ProgressCounter counter_;
   std::atomic<std::size_t> bytes_{0};
   std::atomic<bool> capped_{false};  ///< a leaf at the last depth is not proved
   AdaptiveData data_;
@@ -63,19 +67,26 @@ void AdaptiveBuilder::count(std::size_t bytes) {
   }
 }
 
-void AdaptiveBuilder::measureCenters() {
-  centers_.resize(shape_.count());
-  const SignedSurface& exact = surface_.exact();
-  tbb::parallel_for(0, shape_.size.z(), [&](int z) {
-    for (int y = 0; y < shape_.size.y(); ++y) {
-      SignedSurface::Nearest last{};
-      for (int x = 0; x < shape_.size.x(); ++x) {
-        const Vector3d p = topCenter({x, y, z});
-        last = x == 0 ? exact.nearest(p) : exact.next(p, last, shape_.cell);
-        centers_[(std::size_t(z) * shape_.size.y() + y) * shape_.size.x() + x] = last.distance;
-      }
+void AdaptiveBuilder::block(const NearTriangles& near, const Vector3i& low, int side) {
+  NearOctants octants(near);
+  const double beyond = shape_.band + kHalfSqrt3 * shape_.cell * (1.0 + 1e-9);
+  const int half = side / 2;
+  for (int k = 0; k < 8; ++k) {
+    const Vector3i c = low + half * Vector3i(k & 1, (k >> 1) & 1, k >> 2);
+    if ((c.array() >= shape_.size.array()).any()) continue;
+    if (half > 1) {
+      block(octants[k], c, half);
+      continue;
     }
-  });
+    const std::size_t index = (std::size_t(c.z()) * shape_.size.y() + c.y()) * shape_.size.x() + c.x();
+    const double distance = octants.centerDistance(k);
+    data_.top[index] = top_word::far(distance);
+    if (std::abs(distance) <= beyond) {
+      CellFit fit(octants[k]);
+      built_.emplace_back(index, cell(fit, octants[k], 0));
+    }
+    counter_.add();
+  }
 }
 
 bool AdaptiveBuilder::provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const {
@@ -91,12 +102,12 @@ bool AdaptiveBuilder::holdsFar(double center_distance, int depth) const {
   return node_code::steps(node_code::far(center_distance / AdaptiveGrid::farStepFor(parent, shape_.band))) != 0.0;
 }
 
-BuiltCell AdaptiveBuilder::cell(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth) {
-  const double side = shape_.cell / double(1 << (2 * depth));
+BuiltCell AdaptiveBuilder::cell(CellFit& fit, const NearTriangles& near, int depth) {
+  const double side = near.cube().side;
   BuiltCell built;
   built.distance = near.centerDistance();
   const LeafScale scale = AdaptiveGrid::leafScaleFor(side, shape_.band);
-  if (fit.leaf({Vector3i::Zero(), CellFit::kSteps}, scale, error_, built.leaf)) {
+  if (fit.leaf(scale, error_, built.leaf)) {
     if (provedFar(scale, built.leaf, built.distance) && holdsFar(built.distance, depth)) return built;
     built.kind = BuiltCell::kLeaf;
     count(sizeof(LeafWord));
@@ -106,11 +117,10 @@ BuiltCell AdaptiveBuilder::cell(const NearTriangles& near, CellFit& fit, const V
   const bool last = depth == AdaptiveShape::kMaxDepth;
   bool fits = true;
   for (int k = 0; k < 8 && (fits || last); ++k) {
-    const CellFit::Cube cube{CellFit::kSteps / 2 * Vector3i(k & 1, (k >> 1) & 1, k >> 2), CellFit::kSteps / 2};
-    fits = fit.leaf(cube, half_scale, error_, built.split.leaves[k]) && fits;
-    if (last && !fits) built.split.leaves[k] = fit.roundedLeaf(cube, half_scale);
+    fits = fit.octantLeaf(k, half_scale, error_, built.split.leaves[k]) && fits;
+    if (last && !fits) built.split.leaves[k] = fit.roundedLeaf(k, half_scale);
   }
-  if (!fits && !last) return divide(near, fit, low, depth);
+  if (!fits && !last) return divide(fit, near, depth);
   const auto far = [&](LeafWord leaf) { return provedFar(half_scale, leaf, built.distance); };
   if (fits && std::all_of(built.split.leaves.begin(), built.split.leaves.end(), far) &&
       holdsFar(built.distance, depth)) {
@@ -122,30 +132,23 @@ BuiltCell AdaptiveBuilder::cell(const NearTriangles& near, CellFit& fit, const V
   return built;
 }
 
-BuiltCell AdaptiveBuilder::divide(const NearTriangles& near, CellFit& fit, const Vector3d& low, int depth) {
+BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int depth) {
   BuiltCell built;
   built.kind = BuiltCell::kNode;
   built.children = std::make_unique<std::array<BuiltCell, 64>>();
   count(sizeof(AdaptiveNode) + sizeof(NodeBases));
-  const double side = shape_.cell / double(1 << (2 * depth + 2)), radius = kHalfSqrt3 * side;
-  for (int i = 0; i < 64; ++i) {
-    const Vector3i c(i & 3, (i >> 2) & 3, i >> 4);
-    const Vector3d child_low = low + side * c.cast<double>();
-    const Vector3d center = child_low.array() + 0.5 * side;
-    const double distance = near.signedDistance(center);
-    BuiltCell& child = (*built.children)[i];
-    if (std::abs(distance) > shape_.band + radius * (1.0 + 1e-9)) {
-      child.distance = distance;
-      continue;
-    }
-    const NearTriangles child_near(near, {center, radius}, distance);
-    CellFit child_fit(child_near, child_low, side);
+  const double beyond = shape_.band + 0.25 * near.cube().radius() * (1.0 + 1e-9);
+  for (int half = 0; half < 8; ++half) {
+    NearOctants quarters(fit.octants()[half]);
     for (int k = 0; k < 8; ++k) {
-      const Vector3i corner(k & 1, (k >> 1) & 1, k >> 2);
-      child_fit.set(CellFit::kSteps * corner, fit.at(CellFit::kSteps / 4 * (c + corner)));
+      const Vector3i c(2 * (half & 1) + (k & 1), (half & 2) + ((k >> 1) & 1), 2 * (half >> 2) + (k >> 2));
+      BuiltCell& child = (*built.children)[c.x() + 4 * (c.y() + 4 * c.z())];
+      child.distance = quarters.centerDistance(k);
+      if (std::abs(child.distance) > beyond) continue;
+      const NearTriangles& child_near = quarters[k];
+      CellFit child_fit(child_near, fit, c);
+      child = cell(child_fit, child_near, depth + 1);
     }
-    child_fit.set(Vector3i::Constant(CellFit::kSteps / 2), distance);
-    child = cell(child_near, child_fit, child_low, depth + 1);
   }
   const auto far = [&](const BuiltCell& child) {
     return child.kind == BuiltCell::kFar && (child.distance < 0.0) == (near.centerDistance() < 0.0);
@@ -193,50 +196,39 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
   }
 }
 
-AdaptiveGrid AdaptiveBuilder::build(const Progress& progress) {
+AdaptiveGrid AdaptiveBuilder::build() {
   count(shape_.count() * sizeof(std::uint32_t));
-  measureCenters();
-  const double radius = kHalfSqrt3 * shape_.cell;
-  std::vector<std::size_t> near_cells;
   data_.top.resize(shape_.count());
-  for (std::size_t i = 0; i < centers_.size(); ++i) {
-    data_.top[i] = top_word::far(centers_[i]);
-    if (std::abs(centers_[i]) <= shape_.band + radius * (1.0 + 1e-9)) near_cells.push_back(i);
-  }
-
-  std::vector<BuiltCell> built(near_cells.size());
-  ProgressCounter counter(progress, near_cells.size());
-  tbb::parallel_for(std::size_t{0}, near_cells.size(), [&](std::size_t i) {
-    const std::size_t cell_index = near_cells[i];
-    const auto nx = std::size_t(shape_.size.x()), ny = std::size_t(shape_.size.y());
-    const Vector3i c(int(cell_index % nx), int(cell_index / nx % ny), int(cell_index / nx / ny));
-    const Vector3d low = shape_.origin + shape_.cell * c.cast<double>();
-    const NearTriangles near(surface_, {topCenter(c), radius}, centers_[cell_index]);
-    CellFit fit(near, low, shape_.cell);
-    fit.set(Vector3i::Constant(CellFit::kSteps / 2), centers_[cell_index]);
-    built[i] = cell(near, fit, low, 0);
-    counter.add();
+  // Blocks of so many cells along a side share a search for the triangles near them.
+  constexpr int kBlock = 4;
+  const Vector3i blocks = (shape_.size.array() + (kBlock - 1)) / kBlock;
+  tbb::parallel_for(0, blocks.prod(), [&](int i) {
+    const Vector3i low = kBlock * Vector3i(i % blocks.x(), i / blocks.x() % blocks.y(), i / blocks.x() / blocks.y());
+    const Vector3d center = shape_.origin + shape_.cell * (low.cast<double>().array() + 0.5 * kBlock).matrix();
+    const NearCube near(surface_, {center, kBlock * shape_.cell});
+    block(near.near(), low, kBlock);
   });
 
-  for (std::size_t i = 0; i < built.size(); ++i) {
-    std::uint32_t& word = data_.top[near_cells[i]];
-    switch (built[i].kind) {
+  std::sort(built_.begin(), built_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (auto& [index, cell] : built_) {
+    std::uint32_t& word = data_.top[index];
+    switch (cell.kind) {
       case BuiltCell::kFar:
         break;
       case BuiltCell::kLeaf:
         word = static_cast<std::uint32_t>(data_.leaves.size() << 2) | top_word::kLeaf;
-        data_.leaves.push_back(built[i].leaf);
+        data_.leaves.push_back(cell.leaf);
         break;
       case BuiltCell::kSplit:
         word = static_cast<std::uint32_t>(data_.splits.size() << 2) | top_word::kSplit;
-        data_.splits.push_back(built[i].split);
+        data_.splits.push_back(cell.split);
         break;
       case BuiltCell::kNode:
         word = static_cast<std::uint32_t>(data_.nodes.size() << 2) | top_word::kNode;
         data_.nodes.emplace_back();
         data_.bases.emplace_back();
-        flatten(built[i], data_.nodes.size() - 1, 0);
-        built[i].children.reset();
+        flatten(cell, data_.nodes.size() - 1, 0);
+        cell.children.reset();
         break;
     }
   }
@@ -273,7 +265,7 @@ std::shared_ptr<const AdaptiveGrid> buildAdaptive(const TriangleMesh& mesh, cons
   }
   shape.size = cells.cast<int>();
   shape.origin = shape.surface_box.center() - 0.5 * shape.cell * cells;
-  return std::make_shared<const AdaptiveGrid>(AdaptiveBuilder(mesh, shape, options).build(progress));
+  return std::make_shared<const AdaptiveGrid>(AdaptiveBuilder(mesh, shape, options.max_bytes, progress).build());
 }
 
 }  // namespace sdf_ccd

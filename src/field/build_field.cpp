@@ -60,12 +60,11 @@ class Sampler {
     if (!index_) return fillFromTree(brick, samples);
     constexpr std::size_t kMany = 300;
     const Block whole{Vector3i::Zero(), GridShape::kBrick};
-    const Ball ball = ballAround(brick, whole);
-    const NearTriangles near(*index_, ball, surface().signedDistance(ball.center));
-    if (near.size() > kMany) {
+    const NearCube found(*index_, cubeOf(brick, whole));
+    if (found.near().size() > kMany) {
       fillFromTree(brick, samples);
     } else {
-      fill(brick, whole, near, samples);
+      fill(brick, whole, found.near(), samples);
     }
   }
 
@@ -80,19 +79,18 @@ class Sampler {
     return shape_.origin + shape_.cell * ((GridShape::kBrick * brick).cast<double>() + cells);
   }
 
-  Ball ballAround(const Vector3i& brick, const Block& block) const {
+  SpaceCube cubeOf(const Vector3i& brick, const Block& block) const {
     const Vector3d center = block.low.cast<double>().array() + 0.5 * block.side;
-    return {place(brick, center), kHalfSqrt3 * block.side * shape_.cell};
+    return {place(brick, center), block.side * shape_.cell};
   }
 
   void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, float* samples) const {
     constexpr std::size_t kFew = 64;
     if (block.side > 1 && near.size() > kFew) {
       const int half = block.side / 2;
+      NearOctants octants(near);
       for (int k = 0; k < 8; ++k) {
-        const Block part{block.low + half * Vector3i(k & 1, (k >> 1) & 1, k >> 2), half};
-        const Ball ball = ballAround(brick, part);
-        fill(brick, part, NearTriangles(near, ball, near.signedDistance(ball.center)), samples);
+        fill(brick, {block.low + half * Vector3i(k & 1, (k >> 1) & 1, k >> 2), half}, octants[k], samples);
       }
       return;
     }

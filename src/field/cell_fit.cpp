@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "sdf_ccd/field/sparse_grid.h"
+#include <numeric>
 
 namespace sdf_ccd {
 namespace {
@@ -13,68 +12,138 @@ Vector3i corner(int k) {
   return {k & 1, (k >> 1) & 1, k >> 2};
 }
 
+/// A cube's corner values and the means between them: 3×3×3, x fastest.
+using Lattice = std::array<double, 27>;
+
+Lattice refined(const std::array<double, 8>& corners) {
+  Lattice v;
+  for (int k = 0; k < 8; ++k) v[2 * (k & 1) + 6 * ((k >> 1) & 1) + 18 * (k >> 2)] = corners[k];
+  for (int z = 0; z < 27; z += 18)
+    for (int y = 0; y < 9; y += 6) v[z + y + 1] = 0.5 * (v[z + y] + v[z + y + 2]);
+  for (int z = 0; z < 27; z += 18)
+    for (int x = 0; x < 3; ++x) v[z + 3 + x] = 0.5 * (v[z + x] + v[z + 6 + x]);
+  for (int i = 0; i < 9; ++i) v[9 + i] = 0.5 * (v[i] + v[18 + i]);
+  return v;
+}
+
+std::array<double, 8> octantOf(const Lattice& lattice, int k) {
+  const double* v = lattice.data() + (k & 1) + 3 * ((k >> 1) & 1) + 9 * (k >> 2);
+  return {v[0], v[1], v[3], v[4], v[9], v[10], v[12], v[13]};
+}
+
 }  // namespace
 
-CellFit::CellFit(const NearTriangles& near, const Vector3d& low, double side)
-    : near_(near), low_(low), step_(side / kSteps) {
+CellFit::CellFit(const NearTriangles& near)
+    : near_(near), low_(near.cube().center.array() - 0.5 * near.cube().side), step_(near.cube().side / kSteps) {
   values_.fill(std::numeric_limits<double>::quiet_NaN());
-  sines_.fill(-1.0);
+  set(Vector3i::Constant(kSteps / 2), near.centerDistance());
 }
 
-double CellFit::at(const Vector3i& p) {
-  double& value = values_[index(p)];
-  if (std::isnan(value)) value = near_.signedDistance(place(p));
-  return value;
+CellFit::CellFit(const NearTriangles& near, CellFit& around, const Vector3i& part) : CellFit(near) {
+  const Cube cube{kSteps / 4 * part, kSteps / 4};
+  around.take(cube, 1, near);
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x) set(kSteps / 2 * Vector3i(x, y, z), around.at(cube.low + Vector3i(x, y, z)));
+  set(Vector3i::Constant(kSteps / 2), near.centerDistance());
 }
 
-std::array<double, 8> CellFit::cornersOf(const Cube& cube) {
-  std::array<double, 8> values;
+NearOctants& CellFit::octants() {
+  if (!octants_) octants_.emplace(near_);
+  return *octants_;
+}
+
+void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
+  PlaceLanes places;
+  std::array<int, PlaceLanes::kCount> waiting;
+  int count = 0;
+  const auto measure = [&] {
+    for (int k = count; k < PlaceLanes::kCount; ++k) places.copy(0, k);
+    PlaceLanes::Lane distances;
+    near.signedDistances(places, count, distances);
+    for (int k = 0; k < count; ++k) values_[waiting[k]] = distances[k];
+    count = 0;
+  };
+  const int step = cube.side / steps;
+  for (int z = 0; z <= cube.side; z += step)
+    for (int y = 0; y <= cube.side; y += step)
+      for (int x = 0; x <= cube.side; x += step) {
+        const Vector3i p = cube.low + Vector3i(x, y, z);
+        if (!std::isnan(values_[index(p)])) continue;
+        waiting[count] = index(p);
+        places.set(count, low_ + step_ * p.cast<double>());
+        if (++count == PlaceLanes::kCount) measure();
+      }
+  if (count > 0) measure();
+}
+
+CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
+  Corners values;
   for (int k = 0; k < 8; ++k) values[k] = at(cube.low + cube.side * corner(k));
   return values;
 }
 
-double CellFit::sine(const Cube& cube) {
-  // The cone of a cube holds for those within it: cubes below half a cell's side do not ask again.
-  const int side = std::max(cube.side, kSteps / 2);
-  const Vector3i c = cube.low / side;
-  double& sine = sines_[side == kSteps ? 0 : 1 + c.x() + 2 * c.y() + 4 * c.z()];
-  if (sine < 0.0) {
-    const Vector3d center = low_ + step_ * side * (c.cast<double>().array() + 0.5).matrix();
-    sine = near_.gradientCone({center, kHalfSqrt3 * step_ * side}).sine;
-  }
-  return sine;
+bool CellFit::proved(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error) {
+  double largest = 0.0;
+  const Corners exact = cornersOf(cube);
+  for (int k = 0; k < 8; ++k) largest = std::max(largest, std::abs(leaf[k] - exact[k]));
+  if (largest > error) return false;
+  return largest + slack(cube.side, near) <= error || provedInParts(cube, near, leaf, error);
 }
 
-bool CellFit::proved(const Cube& leaf, const std::array<double, 8>& corners, const Cube& cube, double error) {
-  double largest = 0.0;
-  for (int k = 0; k < 8; ++k) {
-    const Vector3i p = cube.low + cube.side * corner(k);
-    const Vector3d u = (p - leaf.low).cast<double>() / leaf.side;
-    largest = std::max(largest, std::abs(trilinear(corners, u) - at(p)));
-    if (largest > error) return false;
-  }
-  if (largest + kHalfSqrt3 * step_ * cube.side * sine(cube) <= error) return true;
+bool CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error) {
   if (cube.side == 1) return false;
+  take(cube, 2, near);
   const int half = cube.side / 2;
+  const Lattice values = refined(leaf);
+  Lattice errors;
+  const double* const first = values_.data() + index(cube.low);
+  for (int z = 0, i = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x, ++i) errors[i] = std::abs(values[i] - first[half * (x + 9 * (y + 9 * z))]);
+  if (*std::max_element(errors.begin(), errors.end()) > error) return false;
+  std::optional<NearOctants> own;
   for (int k = 0; k < 8; ++k) {
-    if (!proved(leaf, corners, {cube.low + half * corner(k), half}, error)) return false;
+    const Corners at_corners = octantOf(errors, k);
+    const double largest = *std::max_element(at_corners.begin(), at_corners.end());
+    if (largest + slack(half, near) <= error) continue;
+    if (cube.side < kSteps && !own) own.emplace(near);
+    const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
+    if (largest + slack(half, part_near) <= error) continue;
+    if (!provedInParts({cube.low + half * corner(k), half}, part_near, octantOf(values, k), error)) return false;
   }
   return true;
 }
 
-bool CellFit::leaf(const Cube& cube, const LeafScale& scale, double error, LeafWord& word) {
-  std::array<double, 8> corners = cornersOf(cube);
+double CellFit::slack(int side, const NearTriangles& near) const {
+  return kHalfSqrt3 * step_ * side * near.gradientCone().sine;
+}
+
+bool CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double error, LeafWord& word) {
+  take(cube, 1, near);
+  Corners corners = cornersOf(cube);
   // Curvature pulls the interpolant to one side, most in the middle: half of that, taken off, halves the largest error.
   const Vector3i middle = cube.low.array() + cube.side / 2;
-  const double shift = 0.5 * (trilinear(corners, Vector3d::Constant(0.5)) - at(middle));
+  const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
+  if (std::isnan(at(middle))) set(middle, near.centerDistance());
+  const double shift = 0.5 * (mean - at(middle));
   if (std::abs(shift) > error) return false;
   for (double& value : corners) value -= shift;
   word = scale.encode(corners);
-  return proved(cube, scale.decode(word), cube, error);
+  return proved(cube, near, scale.decode(word), error);
 }
 
-LeafWord CellFit::roundedLeaf(const Cube& cube, const LeafScale& scale) {
-  return scale.encode(cornersOf(cube));
+bool CellFit::leaf(const LeafScale& scale, double error, LeafWord& word) {
+  return leaf({Vector3i::Zero(), kSteps}, near_, scale, error, word);
+}
+
+bool CellFit::octantLeaf(int k, const LeafScale& scale, double error, LeafWord& word) {
+  return leaf(octantCube(k), octants()[k], scale, error, word);
+}
+
+LeafWord CellFit::roundedLeaf(int k, const LeafScale& scale) {
+  take(octantCube(k), 1, octants()[k]);
+  return scale.encode(cornersOf(octantCube(k)));
 }
 
 }  // namespace sdf_ccd

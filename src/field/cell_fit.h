@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "near_triangles.h"
 #include "sdf_ccd/field/adaptive_grid.h"
@@ -25,31 +26,44 @@ class CellFit {
     int side;
   };
 
-  CellFit(const NearTriangles& near, const Vector3d& low, double side);
+  /// @param near  of the cell.
+  explicit CellFit(const NearTriangles& near);
 
-  /// Signed distance at a lattice place.
-  double at(const Vector3i& place);
+  /// For one of the 4×4×4 parts of another cell, with what is known of it there.
+  CellFit(const NearTriangles& near, CellFit& around, const Vector3i& part);
+
+  /// Signed distance at a lattice place: NaN if it was not asked for yet.
+  double at(const Vector3i& place) const { return values_[index(place)]; }
   void set(const Vector3i& place, double distance) { values_[index(place)] = distance; }
 
-  /// A leaf for this cube (of side 8 or 4): its word, if it is proved to differ by at most `error` from φ in it.
-  bool leaf(const Cube& cube, const LeafScale& scale, double error, LeafWord& word);
+  /// A leaf for the cell, or for its octant k: its word, if it is proved to differ by at most `error` from φ in it.
+  bool leaf(const LeafScale& scale, double error, LeafWord& word);
+  bool octantLeaf(int k, const LeafScale& scale, double error, LeafWord& word);
 
   /// The same without proof: the exact distances at the corners, rounded.
-  LeafWord roundedLeaf(const Cube& cube, const LeafScale& scale);
+  LeafWord roundedLeaf(int k, const LeafScale& scale);
 
-  Vector3d place(const Vector3i& p) const { return low_ + step_ * p.cast<double>(); }
+  NearOctants& octants();
 
  private:
+  using Corners = std::array<double, 8>;
+
   static int index(const Vector3i& p) { return p.x() + 9 * (p.y() + 9 * p.z()); }
-  std::array<double, 8> cornersOf(const Cube& cube);
-  double sine(const Cube& cube);
-  bool proved(const Cube& leaf, const std::array<double, 8>& corners, const Cube& cube, double error);
+  static Cube octantCube(int k) { return {kSteps / 2 * Vector3i(k & 1, (k >> 1) & 1, k >> 2), kSteps / 2}; }
+  bool leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double error, LeafWord& word);
+  /// Takes the distances that are missing at the cube's places, steps + 1 along each side.
+  void take(const Cube& cube, int steps, const NearTriangles& near);
+  Corners cornersOf(const Cube& cube) const;
+  /// Whether an interpolant with these values at the cube's corners differs by at most `error` from φ in the cube.
+  bool proved(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error);
+  bool provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error);
+  double slack(int side, const NearTriangles& near) const;
 
   const NearTriangles& near_;
+  std::optional<NearOctants> octants_;
   Vector3d low_;
   double step_;
-  std::array<double, 729> values_;   ///< NaN: not taken yet
-  std::array<double, 1 + 8> sines_;  ///< of the cell and its halves; negative: not asked yet
+  std::array<double, 729> values_;  ///< NaN: not taken yet
 };
 
 }  // namespace sdf_ccd

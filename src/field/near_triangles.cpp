@@ -2,24 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sdf_ccd/geometry/separating_triangles.h"
 
 namespace sdf_ccd {
 namespace {
 
-/// What rounding may take from a distance, relative to the ball it is compared in.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What rounding may take from a distance, relative to the cube it is compared in.
 constexpr double kSlack = 1e-9;
 
-double distanceTo(const SurfaceIndex::Triangle& t, const Vector3d& p) {
-  return (t.shape.closest(p) - p).norm();
+/// Triangles that share the closest edge or vertex tie, to rounding of their squared distances.
+constexpr double kTie = 1e-12;
+
+/// How far a triangle may be from the centre of a cube and still be the closest to a place in it: that place is within
+/// distance + radius of the surface, and the centre within another radius of it.
+double reach(const SpaceCube& cube, double distance) {
+  return (std::abs(distance) + 2.0 * cube.radius()) * (1.0 + kSlack);
 }
 
-/// How far a triangle may be from the centre of a ball and still be the closest to a place in it: that place is within
-/// distance + radius of the surface, and the centre within another radius of it.
-double reach(const Ball& ball, double distance) {
-  return (std::abs(distance) + 2.0 * ball.radius) * (1.0 + kSlack);
+/// Whether a triangle can be nearer to a place of a cube than another whose distances from the corners are given.
+///
+/// A triangle's distance is convex. So it exceeds its tangent at the centre; and that of the other triangle nowhere
+/// exceeds what is interpolated between the corners. A tangent that is above at each corner is above all over.
+/// @param distance, gradient  at the cube's centre, the distance or less; NaN: not known.
+bool mayBeNearest(double distance, const Vector3d& gradient, double side, const PlaceLanes::Lane& other) {
+  const Vector3d slope = 0.5 * side * gradient;
+  bool below = false;
+  for (int c = 0; c < 8; ++c) {
+    const double tangent = distance + ((c & 1) ? slope.x() : -slope.x()) + ((c & 2) ? slope.y() : -slope.y()) +
+                           ((c & 4) ? slope.z() : -slope.z());
+    below |= !(tangent > other[c]);
+  }
+  return below;
+}
+
+/// Distances of a cube's corners from a triangle, to within rounding.
+PlaceLanes::Lane distancesAtCorners(const SurfaceIndex& surface, int triangle, const SpaceCube& cube, double size) {
+  PlaceLanes corners;
+  for (int c = 0; c < 8; ++c) corners.set(c, cube.corner(c));
+  ClosestLanes closest;
+  closest.distance2.fill(kInfinity);
+  surface.offer(triangle, Vector3d::Zero(), corners, closest);
+  for (double& value : closest.distance2) value = std::sqrt(value) + kSlack * size;
+  return closest.distance2;
 }
 
 }  // namespace
@@ -27,74 +54,69 @@ double reach(const Ball& ball, double distance) {
 SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) : exact_(mesh) {
   const std::vector<std::uint8_t> separates = separatingTriangles(mesh, exact_.tree());
   triangles_.reserve(mesh.triangles.size());
+  flat_.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
-    const MeasuredTriangle shape(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-    triangles_.push_back({shape, areaNormal(mesh, static_cast<int>(i)).normalized(), separates[i] != 0});
+    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    triangles_.push_back({{a, b, c}, areaNormal(mesh, static_cast<int>(i)).normalized(), separates[i] != 0});
+    flat_.emplace_back(a, b, c);
   }
 }
 
-NearTriangles::NearTriangles(const SurfaceIndex& surface, const Ball& ball, double distance)
-    : surface_(surface), ball_(ball), distance_(distance) {
-  thread_local std::vector<int> found;
-  surface.exact().tree().trianglesWithin(ball.center, reach(ball, distance), found);
-  entries_.reserve(found.size());
-  for (const int i : found) entries_.push_back({distanceTo(surface.triangle(i), ball.center), i});
-  sortAndSetCone();
-}
-
-NearTriangles::NearTriangles(const NearTriangles& around, const Ball& ball, double distance)
-    : surface_(around.surface_), ball_(ball), distance_(distance) {
-  const double most = reach(ball, distance);
-  const double apart = (ball.center - around.ball_.center).norm();
-  for (const Entry& entry : around.entries_) {
-    if (entry.distance - apart > most) break;
-    const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
-    if (!t.shape.mayBeWithin(most, ball.center)) continue;
-    const double d = distanceTo(t, ball.center);
-    if (d <= most) entries_.push_back({d, entry.triangle});
+void SurfaceIndex::offer(int i, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) const {
+  const MeasuredTriangle& shape = triangle(i).shape;
+  if (!shape.sliver()) return sdf_ccd::offer(flat_[static_cast<std::size_t>(i)], axis, places, closest);
+  for (int k = 0; k < PlaceLanes::kCount; ++k) {
+    const Vector3d p = places.at(k), way = p - shape.closest(p);
+    if (way.squaredNorm() >= closest.distance2[k]) continue;
+    closest.distance2[k] = way.squaredNorm();
+    closest.side[k] = way.dot(axis);
   }
-  sortAndSetCone();
 }
 
-void NearTriangles::sortAndSetCone() {
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
-  });
-  cone_ = coneOf(entries_);
-}
-
-DirectionCone NearTriangles::coneOf(const std::vector<Entry>& entries) const {
-  DirectionCone cone;
-  for (const Entry& entry : entries) {
-    const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
-    if (!t.separates) return {};
-    cone.axis += t.normal;
+void SurfaceIndex::ways(int i, const PlaceLanes& places, WayLanes& ways) const {
+  const MeasuredTriangle& shape = triangle(i).shape;
+  if (!shape.sliver()) return sdf_ccd::ways(flat_[static_cast<std::size_t>(i)], places, ways);
+  for (int k = 0; k < PlaceLanes::kCount; ++k) {
+    const Vector3d p = places.at(k), way = p - shape.closest(p);
+    ways.distance2[k] = way.squaredNorm();
+    ways.x[k] = way.x();
+    ways.y[k] = way.y();
+    ways.z[k] = way.z();
   }
-  const double length = cone.axis.norm();
-  if (!(length > 0.0)) return {};
-  cone.axis /= length;
+}
+
+NearTriangles::NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube, double distance,
+                             const std::int32_t* ids, std::size_t count)
+    : surface_(&surface), cube_(cube), distance_(distance), ids_(ids), count_(count) {
+  setCone();
+}
+
+void NearTriangles::setCone() {
+  Vector3d axis = Vector3d::Zero();
+  for (std::size_t i = 0; i < count_; ++i) {
+    const SurfaceIndex::Triangle& t = surface_->triangle(ids_[i]);
+    if (!t.separates) return;
+    axis += t.normal;
+  }
+  const double length = axis.norm();
+  if (!(length > 0.0)) return;
+  axis /= length;
   double cosine = 1.0, sine = 0.0;
-  for (const Entry& entry : entries) {
-    const Vector3d& normal = surface_.triangle(entry.triangle).normal;
-    cosine = std::min(cosine, normal.dot(cone.axis));
-    sine = std::max(sine, normal.cross(cone.axis).squaredNorm());
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Vector3d& normal = surface_->triangle(ids_[i]).normal;
+    cosine = std::min(cosine, normal.dot(axis));
+    sine = std::max(sine, normal.cross(axis).squaredNorm());
   }
-  if (cosine < 0.1) return {};
-  cone.sine = std::min(1.0, std::sqrt(sine) * (1.0 + kSlack));
-  return cone;
+  if (cosine < 0.1) return;
+  cone_ = {axis, std::min(1.0, std::sqrt(sine) * (1.0 + kSlack))};
 }
 
 NearTriangles::Closest NearTriangles::closest(const Vector3d& p) const {
-  // Triangles that share the closest edge or vertex tie, to rounding.
-  constexpr double kTie = 1e-12;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double best2 = kInfinity, best = kInfinity;
   Closest closest{kInfinity, p, 0};
-  const double apart = (p - ball_.center).norm();
-  for (const Entry& entry : entries_) {
-    if (entry.distance - apart > best) break;
-    const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const SurfaceIndex::Triangle& t = surface_->triangle(ids_[i]);
     if (!t.shape.mayBeWithin(best, p)) continue;
     const Vector3d q = t.shape.closest(p);
     const double distance2 = (q - p).squaredNorm();
@@ -121,24 +143,107 @@ double NearTriangles::signedDistance(const Vector3d& p) const {
   if (cone_.sine < 1.0) return (p - found.point).dot(cone_.axis) < 0.0 ? -d : d;
   if (found.sign != 0) return found.sign * d;
   // The balls without surface about p and the centre meet.
-  if (surface_.exact().closed() && d + std::abs(distance_) > (p - ball_.center).norm() * (1.0 + kSlack)) {
+  const SignedSurface& exact = surface_->exact();
+  if (exact.closed() && d + std::abs(distance_) > (p - cube_.center).norm() * (1.0 + kSlack)) {
     return distance_ < 0.0 ? -d : d;
   }
-  return surface_.exact().inside(p) ? -d : d;
+  return exact.inside(p) ? -d : d;
 }
 
-DirectionCone NearTriangles::gradientCone(const Ball& ball) const {
-  const double most = reach(ball, closest(ball.center).distance);
-  const double apart = (ball.center - ball_.center).norm();
-  thread_local std::vector<Entry> found;
-  found.clear();
-  for (const Entry& entry : entries_) {
-    if (entry.distance - apart > most) break;
-    const SurfaceIndex::Triangle& t = surface_.triangle(entry.triangle);
-    if (!t.shape.mayBeWithin(most, ball.center)) continue;
-    if (distanceTo(t, ball.center) <= most) found.push_back(entry);
+void NearTriangles::signedDistances(const PlaceLanes& places, int count, PlaceLanes::Lane& distances) const {
+  if (!(cone_.sine < 1.0)) {
+    for (int k = 0; k < count; ++k) distances[k] = signedDistance(places.at(k));
+    return;
   }
-  return coneOf(found);
+  ClosestLanes closest;
+  closest.distance2.fill(kInfinity);
+  for (std::size_t i = 0; i < count_; ++i) surface_->offer(ids_[i], cone_.axis, places, closest);
+  for (int k = 0; k < PlaceLanes::kCount; ++k) {
+    const double d = std::sqrt(closest.distance2[k]);
+    distances[k] = closest.side[k] < 0.0 ? -d : d;
+  }
+}
+
+NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube) {
+  const SignedSurface::Nearest nearest = surface.exact().nearest(cube.center);
+  const double most = reach(cube, nearest.distance);
+  const PlaceLanes::Lane at_corners = distancesAtCorners(surface, nearest.triangle, cube, most);
+  ids_.push_back(nearest.triangle);
+  const auto may_matter = [&](const Vector3d& center, double radius) {
+    const Vector3d way = cube.center - center;
+    const double distance = way.norm();
+    return distance - radius <= most && mayBeNearest(distance - radius, way / distance, cube.side, at_corners);
+  };
+  surface.exact().tree().forEachTriangle(may_matter, [&](int t) {
+    if (t != nearest.triangle) ids_.push_back(t);
+  });
+  near_ = {surface, cube, nearest.distance, ids_.data(), ids_.size()};
+}
+
+NearOctants::NearOctants(const NearTriangles& around) : around_(around), ways_(around.size()), ids_(8 * around.size()) {
+  PlaceLanes centers;
+  for (int k = 0; k < 8; ++k) centers.set(k, around_.cube().octant(k).center);
+  PlaceLanes::Lane best2;
+  best2.fill(kInfinity);
+  std::array<std::size_t, 8> best{};
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    around_.surface().ways(around_.triangle(i), centers, ways_[i]);
+    for (int k = 0; k < 8; ++k) {
+      if (ways_[i].distance2[k] < best2[k]) {
+        best2[k] = ways_[i].distance2[k];
+        best[k] = i;
+      }
+    }
+  }
+  for (int k = 0; k < 8; ++k) {
+    nearest_[k] = around_.triangle(best[k]);
+    distances_[k] = sign(k, best[k]) * std::sqrt(best2[k]);
+  }
+}
+
+int NearOctants::sign(int k, std::size_t nearest) const {
+  const SurfaceIndex& surface = around_.surface();
+  const auto sideOf = [](double along) { return along < 0.0 ? -1 : 1; };
+  const DirectionCone& cone = around_.gradientCone();
+  if (cone.sine < 1.0) return sideOf(ways_[nearest].at(k).dot(cone.axis));
+  // As in NearTriangles::signedDistance().
+  const double best2 = ways_[nearest].distance2[k];
+  int agreed = 0;
+  bool agree = true;
+  for (std::size_t i = 0; i < around_.size() && agree; ++i) {
+    if (ways_[i].distance2[k] > best2 * (1.0 + kTie)) continue;
+    const SurfaceIndex::Triangle& t = surface.triangle(around_.triangle(i));
+    const int side = t.separates ? sideOf(ways_[i].at(k).dot(t.normal)) : 0;
+    agree = side != 0 && (agreed == 0 || side == agreed);
+    agreed = side;
+  }
+  if (agree) return agreed;
+  if (surface.exact().closed() &&
+      std::sqrt(best2) + std::abs(around_.centerDistance()) > 0.5 * around_.cube().radius() * (1.0 + kSlack)) {
+    return sideOf(around_.centerDistance());
+  }
+  return surface.exact().inside(around_.cube().octant(k).center) ? -1 : 1;
+}
+
+const NearTriangles& NearOctants::operator[](int k) {
+  NearTriangles& near = near_[k];
+  if (near.size() > 0) return near;
+  std::int32_t* const first = ids_.data() + k * around_.size();
+  std::int32_t* last = first;
+  *last++ = nearest_[k];
+  const SpaceCube octant = around_.cube().octant(k);
+  const double most = reach(octant, distances_[k]);
+  PlaceLanes::Lane at_corners;
+  bool measured = false;
+  for (std::size_t i = 0; i < around_.size(); ++i) {
+    if (ways_[i].distance2[k] > most * most || around_.triangle(i) == nearest_[k]) continue;
+    if (!measured) at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, most);
+    measured = true;
+    const double distance = std::sqrt(ways_[i].distance2[k]);
+    if (mayBeNearest(distance, ways_[i].at(k) / distance, octant.side, at_corners)) *last++ = around_.triangle(i);
+  }
+  near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};
+  return near;
 }
 
 }  // namespace sdf_ccd

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "../geometry/triangle_lanes.h"
+#include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/triangle.h"
 #include "signed_surface.h"
 
@@ -22,15 +26,28 @@ class SurfaceIndex {
   const SignedSurface& exact() const { return exact_; }
   const Triangle& triangle(int i) const { return triangles_[static_cast<std::size_t>(i)]; }
 
+  /// See the functions of triangle_lanes.h; for slivers too.
+  void offer(int i, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) const;
+  void ways(int i, const PlaceLanes& places, WayLanes& ways) const;
+
  private:
   SignedSurface exact_;
   std::vector<Triangle> triangles_;
+  std::vector<FlatTriangle> flat_;
 };
 
-/// A ball of space.
-struct Ball {
+/// A cube of space.
+struct SpaceCube {
   Vector3d center;
-  double radius;
+  double side;
+
+  double radius() const { return kHalfSqrt3 * side; }
+  SpaceCube octant(int k) const {
+    return {center + 0.25 * side * Vector3d((k & 1) ? 1.0 : -1.0, (k & 2) ? 1.0 : -1.0, (k & 4) ? 1.0 : -1.0),
+            0.5 * side};
+  }
+  /// Corner k: bit 0 of k is x, bit 1 y, bit 2 z.
+  Vector3d corner(int k) const { return octant(k).center + (octant(k).center - center); }
 };
 
 /// A cone of directions: those within the half-angle whose sine this is from the axis. Sine 1: all directions.
@@ -39,32 +56,32 @@ struct DirectionCone {
   double sine = 1.0;
 };
 
-/// The triangles that can be the closest one to a place in a ball, and the signed distances they give there.
+/// The triangles that can be the closest one to a place in a cube, and the signed distances they give there.
 class NearTriangles {
  public:
-  /// @param distance  of the surface from the ball's centre, signed [m].
-  NearTriangles(const SurfaceIndex& surface, const Ball& ball, double distance);
+  NearTriangles() = default;
 
-  /// For a ball within another one.
-  NearTriangles(const NearTriangles& around, const Ball& ball, double distance);
+  /// @param distance  of the surface from the cube's centre, signed [m].
+  /// @param ids  the triangles, the nearest to the centre first; they outlive this.
+  NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube, double distance, const std::int32_t* ids,
+                std::size_t count);
 
-  /// Signed distance at a place of the ball.
+  /// Signed distance at a place of the cube.
   double signedDistance(const Vector3d& p) const;
 
-  /// Holds the gradient of the signed distance wherever it is defined in a ball within this one.
-  DirectionCone gradientCone(const Ball& ball) const;
+  /// Signed distances at eight places of the cube, of which `count` are asked for.
+  void signedDistances(const PlaceLanes& places, int count, PlaceLanes::Lane& distances) const;
 
-  std::size_t size() const { return entries_.size(); }
+  /// Holds the gradient of the signed distance wherever it is defined in the cube.
+  const DirectionCone& gradientCone() const { return cone_; }
 
+  const SurfaceIndex& surface() const { return *surface_; }
+  const SpaceCube& cube() const { return cube_; }
   double centerDistance() const { return distance_; }
+  std::size_t size() const { return count_; }
+  std::int32_t triangle(std::size_t i) const { return ids_[i]; }
 
  private:
-  struct Entry {
-    double distance;  ///< of the triangle from the centre [m]
-    std::int32_t triangle;
-  };
-
-  void sortAndSetCone();
   /// The closest place, and what the triangles that hold it say of the sign: 0 if they do not agree.
   struct Closest {
     double distance;
@@ -72,13 +89,49 @@ class NearTriangles {
     int sign;
   };
   Closest closest(const Vector3d& p) const;
-  DirectionCone coneOf(const std::vector<Entry>& entries) const;
+  void setCone();
 
-  const SurfaceIndex& surface_;
-  Ball ball_;
-  double distance_;
-  std::vector<Entry> entries_;  ///< nearest to the centre first
+  const SurfaceIndex* surface_ = nullptr;
+  SpaceCube cube_{};
+  double distance_ = 0.0;
+  const std::int32_t* ids_ = nullptr;
+  std::size_t count_ = 0;
   DirectionCone cone_;
+};
+
+/// The triangles near a cube, found from scratch.
+class NearCube {
+ public:
+  NearCube(const SurfaceIndex& surface, const SpaceCube& cube);
+
+  const NearTriangles& near() const { return near_; }
+
+ private:
+  std::vector<std::int32_t> ids_;
+  NearTriangles near_;
+};
+
+/// The triangles near each octant of a cube, ordered like corners. Lists are made when asked for.
+class NearOctants {
+ public:
+  explicit NearOctants(const NearTriangles& around);
+  NearOctants(const NearOctants&) = delete;
+  NearOctants& operator=(const NearOctants&) = delete;
+
+  /// Signed distance at the octant's centre [m].
+  double centerDistance(int k) const { return distances_[k]; }
+
+  const NearTriangles& operator[](int k);
+
+ private:
+  int sign(int k, std::size_t nearest) const;
+
+  const NearTriangles& around_;
+  std::vector<WayLanes> ways_;           ///< of each triangle around to the octants' centres
+  std::array<std::int32_t, 8> nearest_;  ///< triangle at each octant's centre
+  std::array<double, 8> distances_;
+  std::vector<std::int32_t> ids_;  ///< for each octant room for all triangles around
+  std::array<NearTriangles, 8> near_;
 };
 
 }  // namespace sdf_ccd

@@ -136,6 +136,41 @@ TEST(AdaptiveGrid, BoundHoldsOnScans) {
   expectBoundHolds(mesh, 1e-3 * boundingBox(mesh).sizes().maxCoeff());
 }
 
+/// Also where a leaf reaches farther from the surface than the band.
+void expectLeavesHold(const TriangleMesh& mesh, double error) {
+  const DistanceField field = buildField(mesh, maxError(error));
+  const AdaptiveGrid& grid = *field.adaptive();
+  const AdaptiveShape& shape = grid.shape();
+  const TriangleTree tree(mesh);
+  Random random(11);
+  int leaves = 0;
+  for (int i = 0; i < 100000 && !testing::Test::HasFailure(); ++i) {
+    const Vector3d p = test::uniformIn(random, shape.box());
+    const AdaptiveBlock block = grid.block(((p - shape.origin) / shape.unit()).cast<int>());
+    const double distance = tree.closestPoint(p).distance;
+    if (!block.leaf) {
+      EXPECT_GT(distance, shape.band);
+      continue;
+    }
+    ++leaves;
+    const double exact = tree.windingNumber(p) > 0.5 ? -distance : distance;
+    EXPECT_NEAR(field.sample(p).value, exact, error) << p.transpose();
+  }
+  EXPECT_GT(leaves, 1000);
+}
+
+TEST(AdaptiveGrid, LeavesHoldTrianglesMuchSmallerThanThem) {
+  expectLeavesHold(test::icosphere(0.3, 5), 0.005);
+}
+
+TEST(AdaptiveGrid, LeavesHoldSlivers) {
+  expectLeavesHold(test::torusMesh(0.2, 1e-5, 7, 5), 0.002);
+}
+
+TEST(AdaptiveGrid, LeavesHoldEdges) {
+  expectLeavesHold(test::boxMesh({0.2, 0.15, 0.1}), 0.002);
+}
+
 TEST(AdaptiveGrid, DoesNotDependOnThreads) {
   const TriangleMesh mesh = test::torusMesh(0.2, 0.08, 32, 16);
   const DistanceField many = buildField(mesh, maxError(0.001));

@@ -28,6 +28,13 @@ class MeasuredTriangle {
     return (center_ - p).squaredNorm() <= most * most;
   }
 
+  /// True if it is so thin that its plane is uncertain.
+  bool sliver() const { return sliver_; }
+
+  /// A ball that holds the triangle.
+  const Vector3d& center() const { return center_; }
+  double radius() const { return radius_; }
+
   const Vector3d& a() const { return a_; }
   const Vector3d& b() const { return b_; }
   const Vector3d& c() const { return c_; }

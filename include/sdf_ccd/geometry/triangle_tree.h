@@ -36,6 +36,11 @@ class TriangleTree {
   /// no order.
   void trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const;
 
+  /// Visits triangles for which mayMatter(center, radius) [m] says that a ball that holds them may matter: balls of
+  /// ever fewer triangles are asked for, at last of one.
+  template <typename MayMatter, typename Visit>
+  void forEachTriangle(MayMatter mayMatter, Visit visit) const;
+
   /// Generalised winding number (Jacobson 2013): 1 inside and 0 outside a closed mesh. Hierarchical (Barill et al.
   /// 2018): far clusters are replaced by their expansion, with an error well below the 0.5 that decides the sign.
   /// @param accuracy  clusters nearer than accuracy × their radius are opened; infinity sums every triangle.
@@ -72,5 +77,23 @@ class TriangleTree {
   std::vector<std::int32_t> ids_;      ///< index in the mesh of each of `triangles_`
   std::vector<std::int32_t> places_;   ///< index in `triangles_` of each of the mesh's
 };
+
+template <typename MayMatter, typename Visit>
+void TriangleTree::forEachTriangle(MayMatter mayMatter, Visit visit) const {
+  std::vector<std::int32_t> pending = {0};
+  while (!pending.empty()) {
+    const Node& node = nodes_[pending.back()];
+    pending.pop_back();
+    if (!mayMatter(node.box.center(), 0.5 * node.box.diagonal().norm())) continue;
+    if (node.count == 0) {
+      pending.push_back(node.first);
+      pending.push_back(node.first + 1);
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      if (mayMatter(triangles_[i].center(), triangles_[i].radius())) visit(ids_[i]);
+    }
+  }
+}
 
 }  // namespace sdf_ccd

@@ -1,0 +1,112 @@
+#include "triangle_lanes.h"
+
+#include <cmath>
+
+// Compiled for processors with wider vectors too; which one is taken is decided when the program is loaded.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#define SDF_CCD_LANES __attribute__((target_clones("avx2", "default")))
+#else
+#define SDF_CCD_LANES
+#endif
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kWidth = 4;
+using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
+
+#define SDF_CCD_INLINE inline __attribute__((always_inline))
+
+SDF_CCD_INLINE Doubles load(const PlaceLanes::Lane& lane, int k) {
+  return *reinterpret_cast<const Doubles*>(lane.data() + k);
+}
+
+SDF_CCD_INLINE void store(const Doubles& values, int k, PlaceLanes::Lane& lane) {
+  *reinterpret_cast<Doubles*>(lane.data() + k) = values;
+}
+
+SDF_CCD_INLINE Doubles clamped(const Doubles& t, double most) {
+  const Doubles zero = {}, end = zero + most, positive = t > zero ? t : zero;
+  return positive < end ? positive : end;
+}
+
+/// The way from the closest point to a place: in the triangle's plane, and along its normal.
+struct Way {
+  Doubles u, v, normal;
+
+  SDF_CCD_INLINE Doubles squared() const { return u * u + v * v + normal * normal; }
+};
+
+/// In the plane: to the nearest of the edges' closest points, or nothing within them.
+SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PlaceLanes& places, int k) {
+  const Doubles x = load(places.x, k) - t.origin[0], y = load(places.y, k) - t.origin[1],
+                z = load(places.z, k) - t.origin[2];
+  const Doubles u = t.u[0] * x + t.u[1] * y + t.u[2] * z;
+  const Doubles v = t.v[0] * x + t.v[1] * y + t.v[2] * z;
+  const Doubles zero = {};
+
+  Doubles best_u = u - clamped(u, t.b), best_v = v, best2 = best_u * best_u + v * v;
+  const auto take = [&](const Doubles& other_u, const Doubles& other_v) __attribute__((always_inline)) {
+    const Doubles other2 = other_u * other_u + other_v * other_v;
+    best_u = other2 < best2 ? other_u : best_u;
+    best_v = other2 < best2 ? other_v : best_v;
+    best2 = other2 < best2 ? other2 : best2;
+  };
+  const double edge = t.c - t.b;
+  const Doubles w = u - t.b;
+  const Doubles on_bc = clamped((w * edge + v * t.height) * t.inverse_bc2, 1.0);
+  take(w - on_bc * edge, v - on_bc * t.height);
+  const Doubles on_ca = clamped((u * t.c + v * t.height) * t.inverse_ca2, 1.0);
+  take(u - on_ca * t.c, v - on_ca * t.height);
+
+  // The least of the heights over the three edges (times their lengths).
+  const Doubles over_bc = edge * v - t.height * w, over_ca = t.height * u - t.c * v;
+  Doubles over = v < over_bc ? v : over_bc;
+  over = over < over_ca ? over : over_ca;
+  return {over < zero ? best_u : zero, over < zero ? best_v : zero,
+          t.normal[0] * x + t.normal[1] * y + t.normal[2] * z};
+}
+
+}  // namespace
+
+FlatTriangle::FlatTriangle(const Vector3d& pa, const Vector3d& pb, const Vector3d& pc) {
+  const Vector3d ab = pb - pa, ac = pc - pa;
+  const Vector3d e1 = ab.normalized(), e3 = ab.cross(ac).normalized(), e2 = e3.cross(e1).normalized();
+  for (int k = 0; k < 3; ++k) {
+    origin[k] = pa[k];
+    u[k] = e1[k];
+    v[k] = e2[k];
+    normal[k] = e3[k];
+  }
+  b = ab.norm();
+  c = ac.dot(e1);
+  height = ac.dot(e2);
+  inverse_bc2 = 1.0 / ((c - b) * (c - b) + height * height);
+  inverse_ca2 = 1.0 / (c * c + height * height);
+}
+
+SDF_CCD_LANES void offer(const FlatTriangle& t, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) {
+  const double au = t.u[0] * axis[0] + t.u[1] * axis[1] + t.u[2] * axis[2];
+  const double av = t.v[0] * axis[0] + t.v[1] * axis[1] + t.v[2] * axis[2];
+  const double an = t.normal[0] * axis[0] + t.normal[1] * axis[1] + t.normal[2] * axis[2];
+  for (int k = 0; k < PlaceLanes::kCount; k += kWidth) {
+    const Way way = wayTo(t, places, k);
+    const Doubles distance2 = way.squared(), held2 = load(closest.distance2, k);
+    const Doubles side = way.u * au + way.v * av + way.normal * an, held = load(closest.side, k);
+    store(distance2 < held2 ? side : held, k, closest.side);
+    store(distance2 < held2 ? distance2 : held2, k, closest.distance2);
+  }
+}
+
+SDF_CCD_LANES void ways(const FlatTriangle& t, const PlaceLanes& places, WayLanes& ways) {
+  for (int k = 0; k < PlaceLanes::kCount; k += kWidth) {
+    const Way way = wayTo(t, places, k);
+    store(way.squared(), k, ways.distance2);
+    store(way.u * t.u[0] + way.v * t.v[0] + way.normal * t.normal[0], k, ways.x);
+    store(way.u * t.u[1] + way.v * t.v[1] + way.normal * t.normal[1], k, ways.y);
+    store(way.u * t.u[2] + way.v * t.v[2] + way.normal * t.normal[2], k, ways.z);
+  }
+}
+
+}  // namespace sdf_ccd
