@@ -202,11 +202,17 @@ AdaptiveGrid AdaptiveBuilder::build() {
   // Blocks of so many cells along a side share a search for the triangles near them.
   constexpr int kBlock = 4;
   const Vector3i blocks = (shape_.size.array() + (kBlock - 1)) / kBlock;
-  tbb::parallel_for(0, blocks.prod(), [&](int i) {
-    const Vector3i low = kBlock * Vector3i(i % blocks.x(), i / blocks.x() % blocks.y(), i / blocks.x() / blocks.y());
-    const Vector3d center = shape_.origin + shape_.cell * (low.cast<double>().array() + 0.5 * kBlock).matrix();
-    const NearCube near(surface_, {center, kBlock * shape_.cell});
-    block(near.near(), low, kBlock);
+  tbb::parallel_for(0, blocks.y() * blocks.z(), [&](int row) {
+    SignedSurface::Nearest nearest{};
+    for (int x = 0; x < blocks.x(); ++x) {
+      const Vector3i low = kBlock * Vector3i(x, row % blocks.y(), row / blocks.y());
+      const Vector3d center = shape_.origin + shape_.cell * (low.cast<double>().array() + 0.5 * kBlock).matrix();
+      const SpaceCube cube{center, kBlock * shape_.cell};
+      const SignedSurface& exact = surface_.exact();
+      nearest = x == 0 ? exact.nearest(center) : exact.next(center, nearest, cube.side);
+      const NearCube near(surface_, cube, nearest);
+      block(near.near(), low, kBlock);
+    }
   });
 
   std::sort(built_.begin(), built_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -60,7 +60,8 @@ class Sampler {
     if (!index_) return fillFromTree(brick, samples);
     constexpr std::size_t kMany = 300;
     const Block whole{Vector3i::Zero(), GridShape::kBrick};
-    const NearCube found(*index_, cubeOf(brick, whole));
+    const SpaceCube cube = cubeOf(brick, whole);
+    const NearCube found(*index_, cube, surface().nearest(cube.center));
     if (found.near().size() > kMany) {
       fillFromTree(brick, samples);
     } else {

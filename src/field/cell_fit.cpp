@@ -116,7 +116,7 @@ bool CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const C
 }
 
 double CellFit::slack(int side, const NearTriangles& near) const {
-  return kHalfSqrt3 * step_ * side * near.gradientCone().sine;
+  return step_ * side * near.interpolationError();
 }
 
 bool CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double error, LeafWord& word) {

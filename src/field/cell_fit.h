@@ -12,10 +12,9 @@ namespace sdf_ccd {
 /// A cell's signed distances at a lattice of 9×9×9 places, taken when asked for, and what they prove about leaves that
 /// would stand in its place.
 ///
-/// The proof. Let the gradient of φ lie in a cone with axis a and sine s over a cube of side w. Then φ less a linear
-/// function has a gradient of at most s, so that trilinear interpolation of its corners is wrong by at most √3/2 w s
-/// (design §3.3; a linear function is interpolated exactly). A leaf's interpolant equals that of its own values at the
-/// cube's corners: its error is at most the largest error at the corners plus √3/2 w s. Flat surface: s = 0.
+/// The proof. Where the gradients of φ in a cube lie close together, trilinear interpolation of its corners is hardly
+/// wrong: see NearTriangles::interpolationError(). A leaf's interpolant equals that of its own values at the cube's
+/// corners: its error is at most the largest error at the corners plus that. Flat surface: nothing is added.
 class CellFit {
  public:
   static constexpr int kSteps = 8;

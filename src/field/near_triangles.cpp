@@ -29,13 +29,13 @@ double reach(const SpaceCube& cube, double distance) {
 /// @param distance, gradient  at the cube's centre, the distance or less; NaN: not known.
 bool mayBeNearest(double distance, const Vector3d& gradient, double side, const PlaceLanes::Lane& other) {
   const Vector3d slope = 0.5 * side * gradient;
-  bool below = false;
+  double above = kInfinity;
   for (int c = 0; c < 8; ++c) {
     const double tangent = distance + ((c & 1) ? slope.x() : -slope.x()) + ((c & 2) ? slope.y() : -slope.y()) +
                            ((c & 4) ? slope.z() : -slope.z());
-    below |= !(tangent > other[c]);
+    above = std::min(above, tangent - other[c]);
   }
-  return below;
+  return !(above > 0.0) || std::isnan(slope.x());
 }
 
 /// Distances of a cube's corners from a triangle, to within rounding.
@@ -54,20 +54,22 @@ PlaceLanes::Lane distancesAtCorners(const SurfaceIndex& surface, int triangle, c
 SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) : exact_(mesh) {
   const std::vector<std::uint8_t> separates = separatingTriangles(mesh, exact_.tree());
   triangles_.reserve(mesh.triangles.size());
+  faces_.reserve(mesh.triangles.size());
   flat_.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3i& t = mesh.triangles[i];
     const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    triangles_.push_back({{a, b, c}, areaNormal(mesh, static_cast<int>(i)).normalized(), separates[i] != 0});
+    triangles_.emplace_back(a, b, c);
+    faces_.push_back(
+        {areaNormal(mesh, static_cast<int>(i)).normalized(), separates[i] != 0, triangles_.back().sliver()});
     flat_.emplace_back(a, b, c);
   }
 }
 
 void SurfaceIndex::offer(int i, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) const {
-  const MeasuredTriangle& shape = triangle(i).shape;
-  if (!shape.sliver()) return sdf_ccd::offer(flat_[static_cast<std::size_t>(i)], axis, places, closest);
+  if (!face(i).sliver) return sdf_ccd::offer(flat_[static_cast<std::size_t>(i)], axis, places, closest);
   for (int k = 0; k < PlaceLanes::kCount; ++k) {
-    const Vector3d p = places.at(k), way = p - shape.closest(p);
+    const Vector3d p = places.at(k), way = p - triangle(i).closest(p);
     if (way.squaredNorm() >= closest.distance2[k]) continue;
     closest.distance2[k] = way.squaredNorm();
     closest.side[k] = way.dot(axis);
@@ -75,10 +77,9 @@ void SurfaceIndex::offer(int i, const Vector3d& axis, const PlaceLanes& places, 
 }
 
 void SurfaceIndex::ways(int i, const PlaceLanes& places, WayLanes& ways) const {
-  const MeasuredTriangle& shape = triangle(i).shape;
-  if (!shape.sliver()) return sdf_ccd::ways(flat_[static_cast<std::size_t>(i)], places, ways);
+  if (!face(i).sliver) return sdf_ccd::ways(flat_[static_cast<std::size_t>(i)], places, ways);
   for (int k = 0; k < PlaceLanes::kCount; ++k) {
-    const Vector3d p = places.at(k), way = p - shape.closest(p);
+    const Vector3d p = places.at(k), way = p - triangle(i).closest(p);
     ways.distance2[k] = way.squaredNorm();
     ways.x[k] = way.x();
     ways.y[k] = way.y();
@@ -89,39 +90,75 @@ void SurfaceIndex::ways(int i, const PlaceLanes& places, WayLanes& ways) const {
 NearTriangles::NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube, double distance,
                              const std::int32_t* ids, std::size_t count)
     : surface_(&surface), cube_(cube), distance_(distance), ids_(ids), count_(count) {
+  setGradients();
+}
+
+void NearTriangles::setGradients() {
   setCone();
+  interpolation_ = kHalfSqrt3 * cone_.sine;
+  if (!(cone_.sine < 1.0) || cone_.sine == 0.0) return;
+  // A gradient is a sum of normals whose weights sum up to 1 to 1 / cos of the cone's angle.
+  const double most = 1.0 / std::sqrt(1.0 - cone_.sine * cone_.sine);
+  Vector3d low = surface_->face(ids_[0]).normal, high = low;
+  for (std::size_t i = 1; i < count_; ++i) {
+    const Vector3d& normal = surface_->face(ids_[i]).normal;
+    low = low.cwiseMin(normal);
+    high = high.cwiseMax(normal);
+  }
+  const double spread = (high.cwiseMax(most * high) - low.cwiseMin(most * low)).sum();
+  interpolation_ = std::min(interpolation_, 0.25 * spread * (1.0 + kSlack));
 }
 
 void NearTriangles::setCone() {
-  Vector3d axis = Vector3d::Zero();
+  Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < count_; ++i) {
-    const SurfaceIndex::Triangle& t = surface_->triangle(ids_[i]);
-    if (!t.separates) return;
-    axis += t.normal;
+    const SurfaceIndex::Face& face = surface_->face(ids_[i]);
+    if (!face.separates) return;
+    sum += face.normal;
   }
+  const Vector3d* farthest = setCone(sum);
+  if (count_ < 3 || cone_.sine == 0.0) return;
+  // Where most normals lie on one side, the middle of the two that are farthest apart is a better axis than the mean.
+  const Vector3d& first = *farthest;
+  const Vector3d* second = &first;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Vector3d& normal = surface_->face(ids_[i]).normal;
+    if (normal.dot(first) < second->dot(first)) second = &normal;
+  }
+  setCone(first + *second);
+}
+
+/// Takes the axis if that makes the cone narrower. Returns the normal farthest from it.
+const Vector3d* NearTriangles::setCone(Vector3d axis) {
+  const Vector3d* farthest = &surface_->face(ids_[0]).normal;
   const double length = axis.norm();
-  if (!(length > 0.0)) return;
+  if (!(length > 0.0)) return farthest;
   axis /= length;
   double cosine = 1.0, sine = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
-    const Vector3d& normal = surface_->triangle(ids_[i]).normal;
-    cosine = std::min(cosine, normal.dot(axis));
+    const Vector3d& normal = surface_->face(ids_[i]).normal;
+    if (normal.dot(axis) < cosine) {
+      cosine = normal.dot(axis);
+      farthest = &normal;
+    }
     sine = std::max(sine, normal.cross(axis).squaredNorm());
   }
-  if (cosine < 0.1) return;
-  cone_ = {axis, std::min(1.0, std::sqrt(sine) * (1.0 + kSlack))};
+  sine = std::min(1.0, std::sqrt(sine) * (1.0 + kSlack));
+  if (cosine >= 0.1 && sine < cone_.sine) cone_ = {axis, sine};
+  return farthest;
 }
 
 NearTriangles::Closest NearTriangles::closest(const Vector3d& p) const {
   double best2 = kInfinity, best = kInfinity;
   Closest closest{kInfinity, p, 0};
   for (std::size_t i = 0; i < count_; ++i) {
-    const SurfaceIndex::Triangle& t = surface_->triangle(ids_[i]);
-    if (!t.shape.mayBeWithin(best, p)) continue;
-    const Vector3d q = t.shape.closest(p);
+    const MeasuredTriangle& t = surface_->triangle(ids_[i]);
+    if (!t.mayBeWithin(best, p)) continue;
+    const Vector3d q = t.closest(p);
     const double distance2 = (q - p).squaredNorm();
     if (distance2 > best2 * (1.0 + kTie)) continue;
-    const int sign = !t.separates ? 0 : (p - q).dot(t.normal) < 0.0 ? -1 : 1;
+    const SurfaceIndex::Face& face = surface_->face(ids_[i]);
+    const int sign = !face.separates ? 0 : (p - q).dot(face.normal) < 0.0 ? -1 : 1;
     const bool tie = distance2 >= best2 * (1.0 - kTie);
     closest.sign = tie && sign != closest.sign ? 0 : sign;
     if (distance2 < best2) {
@@ -164,8 +201,7 @@ void NearTriangles::signedDistances(const PlaceLanes& places, int count, PlaceLa
   }
 }
 
-NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube) {
-  const SignedSurface::Nearest nearest = surface.exact().nearest(cube.center);
+NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const SignedSurface::Nearest& nearest) {
   const double most = reach(cube, nearest.distance);
   const PlaceLanes::Lane at_corners = distancesAtCorners(surface, nearest.triangle, cube, most);
   ids_.push_back(nearest.triangle);
@@ -180,7 +216,8 @@ NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube) {
   near_ = {surface, cube, nearest.distance, ids_.data(), ids_.size()};
 }
 
-NearOctants::NearOctants(const NearTriangles& around) : around_(around), ways_(around.size()), ids_(8 * around.size()) {
+NearOctants::NearOctants(const NearTriangles& around)
+    : around_(around), ways_(new WayLanes[around.size()]), ids_(new std::int32_t[8 * around.size()]) {
   PlaceLanes centers;
   for (int k = 0; k < 8; ++k) centers.set(k, around_.cube().octant(k).center);
   PlaceLanes::Lane best2;
@@ -212,8 +249,8 @@ int NearOctants::sign(int k, std::size_t nearest) const {
   bool agree = true;
   for (std::size_t i = 0; i < around_.size() && agree; ++i) {
     if (ways_[i].distance2[k] > best2 * (1.0 + kTie)) continue;
-    const SurfaceIndex::Triangle& t = surface.triangle(around_.triangle(i));
-    const int side = t.separates ? sideOf(ways_[i].at(k).dot(t.normal)) : 0;
+    const SurfaceIndex::Face& face = surface.face(around_.triangle(i));
+    const int side = face.separates ? sideOf(ways_[i].at(k).dot(face.normal)) : 0;
     agree = side != 0 && (agreed == 0 || side == agreed);
     agreed = side;
   }
@@ -228,7 +265,7 @@ int NearOctants::sign(int k, std::size_t nearest) const {
 const NearTriangles& NearOctants::operator[](int k) {
   NearTriangles& near = near_[k];
   if (near.size() > 0) return near;
-  std::int32_t* const first = ids_.data() + k * around_.size();
+  std::int32_t* const first = ids_.get() + k * around_.size();
   std::int32_t* last = first;
   *last++ = nearest_[k];
   const SpaceCube octant = around_.cube().octant(k);

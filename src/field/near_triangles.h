@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "../geometry/triangle_lanes.h"
@@ -17,14 +18,16 @@ class SurfaceIndex {
  public:
   explicit SurfaceIndex(const TriangleMesh& mesh);
 
-  struct Triangle {
-    MeasuredTriangle shape;
+  /// What a triangle says of the surface's direction.
+  struct Face {
     Vector3d normal;  ///< of length one
     bool separates;   ///< see separatingTriangles()
+    bool sliver;
   };
 
   const SignedSurface& exact() const { return exact_; }
-  const Triangle& triangle(int i) const { return triangles_[static_cast<std::size_t>(i)]; }
+  const MeasuredTriangle& triangle(int i) const { return triangles_[static_cast<std::size_t>(i)]; }
+  const Face& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
 
   /// See the functions of triangle_lanes.h; for slivers too.
   void offer(int i, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) const;
@@ -32,7 +35,8 @@ class SurfaceIndex {
 
  private:
   SignedSurface exact_;
-  std::vector<Triangle> triangles_;
+  std::vector<MeasuredTriangle> triangles_;
+  std::vector<Face> faces_;
   std::vector<FlatTriangle> flat_;
 };
 
@@ -75,6 +79,12 @@ class NearTriangles {
   /// Holds the gradient of the signed distance wherever it is defined in the cube.
   const DirectionCone& gradientCone() const { return cone_; }
 
+  /// By how much of the side of any cube within this one trilinear interpolation from its corners may be wrong.
+  ///
+  /// φ less a linear function along the cone's axis has slopes of at most its sine s: √3/2 s (design §3.3). Or, axis by
+  /// axis: a function whose slope lies in [m, M] leaves the chord over a length w by at most (M − m) w / 4.
+  double interpolationError() const { return interpolation_; }
+
   const SurfaceIndex& surface() const { return *surface_; }
   const SpaceCube& cube() const { return cube_; }
   double centerDistance() const { return distance_; }
@@ -89,7 +99,9 @@ class NearTriangles {
     int sign;
   };
   Closest closest(const Vector3d& p) const;
+  void setGradients();
   void setCone();
+  const Vector3d* setCone(Vector3d axis);
 
   const SurfaceIndex* surface_ = nullptr;
   SpaceCube cube_{};
@@ -97,12 +109,14 @@ class NearTriangles {
   const std::int32_t* ids_ = nullptr;
   std::size_t count_ = 0;
   DirectionCone cone_;
+  double interpolation_ = kHalfSqrt3;
 };
 
 /// The triangles near a cube, found from scratch.
 class NearCube {
  public:
-  NearCube(const SurfaceIndex& surface, const SpaceCube& cube);
+  /// @param nearest  to the cube's centre.
+  NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const SignedSurface::Nearest& nearest);
 
   const NearTriangles& near() const { return near_; }
 
@@ -127,10 +141,10 @@ class NearOctants {
   int sign(int k, std::size_t nearest) const;
 
   const NearTriangles& around_;
-  std::vector<WayLanes> ways_;           ///< of each triangle around to the octants' centres
+  std::unique_ptr<WayLanes[]> ways_;     ///< of each triangle around to the octants' centres
   std::array<std::int32_t, 8> nearest_;  ///< triangle at each octant's centre
   std::array<double, 8> distances_;
-  std::vector<std::int32_t> ids_;  ///< for each octant room for all triangles around
+  std::unique_ptr<std::int32_t[]> ids_;  ///< for each octant room for all triangles around
   std::array<NearTriangles, 8> near_;
 };
 

@@ -20,7 +20,8 @@ class NearTrianglesTest : public testing::Test {
     for (int i = 0; i < 60; ++i) {
       const double side = largest_side * test::uniform(random_, 0.1, 1.0);
       const Vector3d margin = Vector3d::Constant(side);
-      const NearCube cube(index, {test::uniformIn(random_, {box.min() - margin, box.max() + margin}), side});
+      const Vector3d center = test::uniformIn(random_, {box.min() - margin, box.max() + margin});
+      const NearCube cube(index, {center, side}, surface_->nearest(center));
       expectExact(cube.near(), 2);
       if (HasFatalFailure()) return;
     }
