@@ -31,6 +31,13 @@ std::array<double, 8> octantOf(const Lattice& lattice, int k) {
   return {v[0], v[1], v[3], v[4], v[9], v[10], v[12], v[13]};
 }
 
+template <std::size_t n>
+double largest(const std::array<double, n>& errors) {
+  double most = 0.0;
+  for (const double e : errors) most = std::max(most, std::abs(e));
+  return most;
+}
+
 }  // namespace
 
 CellFit::CellFit(const NearTriangles& near)
@@ -84,11 +91,10 @@ CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
 }
 
 bool CellFit::proved(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error) {
-  double largest = 0.0;
-  const Corners exact = cornersOf(cube);
-  for (int k = 0; k < 8; ++k) largest = std::max(largest, std::abs(leaf[k] - exact[k]));
-  if (largest > error) return false;
-  return largest + slack(cube.side, near) <= error || provedInParts(cube, near, leaf, error);
+  Corners errors = cornersOf(cube);
+  for (int k = 0; k < 8; ++k) errors[k] = leaf[k] - errors[k];
+  if (largest(errors) > error) return false;
+  return holds(errors, cube.side, near, error) || provedInParts(cube, near, leaf, error);
 }
 
 bool CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error) {
@@ -100,23 +106,36 @@ bool CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const C
   const double* const first = values_.data() + index(cube.low);
   for (int z = 0, i = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x, ++i) errors[i] = std::abs(values[i] - first[half * (x + 9 * (y + 9 * z))]);
-  if (*std::max_element(errors.begin(), errors.end()) > error) return false;
+      for (int x = 0; x < 3; ++x, ++i) errors[i] = values[i] - first[half * (x + 9 * (y + 9 * z))];
+  if (largest(errors) > error) return false;
   std::optional<NearOctants> own;
   for (int k = 0; k < 8; ++k) {
     const Corners at_corners = octantOf(errors, k);
-    const double largest = *std::max_element(at_corners.begin(), at_corners.end());
-    if (largest + slack(half, near) <= error) continue;
+    if (holds(at_corners, half, near, error)) continue;
     if (cube.side < kSteps && !own) own.emplace(near);
     const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
-    if (largest + slack(half, part_near) <= error) continue;
+    if (holds(at_corners, half, part_near, error)) continue;
     if (!provedInParts({cube.low + half * corner(k), half}, part_near, octantOf(values, k), error)) return false;
   }
   return true;
 }
 
-double CellFit::slack(int side, const NearTriangles& near) const {
-  return step_ * side * near.interpolationError();
+bool CellFit::holds(const Corners& errors, int side, const NearTriangles& near, double error) const {
+  const double w = step_ * side;
+  if (largest(errors) + w * near.interpolationError() <= error) return true;
+  // At s (−1 to 1 from face to face along an axis) the corners' errors count with at most their mean + Σ a s, a half
+  // the largest difference along an edge, and interpolation adds at most Σ b (1 − s²), b a quarter of the slopes'
+  // range.
+  double bound = std::abs(std::accumulate(errors.begin(), errors.end(), 0.0)) / 8.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double a = 0.0;
+    for (int k = 0; k < 8; ++k) {
+      if ((k >> axis & 1) == 0) a = std::max(a, 0.5 * std::abs(errors[k] - errors[k | 1 << axis]));
+    }
+    const double b = 0.25 * w * near.slopeRange()[axis];
+    bound += a < 2.0 * b ? b + a * a / (4.0 * b) : a;
+  }
+  return bound <= error;
 }
 
 bool CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double error, LeafWord& word) {

@@ -56,7 +56,8 @@ class CellFit {
   /// Whether an interpolant with these values at the cube's corners differs by at most `error` from φ in the cube.
   bool proved(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error);
   bool provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error);
-  double slack(int side, const NearTriangles& near) const;
+  /// Whether errors at a cube's corners say that an interpolant is wrong by at most `error` all over it.
+  bool holds(const Corners& errors, int side, const NearTriangles& near, double error) const;
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;

@@ -96,7 +96,7 @@ NearTriangles::NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube,
 void NearTriangles::setGradients() {
   setCone();
   interpolation_ = kHalfSqrt3 * cone_.sine;
-  if (!(cone_.sine < 1.0) || cone_.sine == 0.0) return;
+  if (!(cone_.sine < 1.0)) return;
   // A gradient is a sum of normals whose weights sum up to 1 to 1 / cos of the cone's angle.
   const double most = 1.0 / std::sqrt(1.0 - cone_.sine * cone_.sine);
   Vector3d low = surface_->face(ids_[0]).normal, high = low;
@@ -105,8 +105,8 @@ void NearTriangles::setGradients() {
     low = low.cwiseMin(normal);
     high = high.cwiseMax(normal);
   }
-  const double spread = (high.cwiseMax(most * high) - low.cwiseMin(most * low)).sum();
-  interpolation_ = std::min(interpolation_, 0.25 * spread * (1.0 + kSlack));
+  slope_range_ = (high.cwiseMax(most * high) - low.cwiseMin(most * low)) * (1.0 + kSlack);
+  interpolation_ = std::min(interpolation_, 0.25 * slope_range_.sum());
 }
 
 void NearTriangles::setCone() {

@@ -85,6 +85,9 @@ class NearTriangles {
   /// axis: a function whose slope lies in [m, M] leaves the chord over a length w by at most (M − m) w / 4.
   double interpolationError() const { return interpolation_; }
 
+  /// Along each axis, of the slopes of φ in the cube: the largest less the smallest.
+  const Vector3d& slopeRange() const { return slope_range_; }
+
   const SurfaceIndex& surface() const { return *surface_; }
   const SpaceCube& cube() const { return cube_; }
   double centerDistance() const { return distance_; }
@@ -110,6 +113,7 @@ class NearTriangles {
   std::size_t count_ = 0;
   DirectionCone cone_;
   double interpolation_ = kHalfSqrt3;
+  Vector3d slope_range_ = Vector3d::Constant(2.0);
 };
 
 /// The triangles near a cube, found from scratch.
