@@ -5,7 +5,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct ShapeRecord {
   double origin[3];
@@ -42,7 +42,8 @@ void saveAdaptive(const AdaptiveGrid& grid, const std::string& path) {
                     sectionOf(arrays.nodes),
                     sectionOf(arrays.bases),
                     sectionOf(arrays.leaves),
-                    sectionOf(arrays.splits)});
+                    sectionOf(arrays.splits),
+                    sectionOf(arrays.leaf_errors)});
 }
 
 std::shared_ptr<const AdaptiveGrid> loadAdaptive(const std::string& path) {
@@ -65,6 +66,7 @@ std::shared_ptr<const AdaptiveGrid> loadAdaptive(const std::string& path) {
   arrays.bases.data = file->section<NodeBases>(3, arrays.bases.size);
   arrays.leaves.data = file->section<LeafWord>(4, arrays.leaves.size);
   arrays.splits.data = file->section<SplitLeaves>(5, arrays.splits.size);
+  arrays.leaf_errors.data = file->section<std::uint8_t>(6, arrays.leaf_errors.size);
   try {
     return std::make_shared<const AdaptiveGrid>(shape, arrays, file);
   } catch (const std::invalid_argument& error) {

@@ -25,6 +25,20 @@ float distance(std::uint32_t word) {
 
 }  // namespace top_word
 
+namespace leaf_error {
+
+std::uint8_t code(double error, double error_bound) {
+  // A little more, so that rounding in here takes nothing from the bound.
+  const double steps = 16.0 * std::log2(error_bound / (error * (1.0 + 1e-9)));
+  return static_cast<std::uint8_t>(std::clamp(std::floor(steps), 0.0, 255.0));
+}
+
+double error(std::uint8_t code, double error_bound) {
+  return error_bound * std::exp2(-code / 16.0);
+}
+
+}  // namespace leaf_error
+
 LeafWord LeafScale::encode(const std::array<double, 8>& corners) const {
   const auto [low, high] = std::minmax_element(corners.begin(), corners.end());
   const double middle = std::clamp(std::round(0.5 * (*low + *high) / offset), -127.0, 127.0);
@@ -41,8 +55,8 @@ LeafWord LeafScale::encode(const std::array<double, 8>& corners) const {
 
 AdaptiveGrid::AdaptiveGrid(const AdaptiveShape& shape, AdaptiveData data) : shape_(shape) {
   const auto owner = std::make_shared<const AdaptiveData>(std::move(data));
-  arrays_ = {viewOf(owner->top), viewOf(owner->nodes), viewOf(owner->bases), viewOf(owner->leaves),
-             viewOf(owner->splits)};
+  arrays_ = {viewOf(owner->top),    viewOf(owner->nodes),  viewOf(owner->bases),
+             viewOf(owner->leaves), viewOf(owner->splits), viewOf(owner->leaf_errors)};
   owner_ = owner;
   check();
   setScales();
@@ -77,6 +91,7 @@ void AdaptiveGrid::check() const {
   if (shape_.size.minCoeff() < 1 || shape_.size.maxCoeff() > 1024) fail("top cells out of 1 to 1024 per axis");
   if (arrays_.top.size != shape_.count()) fail(std::to_string(arrays_.top.size) + " words do not fit the top cells");
   if (arrays_.bases.size != arrays_.nodes.size) fail("bases do not fit the nodes");
+  if (arrays_.leaf_errors.size != leafCount()) fail("errors do not fit the leaves");
   const auto inside = [&](std::size_t i, std::size_t count) {
     if (i >= count) fail("an index leads outside");
   };
@@ -133,13 +148,20 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
   const int x = unit.x(), y = unit.y(), z = unit.z();
   const auto lowOf = [&](int shift) { return Vector3i(x >> shift << shift, y >> shift << shift, z >> shift << shift); };
   const auto far = [&](int shift, double distance) {
-    return AdaptiveBlock{lowOf(shift), 1 << shift, false, 0, distance};
+    return AdaptiveBlock{lowOf(shift), 1 << shift, false, 0, 0, distance};
   };
-  const auto leaf = [&](int shift, LeafWord word) { return AdaptiveBlock{lowOf(shift), 1 << shift, true, word, 0.0}; };
+  const auto leaf = [&](int shift, std::size_t i) {
+    return AdaptiveBlock{lowOf(shift), 1 << shift, true, arrays_.leaves[i], i, 0.0};
+  };
   const auto half = [&](int shift, std::uint32_t split) {
     --shift;
     const int k = (x >> shift & 1) | (y >> shift & 1) << 1 | (z >> shift & 1) << 2;
-    return leaf(shift, arrays_.splits[split].leaves[k]);
+    return AdaptiveBlock{lowOf(shift),
+                         1 << shift,
+                         true,
+                         arrays_.splits[split].leaves[k],
+                         arrays_.leaves.size + 8 * std::size_t(split) + k,
+                         0.0};
   };
 
   const std::uint32_t word =
@@ -149,7 +171,7 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
     case top_word::kFar:
       return far(kTop, top_word::distance(word));
     case top_word::kLeaf:
-      return leaf(kTop, arrays_.leaves[index]);
+      return leaf(kTop, index);
     case top_word::kSplit:
       return half(kTop, index);
     default:
@@ -160,7 +182,7 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
     const std::uint8_t code = arrays_.nodes[index].codes[child];
     if (code >= node_code::kFar) return far(shift, node_code::steps(code) * far_steps_[depth]);
     const NodeBases& bases = arrays_.bases[index];
-    if (code < node_code::kNode) return leaf(shift, arrays_.leaves[bases.leaf + code]);
+    if (code < node_code::kNode) return leaf(shift, std::size_t(bases.leaf) + code);
     if (code >= node_code::kSplit) return half(shift, bases.split + (code - node_code::kSplit));
     index = bases.node + (code - node_code::kNode);
   }
@@ -168,7 +190,7 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
 
 std::size_t AdaptiveGrid::bytes() const {
   return arrays_.top.size * sizeof(std::uint32_t) + arrays_.nodes.size * (sizeof(AdaptiveNode) + sizeof(NodeBases)) +
-         arrays_.leaves.size * sizeof(LeafWord) + arrays_.splits.size * sizeof(SplitLeaves);
+         arrays_.leaves.size * sizeof(LeafWord) + arrays_.splits.size * sizeof(SplitLeaves) + arrays_.leaf_errors.size;
 }
 
 }  // namespace sdf_ccd

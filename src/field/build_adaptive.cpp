@@ -21,8 +21,8 @@ namespace {
 struct BuiltCell {
   enum Kind { kFar, kLeaf, kSplit, kNode } kind = kFar;
   double distance = 0.0;  ///< far: at the centre
-  LeafWord leaf = 0;
-  SplitLeaves split{};
+  FittedLeaf leaf;
+  std::array<FittedLeaf, 8> split;
   std::unique_ptr<std::array<BuiltCell, 64>> children;
 };
 
@@ -48,6 +48,8 @@ class AdaptiveBuilder {
   BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth);
   void count(std::size_t bytes);
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
+  void addLeaf(const FittedLeaf& leaf);
+  void addSplit(const std::array<FittedLeaf, 8>& split);
 
   SurfaceIndex surface_;
   AdaptiveShape shape_;
@@ -58,6 +60,7 @@ class AdaptiveBuilder {
   std::atomic<std::size_t> bytes_{0};
   std::atomic<bool> capped_{false};  ///< a leaf at the last depth is not proved
   AdaptiveData data_;
+  std::vector<std::uint8_t> split_errors_;  ///< those of the splits' leaves; in the data they follow the others
 };
 
 void AdaptiveBuilder::count(std::size_t bytes) {
@@ -107,28 +110,27 @@ BuiltCell AdaptiveBuilder::cell(CellFit& fit, const NearTriangles& near, int dep
   BuiltCell built;
   built.distance = near.centerDistance();
   const LeafScale scale = AdaptiveGrid::leafScaleFor(side, shape_.band);
-  if (fit.leaf(scale, error_, built.leaf)) {
-    if (provedFar(scale, built.leaf, built.distance) && holdsFar(built.distance, depth)) return built;
+  if (const auto leaf = fit.leaf(scale, error_)) {
+    if (provedFar(scale, leaf->word, built.distance) && holdsFar(built.distance, depth)) return built;
     built.kind = BuiltCell::kLeaf;
-    count(sizeof(LeafWord));
+    built.leaf = *leaf;
+    count(sizeof(LeafWord) + sizeof(std::uint8_t));
     return built;
   }
   const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * side, shape_.band);
   const bool last = depth == AdaptiveShape::kMaxDepth;
   bool fits = true;
   for (int k = 0; k < 8 && (fits || last); ++k) {
-    fits = fit.octantLeaf(k, half_scale, error_, built.split.leaves[k]) && fits;
-    if (last && !fits) built.split.leaves[k] = fit.roundedLeaf(k, half_scale);
+    const auto leaf = fit.octantLeaf(k, half_scale, error_);
+    fits = fits && leaf;
+    if (leaf || last) built.split[k] = leaf ? *leaf : fit.roundedLeaf(k, half_scale);
   }
   if (!fits && !last) return divide(fit, near, depth);
-  const auto far = [&](LeafWord leaf) { return provedFar(half_scale, leaf, built.distance); };
-  if (fits && std::all_of(built.split.leaves.begin(), built.split.leaves.end(), far) &&
-      holdsFar(built.distance, depth)) {
-    return built;
-  }
+  const auto far = [&](const FittedLeaf& leaf) { return provedFar(half_scale, leaf.word, built.distance); };
+  if (fits && std::all_of(built.split.begin(), built.split.end(), far) && holdsFar(built.distance, depth)) return built;
   if (!fits) capped_ = true;
   built.kind = BuiltCell::kSplit;
-  count(sizeof(SplitLeaves));
+  count(sizeof(SplitLeaves) + 8 * sizeof(std::uint8_t));
   return built;
 }
 
@@ -161,6 +163,19 @@ BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int d
   return built;
 }
 
+void AdaptiveBuilder::addLeaf(const FittedLeaf& leaf) {
+  data_.leaves.push_back(leaf.word);
+  data_.leaf_errors.push_back(leaf_error::code(leaf.error, shape_.error_bound));
+}
+
+void AdaptiveBuilder::addSplit(const std::array<FittedLeaf, 8>& split) {
+  SplitLeaves& leaves = data_.splits.emplace_back();
+  for (int k = 0; k < 8; ++k) {
+    leaves.leaves[k] = split[k].word;
+    split_errors_.push_back(leaf_error::code(split[k].error, shape_.error_bound));
+  }
+}
+
 void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth) {
   NodeBases& bases = data_.bases[node];
   bases = {static_cast<std::uint32_t>(data_.leaves.size()), static_cast<std::uint32_t>(data_.splits.size()),
@@ -175,11 +190,11 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
         code = node_code::far(child.distance / step);
         break;
       case BuiltCell::kLeaf:
-        data_.leaves.push_back(child.leaf);
+        addLeaf(child.leaf);
         code = leaves++;
         break;
       case BuiltCell::kSplit:
-        data_.splits.push_back(child.split);
+        addSplit(child.split);
         code = splits++;
         break;
       case BuiltCell::kNode:
@@ -215,6 +230,11 @@ AdaptiveGrid AdaptiveBuilder::build() {
     }
   });
 
+  if (capped_) {
+    // Leaves of the last depth that are not proved: what holds for any 1-Lipschitz function.
+    const double side = shape_.unit();
+    shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
+  }
   std::sort(built_.begin(), built_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [index, cell] : built_) {
     std::uint32_t& word = data_.top[index];
@@ -223,11 +243,11 @@ AdaptiveGrid AdaptiveBuilder::build() {
         break;
       case BuiltCell::kLeaf:
         word = static_cast<std::uint32_t>(data_.leaves.size() << 2) | top_word::kLeaf;
-        data_.leaves.push_back(cell.leaf);
+        addLeaf(cell.leaf);
         break;
       case BuiltCell::kSplit:
         word = static_cast<std::uint32_t>(data_.splits.size() << 2) | top_word::kSplit;
-        data_.splits.push_back(cell.split);
+        addSplit(cell.split);
         break;
       case BuiltCell::kNode:
         word = static_cast<std::uint32_t>(data_.nodes.size() << 2) | top_word::kNode;
@@ -238,11 +258,7 @@ AdaptiveGrid AdaptiveBuilder::build() {
         break;
     }
   }
-  if (capped_) {
-    // Leaves of the last depth that are not proved: what holds for any 1-Lipschitz function.
-    const double side = shape_.unit();
-    shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
-  }
+  data_.leaf_errors.insert(data_.leaf_errors.end(), split_errors_.begin(), split_errors_.end());
   return {shape_, std::move(data_)};
 }
 

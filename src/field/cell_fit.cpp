@@ -8,6 +8,8 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kUnproved = std::numeric_limits<double>::infinity();
+
 Vector3i corner(int k) {
   return {k & 1, (k >> 1) & 1, k >> 2};
 }
@@ -90,15 +92,20 @@ CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
   return values;
 }
 
-bool CellFit::proved(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error) {
+double CellFit::provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
   Corners errors = cornersOf(cube);
   for (int k = 0; k < 8; ++k) errors[k] = leaf[k] - errors[k];
-  if (largest(errors) > error) return false;
-  return holds(errors, cube.side, near, error) || provedInParts(cube, near, leaf, error);
+  if (largest(errors) > most) return kUnproved;
+  const double error = boundFrom(errors, cube.side, near);
+  // A bound far above what is seen at the corners comes of the normals' range: parts know more of it.
+  constexpr double kTight = 2.0;
+  if (error <= most && error <= kTight * largest(errors)) return error;
+  const double in_parts = provedInParts(cube, near, leaf, most);
+  return error <= most ? std::min(error, in_parts) : in_parts;
 }
 
-bool CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error) {
-  if (cube.side == 1) return false;
+double CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
+  if (cube.side == 1) return kUnproved;
   take(cube, 2, near);
   const int half = cube.side / 2;
   const Lattice values = refined(leaf);
@@ -107,22 +114,28 @@ bool CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const C
   for (int z = 0, i = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
       for (int x = 0; x < 3; ++x, ++i) errors[i] = values[i] - first[half * (x + 9 * (y + 9 * z))];
-  if (largest(errors) > error) return false;
+  if (largest(errors) > most) return kUnproved;
   std::optional<NearOctants> own;
+  double worst = 0.0;
   for (int k = 0; k < 8; ++k) {
     const Corners at_corners = octantOf(errors, k);
-    if (holds(at_corners, half, near, error)) continue;
-    if (cube.side < kSteps && !own) own.emplace(near);
-    const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
-    if (holds(at_corners, half, part_near, error)) continue;
-    if (!provedInParts({cube.low + half * corner(k), half}, part_near, octantOf(values, k), error)) return false;
+    double error = boundFrom(at_corners, half, near);
+    if (error > most) {
+      if (cube.side < kSteps && !own) own.emplace(near);
+      const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
+      error = boundFrom(at_corners, half, part_near);
+      if (error > most) {
+        error = provedInParts({cube.low + half * corner(k), half}, part_near, octantOf(values, k), most);
+      }
+      if (error > most) return kUnproved;
+    }
+    worst = std::max(worst, error);
   }
-  return true;
+  return worst;
 }
 
-bool CellFit::holds(const Corners& errors, int side, const NearTriangles& near, double error) const {
+double CellFit::boundFrom(const Corners& errors, int side, const NearTriangles& near) const {
   const double w = step_ * side;
-  if (largest(errors) + w * near.interpolationError() <= error) return true;
   // At s (−1 to 1 from face to face along an axis) the corners' errors count with at most their mean + Σ a s, a half
   // the largest difference along an edge, and interpolation adds at most Σ b (1 − s²), b a quarter of the slopes'
   // range.
@@ -135,10 +148,11 @@ bool CellFit::holds(const Corners& errors, int side, const NearTriangles& near, 
     const double b = 0.25 * w * near.slopeRange()[axis];
     bound += a < 2.0 * b ? b + a * a / (4.0 * b) : a;
   }
-  return bound <= error;
+  return std::min(bound, largest(errors) + w * near.interpolationError());
 }
 
-bool CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double error, LeafWord& word) {
+std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale,
+                                        double most) {
   take(cube, 1, near);
   Corners corners = cornersOf(cube);
   // Curvature pulls the interpolant to one side, most in the middle: half of that, taken off, halves the largest error.
@@ -146,23 +160,26 @@ bool CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale&
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
   if (std::isnan(at(middle))) set(middle, near.centerDistance());
   const double shift = 0.5 * (mean - at(middle));
-  if (std::abs(shift) > error) return false;
+  if (std::abs(shift) > most) return std::nullopt;
   for (double& value : corners) value -= shift;
-  word = scale.encode(corners);
-  return proved(cube, near, scale.decode(word), error);
+  const LeafWord word = scale.encode(corners);
+  const double error = provedError(cube, near, scale.decode(word), most);
+  if (error > most) return std::nullopt;
+  return FittedLeaf{word, error};
 }
 
-bool CellFit::leaf(const LeafScale& scale, double error, LeafWord& word) {
-  return leaf({Vector3i::Zero(), kSteps}, near_, scale, error, word);
+std::optional<FittedLeaf> CellFit::leaf(const LeafScale& scale, double most) {
+  return leaf({Vector3i::Zero(), kSteps}, near_, scale, most);
 }
 
-bool CellFit::octantLeaf(int k, const LeafScale& scale, double error, LeafWord& word) {
-  return leaf(octantCube(k), octants()[k], scale, error, word);
+std::optional<FittedLeaf> CellFit::octantLeaf(int k, const LeafScale& scale, double most) {
+  return leaf(octantCube(k), octants()[k], scale, most);
 }
 
-LeafWord CellFit::roundedLeaf(int k, const LeafScale& scale) {
-  take(octantCube(k), 1, octants()[k]);
-  return scale.encode(cornersOf(octantCube(k)));
+FittedLeaf CellFit::roundedLeaf(int k, const LeafScale& scale) {
+  const Cube cube = octantCube(k);
+  take(cube, 1, octants()[k]);
+  return {scale.encode(cornersOf(cube)), kHalfSqrt3 * step_ * cube.side + scale.rounding()};
 }
 
 }  // namespace sdf_ccd

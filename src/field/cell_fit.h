@@ -9,6 +9,12 @@
 
 namespace sdf_ccd {
 
+/// A leaf, and a bound on its |interpolated − true distance| [m].
+struct FittedLeaf {
+  LeafWord word = 0;
+  double error = 0.0;
+};
+
 /// A cell's signed distances at a lattice of 9×9×9 places, taken when asked for, and what they prove about leaves that
 /// would stand in its place.
 ///
@@ -35,12 +41,12 @@ class CellFit {
   double at(const Vector3i& place) const { return values_[index(place)]; }
   void set(const Vector3i& place, double distance) { values_[index(place)] = distance; }
 
-  /// A leaf for the cell, or for its octant k: its word, if it is proved to differ by at most `error` from φ in it.
-  bool leaf(const LeafScale& scale, double error, LeafWord& word);
-  bool octantLeaf(int k, const LeafScale& scale, double error, LeafWord& word);
+  /// A leaf for the cell, or for its octant k, if it is proved to differ by at most `most` [m] from φ in it.
+  std::optional<FittedLeaf> leaf(const LeafScale& scale, double most);
+  std::optional<FittedLeaf> octantLeaf(int k, const LeafScale& scale, double most);
 
-  /// The same without proof: the exact distances at the corners, rounded.
-  LeafWord roundedLeaf(int k, const LeafScale& scale);
+  /// The exact distances at an octant's corners, rounded; the bound is that of any 1-Lipschitz function.
+  FittedLeaf roundedLeaf(int k, const LeafScale& scale);
 
   NearOctants& octants();
 
@@ -49,15 +55,16 @@ class CellFit {
 
   static int index(const Vector3i& p) { return p.x() + 9 * (p.y() + 9 * p.z()); }
   static Cube octantCube(int k) { return {kSteps / 2 * Vector3i(k & 1, (k >> 1) & 1, k >> 2), kSteps / 2}; }
-  bool leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double error, LeafWord& word);
+  std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
   /// Takes the distances that are missing at the cube's places, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
   Corners cornersOf(const Cube& cube) const;
-  /// Whether an interpolant with these values at the cube's corners differs by at most `error` from φ in the cube.
-  bool proved(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error);
-  bool provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double error);
-  /// Whether errors at a cube's corners say that an interpolant is wrong by at most `error` all over it.
-  bool holds(const Corners& errors, int side, const NearTriangles& near, double error) const;
+  /// Bound on what an interpolant with these values at the cube's corners differs by from φ in the cube; infinite if
+  /// none up to `most` is proved.
+  double provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
+  double provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
+  /// What errors at a cube's corners say that an interpolant is wrong by all over it, at most.
+  double boundFrom(const Corners& errors, int side, const NearTriangles& near) const;
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;

@@ -59,6 +59,17 @@ TEST(TopWord, FarDistancesAreRoundedTowardsZero) {
   }
 }
 
+TEST(LeafError, IsRoundedUp) {
+  const double error_bound = 0.003;
+  for (double error = error_bound; error > 1e-5 * error_bound; error *= 0.97) {
+    const double held = leaf_error::error(leaf_error::code(error, error_bound), error_bound);
+    EXPECT_GE(held, error);
+    EXPECT_TRUE(held <= 1.045 * error || held < 2e-5 * error_bound) << error;
+    EXPECT_LE(held, error_bound);
+  }
+  EXPECT_GT(leaf_error::error(leaf_error::code(0.0, error_bound), error_bound), 0.0);
+}
+
 /// Compares a field with the exact distance at random places near the surface and all over its box.
 /// @return the largest error in a leaf.
 double expectHonest(const DistanceField& field, const TriangleMesh& mesh, int count) {
@@ -171,6 +182,55 @@ TEST(AdaptiveGrid, LeavesHoldEdges) {
   expectLeavesHold(test::boxMesh({0.2, 0.15, 0.1}), 0.002);
 }
 
+/// Leaves met at random places of the surface: each holds its own bound at many places, with the exact distance.
+/// @return the median of their bounds, of the grid's.
+double expectLeavesHonest(const TriangleMesh& mesh, double error, int leaves) {
+  const DistanceField field = buildField(mesh, maxError(error));
+  const AdaptiveGrid& grid = *field.adaptive();
+  const AdaptiveShape& shape = grid.shape();
+  const TriangleTree tree(mesh);
+  Random random(5);
+  std::vector<double> bounds;
+  for (int i = 0; i < leaves && !testing::Test::HasFailure(); ++i) {
+    const Vector3i& t = mesh.triangles[random() % mesh.triangles.size()];
+    const Vector3d on = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    const AdaptiveBlock block = grid.block(((on - shape.origin) / shape.unit()).array().floor().matrix().cast<int>());
+    EXPECT_TRUE(block.leaf);
+    if (!block.leaf) break;
+    const double bound = grid.leafError(block);
+    bounds.push_back(bound);
+    const std::array<double, 8> corners = grid.corners(block);
+    for (int k = 0; k < 200; ++k) {
+      // Every second place on the leaf's boundary.
+      Vector3d u = test::uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
+      if (k % 2 == 0) u[random() % 3] = double(random() % 2);
+      const Vector3d p = shape.origin + shape.unit() * (block.low.cast<double>() + block.side * u);
+      const double distance = tree.closestPoint(p).distance;
+      const double exact = tree.windingNumber(p) > 0.5 ? -distance : distance;
+      EXPECT_LE(std::abs(trilinear(corners, u) - exact), bound * (1.0 + 1e-9)) << p.transpose();
+    }
+  }
+  std::nth_element(bounds.begin(), bounds.begin() + bounds.size() / 2, bounds.end());
+  return bounds[bounds.size() / 2] / field.errorBound();
+}
+
+TEST(AdaptiveGrid, EveryLeafKeepsItsOwnBound) {
+  EXPECT_LE(expectLeavesHonest(test::icosphere(0.3, 4), 0.0006, 300), 1.0);
+  EXPECT_LT(expectLeavesHonest(test::torusMesh(0.2, 0.08, 32, 16), 0.001, 300), 1.0);
+  // Faces' middles are flat: rounding alone.
+  EXPECT_LT(expectLeavesHonest(test::boxMesh({0.2, 0.15, 0.1}), 0.001, 20), 0.3);
+}
+
+TEST(AdaptiveGrid, EveryLeafKeepsItsOwnBoundOnScansAndLinks) {
+  SDF_CCD_NEEDS_DATA("meshes/bunny_lowres_npm.off");
+  SDF_CCD_NEEDS_DATA("robots/pr2_description/urdf/meshes/forearm_v0/forearm.stl");
+  for (const char* file :
+       {"meshes/bunny_lowres_npm.off", "robots/pr2_description/urdf/meshes/forearm_v0/forearm.stl"}) {
+    const TriangleMesh mesh = orientOutward(loadMesh(test::dataPath(file))).mesh;
+    EXPECT_LT(expectLeavesHonest(mesh, 2e-3 * boundingBox(mesh).sizes().maxCoeff(), 300), 0.9) << file;
+  }
+}
+
 TEST(AdaptiveGrid, DoesNotDependOnThreads) {
   const TriangleMesh mesh = test::torusMesh(0.2, 0.08, 32, 16);
   const DistanceField many = buildField(mesh, maxError(0.001));
@@ -179,6 +239,9 @@ TEST(AdaptiveGrid, DoesNotDependOnThreads) {
   ASSERT_EQ(many.bytes(), single.bytes());
   for (std::size_t i = 0; i < many.adaptive()->arrays().leaves.size; ++i) {
     ASSERT_EQ(many.adaptive()->arrays().leaves[i], single.adaptive()->arrays().leaves[i]);
+  }
+  for (std::size_t i = 0; i < many.adaptive()->leafCount(); ++i) {
+    ASSERT_EQ(many.adaptive()->arrays().leaf_errors[i], single.adaptive()->arrays().leaf_errors[i]);
   }
 }
 
@@ -209,6 +272,9 @@ TEST(AdaptiveGrid, DamagedIndicesAreRefused) {
   AdaptiveData lost = far;
   lost.top[1] = 7 << 2 | top_word::kLeaf;
   EXPECT_THROW(AdaptiveGrid(shape, lost), std::invalid_argument);
+  AdaptiveData unbounded = far;
+  unbounded.leaves.resize(1);
+  EXPECT_THROW(AdaptiveGrid(shape, unbounded), std::invalid_argument);
   AdaptiveData twice = far;
   twice.top = {0 << 2 | top_word::kNode, 0 << 2 | top_word::kNode};
   twice.nodes.resize(1);

@@ -39,6 +39,13 @@ class FieldFile : public testing::Test {
   }
   std::size_t fileCount() const { return std::distance(fs::directory_iterator(directory_), fs::directory_iterator()); }
 
+  FieldOptions adaptive() const {
+    FieldOptions options;
+    options.max_error = 0.004;
+    return options;
+  }
+  void expectDamageIsNoticed(const FieldOptions& options) const;
+
   fs::path directory_;
   FieldOptions options_;
   TriangleMesh mesh_ = test::torusMesh(0.2, 0.08, 32, 16);
@@ -70,8 +77,25 @@ TEST_F(FieldFile, RoundTripIsExact) {
   EXPECT_FALSE(isCheckedFile(path("a.field"), "shell"));
 }
 
-TEST_F(FieldFile, EveryDamageIsNoticed) {
-  saveField(buildField(mesh_, options_), path("a.field"));
+TEST_F(FieldFile, AdaptiveRoundTripIsExact) {
+  const DistanceField field = buildField(mesh_, adaptive());
+  saveField(field, path("a.field"));
+  const DistanceField loaded = loadField(path("a.field"));
+  expectSame(field, loaded);
+  for (std::size_t i = 0; i < field.cells(); ++i) {
+    ASSERT_EQ(field.adaptive()->arrays().leaf_errors[i], loaded.adaptive()->arrays().leaf_errors[i]);
+  }
+}
+
+TEST_F(FieldFile, AdaptiveFileOfAnotherVersionIsRefused) {
+  const int value = 7;
+  writeCheckedFile(path("old"), "adaptive field", 1, {{&value, sizeof value}});
+  EXPECT_TRUE(isFieldFile(path("old")));
+  EXPECT_THROW(loadField(path("old")), std::runtime_error);
+}
+
+void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
+  saveField(buildField(mesh_, options), path("a.field"));
   const std::string good = read(path("a.field"));
   test::Random random(2);
   for (int i = 0; i < 300; ++i) {
@@ -121,6 +145,14 @@ TEST_F(FieldFile, BadStepsAreRefused) {
   EXPECT_THROW(loadWith(0.0, 16), std::runtime_error);
   EXPECT_THROW(loadWith(1e-5, 32), std::runtime_error);
   EXPECT_THROW(loadWith(1e-5, 8), std::runtime_error);
+}
+
+TEST_F(FieldFile, EveryDamageIsNoticed) {
+  expectDamageIsNoticed(options_);
+}
+
+TEST_F(FieldFile, EveryDamageOfAnAdaptiveFieldIsNoticed) {
+  expectDamageIsNoticed(adaptive());
 }
 
 TEST_F(FieldFile, SaysWhatIsWrong) {

@@ -23,7 +23,8 @@ struct AdaptiveShape {
   double cell = 0.0;                   ///< side of a top cell [m]
   Vector3i size = Vector3i::Zero();    ///< top cells per axis
   double band = 0.0;                   ///< [m]
-  double error_bound = 0.0;  ///< bound on |interpolated − true distance| in every leaf, rounding included [m]
+  double error_bound = 0.0;  ///< bound on |interpolated − true distance| in every leaf, rounding included [m]; see
+                             ///< AdaptiveGrid::leafError() for that of one
   AlignedBox3d surface_box;  ///< of the mesh [m]
 
   Vector3i units() const { return kUnits * size; }
@@ -62,6 +63,13 @@ struct LeafScale {
   }
 };
 
+/// A leaf's own error bound, in a byte: the grid's, times 2 to the power of −code/16.
+namespace leaf_error {
+/// Rounded up: to less than 4.5 % more, or to the last code's.
+std::uint8_t code(double error, double error_bound);
+double error(std::uint8_t code, double error_bound);
+}  // namespace leaf_error
+
 /// 4×4×4 children of one cell, x fastest; each code is the child's rank among its node's leaves, splits or nodes, or
 /// says how far from the surface its centre is. One cache line.
 struct alignas(64) AdaptiveNode {
@@ -85,6 +93,7 @@ struct AdaptiveData {
   std::vector<NodeBases> bases;  ///< one per node
   std::vector<LeafWord> leaves;
   std::vector<SplitLeaves> splits;
+  std::vector<std::uint8_t> leaf_errors;  ///< by AdaptiveBlock::index; apart, as a query's steps do not need them
 };
 
 /// What a top cell's word says: a kind in its last two bits, and an index or the distance at the cell's centre.
@@ -112,11 +121,12 @@ inline double steps(std::uint8_t code) {
 
 /// A cube of the grid: a leaf with eight corner values, or a cell in which |φ| > band.
 struct AdaptiveBlock {
-  Vector3i low;     ///< first corner [units]
-  int side;         ///< [units]
-  bool leaf;        ///< false: far from the surface
-  LeafWord word;    ///< of a leaf
-  double distance;  ///< far: of the surface from the centre, signed, its magnitude rounded down [m]
+  Vector3i low;       ///< first corner [units]
+  int side;           ///< [units]
+  bool leaf;          ///< false: far from the surface
+  LeafWord word;      ///< of a leaf
+  std::size_t index;  ///< of a leaf: its rank among those of the array, or after them among those of the splits
+  double distance;    ///< far: of the surface from the centre, signed, its magnitude rounded down [m]
 };
 
 /// Signed distances in cells whose size follows the shape of the surface (the paper's "future work"): a coarse grid
@@ -135,6 +145,7 @@ class AdaptiveGrid {
     View<NodeBases> bases;
     View<LeafWord> leaves;
     View<SplitLeaves> splits;
+    View<std::uint8_t> leaf_errors;
   };
 
   /// The same on memory that `owner` keeps alive (a mapped file).
@@ -148,6 +159,11 @@ class AdaptiveGrid {
 
   /// Corner values of a leaf of this many units.
   std::array<double, 8> corners(const AdaptiveBlock& leaf) const { return scale(leaf.side).decode(leaf.word); }
+
+  /// Bound on |interpolated − true distance| in a leaf [m].
+  double leafError(const AdaptiveBlock& leaf) const {
+    return leaf_error::error(arrays_.leaf_errors[leaf.index], shape_.error_bound);
+  }
 
   /// How leaves of a side of 2^k units are rounded.
   const LeafScale& scale(int side_units) const { return scales_[__builtin_ctz(static_cast<unsigned>(side_units))]; }
