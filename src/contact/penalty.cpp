@@ -59,7 +59,7 @@ class Integrator {
 
     deepest_ = {};
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) addPiece(point, breaks[i], breaks[i + 1]);
-    deepest_.refine([&](double s) { return input_.field.sample(point.position(s)).value; });
+    deepest_.refine([&](double s) { return input_.field.interpolate(point.position(s)).value; });
     result_.depths.push_back(depthOf(point, chord));
   }
 
@@ -81,8 +81,8 @@ class Integrator {
       const AlignedBox3d& box = sibling.field->surfaceBox();
       // Beyond its error outside the surface's box, the sibling's value is positive.
       if (box.exteriorDistance(p_G) > sibling.field->errorBound()) continue;
-      if (!own) own = input_.field.sample(p_F).value;
-      const double ahead = *own - sibling.field->sample(p_G).value;
+      if (!own) own = input_.field.interpolate(p_F).value;
+      const double ahead = *own - sibling.field->interpolate(p_G).value;
       if (ahead > kTie || (ahead >= -kTie && sibling.wins_tie)) return true;
     }
     return false;
@@ -120,25 +120,25 @@ class Integrator {
     }
     // The gradient jumps from cell to cell: the ends are taken just inside this piece.
     const double first = from + 1e-9 * length, last = to - 1e-9 * length;
-    const FieldSample at_first = input_.field.sample(point.position(first));
+    const FieldValue at_first = input_.field.interpolate(point.position(first));
     deepest_.offer(first, at_first.value);
     if (options_.quadrature == Quadrature::kMidpoint) {
       const double s = from + 0.5 * length;
-      const FieldSample sample = input_.field.sample(point.position(s));
+      const FieldValue sample = input_.field.interpolate(point.position(s));
       deepest_.offer(s, sample.value);
       addNode(point, {s, length}, sample.value, normal(point, s, sample.gradient));
-      const FieldSample at_last = input_.field.sample(point.position(last));
+      const FieldValue at_last = input_.field.interpolate(point.position(last));
       deepest_.offer(last, at_last.value);
       return;
     }
-    const FieldSample at_last = input_.field.sample(point.position(last));
+    const FieldValue at_last = input_.field.interpolate(point.position(last));
     const bool known = at_first.gradient.norm() > 1e-9 && at_last.gradient.norm() > 1e-9;
     const bool linear = known || options_.normal == NormalSource::kShell;
     const Vector3d N_first = normal(point, first, at_first.gradient);
     const Vector3d N_last = normal(point, last, at_last.gradient);
     for (const Node& gauss : kGauss) {
       const Node node{from + gauss.s * length, gauss.weight * length};
-      const FieldSample sample = input_.field.sample(point.position(node.s));
+      const FieldValue sample = input_.field.interpolate(point.position(node.s));
       deepest_.offer(node.s, sample.value);
       addNode(point, node, sample.value,
               linear ? Vector3d((1.0 - gauss.s) * N_first + gauss.s * N_last) : normal(point, node.s, sample.gradient));

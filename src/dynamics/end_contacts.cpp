@@ -6,7 +6,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Gradient of the interpolated field; far inside, where it knows none, the shell's inward normal.
-Vector3d slopeAt(const FieldSample& sample, const Vector3d& inward_F) {
+Vector3d slopeAt(const FieldValue& sample, const Vector3d& inward_F) {
   return sample.gradient.norm() > 1e-9 ? sample.gradient : inward_F;
 }
 
@@ -28,7 +28,7 @@ class EndContacts {
     const Vector3d r_P_F = end.X_FP_end.linear() * shell_.points[point];
     const Vector3d inward_F = -(end.X_FP_end.linear() * shell_.normals[point]);
     const double share = options_.stiffness_per == StiffnessPer::kArea ? shell_.areas[point] : 1.0;
-    const FieldSample at_end = field_.sample(p_F);
+    const FieldValue at_end = field_.interpolate(p_F);
 
     PointContact contact;
     contact.stiffness = role_.weight * share * options_.stiffness;
@@ -42,8 +42,8 @@ class EndContacts {
     const bool stood_still = end.X_FP_end.matrix() == role_.path.chords.front().X_FP_start.matrix();
     if (!stood_still) {
       const Vector3d entry_F = place(*first, first->interval.enter);
-      const FieldSample at_entry = field_.sample(entry_F);
-      const FieldSample at_exit = field_.sample(place(*last, last->interval.exit));
+      const FieldValue at_entry = field_.interpolate(entry_F);
+      const FieldValue at_exit = field_.interpolate(place(*last, last->interval.exit));
       const Vector3d normal_F = slopeAt(at_entry, inward_F).normalized();
       if (slopeAt(at_exit, inward_F).dot(normal_F) < 0.0) {
         const double behind = std::min(at_entry.value, 0.0) + normal_F.dot(p_F - entry_F);

@@ -18,6 +18,11 @@ LocatedBlock locate(const AdaptiveGrid& grid, const Vector3d& p_F) {
   return {block, u.array().max(0.0).min(1.0)};
 }
 
+FieldValue leafValue(const AdaptiveGrid& grid, const LocatedBlock& at) {
+  const std::array<double, 8> corners = grid.corners(at.block);
+  return {trilinear(corners, at.u), trilinearGradient(corners, at.u) / (at.block.side * grid.shape().unit())};
+}
+
 /// What a far block's distance was rounded down by, at most [m].
 double farRounding(const AdaptiveGrid& grid, const AdaptiveBlock& block) {
   for (int depth = 0; depth < AdaptiveShape::kMaxDepth; ++depth) {
@@ -43,7 +48,7 @@ FieldSample centerSample(const AdaptiveGrid& grid, const Vector3i& cell) {
   const AdaptiveBlock block = grid.block(unit);
   if (block.leaf) {
     const Vector3d u = (unit - block.low).cast<double>() / block.side;
-    return {trilinear(grid.corners(block), u), grid.shape().error_bound, Vector3d::Zero()};
+    return {trilinear(grid.corners(block), u), grid.leafError(block), Vector3d::Zero()};
   }
   const DistanceBounds bounds = farBounds(grid, {block, (unit - block.low).cast<double>() / block.side});
   return {0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low), Vector3d::Zero()};
@@ -83,9 +88,15 @@ DistanceBounds boundsWithin(const AdaptiveGrid& grid, const Vector3d& p_F) {
 FieldSample sampleWithin(const AdaptiveGrid& grid, const Vector3d& p_F) {
   const LocatedBlock at = locate(grid, p_F);
   if (!at.block.leaf) return farSample(grid, at, p_F);
-  const std::array<double, 8> corners = grid.corners(at.block);
-  return {trilinear(corners, at.u), grid.shape().error_bound,
-          trilinearGradient(corners, at.u) / (at.block.side * grid.shape().unit())};
+  const FieldValue inside = leafValue(grid, at);
+  return {inside.value, grid.leafError(at.block), inside.gradient};
+}
+
+FieldValue interpolateWithin(const AdaptiveGrid& grid, const Vector3d& p_F) {
+  const LocatedBlock at = locate(grid, p_F);
+  if (at.block.leaf) return leafValue(grid, at);
+  const FieldSample far = farSample(grid, at, p_F);
+  return {far.value, far.gradient};
 }
 
 }  // namespace sdf_ccd

@@ -64,6 +64,15 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
   return q == p_F ? sample : outsideSample(surface_box_, p_F, q, sample);
 }
 
+FieldValue DistanceField::interpolate(const Vector3d& p_F) const {
+  if (const Primitive* shape = primitive()) return {signedDistance(*shape, p_F), distanceGradient(*shape, p_F)};
+  if (box().contains(p_F)) {
+    return adaptive() ? interpolateWithin(*adaptive(), p_F) : interpolateWithin(*grid(), p_F);
+  }
+  const FieldSample outside = sample(p_F);
+  return {outside.value, outside.gradient};
+}
+
 DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
   if (const Primitive* shape = primitive()) {
     const double distance = signedDistance(*shape, p_F);

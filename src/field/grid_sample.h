@@ -8,9 +8,11 @@
 namespace sdf_ccd {
 
 FieldSample sampleWithin(const SparseGrid& grid, const Vector3d& p_F);
+FieldValue interpolateWithin(const SparseGrid& grid, const Vector3d& p_F);
 DistanceBounds boundsWithin(const SparseGrid& grid, const Vector3d& p_F);
 
 FieldSample sampleWithin(const AdaptiveGrid& grid, const Vector3d& p_F);
+FieldValue interpolateWithin(const AdaptiveGrid& grid, const Vector3d& p_F);
 DistanceBounds boundsWithin(const AdaptiveGrid& grid, const Vector3d& p_F);
 
 }  // namespace sdf_ccd

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "sample_bracket.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -28,8 +30,13 @@ LocatedCell locate(const SparseGrid& grid, const Vector3d& p_F) {
           false};
 }
 
+FieldValue interpolateIn(const LocatedCell& cell) {
+  return {trilinear(cell.corners, cell.u), trilinearGradient(cell.corners, cell.u) / cell.side};
+}
+
 /// Where the brick has no samples |φ| exceeds the band, whatever the coarse interpolation says.
 double farValue(const SparseGrid& grid, const LocatedCell& cell, double interpolated) {
+  if (cell.sampled) return interpolated;
   const double band = grid.shape().band;
   return cell.corners[0] > 0.0 ? std::max(interpolated, band) : std::min(interpolated, -band);
 }
@@ -54,9 +61,17 @@ DistanceBounds boundsWithin(const SparseGrid& grid, const Vector3d& p_F) {
 
 FieldSample sampleWithin(const SparseGrid& grid, const Vector3d& p_F) {
   const LocatedCell cell = locate(grid, p_F);
-  const double interpolated = trilinear(cell.corners, cell.u);
-  const double value = cell.sampled ? interpolated : farValue(grid, cell, interpolated);
-  return {value, errorAt(grid, cell, interpolated), trilinearGradient(cell.corners, cell.u) / cell.side};
+  const FieldValue at = interpolateIn(cell);
+  const double error = errorAt(grid, cell, at.value);
+  if (!cell.sampled || !grid.shape().exact) return {farValue(grid, cell, at.value), error, at.gradient};
+  const DistanceBounds bracket = sampleBracket(grid, p_F, at.gradient);
+  return {at.value, std::min(error, std::max(bracket.high - at.value, at.value - bracket.low)), at.gradient};
+}
+
+FieldValue interpolateWithin(const SparseGrid& grid, const Vector3d& p_F) {
+  const LocatedCell cell = locate(grid, p_F);
+  const FieldValue at = interpolateIn(cell);
+  return {farValue(grid, cell, at.value), at.gradient};
 }
 
 }  // namespace sdf_ccd

@@ -167,7 +167,7 @@ class FieldStudy {
     label.bound = field.errorBound();
     hits_.push_back(oneByOne(label, field));
     batches_.push_back(batched(label, field));
-    distances_.push_back({label, [field](const Vector3d& p) { return field.sample(p).value; }});
+    distances_.push_back({label, [field](const Vector3d& p) { return field.interpolate(p).value; }});
   }
 
   void addGrids(int cells) {

@@ -154,7 +154,10 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
                    request.wrenches && role.bearsForce());
   }
   collector_.finish(request, result);
-  const bool proven = !result.intervals.empty() && result.deepest.depth > result.error.point();
+  // What holds for the field everywhere, or for the deepest point's place alone: that is often much less.
+  const ErrorBound& error = result.error;
+  const double field = std::min(error.field, result.deepest.depth_error);
+  const bool proven = !result.intervals.empty() && result.deepest.depth > field + error.chord + error.root;
   result.verdict = proven ? Verdict::kContact : Verdict::kUncertain;
 }
 

@@ -78,7 +78,7 @@ void drawField(Image& image, const DistanceField& field, const Raster& raster) {
   std::vector<double> corners(std::size_t(stride) * (raster.height + 1));
   for (int y = 0; y <= raster.height; ++y) {
     for (int x = 0; x <= raster.width; ++x) {
-      corners[std::size_t(y) * stride + x] = field.sample(raster.at(x, y)).value;
+      corners[std::size_t(y) * stride + x] = field.interpolate(raster.at(x, y)).value;
     }
   }
   const double band = field.band();

@@ -17,6 +17,12 @@ struct FieldSample {
   Vector3d gradient;  ///< of `value`, pointing out, not normalised; zero where nothing is known of it
 };
 
+/// The same without the error.
+struct FieldValue {
+  double value;
+  Vector3d gradient;
+};
+
 /// The true distance at one place lies between [m].
 struct DistanceBounds {
   double low;
@@ -35,10 +41,15 @@ class DistanceField {
   explicit DistanceField(std::shared_ptr<const SparseGrid> grid);
   explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid);
 
-  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere.
+  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that of the place: of its
+  /// leaf, or what the samples around it say (see src/field/sample_bracket.h).
   FieldSample sample(const Vector3d& p_F) const;
 
-  /// What the true distance lies between [m], anywhere; cheaper than sample(). Outside the grid `high` is infinite.
+  /// The same value and gradient; cheaper, as the error is not asked for.
+  FieldValue interpolate(const Vector3d& p_F) const;
+
+  /// What the true distance lies between [m], anywhere; cheaper and wider than sample(). Outside the grid `high` is
+  /// infinite.
   DistanceBounds bounds(const Vector3d& p_F) const;
   double lowerBound(const Vector3d& p_F) const { return bounds(p_F).low; }
 

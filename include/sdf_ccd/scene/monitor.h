@@ -47,7 +47,8 @@ struct ContactPoint {
   double exit = 0.0;                ///< [s] from t₀
   double time = 0.0;                ///< when it is deepest [s] from t₀
   double depth = 0.0;               ///< [m]
-  double depth_error = 0.0;         ///< of the depth, from the field [m]: beyond its band more than ErrorBound::field
+  double depth_error = 0.0;         ///< of the depth, from the field there [m]: mostly less than ErrorBound::field,
+                                    ///< beyond its band more
   Vector3d p_W = Vector3d::Zero();  ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
 };
@@ -89,11 +90,12 @@ struct MonitorOptions {
 
 /// Runs cycles over all pairs of a scene and remembers how far apart they were.
 ///
-/// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is deeper than what the
-/// bound says of points, else UNCERTAIN; NOT_CHECKED if a body is missing, beyond kFarthestPose, or the bound infinite.
-/// Both bodies' shells are tested where both exist, and their impulses halved, so that what both see counts once. Where
-/// the bound exceeds a field's band, the field's lower bounds decide about CLEAR. Wrenches are integrated in the
-/// world's axes about A's origin at the end.
+/// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if the deepest one is deeper
+/// than what the bound says of points, or than its own depth_error and those of chord and root, else UNCERTAIN;
+/// NOT_CHECKED if a body is missing, beyond kFarthestPose, or the bound infinite. Both bodies' shells are tested where
+/// both exist, and their impulses halved, so that what both see counts once. Where the bound exceeds a field's band,
+/// the field's lower bounds decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the
+/// end.
 ///
 /// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
 /// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
