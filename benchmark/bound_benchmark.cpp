@@ -9,6 +9,7 @@
 #include "bound/tally.h"
 #include "bound/verdicts.h"
 #include "sdf_ccd/contact/penalty.h"
+#include "sdf_ccd/query/impact_window.h"
 #include "sdf_ccd/query/segment_batch.h"
 #include "study_fields.h"
 
@@ -19,7 +20,6 @@ using precision::ExactSurface;
 using precision::Random;
 
 constexpr double kRoot = 1e-9;           ///< of the path: tolerance of segmentIntervals()
-constexpr double kBatchRoot = 1e-6;      ///< of the grid's longest side: that of batches
 constexpr std::size_t kCompared = 2000;  ///< places and segments that CGAL is asked too
 
 using Tallies = std::map<std::string, BoundTally>;
@@ -47,7 +47,7 @@ class FieldStudy {
       const double length = (segment.end - segment.start).norm();
       for (const Interval& interval : segmentIntervals(field_, segment)) {
         for (const double t : {interval.enter, interval.exit}) {
-          if (t > 0.0 && t < 1.0) addHit("hit", segment, t, kRoot * length);
+          if (t > 0.0 && t < 1.0) addHit("hit", segment, t);
         }
       }
       addTime(segment, length);
@@ -56,10 +56,9 @@ class FieldStudy {
     options.mode = SegmentMode::kAll;
     BatchResult batch;
     segmentIntervals(field_, segments.data(), segments.size(), options, batch);
-    const double tolerance = kBatchRoot * field_.box().sizes().maxCoeff();
     for (const SegmentHit& hit : batch.hits) {
       for (const double t : {double(hit.enter), double(hit.exit)}) {
-        if (t > 0.0 && t < 1.0) addHit("hit_batch", segments[hit.segment], t, tolerance);
+        if (t > 0.0 && t < 1.0) addHit("hit_batch", segments[hit.segment], t);
       }
     }
   }
@@ -81,9 +80,9 @@ class FieldStudy {
       double deepest = 0.0;
       for (const HitDepth& depth : impulse.depths) {
         deepest = std::max(deepest, depth.depth);
-        addDepth("depth_at_place", depth.depth, -mesh_.distance(depth.p_C));
+        addDepth("depth_at_place", depth.depth, -mesh_.distance(depth.p_C), depth.error);
       }
-      addDepth("depth", deepest, deepestOn(segment));
+      addDepth("depth", deepest, deepestOn(segment), field_.errorBound());
     }
   }
 
@@ -92,32 +91,29 @@ class FieldStudy {
  private:
   BoundTally& tally(const std::string& query) { return tallies_.try_emplace(query, rounding_).first->second; }
 
-  /// A place that the field takes for the surface.
-  void addHit(const std::string& query, const Segment& segment, double t, double root) {
+  /// A place that the field takes for the surface: to the roots' tolerance, and across a jump between two leaves.
+  void addHit(const std::string& query, const Segment& segment, double t) {
     const Vector3d p = segment.start + t * (segment.end - segment.start);
-    tally(query).add(mesh_.unsignedDistance(p), field_.errorBound() + root);
+    const FieldSample sample = field_.sample(p);
+    tally(query).add(mesh_.unsignedDistance(p), std::abs(sample.value) + sample.error);
   }
 
-  /// The first contact lies between the first places at which the field is below plus and minus its error.
   void addTime(const Segment& segment, double length) {
-    const double error = field_.errorBound();
     const std::optional<double> exact = mesh_.firstHit(segment);
-    const auto first = [&](double sigma) {
-      const Intervals found = segmentIntervals(field_, segment, {sigma, false, true});
-      return found.empty() ? std::optional<double>() : found.front().enter;
-    };
-    const std::optional<double> earliest = first(error), middle = first(0.0), latest = first(-error);
+    const std::optional<ImpactWindow> window = impactWindow(field_, segment);
     BoundTally& times = tally("time_of_impact");
     const double slack = kRoot + rounding_ / length;
-    if (!exact) return times.check(!latest);
-    if (!earliest || *earliest > *exact + slack || (latest && *latest < *exact - slack)) return times.check(false);
-    if (!middle || !latest) return times.check(true);  // grazing: no bound on when
-    times.add(length * std::abs(*middle - *exact), length * (*latest - *earliest + slack));
+    if (!exact) return times.check(!window || !window->latest);
+    if (!window || window->earliest > *exact + slack) return times.check(false);
+    if (window->latest && *window->latest < *exact - slack) return times.check(false);
+    if (!window->time || !window->latest) return times.check(true);  // grazing: no bound on when
+    const double bound = std::max(*window->time - window->earliest, *window->latest - *window->time);
+    times.add(length * std::abs(*window->time - *exact), length * (bound + slack));
   }
 
-  void addDepth(const std::string& query, double depth, double exact) {
+  void addDepth(const std::string& query, double depth, double exact, double bound) {
     if (exact > field_.band() - field_.errorBound()) return;
-    tally(query).add(std::abs(depth - exact), field_.errorBound());
+    tally(query).add(std::abs(depth - exact), bound);
   }
 
   /// The deepest place of a segment [m], to a twentieth of the error bound: depths change by no more than the way
@@ -149,7 +145,22 @@ class FieldStudy {
   Tallies tallies_;
 };
 
-void printVerdicts(const std::string& name, const VerdictTally& tally, double side) {
+/// Side of the cells that hold samples; of an adaptive field, the median of those at random places of the surface [m].
+double cellAtSurface(const DistanceField& field, const ExactSurface& mesh) {
+  if (const SparseGrid* grid = field.grid()) return grid->shape().cell;
+  const AdaptiveGrid& grid = *field.adaptive();
+  const AdaptiveShape& shape = grid.shape();
+  Random random(7);
+  const precision::SurfacePlaces surface(mesh.mesh());
+  std::vector<double> sides(1001);
+  for (double& side : sides) {
+    const Vector3d p = (surface(random) - shape.origin) / shape.unit();
+    side = grid.block(p.cast<int>()).side * shape.unit();
+  }
+  return precision::summarize(std::move(sides)).median;
+}
+
+void printVerdicts(const std::string& name, const VerdictTally& tally, double side, double cell) {
   const long all = tally.clear + tally.contact + tally.uncertain;
   const auto row = [&](const char* metric, double value, const char* unit) {
     print({"bound", name, "sdf_ccd", metric, value, unit, int(all)});
@@ -159,6 +170,7 @@ void printVerdicts(const std::string& name, const VerdictTally& tally, double si
   row("uncertain", double(tally.uncertain), "motions");
   row("uncertain_share", double(tally.uncertain) / double(all), "1");
   row("error_bound", tally.largest_bound / side, "box side");
+  row("cell", cell / side, "box side");
 }
 
 void study(const NamedMesh& named, const StudyOptions& options) {
@@ -199,7 +211,7 @@ void study(const NamedMesh& named, const StudyOptions& options) {
         tally.printRows(named.name + "/" + query + of_field, side);
         all.try_emplace(query, 1e-12 * side).first->second += tally;
       }
-      printVerdicts(named.name + "/verdict" + of_field, verdict, side);
+      printVerdicts(named.name + "/verdict" + of_field, verdict, side, cellAtSurface(field, mesh));
     });
   }
   for (const auto& [query, tally] : all) tally.printRows(named.name + "/" + query, side);

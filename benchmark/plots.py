@@ -3,8 +3,8 @@
 
 usage: plots.py RESULTS.csv DIRECTORY
 
-Writes those of segment_cells.svg, segment_meshes.svg, shell.svg, scaling_points.svg, bound_uncertain.svg and
-stability.svg that the results have data for.
+Writes those of segment_cells.svg, segment_meshes.svg, shell.svg, scaling_points.svg, bound_uncertain.svg,
+bound_uncertain_cells.svg and stability.svg that the results have data for.
 """
 import os
 import re
@@ -88,15 +88,16 @@ def main():
         for system, points in lines(results, 'scaling', r'\w+/points(\d+)/' + motion, 'us_per_pair').items():
             scaling['%s, %s' % (system, motion)] = points
     draw(path('scaling_points.svg'), 'Shells over their points', ('points', 'us per pose pair'), scaling)
-    uncertain = {}
-    for case in results.cases('bound'):
-        if '/verdict/' in case:
-            mesh, _, field = case.split('/')
-            error, share = (results.get('bound', case, 'sdf_ccd', m) for m in ('error_bound', 'uncertain_share'))
-            kind = 'even cells' if field.isdigit() else 'max_error'
-            uncertain.setdefault('%s, %s' % (mesh, kind), []).append((error, share, share, share))
-    draw(path('bound_uncertain.svg'), 'Moving pairs that stay UNCERTAIN',
-         ('error bound of the verdict, box sides', 'share of motions'), uncertain)
+    for name, metric, label in (('bound_uncertain.svg', 'error_bound', 'error bound of the verdict, box sides'),
+                                ('bound_uncertain_cells.svg', 'cell', 'cells at the surface, box sides')):
+        uncertain = {}
+        for case in results.cases('bound'):
+            if '/verdict/' in case:
+                mesh, _, field = case.split('/')
+                x, share = (results.get('bound', case, 'sdf_ccd', m) for m in (metric, 'uncertain_share'))
+                kind = 'even cells' if field.isdigit() else 'max_error'
+                uncertain.setdefault('%s, %s' % (mesh, kind), []).append((x, share, share, share))
+        draw(path(name), 'Moving pairs that stay UNCERTAIN', (label, 'share of motions'), uncertain)
     if any(case.startswith('zeta=') for case in results.cases('stability')):
         script = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'stability.gp')
         subprocess.run(['gnuplot', '-e', "csv='%s'; svg='%s'" % (sys.argv[1], path('stability.svg')), script], check=True)
