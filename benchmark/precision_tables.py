@@ -28,9 +28,11 @@ def verdicts(results):
         mesh, _, field = case.split('/')
         def get(metric):
             return results.get('bound', case, 'sdf_ccd', metric)
-        rows.append([mesh, field, number(get('error_bound')), *('%d' % get(v) for v in ('clear', 'contact', 'uncertain')),
+        rows.append([mesh, field, number(get('cell')), number(get('error_bound')),
+                     *('%d' % get(v) for v in ('clear', 'contact', 'uncertain')),
                      '%.0f %%' % (100.0 * get('uncertain_share')), '%d' % get('violations')])
-    return ['mesh', 'field', 'bound, box sides', 'CLEAR', 'CONTACT', 'UNCERTAIN', 'share', 'contradicted'], rows
+    return ['mesh', 'field', 'cells, box sides', 'bound, box sides', 'CLEAR', 'CONTACT', 'UNCERTAIN', 'share',
+            'contradicted'], rows
 
 
 def reference(results):
