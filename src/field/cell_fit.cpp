@@ -14,11 +14,9 @@ Vector3i corner(int k) {
   return {k & 1, (k >> 1) & 1, k >> 2};
 }
 
-/// A cube's corner values and the means between them: 3×3×3, x fastest.
-using Lattice = std::array<double, 27>;
-
-Lattice refined(const std::array<double, 8>& corners) {
-  Lattice v;
+/// A cube's corner values and the means between them.
+std::array<double, 27> refined(const std::array<double, 8>& corners) {
+  std::array<double, 27> v;
   for (int k = 0; k < 8; ++k) v[2 * (k & 1) + 6 * ((k >> 1) & 1) + 18 * (k >> 2)] = corners[k];
   for (int z = 0; z < 27; z += 18)
     for (int y = 0; y < 9; y += 6) v[z + y + 1] = 0.5 * (v[z + y] + v[z + y + 2]);
@@ -28,7 +26,7 @@ Lattice refined(const std::array<double, 8>& corners) {
   return v;
 }
 
-std::array<double, 8> octantOf(const Lattice& lattice, int k) {
+std::array<double, 8> octantOf(const std::array<double, 27>& lattice, int k) {
   const double* v = lattice.data() + (k & 1) + 3 * ((k >> 1) & 1) + 9 * (k >> 2);
   return {v[0], v[1], v[3], v[4], v[9], v[10], v[12], v[13]};
 }
@@ -92,6 +90,15 @@ CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
   return values;
 }
 
+CellFit::Lattice CellFit::errorsOf(const Cube& cube, Lattice values) const {
+  const int half = cube.side / 2;
+  const double* const first = values_.data() + index(cube.low);
+  for (int z = 0, i = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x, ++i) values[i] -= first[half * (x + 9 * (y + 9 * z))];
+  return values;
+}
+
 double CellFit::provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
   Corners errors = cornersOf(cube);
   for (int k = 0; k < 8; ++k) errors[k] = leaf[k] - errors[k];
@@ -109,11 +116,7 @@ double CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const
   take(cube, 2, near);
   const int half = cube.side / 2;
   const Lattice values = refined(leaf);
-  Lattice errors;
-  const double* const first = values_.data() + index(cube.low);
-  for (int z = 0, i = 0; z < 3; ++z)
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x, ++i) errors[i] = values[i] - first[half * (x + 9 * (y + 9 * z))];
+  const Lattice errors = errorsOf(cube, values);
   if (largest(errors) > most) return kUnproved;
   std::optional<NearOctants> own;
   double worst = 0.0;
@@ -154,14 +157,17 @@ double CellFit::boundFrom(const Corners& errors, int side, const NearTriangles& 
 std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale,
                                         double most) {
   take(cube, 1, near);
-  Corners corners = cornersOf(cube);
-  // Curvature pulls the interpolant to one side, most in the middle: half of that, taken off, halves the largest error.
   const Vector3i middle = cube.low.array() + cube.side / 2;
-  const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
   if (std::isnan(at(middle))) set(middle, near.centerDistance());
-  const double shift = 0.5 * (mean - at(middle));
-  if (std::abs(shift) > most) return std::nullopt;
-  for (double& value : corners) value -= shift;
+  Corners corners = cornersOf(cube);
+  const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
+  if (std::abs(mean - at(middle)) > 2.0 * most) return std::nullopt;
+  // Curvature pulls the interpolant to one side: half of that, taken off, halves the largest error.
+  take(cube, 2, near);
+  const Lattice errors = errorsOf(cube, refined(corners));
+  const auto [low, high] = std::minmax_element(errors.begin(), errors.end());
+  if (*high - *low > 2.0 * most) return std::nullopt;
+  for (double& value : corners) value -= 0.5 * (*high + *low);
   const LeafWord word = scale.encode(corners);
   const double error = provedError(cube, near, scale.decode(word), most);
   if (error > most) return std::nullopt;

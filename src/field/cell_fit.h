@@ -52,6 +52,7 @@ class CellFit {
 
  private:
   using Corners = std::array<double, 8>;
+  using Lattice = std::array<double, 27>;  ///< of a cube: corners and middles between them, x fastest
 
   static int index(const Vector3i& p) { return p.x() + 9 * (p.y() + 9 * p.z()); }
   static Cube octantCube(int k) { return {kSteps / 2 * Vector3i(k & 1, (k >> 1) & 1, k >> 2), kSteps / 2}; }
@@ -59,6 +60,8 @@ class CellFit {
   /// Takes the distances that are missing at the cube's places, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
   Corners cornersOf(const Cube& cube) const;
+  /// What an interpolant's values at the 27 places of a cube exceed the exact ones by.
+  Lattice errorsOf(const Cube& cube, Lattice values) const;
   /// Bound on what an interpolant with these values at the cube's corners differs by from φ in the cube; infinite if
   /// none up to `most` is proved.
   double provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
