@@ -352,7 +352,7 @@ TEST_F(Tool, WorkPrecisionWritesATableAndAPlot) {
             "missed,queries");
   int rows = 0;
   for (; std::getline(csv, line); ++rows) EXPECT_EQ(line.substr(0, 5), "cell,");
-  EXPECT_EQ(rows, 12);  // hits, hits in a batch and depths at four cell sizes
+  EXPECT_EQ(rows, 24);  // hits, hits in a batch and depths at four cell sizes, of 16 and 32 bits a sample
   EXPECT_EQ(fs::exists(path("study/cell.svg")), has_gnuplot);
   EXPECT_EQ(fs::exists(path("study/cell.svg.part")), false);
 }
