@@ -1,3 +1,4 @@
+#include "cube_corner.h"
 #include "grid_sample.h"
 
 namespace sdf_ccd {
@@ -64,7 +65,7 @@ FieldSample farSample(const AdaptiveGrid& grid, const LocatedBlock& at, const Ve
   std::array<double, 8> corners;
   double error = 0.0;
   for (int k = 0; k < 8; ++k) {
-    const Vector3i cell = (low + Vector3i(k & 1, (k >> 1) & 1, k >> 2)).cwiseMin((shape.size.array() - 1).matrix());
+    const Vector3i cell = (low + cubeCorner(k)).cwiseMin((shape.size.array() - 1).matrix());
     const FieldSample center = centerSample(grid, cell);
     corners[k] = center.value;
     error = std::max(error, center.error);

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "cell_fit.h"
+#include "cube_corner.h"
 #include "near_triangles.h"
 #include "progress_counter.h"
 #include "sdf_ccd/field/sparse_grid.h"
@@ -75,7 +76,7 @@ void AdaptiveBuilder::block(const NearTriangles& near, const Vector3i& low, int 
   const double beyond = shape_.band + kHalfSqrt3 * shape_.cell * (1.0 + 1e-9);
   const int half = side / 2;
   for (int k = 0; k < 8; ++k) {
-    const Vector3i c = low + half * Vector3i(k & 1, (k >> 1) & 1, k >> 2);
+    const Vector3i c = low + half * cubeCorner(k);
     if ((c.array() >= shape_.size.array()).any()) continue;
     if (half > 1) {
       block(octants[k], c, half);
@@ -143,7 +144,7 @@ BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int d
   for (int half = 0; half < 8; ++half) {
     NearOctants quarters(fit.octants()[half]);
     for (int k = 0; k < 8; ++k) {
-      const Vector3i c(2 * (half & 1) + (k & 1), (half & 2) + ((k >> 1) & 1), 2 * (half >> 2) + (k >> 2));
+      const Vector3i c = 2 * cubeCorner(half) + cubeCorner(k);
       BuiltCell& child = (*built.children)[c.x() + 4 * (c.y() + 4 * c.z())];
       child.distance = quarters.centerDistance(k);
       if (std::abs(child.distance) > beyond) continue;

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "build_adaptive.h"
+#include "cube_corner.h"
 #include "near_triangles.h"
 #include "progress_counter.h"
 
@@ -91,7 +92,7 @@ class Sampler {
       const int half = block.side / 2;
       NearOctants octants(near);
       for (int k = 0; k < 8; ++k) {
-        fill(brick, {block.low + half * Vector3i(k & 1, (k >> 1) & 1, k >> 2), half}, octants[k], samples);
+        fill(brick, {block.low + half * cubeCorner(k), half}, octants[k], samples);
       }
       return;
     }
@@ -130,10 +131,6 @@ class Sampler {
   std::optional<SignedSurface> surface_;
   GridShape shape_;
 };
-
-Vector3i cubeCorner(int k) {
-  return {k & 1, (k >> 1) & 1, k >> 2};
-}
 
 /// Bricks that need samples: the distance at the centre, or a sign that changes between the corners, says that
 /// |φ| ≤ band (and its interpolation error) may be met inside.

@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kUnproved = std::numeric_limits<double>::infinity();
 
-Vector3i corner(int k) {
-  return {k & 1, (k >> 1) & 1, k >> 2};
-}
-
 /// A cube's corner values and the means between them.
 std::array<double, 27> refined(const std::array<double, 8>& corners) {
   std::array<double, 27> v;
@@ -86,7 +82,7 @@ void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
 
 CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
   Corners values;
-  for (int k = 0; k < 8; ++k) values[k] = at(cube.low + cube.side * corner(k));
+  for (int k = 0; k < 8; ++k) values[k] = at(cube.low + cube.side * cubeCorner(k));
   return values;
 }
 
@@ -128,7 +124,7 @@ double CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const
       const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
       error = boundFrom(at_corners, half, part_near);
       if (error > most) {
-        error = provedInParts({cube.low + half * corner(k), half}, part_near, octantOf(values, k), most);
+        error = provedInParts({cube.low + half * cubeCorner(k), half}, part_near, octantOf(values, k), most);
       }
       if (error > most) return kUnproved;
     }

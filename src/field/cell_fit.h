@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "cube_corner.h"
 #include "near_triangles.h"
 #include "sdf_ccd/field/adaptive_grid.h"
 
@@ -55,7 +56,7 @@ class CellFit {
   using Lattice = std::array<double, 27>;  ///< of a cube: corners and middles between them, x fastest
 
   static int index(const Vector3i& p) { return p.x() + 9 * (p.y() + 9 * p.z()); }
-  static Cube octantCube(int k) { return {kSteps / 2 * Vector3i(k & 1, (k >> 1) & 1, k >> 2), kSteps / 2}; }
+  static Cube octantCube(int k) { return {kSteps / 2 * cubeCorner(k), kSteps / 2}; }
   std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
   /// Takes the distances that are missing at the cube's places, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);

@@ -178,13 +178,16 @@ double NearTriangles::signedDistance(const Vector3d& p) const {
   // point is a positive sum of the normals of the triangles that share it, so one at least agrees with it; inside, a
   // negative one. If all agree, that is the sign.
   if (cone_.sine < 1.0) return (p - found.point).dot(cone_.axis) < 0.0 ? -d : d;
-  if (found.sign != 0) return found.sign * d;
+  return (found.sign != 0 ? found.sign : signFarther(p, d)) * d;
+}
+
+int NearTriangles::signFarther(const Vector3d& p, double distance) const {
   // The balls without surface about p and the centre meet.
   const SignedSurface& exact = surface_->exact();
-  if (exact.closed() && d + std::abs(distance_) > (p - cube_.center).norm() * (1.0 + kSlack)) {
-    return distance_ < 0.0 ? -d : d;
+  if (exact.closed() && distance + std::abs(distance_) > (p - cube_.center).norm() * (1.0 + kSlack)) {
+    return distance_ < 0.0 ? -1 : 1;
   }
-  return exact.inside(p) ? -d : d;
+  return exact.inside(p) ? -1 : 1;
 }
 
 void NearTriangles::signedDistances(const PlaceLanes& places, int count, PlaceLanes::Lane& distances) const {
@@ -239,7 +242,6 @@ NearOctants::NearOctants(const NearTriangles& around)
 }
 
 int NearOctants::sign(int k, std::size_t nearest) const {
-  const SurfaceIndex& surface = around_.surface();
   const auto sideOf = [](double along) { return along < 0.0 ? -1 : 1; };
   const DirectionCone& cone = around_.gradientCone();
   if (cone.sine < 1.0) return sideOf(ways_[nearest].at(k).dot(cone.axis));
@@ -249,17 +251,12 @@ int NearOctants::sign(int k, std::size_t nearest) const {
   bool agree = true;
   for (std::size_t i = 0; i < around_.size() && agree; ++i) {
     if (ways_[i].distance2[k] > best2 * (1.0 + kTie)) continue;
-    const SurfaceIndex::Face& face = surface.face(around_.triangle(i));
+    const SurfaceIndex::Face& face = around_.surface().face(around_.triangle(i));
     const int side = face.separates ? sideOf(ways_[i].at(k).dot(face.normal)) : 0;
     agree = side != 0 && (agreed == 0 || side == agreed);
     agreed = side;
   }
-  if (agree) return agreed;
-  if (surface.exact().closed() &&
-      std::sqrt(best2) + std::abs(around_.centerDistance()) > 0.5 * around_.cube().radius() * (1.0 + kSlack)) {
-    return sideOf(around_.centerDistance());
-  }
-  return surface.exact().inside(around_.cube().octant(k).center) ? -1 : 1;
+  return agree ? agreed : around_.signFarther(around_.cube().octant(k).center, std::sqrt(best2));
 }
 
 const NearTriangles& NearOctants::operator[](int k) {

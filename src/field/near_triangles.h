@@ -88,6 +88,9 @@ class NearTriangles {
   /// Along each axis, of the slopes of φ in the cube: the largest less the smallest.
   const Vector3d& slopeRange() const { return slope_range_; }
 
+  /// The sign at a place of the cube, `distance` from the surface, where its closest triangles do not tell it.
+  int signFarther(const Vector3d& p, double distance) const;
+
   const SurfaceIndex& surface() const { return *surface_; }
   const SpaceCube& cube() const { return cube_; }
   double centerDistance() const { return distance_; }

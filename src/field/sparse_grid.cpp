@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "cube_corner.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -17,7 +19,7 @@ struct OwnedGrid {
 
 std::array<double, 8> cornersOf(const GridShape& shape, View<float> corners, const Vector3i& brick) {
   std::array<double, 8> c;
-  for (int k = 0; k < 8; ++k) c[k] = corners[shape.cornerIndex(brick + Vector3i(k & 1, (k >> 1) & 1, k >> 2))];
+  for (int k = 0; k < 8; ++k) c[k] = corners[shape.cornerIndex(brick + cubeCorner(k))];
   return c;
 }
 

@@ -61,9 +61,6 @@ class Follower {
  private:
   using Queues = std::array<FlightQueue, 2>;
 
-  /// Enough that memory answers before a flight's turn comes again, and few enough to stay in the cache themselves.
-  static constexpr int kFlying = 512;
-
   int flying() const { return work_.top[next_].size + work_.node[next_].size; }
 
   template <class Step>
@@ -79,7 +76,9 @@ class Follower {
 
   /// Fills up with segments from number `first` on. @return the first that still waits.
   int board(const Segment* segments, int first, int count) {
-    for (int room = kFlying - flying(); first < count && room >= Boarding::kGroup; room -= Boarding::kGroup) {
+    static_assert(FlightWork::kSegments % Boarding::kGroup == 0, "a group's times have room");
+    for (int room = FlightQueue::kCapacity - flying(); first < count && room >= Boarding::kGroup;
+         room -= Boarding::kGroup) {
       const int group = std::min(Boarding::kGroup, count - first);
       const Boarding boarding(g_, segments + first, group);
       if (boarding.doubtful) {

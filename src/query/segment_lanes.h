@@ -67,8 +67,8 @@ inline constexpr auto kFrontLanes = frontLanes();
 /// Segments that wait for the same kind of step, an array per quantity. A segment runs from o to o + d within the
 /// grid's box while its parameter t goes from 0 to 1; lengths in units.
 struct FlightQueue {
-  static constexpr int kCapacity = 512;
-  static constexpr int kSlack = 32;  ///< beyond the end, so that whole vectors may be read and written
+  static constexpr int kCapacity = 512;  ///< and as many are under way: their vectors are full, and fit the cache
+  static constexpr int kSlack = 32;      ///< beyond the end, so that whole vectors may be read and written
   template <class T>
   using Column = std::array<T, kCapacity + kSlack>;
 
@@ -105,15 +105,14 @@ struct FlightHit {
 /// What following segments needs and gives; reused.
 struct FlightWork {
   static constexpr int kSegments = 8192;  ///< at most
-  static constexpr int kSlack = 32;
 
   std::array<FlightQueue, 2> top, node;  ///< in turn: one is read, the other written
   FlightQueue leaf;
   Fetched fetched;
-  std::array<float, kSegments + kSlack> begin, end;  ///< the part of each segment that is within the grid's box
-  std::array<float, kSegments + kSlack> first;  ///< of each segment the first hit, if only that is asked; −1: none
-  std::vector<FlightHit> hits;                  ///< all others; of one segment in order of time
-  std::vector<std::int32_t> lost;               ///< to be asked one by one: those that did not end
+  std::array<float, kSegments> begin, end;  ///< the part of each segment that is within the grid's box
+  std::array<float, kSegments> first;       ///< of each segment the first hit, if only that is asked; −1: none
+  std::vector<FlightHit> hits;              ///< all others; of one segment in order of time
+  std::vector<std::int32_t> lost;           ///< to be asked one by one: those that did not end
 };
 
 /// Follows segments 0 to count − 1 to their ends or to their first hit.
