@@ -10,6 +10,7 @@
 #include "bound/verdicts.h"
 #include "sdf_ccd/contact/penalty.h"
 #include "sdf_ccd/query/impact_window.h"
+#include "sdf_ccd/query/least_distance.h"
 #include "sdf_ccd/query/segment_batch.h"
 #include "study_fields.h"
 
@@ -82,7 +83,8 @@ class FieldStudy {
         deepest = std::max(deepest, depth.depth);
         addDepth("depth_at_place", depth.depth, -mesh_.distance(depth.p_C), depth.error);
       }
-      addDepth("depth", deepest, deepestOn(segment), field_.errorBound());
+      const LeastDistance least = leastDistance(field_, segment);
+      addDepth("depth", deepest, deepestOn(segment), std::max(deepest + least.high, -least.low - deepest));
     }
   }
 

@@ -19,35 +19,55 @@ std::optional<double> sampleAt(const SparseGrid& grid, const Vector3i& corner) {
   return grid.sample(slot, corner - GridShape::kBrick * brick);
 }
 
+/// A sample, and what it is off by at most [m].
+struct Sample {
+  Vector3d corner;  ///< in cells
+  double value, rounding;
+};
+
+/// Visits the samples nearest to the line through `g` [cells], one per layer, from `g` on along the gradient or against
+/// it.
+template <class Visit>
+void visitSamples(const SparseGrid& grid, const Vector3d& g, const Vector3d& gradient, const Visit& visit) {
+  Vector3d::Index axis = 0;
+  const double steepest = gradient.cwiseAbs().maxCoeff(&axis);
+  if (!(steepest > 0.0)) return;
+  const Vector3d step = gradient / steepest;  // to the next layer
+  const bool to_higher = step[axis] > 0.0;
+  const double first = to_higher ? std::ceil(g[axis]) - g[axis] : g[axis] - std::floor(g[axis]);
+  for (int layer = 0; layer < kLayers; ++layer) {
+    const Vector3d at = g + (first + layer) * step;
+    const Vector3d corner = at.array().round();
+    const std::optional<double> sample = sampleAt(grid, corner.cast<int>());
+    if (!sample) break;
+    visit(Sample{corner, *sample, grid.rounding() + std::numeric_limits<float>::epsilon() * std::abs(*sample)});
+  }
+}
+
+Vector3d inCells(const GridShape& shape, const Vector3d& p_F) {
+  return (p_F - shape.origin) / shape.cell;
+}
+
 }  // namespace
 
 DistanceBounds sampleBracket(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const GridShape& shape = grid.shape();
-  const Vector3d g = (p_F - shape.origin) / shape.cell;
-  Vector3d::Index axis = 0;
-  const double steepest = gradient.cwiseAbs().maxCoeff(&axis);
+  const Vector3d g = inCells(grid.shape(), p_F);
+  const auto reach = [&](const Sample& s) { return (s.corner - g).norm() * grid.shape().cell + s.rounding; };
   DistanceBounds bounds{-kInfinity, kInfinity};
-  if (!(steepest > 0.0)) return bounds;
-  for (const int uphill : {-1, 1}) {
-    const Vector3d step = uphill / steepest * gradient;  // to the next layer
-    const bool to_higher = step[axis] > 0.0;
-    const double first = to_higher ? std::ceil(g[axis]) - g[axis] : g[axis] - std::floor(g[axis]);
-    for (int layer = 0; layer < kLayers; ++layer) {
-      const Vector3d at = g + (first + layer) * step;
-      const Vector3d corner = at.array().round();
-      const std::optional<double> sample = sampleAt(grid, corner.cast<int>());
-      if (!sample) break;
-      const double rounding = grid.rounding() + std::numeric_limits<float>::epsilon() * std::abs(*sample);
-      const double reach = (corner - g).norm() * shape.cell + rounding;
-      if (uphill > 0) {
-        bounds.low = std::max(bounds.low, *sample - reach);
-      } else {
-        bounds.high = std::min(bounds.high, *sample + reach);
-      }
-    }
-  }
+  visitSamples(grid, g, gradient, [&](const Sample& s) { bounds.low = std::max(bounds.low, s.value - reach(s)); });
+  visitSamples(grid, g, -gradient, [&](const Sample& s) { bounds.high = std::min(bounds.high, s.value + reach(s)); });
   return bounds;
+}
+
+std::optional<LowerCone> sampleCone(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient) {
+  const GridShape& shape = grid.shape();
+  std::optional<LowerCone> highest;
+  visitSamples(grid, inCells(shape, p_F), gradient, [&](const Sample& s) {
+    const LowerCone cone{shape.origin + shape.cell * s.corner, s.value - s.rounding};
+    if (!highest || cone(p_F) > (*highest)(p_F)) highest = cone;
+  });
+  return highest;
 }
 
 }  // namespace sdf_ccd

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd {
@@ -15,5 +17,17 @@ namespace sdf_ccd {
 /// @param p_F       within the grid's box.
 /// @param gradient  of the interpolated distance at p; only says where to look.
 DistanceBounds sampleBracket(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient);
+
+/// A place and its distance: nowhere is the distance less than that minus the way there.
+struct LowerCone {
+  Vector3d apex;    ///< [m]
+  double distance;  ///< [m]
+
+  double operator()(const Vector3d& p_F) const { return distance - (p_F - apex).norm(); }
+};
+
+/// The one that gives sampleBracket() its lower bound; it says the most of places beside p_F too. None if there are no
+/// samples.
+std::optional<LowerCone> sampleCone(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient);
 
 }  // namespace sdf_ccd

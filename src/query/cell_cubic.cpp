@@ -82,4 +82,16 @@ CellIntervals nonPositive(const CellCubic& f) {
   return result;
 }
 
+LowestPlace lowestPlace(const CellCubic& f) {
+  LowestPlace lowest{0.0, f(0.0)};
+  const auto offer = [&](double u) {
+    const double value = f(u);
+    if (value < lowest.value) lowest = {u, value};
+  };
+  const Extrema turns = extrema(f);
+  for (int i = 0; i < turns.count; ++i) offer(turns.u[i]);
+  offer(1.0);
+  return lowest;
+}
+
 }  // namespace sdf_ccd

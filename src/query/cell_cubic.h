@@ -28,4 +28,11 @@ struct CellIntervals {
 /// counts as an interval of no length.
 CellIntervals nonPositive(const CellCubic& cubic);
 
+/// Where a cubic is lowest within [0, 1].
+struct LowestPlace {
+  double u;
+  double value;
+};
+LowestPlace lowestPlace(const CellCubic& cubic);
+
 }  // namespace sdf_ccd

@@ -49,7 +49,7 @@ struct ContactInput {
 /// Where a hit is deepest.
 struct HitDepth {
   bool siblings = false;            ///< the contact is a sibling's all along: the rest is not set
-  double depth = 0.0;               ///< [m], positive inside; of a place on the path, so never more than the deepest
+  double depth = 0.0;               ///< [m], positive inside; of a place on the path; the deepest: leastDistance()
   double error = 0.0;               ///< of the depth: the field's there, larger beyond its band [m]
   double time = 0.0;                ///< [s]
   Vector3d p_C = Vector3d::Zero();  ///< contact point [m], frame C

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "sdf_ccd/query/segment_query.h"
+
+namespace sdf_ccd {
+
+/// How near to the surface a moving point comes, or how deep inside, as far as a field knows.
+struct LeastDistance {
+  double time;   ///< in [0, 1], where `value` is
+  double value;  ///< of the field, negative inside: the least, or nearly [m]
+  double low;    ///< the least true distance along the path is at least low
+  double high;   ///< and at most high [m]
+};
+
+/// The least distance along a segment. A depth d that is reported for the whole path is wrong by no more than
+/// max(d + high, −low − d), wherever on it the path may truly be deepest.
+///
+/// Errors are those of the places that may be it: of the leaves that an adaptive grid's path crosses, or what samples
+/// of an even grid say of pieces of the path (see src/field/sample_bracket.h). Beyond the band they are larger, as
+/// those of DistanceField::sample() are.
+/// @param segment  as segmentIntervals(); anywhere, also outside the field's box.
+/// @throws std::invalid_argument if the segment is not within reach.
+/// Cost: about half as much as to integrate the contact along the same path, less at rest; at most some 128 samples and
+/// all leaves on the way.
+LeastDistance leastDistance(const DistanceField& field, const Segment& segment);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,183 @@
+#include "sdf_ccd/query/least_distance.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <stdexcept>
+#include <vector>
+
+#include "../field/sample_bracket.h"
+#include "cell_cubic.h"
+#include "cell_spans.h"
+#include "grid_walk.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kMostPlaces = 128;  ///< then what is known must do
+
+/// A function that is nowhere above the distance: a cone, or of a convex one (a primitive's) a tangent.
+struct LowerFunction {
+  LowerCone cone;
+  Vector3d tangent;
+  bool is_tangent;
+
+  double operator()(const Vector3d& p_F) const {
+    return is_tangent ? cone.distance + tangent.dot(p_F - cone.apex) : cone(p_F);
+  }
+};
+
+/// Asks where the path may still be lowest by what functions below the distance leave of it, until that is near enough
+/// to what has been found (Piyavskii and Shubert's search for the minimum of a Lipschitz function). The cone of an even
+/// grid's sample far up the gradient is nearly as flat across as the distance is, so that few places are asked.
+class LeastSearch {
+ public:
+  LeastSearch(const DistanceField& field, const Segment& segment)
+      : field_(field),
+        grid_(field.grid() && field.grid()->shape().exact ? field.grid() : nullptr),
+        start_(segment.start),
+        way_(segment.end - segment.start),
+        length_(way_.norm()) {}
+
+  LeastDistance run() {
+    ask(0.0);
+    best_.low = best_.value - best_error_;
+    if (length_ == 0.0) return best_;
+    ask(1.0);
+    push(0, 1);
+    while (true) {
+      const Piece piece = pieces_.top();
+      best_.low = piece.low;
+      const double known = best_.value - best_error_;
+      const double slack = 0.25 * best_error_ + 0.01 * field_.errorBound() + 1e-9 * length_;
+      if (piece.low >= known - slack || !piece.may_rise || places_.size() >= kMostPlaces) return best_;
+      pieces_.pop();
+      const int middle = ask(piece.at);
+      push(piece.from, middle);
+      push(middle, piece.to);
+    }
+  }
+
+ private:
+  struct Place {
+    double t;
+    Vector3d p;
+    LowerFunction lower;
+    double error;  ///< [m]
+  };
+
+  struct Piece {
+    int from, to;   ///< places
+    double low;     ///< [m], nowhere on it is the distance less
+    double at;      ///< t to ask next
+    bool may_rise;  ///< `low`, by asking there
+
+    bool operator<(const Piece& other) const { return low > other.low; }
+  };
+
+  int ask(double t) {
+    const Vector3d p = start_ + t * way_;
+    std::optional<LowerCone> cone;
+    if (grid_ && field_.box().contains(p)) {
+      const FieldValue at = field_.interpolate(p);
+      cone = sampleCone(*grid_, p, at.gradient);
+      // What the distance is at most is asked only of the lowest so far.
+      if (cone && at.value >= best_.value) return add({t, p, {*cone, Vector3d::Zero(), false}, at.value - (*cone)(p)});
+    }
+    const FieldSample at = field_.sample(p);
+    if (at.value < best_.value) {
+      best_.time = t;
+      best_.value = at.value;
+      best_error_ = at.error;
+    }
+    best_.high = std::min(best_.high, at.value + at.error);
+    if (!cone) cone = LowerCone{p, at.value - at.error};
+    return add({t, p, {*cone, at.gradient, field_.primitive() != nullptr}, at.error});
+  }
+
+  int add(const Place& place) {
+    places_.push_back(place);
+    return static_cast<int>(places_.size()) - 1;
+  }
+
+  /// Cones fall to either side, so that their chords are below them; the higher chord is lowest where they cross.
+  void push(int from, int to) {
+    const Place &a = places_[from], &b = places_[to];
+    const double a_from = a.lower(a.p), a_to = a.lower(b.p), b_from = b.lower(a.p), b_to = b.lower(b.p);
+    const double ahead_from = a_from - b_from, ahead_to = b_to - a_to, width = b.t - a.t;
+    const double at_from = std::max(a_from, b_from), at_to = std::max(a_to, b_to);
+    Piece piece{from, to, std::min(at_from, at_to), 0.5 * (a.t + b.t), false};
+    if (ahead_from > 0.0 && ahead_to > 0.0) {
+      const double share = ahead_from / (ahead_from + ahead_to), low = a_from + share * (a_to - a_from);
+      if (low < piece.low) {
+        piece.low = low;
+        piece.at = a.t + std::clamp(share, 0.1, 0.9) * width;
+        piece.may_rise = width > 1e-12;
+      }
+    }
+    pieces_.push(piece);
+  }
+
+  const DistanceField& field_;
+  const SparseGrid* grid_;  // if its samples are distances
+  const Vector3d start_, way_;
+  const double length_;
+  std::vector<Place> places_;
+  std::priority_queue<Piece> pieces_;
+  LeastDistance best_{0.0, kInfinity, kInfinity, kInfinity};
+  double best_error_ = 0.0;
+};
+
+/// From the leaves that the path crosses. Its `low` exceeds the band if that is not known: where the path is deeper
+/// than any leaf is, or always farther out.
+LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
+  const AdaptiveShape& shape = grid.shape();
+  GridWalk walk({shape.origin, shape.unit(), shape.units()}, segment);
+  const BallExit ball_exit(segment);
+  LeastDistance least{0.0, kInfinity, kInfinity, kInfinity};
+  Intervals no_intervals;
+  while (walk.inside()) {
+    const AdaptiveBlock block = grid.block(walk.cell());
+    if (!block.leaf) {
+      if (block.distance < 0.0) return {0.0, kInfinity, kInfinity, kInfinity};
+      const double side = shape.unit() * block.side;
+      const FreeBall ball{shape.origin + shape.unit() * block.low.cast<double>() + Vector3d::Constant(0.5 * side),
+                          (block.distance - shape.band) * (1.0 - 1e-9), false};
+      passFree(block.low, block.side, ball, ball_exit, walk, no_intervals);
+      continue;
+    }
+    const double t = walk.t(), t_exit = walk.exit(block.low, block.low.array() + block.side);
+    const std::array<double, 8> corners = grid.corners(block);
+    const double lowest = *std::min_element(corners.begin(), corners.end()), error = grid.leafError(block);
+    if (t_exit > t && (lowest - error < least.low || lowest + error < least.high || lowest < least.value)) {
+      const auto local = [&](double at) {
+        return Vector3d((walk.local(at, block.low) / block.side).array().max(0.0).min(1.0));
+      };
+      const LowestPlace place = lowestPlace(cellCubic(corners, local(t), local(t_exit), 0.0));
+      least.low = std::min(least.low, place.value - error);
+      least.high = std::min(least.high, place.value + error);
+      if (place.value < least.value) {
+        least.time = t + place.u * (t_exit - t);
+        least.value = place.value;
+      }
+    }
+    walk.advance();
+  }
+  return least;
+}
+
+}  // namespace
+
+LeastDistance leastDistance(const DistanceField& field, const Segment& segment) {
+  if (!isWithinReach(segment)) {
+    throw std::invalid_argument("least distance: the segment is not finite, or reaches farther than 1e12 m");
+  }
+  if (const AdaptiveGrid* adaptive = field.adaptive()) {
+    const LeastDistance least = leastInLeaves(*adaptive, segment);
+    if (least.low <= field.band()) return least;
+  }
+  return LeastSearch(field, segment).run();
+}
+
+}  // namespace sdf_ccd
