@@ -20,8 +20,7 @@ struct LeastDistance {
 /// those of DistanceField::sample() are.
 /// @param segment  as segmentIntervals(); anywhere, also outside the field's box.
 /// @throws std::invalid_argument if the segment is not within reach.
-/// Cost: about half as much as to integrate the contact along the same path, less at rest; at most some 128 samples and
-/// all leaves on the way.
+/// Cost: half to all of what integrateContact() takes on the same path; at most 128 places, and all leaves on the way.
 LeastDistance leastDistance(const DistanceField& field, const Segment& segment);
 
 }  // namespace sdf_ccd
