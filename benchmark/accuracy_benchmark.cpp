@@ -39,7 +39,7 @@ void study(const std::string& name, const TriangleMesh& mesh, const StudyOptions
       // Both rays and fields answer for segments that start outside; inside, the field's interval starts at once.
       if (field.sample(s.start).value <= field.errorBound()) continue;
       const double exact = rays.firstHit(s);
-      const Intervals found = segmentIntervals(field, s, {0.0, false, true});
+      const Intervals found = segmentIntervals(field, s, {0.0, SegmentMode::kFirst});
       only_mesh += exact >= 0.0 && found.empty();
       only_field += exact < 0.0 && !found.empty();
       if (exact < 0.0 || found.empty()) continue;

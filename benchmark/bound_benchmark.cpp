@@ -53,10 +53,8 @@ class FieldStudy {
       }
       addTime(segment, length);
     }
-    BatchOptions options;
-    options.mode = SegmentMode::kAll;
     BatchResult batch;
-    segmentIntervals(field_, segments.data(), segments.size(), options, batch);
+    segmentIntervals(field_, segments.data(), segments.size(), {}, batch);
     for (const SegmentHit& hit : batch.hits) {
       for (const double t : {double(hit.enter), double(hit.exit)}) {
         if (t > 0.0 && t < 1.0) addHit("hit_batch", segments[hit.segment], t);

@@ -166,9 +166,10 @@ template <class Traversal>
 void traverse(const DenseField& field, Traversal traversal, Walk& walk, const SegmentOptions& options,
               std::vector<double>& times) {
   const double sigma = options.sigma;
+  const bool first_only = options.mode != SegmentMode::kAll;
   bool inside = Cell(field, walk, sigma).value(walk.t) < 0.0;  // the paper's sign flag
   if (inside) times.push_back(walk.t);
-  while (!(options.first_only && !times.empty())) {
+  while (!(first_only && !times.empty())) {
     const bool may_cross = traversal.mayCross(walk, sigma);
     const Step step = traversal.exit(walk);
     const double t_exit = std::min(step.t, walk.t_end);
@@ -183,7 +184,7 @@ void traverse(const DenseField& field, Traversal traversal, Walk& walk, const Se
     if (walk.cell[step.axis] < 0 || walk.cell[step.axis] >= field.cells) break;
     walk.t = t_exit;
   }
-  if (inside && !options.first_only) times.push_back(walk.t_end);
+  if (inside && !first_only) times.push_back(walk.t_end);
 }
 
 }  // namespace
@@ -193,10 +194,11 @@ void paperIntervals(const DenseField& field, const MinMaxOctree* octree, const S
   times.clear();
   Walk walk;
   if (!walk.enter(field, segment)) return;
+  const SegmentOptions options{sigma, first_only ? SegmentMode::kFirst : SegmentMode::kAll};
   if (octree) {
-    traverse(field, BlockByBlock(*octree), walk, {sigma, first_only}, times);
+    traverse(field, BlockByBlock(*octree), walk, options, times);
   } else {
-    traverse(field, CellByCell(field, walk), walk, {sigma, first_only}, times);
+    traverse(field, CellByCell(field, walk), walk, options, times);
   }
 }
 

@@ -16,7 +16,7 @@ class BatchQuery : public SegmentSystem {
   bool batched() const override { return true; }
 
   long run(const Segment* segments, std::size_t count, const Question& question) override {
-    BatchOptions options;
+    SegmentOptions options;
     options.sigma = question.sigma;
     options.mode = question.find == Find::kFirst ? SegmentMode::kFirst
                    : question.find == Find::kAll ? SegmentMode::kAll

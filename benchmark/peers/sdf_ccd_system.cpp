@@ -14,7 +14,7 @@ class SingleQuery : public SegmentSystem {
 
   long run(const Segment* segments, std::size_t count, const Question& question) override {
     const bool all = question.find == Find::kAll;
-    const SegmentOptions options{question.sigma, false, !all};
+    const SegmentOptions options{question.sigma, all ? SegmentMode::kAll : SegmentMode::kFirst};
     long answers = 0;
     for (std::size_t i = 0; i < count; ++i) {
       segmentIntervals(field_, segments[i], options, intervals_);

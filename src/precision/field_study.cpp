@@ -131,7 +131,7 @@ HitSystem oneByOne(const Label& label, const DistanceField& field) {
             times.assign(segments.size(), -1.0);
             Intervals intervals;
             for (std::size_t i = 0; i < segments.size(); ++i) {
-              segmentIntervals(field, segments[i], {0.0, false, true}, intervals);
+              segmentIntervals(field, segments[i], {0.0, SegmentMode::kFirst}, intervals);
               if (!intervals.empty()) times[i] = intervals.front().enter;
             }
           }};

@@ -39,9 +39,10 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
                           (std::abs(block.distance) - margin) * (1.0 - 1e-9), block.distance < 0.0};
       passFree(block.low, block.side, ball, ball_exit, walk, intervals);
     }
-    if (options.enter_only && !intervals.empty()) break;
+    if (stopsAtEnter(options.mode) && !intervals.empty()) break;
     // Complete once something else follows it.
-    if (options.first_only && !intervals.empty() && intervals.back().exit < walk.t()) break;
+    const bool first_only = options.mode == SegmentMode::kFirstInterval;
+    if (first_only && !intervals.empty() && intervals.back().exit < walk.t()) break;
   }
 }
 

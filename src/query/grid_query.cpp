@@ -65,9 +65,10 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
         walk.advance();
       }
     }
-    if (options.enter_only && !intervals.empty()) break;
+    if (stopsAtEnter(options.mode) && !intervals.empty()) break;
     // Complete once something else follows it.
-    if (options.first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
+    const bool first_only = options.mode == SegmentMode::kFirstInterval;
+    if (first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
   }
 }
 

@@ -63,7 +63,7 @@ std::optional<double> insideAfter(const Way& way, double t, double end) {
 std::optional<ImpactWindow> impactWindow(const DistanceField& field, const Segment& segment) {
   const double error = std::min(field.errorBound(), field.band());
   const auto first = [&](double sigma) {
-    const Intervals found = segmentIntervals(field, segment, {sigma, false, true});
+    const Intervals found = segmentIntervals(field, segment, {sigma, SegmentMode::kFirst});
     return found.empty() ? std::optional<double>() : found.front().enter;
   };
   const std::optional<double> near = first(error);

@@ -7,8 +7,8 @@
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/query/segment_query.h"
 
-/// The segment query on each kind of field that a DistanceField can hold. Of options they need only stop early: more than
-/// is asked for is cut away by segmentIntervals().
+/// The segment query on each kind of field that a DistanceField can hold. Of options they need only stop early: more
+/// than is asked for is cut away by segmentIntervals().
 namespace sdf_ccd {
 
 /// Spans that follow each other nearer than this on the path are one: two cells agree on their common face only to
@@ -22,6 +22,11 @@ inline void appendSpan(Intervals& intervals, double enter, double exit) {
   } else {
     intervals.push_back({enter, exit});
   }
+}
+
+/// Whether a query goes no further along a segment than to where the first interval begins.
+inline bool stopsAtEnter(SegmentMode mode) {
+  return mode == SegmentMode::kFirst || mode == SegmentMode::kAny;
 }
 
 /// Throws std::invalid_argument unless |sigma| ≤ field.band().

@@ -21,12 +21,10 @@ using Hits = std::vector<SegmentHit>;
 
 /// Segments [first, last), one by one.
 void askSingly(const DistanceField& field, const Segment* segments, std::size_t first, std::size_t last,
-               const BatchOptions& options, Hits& hits) {
+               const SegmentOptions& options, Hits& hits) {
   thread_local Intervals intervals;
-  SegmentOptions single{options.sigma};
-  single.enter_only = options.mode != SegmentMode::kAll;
   for (std::size_t i = first; i < last; ++i) {
-    segmentIntervals(field, segments[i], single, intervals);
+    segmentIntervals(field, segments[i], options, intervals);
     for (const Interval& found : intervals) {
       hits.push_back({static_cast<std::uint32_t>(i), static_cast<float>(found.enter), static_cast<float>(found.exit)});
     }
@@ -41,8 +39,8 @@ class Chunk {
   /// Asks segments [first, first + count), count ≤ FlightWork::kSegments.
   template <class Lanes>
   void ask(const DistanceField& field, const Lanes& lanes, const Segment* segments, std::size_t first, int count,
-           const BatchOptions& options, Hits& hits) {
-    const bool first_only = options.mode != SegmentMode::kAll;
+           const SegmentOptions& options, Hits& hits) {
+    const bool first_only = stopsAtEnter(options.mode);
     const int refused = followFlights(lanes, first_only, segments + first, count, work_);
     if (refused >= 0) {
       throw std::invalid_argument("segment query: segment " + std::to_string(first + refused) +
@@ -80,7 +78,7 @@ class Chunk {
 
   /// A flight that did not end: its hits are replaced by those of the single query.
   void retry(const DistanceField& field, const Segment* segments, std::size_t first, std::int32_t lost,
-             const BatchOptions& options) {
+             const SegmentOptions& options) {
     auto& hits = work_.hits;
     const auto is_lost = [&](const FlightHit& hit) { return hit.id == static_cast<std::uint32_t>(lost); };
     hits.erase(std::remove_if(hits.begin(), hits.end(), is_lost), hits.end());
@@ -117,27 +115,38 @@ void askInChunks(std::size_t count, const Ask& ask, Hits& hits) {
   for (const Hits& some : found) hits.insert(hits.end(), some.begin(), some.end());
 }
 
-}  // namespace
-
-void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
-                      const BatchOptions& options, BatchResult& result) {
-  checkIsovalue(field, options.sigma);
-  result.hits.clear();
+/// All hits, also where only the first intervals are asked for.
+void askAll(const DistanceField& field, const Segment* segments, std::size_t count, const SegmentOptions& options,
+            Hits& hits) {
 #ifdef SDF_CCD_HIGHWAY
   const auto askLanes = [&](const auto& lanes) {
-    const auto ask = [&](std::size_t first, std::size_t last, Hits& hits) {
+    const auto ask = [&](std::size_t first, std::size_t last, Hits& found) {
       thread_local const std::unique_ptr<Chunk> flights = std::make_unique<Chunk>();
-      flights->ask(field, lanes, segments, first, static_cast<int>(last - first), options, hits);
+      flights->ask(field, lanes, segments, first, static_cast<int>(last - first), options, found);
     };
-    askInChunks(count, ask, result.hits);
+    askInChunks(count, ask, hits);
   };
   if (const AdaptiveGrid* grid = field.adaptive()) return askLanes(AdaptiveLanes(*grid, options.sigma));
   if (const SparseGrid* grid = field.grid()) return askLanes(EvenLanes(*grid, options.sigma));
 #endif
-  const auto ask = [&](std::size_t first, std::size_t last, Hits& hits) {
-    askSingly(field, segments, first, last, options, hits);
+  const auto ask = [&](std::size_t first, std::size_t last, Hits& found) {
+    askSingly(field, segments, first, last, options, found);
   };
-  askInChunks(count, ask, result.hits);
+  askInChunks(count, ask, hits);
+}
+
+}  // namespace
+
+void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
+                      const SegmentOptions& options, BatchResult& result) {
+  checkIsovalue(field, options.sigma);
+  Hits& hits = result.hits;
+  hits.clear();
+  askAll(field, segments, count, options, hits);
+  if (options.mode == SegmentMode::kFirstInterval) {
+    const auto same = [](const SegmentHit& a, const SegmentHit& b) { return a.segment == b.segment; };
+    hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
+  }
 }
 
 }  // namespace sdf_ccd

@@ -29,8 +29,8 @@ void segmentIntervals(const DistanceField& field, const Segment& segment, const 
   } else {
     gridIntervals(*field.grid(), segment, options, intervals);
   }
-  if ((options.first_only || options.enter_only) && intervals.size() > 1) intervals.resize(1);
-  if (options.enter_only && !intervals.empty()) intervals.front().exit = intervals.front().enter;
+  if (options.mode != SegmentMode::kAll && intervals.size() > 1) intervals.resize(1);
+  if (stopsAtEnter(options.mode) && !intervals.empty()) intervals.front().exit = intervals.front().enter;
 }
 
 Intervals segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options) {

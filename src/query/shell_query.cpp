@@ -23,7 +23,7 @@ Segment along(const Chord& chord, const Vector3d& p_P) {
 class PointBatch {
  public:
   PointBatch(const DistanceField& field, double sigma, std::vector<ShellHit>& hits)
-      : field_(field), options_{sigma, SegmentMode::kAll}, hits_(hits) {
+      : field_(field), options_{sigma}, hits_(hits) {
     segments_.clear();
     points_.clear();
   }
@@ -47,7 +47,7 @@ class PointBatch {
  private:
   static constexpr std::size_t kMost = 16384;
   const DistanceField& field_;
-  BatchOptions options_;
+  SegmentOptions options_;
   std::vector<ShellHit>& hits_;
   int chord_ = 0;
   // Kept by each thread, as above.
@@ -70,7 +70,7 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
   if (tree.nodes.empty()) return;
   // A point's roots are those of the interpolated field, the node's test is about the true distance.
   const double outside_margin = options.sigma + field.errorBound(), inside_margin = field.errorBound() - options.sigma;
-  const SegmentOptions segment_options{options.sigma, options.any};
+  const SegmentOptions segment_options{options.sigma, options.any ? SegmentMode::kAny : SegmentMode::kAll};
   constexpr double kFarSweep = 4.0;  // radii
   constexpr std::int32_t kFewPoints = 16;
   const bool batched = !field.primitive() && !options.any;

@@ -96,7 +96,9 @@ void addQueryCommand(CLI::App& app) {
   command->add_option("--segments", arguments->segments, "CSV file to read")->required();
   command->add_option("--out", arguments->out, "CSV file to write")->required();
   command->add_option("--sigma", arguments->query.sigma, "Distance of the isosurface from the surface [m]; default 0");
-  command->add_flag("--first", arguments->query.first_only, "Only the first interval of each segment");
+  command->add_flag_callback(
+      "--first", [arguments] { arguments->query.mode = SegmentMode::kFirstInterval; },
+      "Only the first interval of each segment");
   arguments->resolution.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }

@@ -17,7 +17,7 @@ const Vector3d kHalf(0.1, 0.075, 0.05);
 const DistanceField kBox{Primitive(Box{kHalf})};
 
 std::optional<double> firstContact(const Segment& segment) {
-  const Intervals found = segmentIntervals(kBox, segment, {0.0, true});
+  const Intervals found = segmentIntervals(kBox, segment, {0.0, SegmentMode::kFirst});
   return found.empty() ? std::optional<double>() : found.front().enter;
 }
 

@@ -91,9 +91,14 @@ struct Compared {
 };
 
 Compared compare(const DistanceField& field, const std::vector<Segment>& segments, double sigma) {
-  BatchResult all, first;
+  BatchResult all, first, intervals, any;
   segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kAll}, all);
   segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kFirst}, first);
+  segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kFirstInterval}, intervals);
+  segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kAny}, any);
+  EXPECT_EQ(intervals.hits.size(), first.hits.size());
+  EXPECT_EQ(any.hits.size(), first.hits.size());
+  if (testing::Test::HasFailure()) return {};
   std::vector<Intervals> batch(segments.size());
   std::uint32_t last = 0;
   for (const SegmentHit& hit : all.hits) {
@@ -105,7 +110,7 @@ Compared compare(const DistanceField& field, const std::vector<Segment>& segment
   Compared compared;
   std::size_t next = 0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const Intervals exact = segmentIntervals(field, segments[i], {sigma, false});
+    const Intervals exact = segmentIntervals(field, segments[i], {sigma});
     expectSame(field, segments[i], exact, batch[i], sigma);
     compared.hits += !exact.empty();
     compared.differing += exact.size() != batch[i].size();
@@ -113,6 +118,10 @@ Compared compare(const DistanceField& field, const std::vector<Segment>& segment
     EXPECT_EQ(has_first, !batch[i].empty());
     if (has_first && !batch[i].empty()) {
       EXPECT_EQ(first.hits[next].enter, float(batch[i][0].enter));
+      EXPECT_EQ(first.hits[next].exit, first.hits[next].enter);
+      EXPECT_EQ(intervals.hits[next].segment, i);
+      EXPECT_EQ(intervals.hits[next].enter, float(batch[i][0].enter));
+      EXPECT_EQ(intervals.hits[next].exit, float(batch[i][0].exit));
     }
     next += has_first;
     if (testing::Test::HasFailure()) break;
@@ -205,7 +214,7 @@ TEST(SegmentBatch, PrimitivesGiveTheSingleQuerysIntervals) {
     segmentIntervals(field, segments.data(), segments.size(), {0.01, SegmentMode::kAll}, result);
     std::size_t next = 0;
     for (std::size_t i = 0; i < segments.size(); ++i) {
-      for (const Interval& interval : segmentIntervals(field, segments[i], {0.01, false})) {
+      for (const Interval& interval : segmentIntervals(field, segments[i], {0.01})) {
         ASSERT_LT(next, result.hits.size());
         ASSERT_EQ(result.hits[next].segment, i);
         ASSERT_EQ(result.hits[next].enter, float(interval.enter));

@@ -19,7 +19,7 @@ TEST(SegmentQuery, SphereHasClosedForm) {
   ASSERT_EQ(hit.size(), 1U);
   EXPECT_NEAR(hit[0].enter, 0.5 - 0.2, 1e-14);
   EXPECT_NEAR(hit[0].exit, 0.5 + 0.2, 1e-14);
-  const Intervals wider = segmentIntervals(sphere, {{-1, 0, 0}, {1, 0, 0}}, {0.25, false});
+  const Intervals wider = segmentIntervals(sphere, {{-1, 0, 0}, {1, 0, 0}}, {0.25});
   ASSERT_EQ(wider.size(), 1U);
   EXPECT_NEAR(wider[0].enter, 0.125, 1e-14);
   EXPECT_TRUE(segmentIntervals(sphere, {{-1, 0.5001, 0}, {1, 0.5001, 0}}).empty());
@@ -43,7 +43,7 @@ TEST(SegmentQuery, PrimitivesEqualDenseSampling) {
     const AlignedBox3d box{Vector3d::Constant(-0.7), Vector3d::Constant(0.7)};
     const Segment s{test::uniformIn(random, box), test::uniformIn(random, box)};
     const double sigma = i % 2 ? 0.0 : test::uniform(random, -0.05, 0.3);
-    const Intervals hit = segmentIntervals(field, s, {sigma, false});
+    const Intervals hit = segmentIntervals(field, s, {sigma});
     ASSERT_LE(hit.size(), 1U);  // convex
     found += !hit.empty();
     const auto value = [&](double t) { return field.sample(s.start + t * (s.end - s.start)).value - sigma; };
@@ -86,10 +86,12 @@ void expectFirstOfAll(const DistanceField& field) {
   int several = 0;
   for (int i = 0; i < 5000; ++i) {
     const Segment s = randomSegment(field, random, 0);
-    const Intervals all = segmentIntervals(field, s), first = segmentIntervals(field, s, {0.0, true});
-    const Intervals enter = segmentIntervals(field, s, {0.0, false, true});
+    const Intervals all = segmentIntervals(field, s),
+                    first = segmentIntervals(field, s, {0.0, SegmentMode::kFirstInterval});
+    const Intervals enter = segmentIntervals(field, s, {0.0, SegmentMode::kFirst});
     ASSERT_EQ(first.size(), std::min<std::size_t>(all.size(), 1));
     ASSERT_EQ(enter.size(), first.size());
+    ASSERT_EQ(segmentIntervals(field, s, {0.0, SegmentMode::kAny}).size(), first.size());
     several += all.size() > 1;
     if (!first.empty()) {
       EXPECT_EQ(first[0].enter, all[0].enter);
@@ -119,7 +121,7 @@ TEST(SegmentQuery, FirstIsTheFirstOfAllOnAPrimitive) {
   const AlignedBox3d box(Vector3d::Constant(-0.5), Vector3d::Constant(0.5));
   for (int i = 0; i < 1000; ++i) {
     const Segment s{test::uniformIn(random, box), test::uniformIn(random, box)};
-    const Intervals all = segmentIntervals(field, s), enter = segmentIntervals(field, s, {0.0, false, true});
+    const Intervals all = segmentIntervals(field, s), enter = segmentIntervals(field, s, {0.0, SegmentMode::kFirst});
     ASSERT_EQ(enter.size(), all.size());
     if (!all.empty()) {
       EXPECT_EQ(enter[0].exit, all[0].enter);
@@ -159,11 +161,11 @@ TEST(SegmentQuery, RefusesWhatIsNotFinite) {
   EXPECT_THROW(segmentIntervals(sphere, {{NAN, 0, 0}, {1, 0, 0}}), std::invalid_argument);
   EXPECT_THROW(segmentIntervals(sphere, {{0, 0, 0}, {INFINITY, 0, 0}}), std::invalid_argument);
   EXPECT_THROW(segmentIntervals(sphere, {{1e308, 0, 0}, {-1e308, 0, 0}}), std::invalid_argument);
-  EXPECT_THROW(segmentIntervals(sphere, {{0, 0, 0}, {1, 0, 0}}, {NAN, false}), std::invalid_argument);
+  EXPECT_THROW(segmentIntervals(sphere, {{0, 0, 0}, {1, 0, 0}}, {NAN}), std::invalid_argument);
   FieldOptions options;
   options.cells = 16;
   const DistanceField field = buildField(test::boxMesh({0.1, 0.1, 0.1}), options);
-  EXPECT_THROW(segmentIntervals(field, {{0, 0, 0}, {1, 0, 0}}, {field.band() * 1.01, false}), std::invalid_argument);
+  EXPECT_THROW(segmentIntervals(field, {{0, 0, 0}, {1, 0, 0}}, {field.band() * 1.01}), std::invalid_argument);
 }
 
 TEST(SegmentQuery, HugeAndTinySegments) {

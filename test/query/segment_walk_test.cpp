@@ -38,7 +38,7 @@ void expectAgreement(const DistanceField& field, const Segment& segment, double 
   const double tick = std::max(1e-12, 4.0 * place_time), time = std::max(1e-9, 4.0 * place_time);
   constexpr long double kRounding = 1e-13L;
   const UniformWalk walk(field, segment, sigma);
-  const Intervals fast = segmentIntervals(field, segment, {sigma, false});
+  const Intervals fast = segmentIntervals(field, segment, {sigma});
   for (std::size_t i = 0; i < fast.size(); ++i) {
     ASSERT_LE(0.0, fast[i].enter);
     ASSERT_LE(fast[i].enter, fast[i].exit);

@@ -30,8 +30,7 @@ std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& s
       segments.push_back({path.chords[c].X_FP_start * p, path.chords[c].X_FP_end * p});
     if (field.primitive()) {
       for (int i = 0; i < int(segments.size()); ++i)
-        for (const Interval& interval : segmentIntervals(field, segments[i], {sigma, false}))
-          hits.push_back({i, c, interval});
+        for (const Interval& interval : segmentIntervals(field, segments[i], {sigma})) hits.push_back({i, c, interval});
       continue;
     }
     BatchResult found;
@@ -121,7 +120,7 @@ TEST(ShellQuery, EqualsLinearScanOnEveryPoint) {
       cutIntoChords(motion, rootBall(scene.tree), {i % 5 == 0 ? 1e-3 : 1e-1, 40}, path);
       const double sigma = i % 3 == 0 ? 0.0 : test::uniform(random, -1, 1) * std::min(scene.field.band(), 0.02);
       ShellQueryResult result;
-      shellIntervals(scene.field, scene.shell, scene.tree, path, {sigma, false}, result);
+      shellIntervals(scene.field, scene.shell, scene.tree, path, {sigma}, result);
       expectEqual(result.hits, linearScan(scene.field, scene.shell, path, sigma));
       if (HasFatalFailure()) return;
       hits += long(result.hits.size());

@@ -9,22 +9,11 @@
 
 namespace sdf_ccd {
 
-enum class SegmentMode {
-  kFirst,  ///< the first place on or inside the isosurface
-  kAll,    ///< all intervals
-  kAny,    ///< whether there is one
-};
-
-struct BatchOptions {
-  double sigma = 0.0;  ///< isovalue [m]
-  SegmentMode mode = SegmentMode::kFirst;
-};
-
 /// An interval of one segment, of its parameter in [0, 1].
 struct SegmentHit {
   std::uint32_t segment;
   float enter;
-  float exit;  ///< as `enter` for kFirst and kAny, which do not follow the segment further
+  float exit;
 };
 
 struct BatchResult {
@@ -42,6 +31,6 @@ struct BatchResult {
 /// @param result    replaced; its memory is reused.
 /// @throws std::invalid_argument if a segment is not within reach (naming it) or sigma lies outside the band.
 void segmentIntervals(const DistanceField& field, const Segment* segments, std::size_t count,
-                      const BatchOptions& options, BatchResult& result);
+                      const SegmentOptions& options, BatchResult& result);
 
 }  // namespace sdf_ccd

@@ -18,10 +18,17 @@ inline bool isWithinReach(const Segment& segment) {
          segment.start.allFinite() && segment.end.allFinite();
 }
 
+/// What is asked of a segment; less costs less.
+enum class SegmentMode {
+  kAll,            ///< all intervals
+  kFirstInterval,  ///< the first one
+  kFirst,          ///< where the first one begins, given as an interval of no length
+  kAny,            ///< whether there is one: an interval of no length, somewhere in one
+};
+
 struct SegmentOptions {
-  double sigma = 0.0;       ///< isovalue [m]; 0 is the surface
-  bool first_only = false;  ///< stop after the first interval
-  bool enter_only = false;  ///< stop where the first interval begins, and give it no length
+  double sigma = 0.0;  ///< isovalue [m]; 0 is the surface
+  SegmentMode mode = SegmentMode::kAll;
 };
 
 /// Times during which a moving point is on or inside the isosurface φ = σ.

@@ -19,7 +19,7 @@ struct ShellHit {
 
 struct ShellQueryOptions {
   double sigma = 0.0;  ///< isovalue [m]
-  bool any = false;    ///< stop after the first hit
+  bool any = false;    ///< stop at the first hit, whose exit is not looked for
 };
 
 struct ShellQueryResult {
