@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "error_source.h"
 #include "joint_motion.h"
 #include "parse_urdf.h"
 #include "sdf_ccd/geometry/number_text.h"
@@ -12,7 +13,7 @@
 
 namespace sdf_ccd {
 
-RobotModel::RobotModel(const std::string& urdf_xml)
+RobotModel::RobotModel(const std::string& urdf_xml, const std::string& source) try
     : urdf_(parseUrdf(urdf_xml)), root_(urdf_->getRoot()->name), unread_(unreadLinks(*urdf_, urdf_xml)) {
   std::vector<std::pair<const urdf::Link*, int>> open = {{urdf_->getRoot().get(), -1}};
   while (!open.empty()) {
@@ -26,6 +27,8 @@ RobotModel::RobotModel(const std::string& urdf_xml)
       open.emplace_back(child->get(), index);
     }
   }
+} catch (const std::exception& error) {
+  throwFrom(source, error);
 }
 
 int RobotModel::indexOf(const std::string& link) const {

@@ -8,6 +8,8 @@
 
 #include <tinyxml2.h>
 
+#include "error_source.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -46,9 +48,7 @@ JointPositions readState(const XMLElement& state) {
   return positions;
 }
 
-}  // namespace
-
-Srdf parseSrdf(const std::string& xml) {
+Srdf readSrdf(const std::string& xml) {
   tinyxml2::XMLDocument document;
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
     fail(document.ErrorLineNum(), document.ErrorName());
@@ -77,6 +77,16 @@ Srdf parseSrdf(const std::string& xml) {
     }
   }
   return srdf;
+}
+
+}  // namespace
+
+Srdf parseSrdf(const std::string& xml, const std::string& source) {
+  try {
+    return readSrdf(xml);
+  } catch (const std::exception& error) {
+    throwFrom(source, error);
+  }
 }
 
 }  // namespace sdf_ccd

@@ -76,8 +76,8 @@ ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::stri
 }
 
 DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader) {
-  const auto robot = std::make_shared<const RobotModel>(parameters.urdf);
-  const Srdf srdf = parameters.srdf.empty() ? Srdf() : parseSrdf(parameters.srdf);
+  const auto robot = std::make_shared<const RobotModel>(parameters.urdf, parameters.urdf_source);
+  const Srdf srdf = parameters.srdf.empty() ? Srdf() : parseSrdf(parameters.srdf, parameters.srdf_source);
   const std::string prefix = parameters.tf_prefix.empty() ? "" : parameters.tf_prefix + "/";
 
   DescribedScene described;

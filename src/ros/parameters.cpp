@@ -214,6 +214,8 @@ MonitorParameters readParameters(const ros::NodeHandle& private_node) {
     throw MissingDescription("parameter " + parameters.urdf_parameter + " is missing, expected a robot's URDF");
   }
   parameters.srdf = findDescription(private_node, parameters.srdf_parameter);
+  parameters.urdf_source = "parameter " + parameters.urdf_parameter;
+  parameters.srdf_source = "parameter " + parameters.srdf_parameter;
   return parameters;
 }
 

@@ -41,6 +41,8 @@ struct MonitorParameters {
   std::string srdf_parameter;
   std::string urdf;         ///< text of the robot's description
   std::string srdf;         ///< text of its semantic description, empty if there is none
+  std::string urdf_source;  ///< where those texts are from, for errors
+  std::string srdf_source;
   std::string fixed_frame;  ///< empty: the robot's root link
   std::string tf_prefix;
   RobotSceneOptions robot;

@@ -76,8 +76,8 @@ Robot loadRobot(const Arguments& arguments) {
   const std::string directory = fs::absolute(arguments.urdf).parent_path().string();
   const PackageFinder packages = packagesFromEnvironment();
   const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); };
-  const RobotModel model(readText(arguments.urdf));
-  const Srdf srdf = arguments.srdf.empty() ? Srdf() : parseSrdf(readText(arguments.srdf));
+  const RobotModel model(readText(arguments.urdf), arguments.urdf);
+  const Srdf srdf = arguments.srdf.empty() ? Srdf() : parseSrdf(readText(arguments.srdf), arguments.srdf);
   std::vector<std::string> warnings;
   Robot robot;
   robot.scene = describeRobot(model, srdf, loader, {}, warnings);

@@ -43,9 +43,9 @@ Isometry3d poseOf(const RobotModel& robot, const std::string& link, const JointP
   return robot.forwardKinematics(positions)[indexOf(robot, link)];
 }
 
-std::string failure(const std::string& xml) {
+std::string failure(const std::string& xml, const std::string& source = {}) {
   try {
-    RobotModel robot(xml);
+    RobotModel robot(xml, source);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -206,6 +206,7 @@ TEST(RobotModel, ParserFailuresGiveTheReason) {
   EXPECT_NE(failure(twoLinks("<joint name='j' type='bendy'><parent link='a'/><child link='b'/></joint>")).find("bendy"),
             std::string::npos);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(failure("<robot name='r'><link", "arm.urdf").find("arm.urdf: the URDF cannot be parsed: "), 0U);
 }
 
 TEST(RobotModel, JointsWithoutKinematicsAreRefused) {

@@ -255,6 +255,11 @@ TEST_F(CheckBag, BadBagsAreRefused) {
   write("bad.yaml", "rate: fast\n");
   expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: parameter ~/rate is fast");
   expectRefused(check("arm.bag", "no", "--srdf missing.srdf"), "missing.srdf");
+  expectRefused(check("arm.bag", "no", "--srdf bad.yaml"), "bad.yaml: the SRDF cannot be parsed: line 1");
+  for (const char* text : {"arm", "<robot name='arm'><link name='a'/><link", "<robot name='arm'><joint/></robot>"}) {
+    write("bad.urdf", text);
+    expectRefused("check-bag arm.bag --urdf bad.urdf --out no", "bad.urdf: the URDF cannot be parsed: ");
+  }
 }
 
 TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {

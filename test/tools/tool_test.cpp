@@ -253,7 +253,7 @@ TEST_F(Tool, BadMeshesAndOptionsAreRefused) {
   expectRefused("build --mesh ball.off --out made --threads -1", "--threads");
   expectRefused("build --mesh ball.off --urdf a.urdf --out made", "--urdf");
   expectRefused("build --mesh ball.off --srdf a.srdf --out made", "--srdf needs --urdf");
-  expectRefused("build --urdf ball.off --out made", "URDF");
+  expectRefused("build --urdf ball.off --out made", "ball.off: the URDF cannot be parsed");
   expectRefused("build --urdf . --out made", "is a directory");
   expectRefused("build --out made", "required");
   expectRefused("", "subcommand");

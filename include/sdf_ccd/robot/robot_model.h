@@ -17,9 +17,10 @@ using JointPositions = std::map<std::string, double>;  ///< by joint name [rad o
 /// The tree of links and joints of a URDF.
 class RobotModel {
  public:
-  /// @throws std::runtime_error, with the parser's reason, if the text is no URDF; also for a joint whose axis is zero
-  /// or that mimics a missing joint or itself.
-  explicit RobotModel(const std::string& urdf_xml);
+  /// @param source  where the text is from, for errors; may be empty.
+  /// @throws std::runtime_error, with the source and the parser's reason, if the text is no URDF; also for a joint
+  /// whose axis is zero or that mimics a missing joint or itself.
+  explicit RobotModel(const std::string& urdf_xml, const std::string& source = {});
 
   const urdf::ModelInterface& urdf() const { return *urdf_; }
   const std::string& root() const { return root_; }

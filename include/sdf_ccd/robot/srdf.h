@@ -21,7 +21,8 @@ struct Srdf {
 /// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions` and `group_state`. As in MoveIt, a
 /// pair that is both disabled and enabled is disabled. Joints with several values in a state (planar, floating) are
 /// left out of it.
-/// @throws std::runtime_error, with line and reason, if the text is no SRDF.
-Srdf parseSrdf(const std::string& xml);
+/// @param source  where the text is from, for errors; may be empty.
+/// @throws std::runtime_error, with source, line and reason, if the text is no SRDF.
+Srdf parseSrdf(const std::string& xml, const std::string& source = {});
 
 }  // namespace sdf_ccd

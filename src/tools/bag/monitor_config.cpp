@@ -53,6 +53,8 @@ MonitorParameters readParameters(const MonitorConfig& config) {
   }
   parameters.urdf = readText(config.urdf);
   if (!config.srdf.empty()) parameters.srdf = readText(config.srdf);
+  parameters.urdf_source = config.urdf;
+  parameters.srdf_source = config.srdf;
   for (const std::string& name : parameters.unknown) {
     std::cerr << "sdf_ccd: " << prefix << "nothing reads parameter " << name << std::endl;
   }
