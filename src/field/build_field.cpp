@@ -87,7 +87,7 @@ class Sampler {
   }
 
   void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, float* samples) const {
-    constexpr std::size_t kFew = 64;
+    constexpr std::size_t kFew = 16;
     if (block.side > 1 && near.size() > kFew) {
       const int half = block.side / 2;
       NearOctants octants(near);
@@ -101,11 +101,11 @@ class Sampler {
     const auto end = [&](int k) {
       return block.low[k] + block.side + (block.low[k] + block.side == GridShape::kBrick);
     };
+    DistanceWriter<float> writer(near, samples);
     for (int z = block.low.z(); z < end(2); ++z)
       for (int y = block.low.y(); y < end(1); ++y)
         for (int x = block.low.x(); x < end(0); ++x) {
-          samples[(z * kSide + y) * kSide + x] =
-              static_cast<float>(near.signedDistance(place(brick, Vector3d(x, y, z))));
+          writer.add((z * kSide + y) * kSide + x, place(brick, Vector3d(x, y, z)));
         }
   }
 
@@ -183,10 +183,13 @@ DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, 
   data.corners.resize(shape.cornerCount());
   const Vector3i corner_counts = shape.bricks.array() + 1;
   tbb::parallel_for(0, corner_counts.z(), [&](int z) {
+    const double side = GridShape::kBrick * shape.cell;
+    SignedSurface::Nearest last{};
     for (int y = 0; y < corner_counts.y(); ++y)
       for (int x = 0; x < corner_counts.x(); ++x) {
-        const Vector3d p = shape.origin + GridShape::kBrick * shape.cell * Vector3d(x, y, z);
-        data.corners[shape.cornerIndex({x, y, z})] = static_cast<float>(sampler.surface().signedDistance(p));
+        const Vector3d p = shape.origin + side * Vector3d(x, y, z);
+        last = x == 0 ? sampler.surface().nearest(p) : sampler.surface().next(p, last, side);
+        data.corners[shape.cornerIndex({x, y, z})] = static_cast<float>(last.distance);
       }
   });
 

@@ -57,27 +57,14 @@ NearOctants& CellFit::octants() {
 }
 
 void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
-  PlaceLanes places;
-  std::array<int, PlaceLanes::kCount> waiting;
-  int count = 0;
-  const auto measure = [&] {
-    for (int k = count; k < PlaceLanes::kCount; ++k) places.copy(0, k);
-    PlaceLanes::Lane distances;
-    near.signedDistances(places, count, distances);
-    for (int k = 0; k < count; ++k) values_[waiting[k]] = distances[k];
-    count = 0;
-  };
+  DistanceWriter<double> writer(near, values_.data());
   const int step = cube.side / steps;
   for (int z = 0; z <= cube.side; z += step)
     for (int y = 0; y <= cube.side; y += step)
       for (int x = 0; x <= cube.side; x += step) {
         const Vector3i p = cube.low + Vector3i(x, y, z);
-        if (!std::isnan(values_[index(p)])) continue;
-        waiting[count] = index(p);
-        places.set(count, low_ + step_ * p.cast<double>());
-        if (++count == PlaceLanes::kCount) measure();
+        if (std::isnan(values_[index(p)])) writer.add(index(p), low_ + step_ * p.cast<double>());
       }
-  if (count > 0) measure();
 }
 
 CellFit::Corners CellFit::cornersOf(const Cube& cube) const {

@@ -119,6 +119,39 @@ class NearTriangles {
   Vector3d slope_range_ = Vector3d::Constant(2.0);
 };
 
+/// Writes the signed distances at places of a cube to where they belong, eight at a time.
+template <class Value>
+class DistanceWriter {
+ public:
+  DistanceWriter(const NearTriangles& near, Value* values) : near_(near), values_(values) {}
+  ~DistanceWriter() { flush(); }
+  DistanceWriter(const DistanceWriter&) = delete;
+  DistanceWriter& operator=(const DistanceWriter&) = delete;
+
+  /// @param index  of the value.
+  void add(int index, const Vector3d& place) {
+    indices_[count_] = index;
+    places_.set(count_, place);
+    if (++count_ == PlaceLanes::kCount) flush();
+  }
+
+ private:
+  void flush() {
+    if (count_ == 0) return;
+    for (int k = count_; k < PlaceLanes::kCount; ++k) places_.copy(0, k);
+    PlaceLanes::Lane distances;
+    near_.signedDistances(places_, count_, distances);
+    for (int k = 0; k < count_; ++k) values_[indices_[k]] = static_cast<Value>(distances[k]);
+    count_ = 0;
+  }
+
+  const NearTriangles& near_;
+  Value* values_;
+  PlaceLanes places_;
+  std::array<int, PlaceLanes::kCount> indices_;
+  int count_ = 0;
+};
+
 /// The triangles near a cube, found from scratch.
 class NearCube {
  public:
