@@ -20,7 +20,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Segments on their way into a queue, clipped to the grid's box in double precision: a segment may start far outside.
+/// Segments on their way into a queue, clipped to the grid's box: in double precision where one starts far outside.
 struct Boarding {
   static constexpr int kGroup = 32;
   static constexpr double kSurelyWithinReach = 4e11;  ///< from the grid's origin, and along the segment [m]
@@ -42,12 +42,21 @@ struct Boarding {
   }
 
  private:
+  using Single = hn::ScalableTag<float>;
   using Wide = hn::ScalableTag<double>;
   using V = hn::Vec<Wide>;
+  static constexpr Single single{};
   static constexpr Wide wide{};
+  static constexpr hn::Rebind<float, Wide> narrow{};
 
   void clipAll(const LaneBox& g, const Segment* segments) {
-    for (int i = 0; i < kGroup; i += int(hn::Lanes(wide))) clip(g, segments + i, i);
+    bool near = true;
+    for (int i = 0; i < kGroup; i += int(hn::Lanes(wide))) near = convert(g, segments + i, i) && near;
+    if (near) {
+      for (int i = 0; i < kGroup; i += int(hn::Lanes(single))) clipConverted(g, i);
+    } else {
+      for (int i = 0; i < kGroup; i += int(hn::Lanes(wide))) clipFar(g, segments + i, i);
+    }
   }
 
   /// Starts and ends of as many segments as there are lanes.
@@ -70,52 +79,98 @@ struct Boarding {
 #endif
   }
 
-  void clip(const LaneBox& g, const Segment* segments, int i) {
-    const V zero = hn::Zero(wide), one = hn::Set(wide, 1.0), units = hn::Set(wide, g.units_per_metre);
-    V at[3], way[3];
+  /// Starts, and ways from there, relative to the grid's origin [units].
+  static void locate(const LaneBox& g, const Segment* segments, V* at, V* way) {
+    const V units = hn::Set(wide, g.units_per_metre);
     load(segments, at, way);
-    auto inside = hn::Eq(zero, zero);
     for (int k = 0; k < 3; ++k) {
-      const V origin = hn::Set(wide, g.origin[k]), size = hn::Set(wide, double(g.top_size[k]) * LaneBox::kUnits);
-      const V start = hn::Mul(hn::Sub(at[k], origin), units), end = hn::Mul(hn::Sub(way[k], origin), units);
-      inside = hn::And(inside, hn::And(hn::Ge(hn::Min(start, end), zero), hn::Le(hn::Max(start, end), size)));
       way[k] = hn::Mul(hn::Sub(way[k], at[k]), units);
-      at[k] = start;
+      at[k] = hn::Mul(hn::Sub(at[k], hn::Set(wide, g.origin[k])), units);
     }
-    if (hn::AllTrue(wide, inside)) return store(at, way, zero, one, one, i);
+  }
 
-    const V reach = hn::Set(wide, kSurelyWithinReach * g.units_per_metre);
-    V from = zero, to = one;
+  static double longest(const LaneBox& g) {
+    return double(std::max({g.top_size[0], g.top_size[1], g.top_size[2]})) * LaneBox::kUnits;
+  }
+
+  /// As they come. @return whether all are so near the box that single precision will do for the rest.
+  bool convert(const LaneBox& g, const Segment* segments, int i) {
+    const V near = hn::Set(wide, 2.0 * longest(g));
+    V at[3], way[3], farthest = hn::Zero(wide);
+    locate(g, segments, at, way);
+    for (int k = 0; k < 3; ++k) farthest = hn::Max(farthest, hn::Max(hn::Abs(at[k]), hn::Abs(way[k])));
+    store(at, way, i);
+    return hn::AllTrue(wide, hn::Le(farthest, near));
+  }
+
+  void clipConverted(const LaneBox& g, int i) {
+    hn::Vec<Single> at[3], way[3];
     for (int k = 0; k < 3; ++k) {
-      const V size = hn::Set(wide, double(g.top_size[k]) * LaneBox::kUnits);
+      at[k] = hn::LoadU(single, o[k] + i);
+      way[k] = hn::LoadU(single, d[k] + i);
+    }
+    const auto part = clip(single, g, at, way);
+    for (int k = 0; k < 3; ++k) {
+      hn::StoreU(at[k], single, o[k] + i);
+      hn::StoreU(way[k], single, d[k] + i);
+    }
+    hn::StoreU(part.from, single, t0 + i);
+    hn::StoreU(part.to, single, t1 + i);
+    const hn::RebindToSigned<Single> whole;
+    hn::StoreU(hn::ConvertTo(whole, part.meets), whole, within + i);
+  }
+
+  void clipFar(const LaneBox& g, const Segment* segments, int i) {
+    V at[3], way[3];
+    locate(g, segments, at, way);
+    const V reach = hn::Set(wide, kSurelyWithinReach * g.units_per_metre);
+    for (int k = 0; k < 3; ++k) {
       const auto near = hn::And(hn::Le(hn::Abs(at[k]), reach), hn::Le(hn::Abs(way[k]), reach));
       doubtful = doubtful || !hn::AllTrue(wide, near);
-      const auto still = hn::Eq(way[k], zero);
-      const V per_way = hn::Div(one, hn::IfThenElse(still, one, way[k]));
-      const V a = hn::Mul(hn::Neg(at[k]), per_way), b = hn::Mul(hn::Sub(size, at[k]), per_way);
+    }
+    const auto part = clip(wide, g, at, way);
+    store(at, way, i);
+    hn::StoreU(hn::DemoteTo(narrow, part.from), narrow, t0 + i);
+    hn::StoreU(hn::DemoteTo(narrow, part.to), narrow, t1 + i);
+    const hn::Rebind<std::int32_t, Wide> whole;
+    hn::StoreU(hn::DemoteTo(whole, part.meets), whole, within + i);
+  }
+
+  template <class Lane>
+  struct Part {
+    Lane from, to;
+    Lane meets;  ///< 1, or 0 for segments that do not meet the box
+  };
+
+  /// Leaves of segments what lies in the box.
+  template <class Tag, class Lane = hn::Vec<Tag>>
+  static Part<Lane> clip(Tag tag, const LaneBox& g, Lane* at, Lane* way) {
+    using T = hn::TFromD<Tag>;
+    const Lane zero = hn::Zero(tag), one = hn::Set(tag, T(1));
+    Lane from = zero, to = one;
+    for (int k = 0; k < 3; ++k) {
+      const Lane size = hn::Set(tag, T(g.top_size[k] * LaneBox::kUnits));
+      const auto still = hn::Lt(hn::Abs(way[k]), hn::Set(tag, T(1e-30)));
+      const Lane per_way = hn::Div(one, hn::IfThenElse(still, one, way[k]));
+      const Lane a = hn::Mul(hn::Neg(at[k]), per_way), b = hn::Mul(hn::Sub(size, at[k]), per_way);
       const auto beside = hn::And(still, hn::Or(hn::Lt(at[k], zero), hn::Gt(at[k], size)));
       from = hn::Max(from, hn::IfThenElse(still, zero, hn::Min(a, b)));
       to = hn::Min(to, hn::IfThenElse(still, one, hn::Max(a, b)));
-      to = hn::IfThenElse(beside, hn::Set(wide, -1.0), to);
+      to = hn::IfThenElse(beside, hn::Set(tag, T(-1)), to);
     }
-    const V length = hn::Sub(to, from);
+    const Lane length = hn::Sub(to, from);
     for (int k = 0; k < 3; ++k) {
       at[k] = hn::MulAdd(from, way[k], at[k]);
       way[k] = hn::Mul(length, way[k]);
     }
-    store(at, way, from, to, hn::IfThenElseZero(hn::Le(from, to), one), i);
+    return {from, to, hn::IfThenElseZero(hn::Le(from, to), one)};
   }
 
-  void store(const V* at, const V* way, V from, V to, V meets, int i) {
-    const hn::Rebind<float, Wide> narrow;
-    const hn::Rebind<std::int32_t, Wide> whole_narrow;
+  void store(const V* at, const V* way, int i) {
     for (int k = 0; k < 3; ++k) {
       hn::StoreU(hn::DemoteTo(narrow, at[k]), narrow, o[k] + i);
       hn::StoreU(hn::DemoteTo(narrow, way[k]), narrow, d[k] + i);
     }
-    hn::StoreU(hn::DemoteTo(narrow, from), narrow, t0 + i);
-    hn::StoreU(hn::DemoteTo(narrow, to), narrow, t1 + i);
-    hn::StoreU(hn::DemoteTo(whole_narrow, meets), whole_narrow, within + i);
   }
 };
 
