@@ -108,6 +108,7 @@ inline LeafCorners leafCorners(const AdaptiveLanes& g, const Lanes& lanes, const
   LeafCorners corners{
       {step(low), step(hn::ShiftRight<8>(low)), step(hn::ShiftRight<16>(low)), step(hn::ShiftRight<24>(low)),
        step(high), step(hn::ShiftRight<8>(high)), step(hn::ShiftRight<16>(high)), step(hn::ShiftRight<24>(high))},
+      {},
       {}};
   const auto topBits = [](VI word) {
     const VI bits =
@@ -120,8 +121,8 @@ inline LeafCorners leafCorners(const AdaptiveLanes& g, const Lanes& lanes, const
   // The isovalue in the corners' steps.
   const VF side = hn::ConvertTo(f, hn::Shl(whole(1), lanes.log_side));
   const VF offset_step = hn::MulAdd(side, real(g.offset_per_side), real(g.offset));
-  const VF corner_step = hn::MulAdd(side, real(g.corner_per_side), real(g.corner));
-  const VF scale = hn::Div(real(1.0F), corner_step);
+  corners.step = hn::MulAdd(side, real(g.corner_per_side), real(g.corner));
+  const VF scale = hn::Div(real(1.0F), corners.step);
   const VF shifted = hn::NegMulAdd(offset, offset_step, real(g.sigma));
   corners.iso = hn::MulAdd(shifted, scale, real(63.5F));
   return corners;

@@ -15,15 +15,17 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Each lane's leaf: its eight corners and the isovalue, in any one unit.
+/// Each lane's leaf: its eight corners and the isovalue, in steps of a length that is its own.
 struct LeafCorners {
   VF corner[8];
   VF iso;
+  VF step;  ///< [units]
 };
 
 /// What a leaf does to the lanes that pass it: a cubic of u in [0, 1] from where a lane is to where it leaves.
 struct Crossing {
   VF c[4];
+  VF at_end;  ///< its value where the lane leaves
   MF in_start, in_end;
   MF hard;    ///< several roots, or one that is not found in a few steps
   VF t_root;  ///< where the ends differ and it is not hard
@@ -115,7 +117,7 @@ inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Ex
     loose = hn::And(loose, hn::Gt(step, real(1e-4F)));
   }
   const VF t_root = hn::MulAdd(u, hn::Sub(t_exit, lanes.t), lanes.t);
-  return {{c0, c1, c2, c3}, in_start, in_end, hn::Or(several, loose), t_root};
+  return {{c0, c1, c2, c3}, at_end, in_start, in_end, hn::Or(several, loose), t_root};
 }
 
 }  // namespace

@@ -122,6 +122,7 @@ inline LeafCorners leafCorners(const EvenLanes& g, const Lanes& /*lanes*/, const
     }
   }
   corners.iso = real(g.sigma);
+  corners.step = real(g.per_sample);
   return corners;
 }
 

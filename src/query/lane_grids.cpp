@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "segment_lanes.h"
 
@@ -29,6 +30,8 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
   const double to_units = units_per_metre;
   sigma = static_cast<float>(sigma_metres * to_units);
   margin = static_cast<float>((std::abs(sigma_metres) + shape.error_bound) * to_units);
+  // There and beyond leaves may be wrong; less what single precision makes of it.
+  leaf_margin = static_cast<float>(2.0 * shape.error_bound * to_units + 0.02);
   // All grow evenly with the side.
   const double none = AdaptiveGrid::farStepFor(0.0, shape.band),
                unit = AdaptiveGrid::farStepFor(shape.unit(), shape.band);
@@ -52,6 +55,7 @@ EvenLanes::EvenLanes(const SparseGrid& grid, double sigma_metres) {
   per_sample = static_cast<float>(unit * units_per_metre);
   rounding = static_cast<float>(2.0 * grid.rounding() * units_per_metre);
   margin = static_cast<float>((std::abs(sigma_metres) + grid.errorBound()) * units_per_metre);
+  leaf_margin = std::numeric_limits<float>::max();  // the balls about the next cell's samples reach further
   exact = shape.exact;
 }
 

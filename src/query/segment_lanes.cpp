@@ -246,7 +246,8 @@ class Follower {
   HWY_INLINE void crossLeaf(Lanes& lanes, MI used, int first) {
     const Exits exits = exitsOf(lanes, lanes.log_side);
     const VF t_exit = hn::Min(exits.t, real(1.0F));
-    const Crossing crossing = crossingOf(leafCorners(g_, lanes, work_.fetched, first), lanes, exits, t_exit);
+    const LeafCorners corners = leafCorners(g_, lanes, work_.fetched, first);
+    const Crossing crossing = crossingOf(corners, lanes, exits, t_exit);
     const MI in_start = asWhole(crossing.in_start), in_end = asWhole(crossing.in_end);
     const MI hard = hn::And(used, asWhole(crossing.hard));
     const MI easy = hn::AndNot(hard, used);
@@ -256,7 +257,14 @@ class Follower {
     over = hn::Or(over, turn(in_end, rest, crossing.t_root, lanes));
     if (!hn::AllFalse(n, hard)) over = hn::Or(over, crossHardLeaves(crossing, hard, t_exit, lanes));
     const MI going = hn::AndNot(over, used);
-    const MI onward = moveOn(lanes, exits, asReal(none()), exits.t, going);
+    // Through the face, or out of the ball about the place there that is free, as the leaf's value says.
+    VF length2 = real(1e-20F);
+    for (int k = 0; k < 3; ++k) length2 = hn::MulAdd(lanes.d[k], lanes.d[k], length2);
+    const VF free = hn::MulSub(hn::Abs(crossing.at_end), corners.step, real(g_.leaf_margin));
+    const VF t_free = hn::Add(hn::Div(free, hn::Sqrt(length2)), exits.t);
+    // Less than a unit could be lost in rounding, and leave the lane where it is for ever.
+    const MF jump = hn::And(hn::Gt(free, real(1.0F)), hn::Gt(t_free, exits.t));
+    const MI onward = moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_free, exits.t), going);
     if (!hn::AllFalse(n, onward)) arrive(lanes, onward);
   }
 

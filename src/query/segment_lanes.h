@@ -20,7 +20,8 @@ struct LaneBox {
   std::array<std::int32_t, 3> top_size;  ///< top cells per axis
   const std::uint32_t* top;              ///< a word per top cell, x fastest
   float per_metre;                       ///< units
-  float margin;  ///< a ball of the true distance less this holds no place where the field is sigma [units]
+  float margin;       ///< a ball of the true distance less this holds no place where the field is sigma [units]
+  float leaf_margin;  ///< and one of a leaf's distance from sigma less this none beyond the leaf [units]
 };
 
 /// An adaptive grid: raw words.

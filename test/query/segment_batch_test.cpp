@@ -4,12 +4,15 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <memory>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #ifdef SDF_CCD_HIGHWAY
 #include <hwy/targets.h>
+
+#include "query/segment_lanes.h"
 #endif
 
 #include "oracle/random.h"
@@ -183,6 +186,26 @@ TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
 }
 
 #ifdef SDF_CCD_HIGHWAY
+TEST(SegmentBatch, FollowsEverySegmentToItsEnd) {
+  // One that does not end is asked again one by one: right, but as slow as thousands.
+  FieldOptions options;
+  options.max_error = 0.0003;
+  const DistanceField fine = buildField(test::torusMesh(0.2, 0.08, 48, 24), options), even = evenTorus();
+  constexpr int kCount = FlightWork::kSegments, kChunks = 24;
+  const std::vector<Segment> segments = randomSegments(fine, kChunks * kCount);
+  const auto work = std::make_unique<FlightWork>();
+  const auto follow = [&](const auto& lanes, bool first_only) {
+    for (int i = 0; i < kChunks; ++i) {
+      ASSERT_EQ(followFlights(lanes, first_only, segments.data() + i * kCount, kCount, *work), -1);
+      EXPECT_TRUE(work->lost.empty()) << work->lost.size() << " of chunk " << i;
+    }
+  };
+  for (const bool first_only : {true, false}) {
+    follow(AdaptiveLanes(*fine.adaptive(), 0.0), first_only);
+    follow(EvenLanes(*even.grid(), 0.0), first_only);
+  }
+}
+
 TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
   const DistanceField field = torus(), even = evenTorus(16), floats = evenTorus(32);
   const std::vector<Segment> segments = randomSegments(field, 4000);
