@@ -126,9 +126,16 @@ void AdaptiveGrid::check() const {
     const std::uint32_t node = pending.back();
     pending.pop_back();
     const NodeBases& bases = arrays_.bases[node];
-    for (const std::uint8_t code : arrays_.nodes[node].codes) {
-      if (code >= node_code::kFar) continue;
-      if (code < node_code::kNode) {
+    const std::array<std::uint8_t, 64>& codes = arrays_.nodes[node].codes;
+    for (int i = 0; i < 64; ++i) {
+      constexpr int kFirstOfOctant = 0b101010;  // of the child's two bits along each axis the upper one
+      const std::uint8_t code = codes[i], first = codes[i & kFirstOfOctant];
+      if (std::max(code, first) >= node_code::kWide && code != first) fail("a leaf fills only a part of its octant");
+      if (code >= node_code::kWide) {
+        inside(std::size_t(bases.leaf) + (code - node_code::kWide), arrays_.leaves.size);
+      } else if (code >= node_code::kFar) {
+        continue;
+      } else if (code < node_code::kNode) {
         inside(std::size_t(bases.leaf) + code, arrays_.leaves.size);
       } else if (code >= node_code::kSplit) {
         inside(std::size_t(bases.split) + (code - node_code::kSplit), arrays_.splits.size);
@@ -180,8 +187,11 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
   for (int depth = 0, shift = kTop - 2;; ++depth, shift -= 2) {
     const int child = (x >> shift & 3) | (y >> shift & 3) << 2 | (z >> shift & 3) << 4;
     const std::uint8_t code = arrays_.nodes[index].codes[child];
-    if (code >= node_code::kFar) return far(shift, node_code::steps(code) * far_steps_[depth]);
+    if (code >= node_code::kFar && code < node_code::kWide) {
+      return far(shift, node_code::steps(code) * far_steps_[depth]);
+    }
     const NodeBases& bases = arrays_.bases[index];
+    if (code >= node_code::kWide) return leaf(shift + 1, std::size_t(bases.leaf) + (code - node_code::kWide));
     if (code < node_code::kNode) return leaf(shift, std::size_t(bases.leaf) + code);
     if (code >= node_code::kSplit) return half(shift, bases.split + (code - node_code::kSplit));
     index = bases.node + (code - node_code::kNode);

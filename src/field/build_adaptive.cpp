@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -20,12 +21,24 @@ namespace {
 
 /// What stands in a cell's place.
 struct BuiltCell {
-  enum Kind { kFar, kLeaf, kSplit, kNode } kind = kFar;
+  enum Kind { kFar, kLeaf, kWide, kSplit, kNode } kind = kFar;
   double distance = 0.0;  ///< far: at the centre
-  FittedLeaf leaf;
+  FittedLeaf leaf;        ///< wide: of the octant that the cell is one eighth of
   std::array<FittedLeaf, 8> split;
   std::unique_ptr<std::array<BuiltCell, 64>> children;
 };
+
+/// Leaves in the places of a cell's octants, where they are proved; the first ones that were tried.
+struct OctantLeaves {
+  std::array<std::optional<FittedLeaf>, 8> leaf;
+  int tried = 0;
+};
+
+/// In a node, of the k-th cell in an octant.
+int childIndex(int octant, int k) {
+  const Vector3i c = 2 * cubeCorner(octant) + cubeCorner(k);
+  return c.x() + 4 * (c.y() + 4 * c.z());
+}
 
 class AdaptiveBuilder {
  public:
@@ -46,7 +59,7 @@ class AdaptiveBuilder {
   bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
   /// Whether a far cell at this depth can tell its side: the rounded distance of its centre is not zero.
   bool holdsFar(double center_distance, int depth) const;
-  BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth);
+  BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants);
   void count(std::size_t bytes);
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
   void addLeaf(const FittedLeaf& leaf);
@@ -121,12 +134,13 @@ BuiltCell AdaptiveBuilder::cell(CellFit& fit, const NearTriangles& near, int dep
   const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * side, shape_.band);
   const bool last = depth == AdaptiveShape::kMaxDepth;
   bool fits = true;
-  for (int k = 0; k < 8 && (fits || last); ++k) {
-    const auto leaf = fit.octantLeaf(k, half_scale, error_);
-    fits = fits && leaf;
-    if (leaf || last) built.split[k] = leaf ? *leaf : fit.roundedLeaf(k, half_scale);
+  OctantLeaves octants;
+  for (int& k = octants.tried; k < 8 && (fits || last); ++k) {
+    octants.leaf[k] = fit.octantLeaf(k, half_scale, error_);
+    fits = fits && octants.leaf[k];
   }
-  if (!fits && !last) return divide(fit, near, depth);
+  if (!fits && !last) return divide(fit, near, depth, octants);
+  for (int k = 0; k < 8; ++k) built.split[k] = octants.leaf[k] ? *octants.leaf[k] : fit.roundedLeaf(k, half_scale);
   const auto far = [&](const FittedLeaf& leaf) { return provedFar(half_scale, leaf.word, built.distance); };
   if (fits && std::all_of(built.split.begin(), built.split.end(), far) && holdsFar(built.distance, depth)) return built;
   if (!fits) capped_ = true;
@@ -135,21 +149,32 @@ BuiltCell AdaptiveBuilder::cell(CellFit& fit, const NearTriangles& near, int dep
   return built;
 }
 
-BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int depth) {
+BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants) {
   BuiltCell built;
   built.kind = BuiltCell::kNode;
   built.children = std::make_unique<std::array<BuiltCell, 64>>();
   count(sizeof(AdaptiveNode) + sizeof(NodeBases));
   const double beyond = shape_.band + 0.25 * near.cube().radius() * (1.0 + 1e-9);
+  const double octant_beyond = shape_.band + 0.5 * near.cube().radius() * (1.0 + 1e-9);
+  const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * near.cube().side, shape_.band);
   for (int half = 0; half < 8; ++half) {
     NearOctants quarters(fit.octants()[half]);
+    for (int k = 0; k < 8; ++k) (*built.children)[childIndex(half, k)].distance = quarters.centerDistance(k);
+    const double distance = fit.octants().centerDistance(half);
+    std::optional<FittedLeaf>& leaf = octants.leaf[half];
+    if (half >= octants.tried && std::abs(distance) <= octant_beyond) leaf = fit.octantLeaf(half, half_scale, error_);
+    const bool far = leaf && provedFar(half_scale, leaf->word, distance);
+    if (leaf && !far) count(sizeof(LeafWord) + sizeof(std::uint8_t));
     for (int k = 0; k < 8; ++k) {
-      const Vector3i c = 2 * cubeCorner(half) + cubeCorner(k);
-      BuiltCell& child = (*built.children)[c.x() + 4 * (c.y() + 4 * c.z())];
-      child.distance = quarters.centerDistance(k);
-      if (std::abs(child.distance) > beyond) continue;
+      BuiltCell& child = (*built.children)[childIndex(half, k)];
+      if (leaf && !far) {
+        child.kind = BuiltCell::kWide;
+        child.leaf = *leaf;
+        continue;
+      }
+      if (std::abs(child.distance) > beyond || (far && holdsFar(child.distance, depth + 1))) continue;
       const NearTriangles& child_near = quarters[k];
-      CellFit child_fit(child_near, fit, c);
+      CellFit child_fit(child_near, fit, 2 * cubeCorner(half) + cubeCorner(k));
       child = cell(child_fit, child_near, depth + 1);
     }
   }
@@ -182,7 +207,15 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
   bases = {static_cast<std::uint32_t>(data_.leaves.size()), static_cast<std::uint32_t>(data_.splits.size()),
            static_cast<std::uint32_t>(data_.nodes.size())};
   const double step = AdaptiveGrid::farStepFor(shape_.cell / double(1 << (2 * depth)), shape_.band);
+  std::array<std::uint8_t, 64>& codes = data_.nodes[node].codes;
   int leaves = node_code::kLeaf, splits = node_code::kSplit, nodes = node_code::kNode;
+  for (int half = 0; half < 8; ++half) {
+    const BuiltCell& first = (*cell.children)[childIndex(half, 0)];
+    if (first.kind != BuiltCell::kWide) continue;
+    addLeaf(first.leaf);
+    for (int k = 0; k < 8; ++k) codes[childIndex(half, k)] = static_cast<std::uint8_t>(node_code::kWide + leaves);
+    ++leaves;
+  }
   for (int i = 0; i < 64; ++i) {
     const BuiltCell& child = (*cell.children)[i];
     int code = 0;
@@ -194,6 +227,8 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
         addLeaf(child.leaf);
         code = leaves++;
         break;
+      case BuiltCell::kWide:
+        continue;
       case BuiltCell::kSplit:
         addSplit(child.split);
         code = splits++;
@@ -202,7 +237,7 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
         code = nodes++;
         break;
     }
-    data_.nodes[node].codes[i] = static_cast<std::uint8_t>(code);
+    codes[i] = static_cast<std::uint8_t>(code);
   }
   std::size_t next = bases.node;
   data_.nodes.resize(data_.nodes.size() + (nodes - node_code::kNode));

@@ -63,24 +63,26 @@ inline void fetchBelow(const AdaptiveLanes& g, const FlightQueue& queue, Fetched
     const NodeBases& by_kind = bases[place[i]];
     const std::uint32_t not_leaf = code < node_code::kSplit ? by_kind.node : by_kind.split;
     word[i] = code;
-    base[i] = static_cast<std::int32_t>(code < node_code::kNode ? by_kind.leaf : not_leaf);
+    const bool leaf = code < node_code::kNode || code >= node_code::kWide;
+    base[i] = static_cast<std::int32_t>(leaf ? by_kind.leaf : not_leaf);
   }
 }
 
 /// What the codes of the lanes' children say; lanes.log_side is their parent's.
 inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched, int first) {
   const VI code = hn::LoadU(n, fetched.word.data() + first), base = hn::LoadU(n, fetched.base.data() + first);
-  // Codes 0 to 63 are leaves, 64 to 127 nodes, 128 to 191 splits, and from 192 on far.
+  // Codes 0 to 63 are leaves, 64 to 127 nodes, 128 to 191 splits, and from 192 on far, but the last eight wide leaves.
   const VI kind = hn::ShiftRight<6>(code);
+  const MI wide = hn::Gt(code, whole(node_code::kWide - 1));
   Blocks b;
-  b.far = hn::Eq(kind, whole(3));
+  b.far = hn::AndNot(wide, hn::Eq(kind, whole(3)));
   b.node = hn::Eq(kind, whole(1));
-  b.log_side = hn::Sub(lanes.log_side, whole(2));
+  b.log_side = hn::Sub(lanes.log_side, hn::IfThenElse(wide, whole(1), whole(2)));
   const VI magnitude = hn::And(code, whole(31));
   const VI steps = hn::IfThenElse(hn::Eq(hn::And(code, whole(32)), whole(0)), magnitude, hn::Neg(magnitude));
   const VF parent = hn::ConvertTo(f, hn::Shl(whole(1), lanes.log_side));
   b.radius = hn::Mul(hn::ConvertTo(f, steps), hn::MulAdd(parent, real(g.far_step_per_side), real(g.far_step)));
-  b.place = hn::Add(base, hn::And(code, whole(63)));
+  b.place = hn::Add(base, hn::And(code, hn::IfThenElse(wide, whole(7), whole(63))));
   enterSplits(hn::Eq(kind, whole(2)), lanes.cell, b);
   return b;
 }

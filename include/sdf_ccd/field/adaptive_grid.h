@@ -71,7 +71,7 @@ double error(std::uint8_t code, double error_bound);
 }  // namespace leaf_error
 
 /// 4×4×4 children of one cell, x fastest; each code is the child's rank among its node's leaves, splits or nodes, or
-/// says how far from the surface its centre is. One cache line.
+/// says how far from the surface its centre is. The eight children of an octant may share one leaf. One cache line.
 struct alignas(64) AdaptiveNode {
   std::array<std::uint8_t, 64> codes;
 };
@@ -107,8 +107,10 @@ float distance(std::uint32_t word);
 
 /// What a node's code says.
 namespace node_code {
-constexpr int kLeaf = 0, kNode = 64, kSplit = 128, kFar = 192;  ///< first code of each kind
-constexpr int kFarSteps = 31;                                   ///< largest magnitude of a far child's distance
+/// First code of each kind; wide: a leaf that an octant's children share, its rank among those, which come before the
+/// node's other leaves.
+constexpr int kLeaf = 0, kNode = 64, kSplit = 128, kFar = 192, kWide = 248;
+constexpr int kFarSteps = 23;  ///< largest magnitude of a far child's distance
 /// A far child's distance at its centre, rounded towards zero, in steps of AdaptiveGrid::farStep().
 inline std::uint8_t far(double steps) {
   const int magnitude = static_cast<int>(std::min(std::floor(std::abs(steps)), double(kFarSteps)));
