@@ -276,6 +276,7 @@ AdaptiveGrid AdaptiveBuilder::build() {
     std::uint32_t& word = data_.top[index];
     switch (cell.kind) {
       case BuiltCell::kFar:
+      case BuiltCell::kWide:  // only in nodes
         break;
       case BuiltCell::kLeaf:
         word = static_cast<std::uint32_t>(data_.leaves.size() << 2) | top_word::kLeaf;
