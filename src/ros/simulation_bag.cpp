@@ -11,9 +11,13 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kTimeZero = 1.0;     // [s]
-constexpr double kMarkerEvery = 1.0;  // [s]
-constexpr double kPlaneSize = 2.0;    // [m]
+constexpr double kTimeZero = 1.0;   // [s]
+constexpr double kPlaneSize = 2.0;  // [m]
+
+// rviz forgets all markers some frames after a bag's time jumps back to its start.
+constexpr double kMarkersOftenUntil = 0.5;  // [s]
+constexpr double kMarkersOften = 0.1;       // [s]
+constexpr double kMarkersLater = 1.0;       // [s]
 
 void setColor(bool fixed, bool plane, std::size_t body, Marker& marker) {
   // Colours that stay apart, one after the other.
@@ -82,14 +86,9 @@ void SimulationBag::add(double time, const std::vector<BodyState>& states) {
   }
   bag_.write("/tf", stamp, poses);
   if (time >= next_markers_) {
-    writeMarkers(stamp);
-    next_markers_ = time + kMarkerEvery;
+    bag_.write("/simulation/bodies", stamp, markers_);
+    next_markers_ = time + (time < kMarkersOftenUntil ? kMarkersOften : kMarkersLater);
   }
-}
-
-void SimulationBag::writeMarkers(const ros::Time& stamp) {
-  for (Marker& marker : markers_.markers) marker.header.stamp = stamp;
-  bag_.write("/simulation/bodies", stamp, markers_);
 }
 
 }  // namespace sdf_ccd

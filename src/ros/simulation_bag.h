@@ -12,8 +12,10 @@ namespace sdf_ccd {
 /// Writes a simulation to a bag that rviz shows as it moves.
 ///
 /// `/tf`: every body in the frame `scene` (the scene's frame O), which `/tf_static` puts into `world`.
-/// `/simulation/bodies` (visualization_msgs/MarkerArray): the bodies' meshes, locked to their frames; repeated every
-/// second, so that a viewer that comes late gets them. Time begins at 1 s, as 0 means "no time" to ROS.
+/// `/simulation/bodies` (visualization_msgs/MarkerArray): the bodies' meshes, locked to their frames, with the stamp 0:
+/// wherever the frames are by the newest transform. Repeated every second, so that a viewer that comes late gets them,
+/// and ten times a second in the first half second, so that one that plays the bag in a loop and forgets them when time
+/// jumps back gets them again. Time begins at 1 s, as 0 means "no time" to ROS.
 class SimulationBag {
  public:
   /// @throws rosbag::BagException if the file cannot be written.
@@ -24,8 +26,6 @@ class SimulationBag {
   void add(double time, const std::vector<BodyState>& states);
 
  private:
-  void writeMarkers(const ros::Time& stamp);
-
   rosbag::Bag bag_;
   std::vector<std::string> frames_;  // per body
   visualization_msgs::MarkerArray markers_;

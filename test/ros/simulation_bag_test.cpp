@@ -37,13 +37,14 @@ TEST(SimulationBag, HoldsEveryBodysPosesAndMarkersLockedToThem) {
     if (const auto markers = message.instantiate<visualization_msgs::MarkerArray>()) {
       ASSERT_EQ(markers->markers.size(), 2u);
       EXPECT_TRUE(markers->markers[1].frame_locked);
+      EXPECT_EQ(markers->markers[1].header.stamp, ros::Time(0));
       EXPECT_EQ(markers->markers[1].header.frame_id, "ball");
       EXPECT_FALSE(markers->markers[1].points.empty());
     }
   }
   EXPECT_EQ(counts["/tf"], 30);
   EXPECT_EQ(counts["/tf_static"], 1);
-  EXPECT_EQ(counts["/simulation/bodies"], 3);
+  EXPECT_EQ(counts["/simulation/bodies"], 8);  // at 0, 0.1 … 0.5, 1.5 and 2.5 s
   bag.close();
   std::filesystem::remove(path);
 }
