@@ -29,7 +29,7 @@ def draw(file, title, axes, lines):
     lines = {name: sorted(points) for name, points in lines.items() if points}
     if not lines:
         return
-    script = HEAD % {'file': file, 'title': title, 'x': axes[0], 'y': axes[1]}
+    script = HEAD % {'file': file.replace("'", "''"), 'title': title, 'x': axes[0], 'y': axes[1]}
     for i, points in enumerate(lines.values()):
         script += '$d%d << EOD\n%s\nEOD\n' % (i, '\n'.join('%g %g %g %g' % (x, m, l, h) for x, l, m, h in points))
     script += 'plot ' + ', '.join("$d%d using 1:2:3:4 with yerrorlines linewidth 1.5 title '%s' noenhanced" % (i, name)
@@ -100,7 +100,8 @@ def main():
         draw(path(name), 'Moving pairs that stay UNCERTAIN', (label, 'share of motions'), uncertain)
     if any(case.startswith('zeta=') for case in results.cases('stability')):
         script = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'stability.gp')
-        subprocess.run(['gnuplot', '-e', "csv='%s'; svg='%s'" % (sys.argv[1], path('stability.svg')), script], check=True)
+        paths = {'csv': sys.argv[1], 'svg': path('stability.svg')}
+        subprocess.run(['gnuplot', script], env={**os.environ, **paths}, check=True)
         print(path('stability.svg'))
 
 
