@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "bound/deepest_place.h"
 #include "bound/places.h"
 #include "bound/reference.h"
 #include "bound/tally.h"
@@ -82,7 +83,10 @@ class FieldStudy {
         addDepth("depth_at_place", depth.depth, -mesh_.distance(depth.p_C), depth.error);
       }
       const LeastDistance least = leastDistance(field_, segment);
-      addDepth("depth", deepest, deepestOn(segment), std::max(deepest + least.high, -least.low - deepest));
+      const double bound = std::max(deepest + least.high, -least.low - deepest);
+      const double fine = 1e-5 * field_.errorBound();
+      const DeepestPlace exact = deepestOn(mesh_, segment, {fine, 1e3 * fine, field_.band()});
+      addDepth("depth", deepest, exact.depth, bound + exact.tolerance);
     }
   }
 
@@ -114,29 +118,6 @@ class FieldStudy {
   void addDepth(const std::string& query, double depth, double exact, double bound) {
     if (exact > field_.band() - field_.errorBound()) return;
     tally(query).add(std::abs(depth - exact), bound);
-  }
-
-  /// The deepest place of a segment [m], to a twentieth of the error bound: depths change by no more than the way
-  /// between them, so a piece whose ends rule out more than what is known is not looked into.
-  double deepestOn(const Segment& segment) const {
-    const Vector3d way = segment.end - segment.start;
-    const double length = way.norm(), enough = 0.05 * field_.errorBound();
-    const auto depthAt = [&](double t) { return -mesh_.distance(segment.start + t * way); };
-    struct Piece {
-      double from, to, at_from, at_to;
-    };
-    std::vector<Piece> pieces{{0.0, 1.0, depthAt(0.0), depthAt(1.0)}};
-    double deepest = std::max(pieces[0].at_from, pieces[0].at_to);
-    while (!pieces.empty() && deepest <= field_.band()) {
-      const Piece piece = pieces.back();
-      pieces.pop_back();
-      if (0.5 * (piece.at_from + piece.at_to + (piece.to - piece.from) * length) < deepest + enough) continue;
-      const double middle = 0.5 * (piece.from + piece.to), depth = depthAt(middle);
-      deepest = std::max(deepest, depth);
-      pieces.push_back({piece.from, middle, piece.at_from, depth});
-      pieces.push_back({middle, piece.to, depth, piece.at_to});
-    }
-    return deepest;
   }
 
   const DistanceField& field_;

@@ -1,0 +1,87 @@
+#include "deepest_place.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+/// A place of the segment, its depth [m], and its nearest triangle.
+struct Place {
+  double t;
+  Vector3d p;
+  double depth;
+  int triangle;
+};
+
+/// Two places, the most that a place between them can be deep [m], and where.
+struct Piece {
+  Place from, to;
+  double most;
+  double at;
+};
+
+class Search {
+ public:
+  Search(const precision::ExactSurface& mesh, const Segment& segment) : mesh_(mesh), segment_(segment) {}
+
+  Place ask(double t) const {
+    const Vector3d p = segment_.start + t * (segment_.end - segment_.start);
+    const SignedSurface::Nearest nearest = mesh_.surface().nearest(p);
+    return {t, p, -nearest.distance, nearest.triangle};
+  }
+
+  Piece between(const Place& a, const Place& b) const {
+    const double by_way = 0.5 * (a.depth + b.depth + (b.p - a.p).norm());
+    const double a_from = distance(a, a.p), a_to = distance(a, b.p), b_from = distance(b, a.p), b_to = distance(b, b.p);
+    double by_triangles = std::max(std::min(a_from, b_from), std::min(a_to, b_to)), share = 0.5;
+    const double ahead_from = b_from - a_from, ahead_to = a_to - b_to;
+    if (ahead_from > 0.0 && ahead_to > 0.0) {
+      share = ahead_from / (ahead_from + ahead_to);
+      by_triangles = std::max(by_triangles, a_from + share * (a_to - a_from));
+      share = std::clamp(share, 0.1, 0.9);
+    }
+    if (by_way <= by_triangles) share = 0.5;
+    return {a, b, std::min(by_way, by_triangles), a.t + share * (b.t - a.t)};
+  }
+
+ private:
+  /// Of a place's nearest triangle from p [m].
+  double distance(const Place& place, const Vector3d& p) const {
+    const TriangleMesh& mesh = mesh_.mesh();
+    const Vector3i& corners = mesh.triangles[place.triangle];
+    const auto corner = [&](int k) -> const Vector3d& { return mesh.vertices[corners[k]]; };
+    return (closestOnTriangle(corner(0), corner(1), corner(2), p) - p).norm();
+  }
+
+  const precision::ExactSurface& mesh_;
+  const Segment& segment_;
+};
+
+/// The deepest place found [m]: none is deeper than that or `floor` by more than the tolerance, unless that exceeds
+/// `most`.
+double deepest(const Search& places, double floor, double tolerance, double most) {
+  std::vector<Piece> pieces{places.between(places.ask(0.0), places.ask(1.0))};
+  double found = std::max(pieces[0].from.depth, pieces[0].to.depth);
+  while (!pieces.empty() && found <= most) {
+    const Piece piece = pieces.back();
+    pieces.pop_back();
+    if (piece.most <= std::max(found, floor) + tolerance) continue;
+    const Place middle = places.ask(piece.at);
+    found = std::max(found, middle.depth);
+    pieces.push_back(places.between(piece.from, middle));
+    pieces.push_back(places.between(middle, piece.to));
+  }
+  return found;
+}
+
+}  // namespace
+
+DeepestPlace deepestOn(const precision::ExactSurface& mesh, const Segment& segment, const DepthSearch& search) {
+  const Search places(mesh, segment);
+  const double inside = deepest(places, 0.0, search.inside, search.most);
+  if (inside >= 0.0) return {inside, search.inside};
+  return {std::max(inside, deepest(places, inside, search.outside, search.most)), search.outside};
+}
+
+}  // namespace sdf_ccd::benchmark
