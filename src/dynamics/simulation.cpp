@@ -22,6 +22,32 @@ double reactionError(const std::vector<Wrench>& impulses) {
   return std::max(share(sum.force.norm(), forces), share(sum.torque.norm(), torques));
 }
 
+// Farther away than this [m] no contact can be looked for.
+constexpr double kFarthest = 1e11;
+// So that sums over all bodies stay finite.
+constexpr double kLargest = 1e290;
+
+/// @throws SimulationError for a body whose place, energy or momentum is beyond what can be computed.
+void requireComputable(const RigidWorld& world, const std::vector<BodyState>& states, long step) {
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    const RigidBody& body = world.bodies[b];
+    const Vector3d& place = states[b].X_OB.translation();
+    if (!states[b].X_OB.matrix().allFinite()) {
+      throw SimulationError(body.name, step, "its state is no longer finite; shorten the step or lower the stiffness");
+    }
+    if (!(place.cwiseAbs().maxCoeff() <= kFarthest)) {
+      throw SimulationError(body.name, step, "it lies " + numberText(place.norm()) + " m from the scene's origin");
+    }
+    if (body.fixed) continue;
+    const double energy = kineticEnergy(body, states[b]);
+    const double momentum = body.mass * states[b].velocity.cwiseAbs().maxCoeff();
+    const double force = (body.mass * world.gravity + body.applied.force).cwiseAbs().maxCoeff();
+    if (!(energy <= kLargest) || !(kFarthest * momentum <= kLargest) || !(kFarthest * force <= kLargest)) {
+      throw SimulationError(body.name, step, "its energy or momentum is beyond what can be computed");
+    }
+  }
+}
+
 }  // namespace
 
 Simulation::Simulation(RigidWorld world, std::vector<BodyState> states, Scheme scheme, double step)
@@ -31,25 +57,20 @@ Simulation::Simulation(RigidWorld world, std::vector<BodyState> states, Scheme s
   }
   validate(*world_, states_);
   integrator_ = makeIntegrator(scheme, *world_);
+  requireComputable(*world_, states_, 0);
   measureContacts(*world_, states_, report_);
-  measure();
+  record_ = measured(states_, 0);
 }
 
 const StepRecord& Simulation::advance() {
   const auto start = std::chrono::steady_clock::now();
   std::vector<BodyState> states = states_;
-  integrator_->advance(step_, record_.step + 1, states, report_);
-  for (std::size_t b = 0; b < states.size(); ++b) {
-    const double energy = kineticEnergy(world_->bodies[b], states[b]);
-    if (!states[b].X_OB.matrix().allFinite() || !std::isfinite(energy) || !std::isfinite(report_.elastic_energy)) {
-      throw SimulationError(world_->bodies[b].name, record_.step + 1,
-                            "its state is no longer finite; shorten the step or lower the stiffness");
-    }
-  }
+  const long step = record_.step + 1;
+  integrator_->advance(step_, step, states, report_);
+  requireComputable(*world_, states, step);
   torque_work_ += workOfTorques(states_, states);
+  record_ = measured(states, step);
   states_ = std::move(states);
-  ++record_.step;
-  measure();
   record_.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record_;
 }
@@ -63,23 +84,37 @@ double Simulation::workOfTorques(const std::vector<BodyState>& before, const std
   return work;
 }
 
-void Simulation::measure() {
-  record_.time = double(record_.step) * step_;
-  record_.kinetic = 0.0;
-  record_.potential = -torque_work_;
-  for (std::size_t b = 0; b < states_.size(); ++b) {
+StepRecord Simulation::measured(const std::vector<BodyState>& states, long step) const {
+  StepRecord record;
+  record.step = step;
+  record.time = double(step) * step_;
+  record.potential = -torque_work_;
+  std::size_t fastest = 0;
+  double highest = -1.0;
+  for (std::size_t b = 0; b < states.size(); ++b) {
     const RigidBody& body = world_->bodies[b];
     if (body.fixed) continue;
-    record_.kinetic += kineticEnergy(body, states_[b]);
-    record_.potential -= (body.mass * world_->gravity + body.applied.force).dot(states_[b].X_OB.translation());
+    const double kinetic = kineticEnergy(body, states[b]);
+    record.kinetic += kinetic;
+    record.potential -= (body.mass * world_->gravity + body.applied.force).dot(states[b].X_OB.translation());
+    if (kinetic <= highest) continue;
+    highest = kinetic;
+    fastest = b;
   }
-  record_.elastic = report_.elastic_energy;
-  record_.momentum = totalMomentum(*world_, states_);
-  record_.reaction_error = reactionError(report_.impulses);
-  record_.energy_excess = report_.energy_excess;
-  record_.deepest = report_.deepest;
-  record_.contacts = report_.contacts;
-  record_.solves = report_.solves;
+  record.elastic = report_.elastic_energy;
+  record.momentum = totalMomentum(*world_, states);
+  record.reaction_error = reactionError(report_.impulses);
+  record.energy_excess = report_.energy_excess;
+  record.deepest = report_.deepest;
+  record.contacts = report_.contacts;
+  record.solves = report_.solves;
+  const bool finite = std::isfinite(record.energy() + record.reaction_error + record.energy_excess + record.deepest) &&
+                      record.momentum.force.allFinite() && record.momentum.torque.allFinite();
+  if (!finite) {
+    throw SimulationError(world_->bodies[fastest].name, step,
+                          "its contact is beyond what can be computed; shorten the step or lower the stiffness");
+  }
+  return record;
 }
 
 }  // namespace sdf_ccd

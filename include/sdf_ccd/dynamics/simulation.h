@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// A step, measured at its end.
+/// A step, measured at its end: what was between two ends, such as a deeper point, is not in it.
 struct StepRecord {
   long step = 0;
   double time = 0.0;            ///< [s]
@@ -29,10 +29,11 @@ struct StepRecord {
 class Simulation {
  public:
   /// @param step  [s].
-  /// @throws SimulationError, std::invalid_argument as validate() does; also for a step that is not finite or positive.
+  /// @throws SimulationError, std::invalid_argument as validate() does; also for a step that is not finite or positive,
+  /// and for a body whose place, energy or momentum is beyond what can be computed.
   Simulation(RigidWorld world, std::vector<BodyState> states, Scheme scheme, double step);
 
-  /// @throws SimulationError if a body's state leaves what can be computed; states() is then the last good one.
+  /// @throws SimulationError if a body's state leaves what can be computed; states() and last() then stay as they were.
   const StepRecord& advance();
 
   const RigidWorld& world() const { return *world_; }
@@ -40,7 +41,7 @@ class Simulation {
   const StepRecord& last() const { return record_; }
 
  private:
-  void measure();
+  StepRecord measured(const std::vector<BodyState>& states, long step) const;
   double workOfTorques(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const;
 
   std::unique_ptr<const RigidWorld> world_;  // the integrator holds on to it
