@@ -21,6 +21,11 @@ Thread readThread(YamlMap& shape) {
   return {shape.get<double>("radius"), shape.get<double>("pitch"), shape.get<double>("depth")};
 }
 
+/// Points round the axis.
+int readSteps(YamlMap& shape, int otherwise) {
+  return shape.count("steps", otherwise, 3, 1000);
+}
+
 using Maker = TriangleMesh (*)(YamlMap& shape, const std::string& directory);
 
 const std::map<std::string, Maker>& meshMakers() {
@@ -33,15 +38,15 @@ const std::map<std::string, Maker>& meshMakers() {
        }},
       {"bowl",
        [](YamlMap& shape, const std::string&) {
-         return bowlMesh(shape.get<double>("radius"), shape.get<double>("thickness"), shape.get("steps", 64));
+         return bowlMesh(shape.get<double>("radius"), shape.get<double>("thickness"), readSteps(shape, 64));
        }},
       {"blob",
        [](YamlMap& shape, const std::string&) {
-         return blobMesh(shape.get<double>("radius"), shape.get("bump", 0.2), shape.get("points", 800));
+         return blobMesh(shape.get<double>("radius"), shape.get("bump", 0.2), shape.count("points", 800, 4, 1'000'000));
        }},
       {"top",
        [](YamlMap& shape, const std::string&) {
-         return topMesh(shape.get<double>("radius"), shape.get<double>("height"), shape.get("steps", 48));
+         return topMesh(shape.get<double>("radius"), shape.get<double>("height"), readSteps(shape, 48));
        }},
       {"wedge",
        [](YamlMap& shape, const std::string&) {
@@ -53,11 +58,11 @@ const std::map<std::string, Maker>& meshMakers() {
        }},
       {"bolt",
        [](YamlMap& shape, const std::string&) {
-         return boltMesh(readThread(shape), shape.get<double>("length"), shape.get("steps", 64));
+         return boltMesh(readThread(shape), shape.get<double>("length"), readSteps(shape, 64));
        }},
       {"nut", [](YamlMap& shape, const std::string&) {
          const Thread thread = readThread(shape);
-         return nutMesh(thread, shape.get<double>("clearance"), shape.get<double>("height"), shape.get("steps", 64));
+         return nutMesh(thread, shape.get<double>("clearance"), shape.get<double>("height"), readSteps(shape, 64));
        }}};
   return makers;
 }
@@ -85,6 +90,7 @@ void flatten(CollisionShape& shape) {
 
 SceneShape buildSceneShape(YamlMap shape, const std::string& directory) {
   const auto type = shape.get<std::string>("type");
+  const bool linear = shape.choice("traversal", {"hierarchy", "linear"}, "hierarchy") == 1;
   SceneShape built;
   CollisionShape collision;
   ShellOptions shell;
@@ -93,26 +99,30 @@ SceneShape buildSceneShape(YamlMap shape, const std::string& directory) {
     const AlignedBox3d box = boundingBox(*primitive);
     const bool bounded = box.sizes().allFinite();
     built.unit = unitMass(*primitive);
-    shell.spacing = shape.get("spacing", bounded ? box.sizes().maxCoeff() / 20.0 : 1.0);
+    shell.spacing = shape.positive("spacing", bounded ? box.sizes().maxCoeff() / 20.0 : 1.0);
     if (bounded) {
       built.mesh_B = std::make_shared<TriangleMesh>(tessellate(*primitive, box.sizes().maxCoeff() / 200.0));
     }
     collision = makeShape(*primitive, shell);
   } else {
     const auto maker = meshMakers().find(type);
-    if (maker == meshMakers().end()) throw std::runtime_error("type `" + type + "` is not known");
-    const TriangleMesh mesh = orientOutward(maker->second(shape, directory)).mesh;
-    built.unit = unitMass(mesh);
+    if (maker == meshMakers().end()) shape.fail(shape.node("type"), "type `" + type + "` is not known");
+    const OrientedMesh oriented = orientOutward(maker->second(shape, directory));
+    const TriangleMesh& mesh = oriented.mesh;
+    if (oriented.quality.sign_trusted)
+      built.unit = unitMass(mesh);
+    else
+      built.doubt = summary(oriented.quality);
     if (built.unit) built.center = built.unit->center;
     built.mesh_B = std::make_shared<TriangleMesh>(transformed(mesh, Isometry3d(Eigen::Translation3d(-built.center))));
     const double side = boundingBox(mesh).sizes().maxCoeff();
     FieldOptions field;
     field.cells = shape.get("cells", 64);
-    shell.spacing = shape.get("spacing", side / 25.0);
+    shell.spacing = shape.positive("spacing", side / 25.0);
     shell.vertex_spacing = shape.get("vertex_spacing", 0.5 * shell.spacing);
     collision = makeShape(*built.mesh_B, field, shell);
   }
-  if (shape.get<std::string>("traversal", "hierarchy") == "linear") flatten(collision);
+  if (linear) flatten(collision);
   shape.finish();
   built.collision = std::make_shared<CollisionShape>(std::move(collision));
   return built;

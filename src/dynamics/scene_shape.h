@@ -12,7 +12,8 @@ namespace sdf_ccd {
 struct SceneShape {
   std::shared_ptr<const CollisionShape> collision;
   std::shared_ptr<const TriangleMesh> mesh_B;  ///< null for a half-space
-  std::optional<MassProperties> unit;          ///< at 1 kg/m³; none where the geometry has no volume
+  std::optional<MassProperties> unit;          ///< at 1 kg/m³; none where the geometry has no certain volume
+  std::string doubt;                           ///< what is wrong with a mesh that is not closed; else empty
   Vector3d center = Vector3d::Zero();          ///< of mass, in the frame that the geometry was given in [m]
 };
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <random>
+#include <set>
 
 #include "scene_shape.h"
 
@@ -17,19 +18,17 @@ ContactOptions readContact(YamlMap contact) {
   options.stiffness = contact.get("stiffness", options.stiffness);
   options.damping = contact.get("damping", options.damping);
   options.midpoint_intervals = contact.get("midpoint_intervals", options.midpoint_intervals);
-  const auto choose = [&](const std::string& key, const std::string& first, const std::string& second) {
-    const auto chosen = contact.get(key, first);
-    if (chosen != first && chosen != second) {
-      contact.fail(contact.node(key), "`" + key + "`: " + first + " or " + second + " is wanted, got " + chosen);
-    }
-    return chosen == first;
+  const auto is_first = [&](const std::string& key, const std::string& first, const std::string& second) {
+    return contact.choice(key, {first, second}, first) == 0;
   };
-  options.stiffness_per = choose("stiffness_per", "area", "point") ? StiffnessPer::kArea : StiffnessPer::kPoint;
-  options.normal = choose("normal", "field", "shell") ? NormalSource::kField : NormalSource::kShell;
-  options.quadrature = choose("quadrature", "exact", "midpoint") ? Quadrature::kExact : Quadrature::kMidpoint;
+  options.stiffness_per = is_first("stiffness_per", "area", "point") ? StiffnessPer::kArea : StiffnessPer::kPoint;
+  options.normal = is_first("normal", "field", "shell") ? NormalSource::kField : NormalSource::kShell;
+  options.quadrature = is_first("quadrature", "exact", "midpoint") ? Quadrature::kExact : Quadrature::kMidpoint;
   contact.finish();
   return options;
 }
+
+constexpr double kMostCopies = 100'000;
 
 /// A copy of a body, as `repeat` asks for it.
 struct Copy {
@@ -46,8 +45,8 @@ std::vector<Copy> readCopies(YamlMap& body) {
   const bool tumble = repeat.get("tumble", false);
   std::mt19937_64 random(repeat.get("seed", 1));
   repeat.finish();
-  if (!(count.minCoeff() >= 1.0) || !(count.maxCoeff() <= 1000.0)) {
-    repeat.fail(body.node("repeat"), "`count`: 1 to 1000 per axis");
+  if (!(count.minCoeff() >= 1.0) || !(count.prod() <= kMostCopies) || count != count.array().round().matrix()) {
+    repeat.fail(repeat.node("count"), "`count`: whole numbers from 1, together at most " + numberText(kMostCopies));
   }
   const auto uniform = [&] { return 2.0 * (double(random() >> 11) * 0x1.0p-53) - 1.0; };
   std::vector<Copy> copies;
@@ -65,28 +64,46 @@ std::vector<Copy> readCopies(YamlMap& body) {
   return copies;
 }
 
+/// Names go into frames of tf and into rows of CSV files.
+void requireName(const YamlMap& entry, const YAML::Node& at, const std::string& name) {
+  if (name.empty() || name.front() == '/' || name.find_first_of(",\"\r\n") != std::string::npos) {
+    entry.fail(at, "`name` may not be empty, begin with a slash, or hold a comma, a quote or a line break");
+  }
+  if (name == "world" || name == "scene") entry.fail(at, "`name`: " + name + " is the name of a frame already");
+}
+
 /// Mass, and moments of inertia either given or of the shape at that mass.
 void readMass(YamlMap& entry, const SceneShape& shape, RigidBody& body) {
+  if (entry.has("mass") && entry.has("density")) entry.fail(entry.node("mass"), "`mass` or `density`, not both");
   const double density = entry.get("density", 1000.0);
   if (shape.unit) {
     body.mass = entry.get("mass", density * shape.unit->mass);
     body.inertia = body.mass / shape.unit->mass * shape.unit->inertia;
   } else if (!body.fixed) {
     if (!entry.has("mass") || !entry.has("inertia")) {
-      throw SimulationError(body.name, 0, "its shape encloses no volume; give mass and inertia");
+      throw SimulationError(body.name, 0,
+                            shape.doubt.empty() ? "its shape encloses no volume; give mass and inertia"
+                                                : "its shape is not closed (" + shape.doubt +
+                                                      "); give mass, and inertia about the shape's origin");
     }
     body.mass = entry.get<double>("mass");
   }
   if (entry.has("inertia")) body.inertia = entry.vector("inertia").asDiagonal();
 }
 
-void readBody(YamlMap entry, const std::map<std::string, SceneShape>& shapes, SimulationSetup& setup) {
+using Shapes = std::map<std::string, SceneShape>;
+
+void readBody(YamlMap entry, const Shapes& shapes, std::set<std::string>& names, SimulationSetup& setup) {
   RigidBody body;
   body.name = entry.get<std::string>("name");
+  requireName(entry, entry.node("name"), body.name);
   const auto shape_name = entry.get<std::string>("shape");
   const auto found = shapes.find(shape_name);
   if (found == shapes.end()) entry.fail(entry.node("shape"), "there is no shape `" + shape_name + "`");
   const SceneShape& shape = found->second;
+  if (!shape.doubt.empty()) {
+    setup.warnings.push_back("body `" + body.name + "`: what is inside it is doubtful: " + shape.doubt);
+  }
   body.shape = shape.collision;
   body.fixed = entry.get("fixed", false);
   readMass(entry, shape, body);
@@ -101,6 +118,7 @@ void readBody(YamlMap entry, const std::map<std::string, SceneShape>& shapes, Si
   const std::string name = body.name;
   for (const Copy& copy : readCopies(entry)) {
     body.name = name + copy.suffix;
+    if (!names.insert(body.name).second) entry.fail(entry.node("name"), "there are two bodies `" + body.name + "`");
     state.X_OB.linear() = (turn * copy.turn).toRotationMatrix();
     state.X_OB.translation() = xyz + copy.offset + state.X_OB.linear() * shape.center;
     state.spin_B = state.X_OB.linear().transpose() * spin;
@@ -109,6 +127,20 @@ void readBody(YamlMap entry, const std::map<std::string, SceneShape>& shapes, Si
     setup.meshes.push_back(shape.mesh_B);
   }
   entry.finish();
+}
+
+Shapes readShapes(const YAML::Node& node, const std::string& directory) {
+  const YamlMap map(node, "shapes");  // refuses what is no map
+  Shapes shapes;
+  for (const auto& entry : node) {
+    const std::string name = entry.first.Scalar(), what = "shape `" + name + "`";
+    try {
+      shapes[name] = buildSceneShape(YamlMap(entry.second, what), directory);
+    } catch (const std::logic_error& error) {
+      map.fail(entry.first, what + ": " + error.what());
+    }
+  }
+  return shapes;
 }
 
 void moveOriginNearBodies(SimulationSetup& setup) {
@@ -141,22 +173,18 @@ SimulationSetup parseSimulation(const std::string& text, const std::string& dire
   setup.world.origin_W = scene.vector("origin", Vector3d::Zero());
   setup.world.chord_tolerance = scene.get("chord_tolerance", setup.world.chord_tolerance);
   if (scene.has("contact")) setup.world.contact = readContact(YamlMap(scene.node("contact"), "contact"));
-  std::map<std::string, SceneShape> shapes;
-  for (const auto& entry : scene.node("shapes")) {
-    const auto name = entry.first.as<std::string>();
-    try {
-      shapes[name] = buildSceneShape(YamlMap(entry.second, "shape `" + name + "`"), directory);
-    } catch (const std::logic_error& error) {
-      throw std::runtime_error("shape `" + name + "`: " + error.what());
-    }
-  }
-  for (const YAML::Node& entry : scene.node("bodies")) readBody(YamlMap(entry, "body"), shapes, setup);
+  const Shapes shapes = readShapes(scene.node("shapes"), directory);
+  const YAML::Node bodies = scene.node("bodies");
   scene.finish();
+  if (!bodies.IsSequence() || bodies.size() == 0) scene.fail(bodies, "`bodies`: a list of at least one body is wanted");
+  std::set<std::string> names;
+  for (const YAML::Node& entry : bodies) readBody(YamlMap(entry, "body"), shapes, names, setup);
   moveOriginNearBodies(setup);
   return setup;
 }
 
 SimulationSetup loadSimulation(const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw std::runtime_error(path + ": is a directory");
   std::ifstream stream(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw std::runtime_error(path + ": cannot be read");

@@ -1,20 +1,30 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <yaml-cpp/yaml.h>
 
 #include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
 
-/// A YAML map that is read key by key; what nobody read is an error, so that a mistyped key is not lost.
+/// A YAML map that is read key by key; a key that nobody read, or that stands there twice, is an error, so that
+/// nothing is lost by mistake.
 class YamlMap {
  public:
   YamlMap(const YAML::Node& node, std::string what) : node_(node), what_(std::move(what)) {
     if (!node_.IsMap()) fail(node_, "a map is wanted");
+    std::set<std::string> keys;
+    for (const auto& entry : node_) {
+      if (!entry.first.IsScalar()) fail(entry.first, "a key must be a word");
+      if (!keys.insert(entry.first.Scalar()).second) fail(entry.first, "`" + entry.first.Scalar() + "` is there twice");
+    }
   }
 
   bool has(const std::string& key) const { return bool(node_[key]); }
@@ -36,6 +46,31 @@ class YamlMap {
     return has(key) ? get<T>(key) : otherwise;
   }
 
+  /// One of these words, by its number.
+  std::size_t choice(const std::string& key, const std::vector<std::string>& words, const std::string& otherwise) {
+    const auto chosen = get(key, otherwise);
+    const auto found = std::find(words.begin(), words.end(), chosen);
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+    std::string wanted;
+    for (const std::string& word : words) wanted += (wanted.empty() ? "" : " or ") + word;
+    fail(node(key), "`" + key + "`: " + wanted + " is wanted, got " + chosen);
+  }
+
+  /// A whole number from `least` to `most`.
+  int count(const std::string& key, int otherwise, int least, int most) {
+    const int value = get(key, otherwise);
+    if (value >= least && value <= most) return value;
+    fail(node(key), "`" + key + "` must be " + std::to_string(least) + " to " + std::to_string(most) + ", got " +
+                        std::to_string(value));
+  }
+
+  /// A length, finite and above 0.
+  double positive(const std::string& key, double otherwise) {
+    const double value = get(key, otherwise);
+    if (value > 0.0 && std::isfinite(value)) return value;
+    fail(has(key) ? node(key) : node_, "`" + key + "` must be finite and positive, got " + numberText(value));
+  }
+
   /// Three numbers.
   Vector3d vector(const std::string& key) {
     const YAML::Node list = node(key);
@@ -50,7 +85,7 @@ class YamlMap {
   /// Throws if a key was not read.
   void finish() const {
     for (const auto& entry : node_) {
-      const auto key = entry.first.as<std::string>();
+      const auto key = entry.first.Scalar();
       if (read_.count(key) == 0) fail(entry.first, "`" + key + "` is not known here");
     }
   }

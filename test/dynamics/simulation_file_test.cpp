@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 namespace sdf_ccd {
 namespace {
@@ -87,6 +88,67 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   holds(reasonOf("shape: box", "shape: box, mass: -2"), "body `box`, step 0: mass must be finite and positive, got -2");
   holds(reasonOf("shape: box", "shape: box, mass: .nan"), "body `box`, step 0: mass");
   holds(reasonOf("stiffness: 1.0e+8", "stiffness: -1"), "stiffness must be finite and not negative");
+  holds(reasonOf("damping: 1.0e+4", "stiffness: 1"), "line 4, contact: `stiffness` is there twice");
+  holds(reasonOf("0.02}", "0.02, traversal: foo}"), "line 6, shape `box`: `traversal`: hierarchy or linear is wanted");
+  holds(reasonOf("spacing: 0.02", "spacing: 0"), "line 6, shape `box`: `spacing` must be finite and positive, got 0");
+  holds(reasonOf("type: plane", "type: blob, radius: 1, points: -1"), "`points` must be 4 to 1000000, got -1");
+  holds(reasonOf("type: plane", "type: bowl, radius: 1, thickness: 0.1, steps: 1000000000"),
+        "`steps` must be 3 to 1000");
+  holds(reasonOf("type: box, size", "type: foo, size"), "line 6, shape `box`: type `foo` is not known");
+  holds(reasonOf("shape: box", "shape: box, mass: 1, density: 2"), "line 10, body: `mass` or `density`, not both");
+  holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [1.5, 1, 1], spacing: [1, 1, 1]}"), "whole numbers");
+  holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [1000, 1000, 1000], spacing: [1, 1, 1]}"),
+        "at most 100000");
+  holds(reasonOf("velocity: [0.5, 0, -1]", "velocity: [0, 0, -1.0e+160]"),
+        "body `box`, step 0: its energy or momentum");
+  holds(reasonOf("0.0625], rpy", "1.0e+12], rpy"), "body `ground`, step 0: it lies 1e+12 m from the scene's origin");
+  for (const char* name : {"\"\"", "\"a,b\"", "\"a\\nb\"", "/a", "world"}) {
+    holds(reasonOf("name: box", std::string("name: ") + name), "line 10, body: `name`");
+  }
+  holds(reasonOf("name: box", "name: ground"), "line 10, body: there are two bodies `ground`");
+}
+
+TEST(SimulationFile, ShapesAreAMapAndBodiesAList) {
+  const auto reasonOf = [](const std::string& rest) {
+    try {
+      parseSimulation("step: 0.001\nduration: 1\n" + rest, ".");
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(reasonOf("shapes: [1, 2]\nbodies: []"), "line 3, shapes: a map is wanted");
+  for (const char* bodies : {"[]", "", "3", "{name: ball}"}) {
+    EXPECT_EQ(reasonOf(std::string("shapes: {}\nbodies: ") + bodies),
+              "line 4, scene: `bodies`: a list of at least one body is wanted")
+        << bodies;
+  }
+}
+
+/// A cube of 1 m without its lid.
+TEST(SimulationFile, AnOpenMeshHasNoMassOfItsOwnAndIsWarnedOf) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "sdf_ccd_open_cube.off";
+  std::ofstream(file) << "OFF\n8 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                         "4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  const auto scene = [&](const std::string& more) {
+    return parseSimulation("step: 0.001\nduration: 1\nshapes: {cup: {type: mesh, cells: 16, file: " + file.string() +
+                               "}}\nbodies: [{name: cup, shape: cup, " + more + "}]",
+                           ".");
+  };
+  try {
+    scene("density: 1000");
+    ADD_FAILURE() << "accepted";
+  } catch (const SimulationError& error) {
+    EXPECT_NE(std::string(error.what()).find("body `cup`, step 0: its shape is not closed"), std::string::npos)
+        << error.what();
+  }
+  for (const char* more : {"fixed: true", "mass: 1, inertia: [1, 1, 1]"}) {
+    const SimulationSetup setup = scene(more);
+    ASSERT_EQ(setup.warnings.size(), 1u) << more;
+    EXPECT_NE(setup.warnings[0].find("body `cup`"), std::string::npos);
+  }
+  EXPECT_EQ(scene("mass: 1, inertia: [1, 1, 1]").world.bodies[0].mass, 1.0);
+  std::filesystem::remove(file);
 }
 
 /// The scenes that are shipped: they load, action equals reaction, and energy never rises.

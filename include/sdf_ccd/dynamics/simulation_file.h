@@ -11,6 +11,7 @@ struct SimulationSetup {
   RigidWorld world;
   std::vector<BodyState> states;
   std::vector<std::shared_ptr<const TriangleMesh>> meshes;  ///< per body, frame B, to look at; null for a half-space
+  std::vector<std::string> warnings;  ///< bodies whose meshes are not closed, so that what is inside them is doubtful
   Scheme scheme = Scheme::kImplicit;
   double step = 1e-3;     ///< [s]
   double duration = 1.0;  ///< [s]
@@ -23,7 +24,8 @@ struct SimulationSetup {
 /// the scene's frame O is put, by whole metres, near that body.
 /// @param text       the file's content.
 /// @param directory  mesh files are looked up from here.
-/// @throws std::runtime_error naming line and key, or the body or shape, and the reason.
+/// @throws std::runtime_error naming line and key, or the body or shape, and the reason; also for a moving body of a
+/// mesh that is not closed, unless mass and inertia are given.
 SimulationSetup parseSimulation(const std::string& text, const std::string& directory);
 
 /// The same from a file; errors begin with its name.
