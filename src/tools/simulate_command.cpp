@@ -2,9 +2,11 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "commands.h"
+#include "interrupt.h"
 #include "print.h"
 #include "progress_bar.h"
 #include "simulation_output.h"
@@ -16,15 +18,14 @@ struct Arguments {
   std::string scene;
   std::string out;
   std::string integrator;
-  double step = 0.0;
-  double duration = 0.0;
-  double frames = 30.0;  // per second
+  std::optional<double> step, duration;  // [s]
+  double frames = 30.0;                  // per second
 };
 
 /// What is said of a run when it is over.
 struct Summary {
   double highest_rise = 0.0;  // of the energy from one step to the next [J]
-  double deepest = 0.0;
+  double deepest = 0.0;       // at a step's end [m]
   double reaction_error = 0.0;
   double energy_excess = 0.0;
   double run_time = 0.0;
@@ -53,7 +54,7 @@ std::string report(const Arguments& arguments, const SimulationSetup& setup, con
        << "energy           " << shortly(start.energy()) << " J at the start, " << shortly(end.energy())
        << " J at the end; kinetic " << shortly(end.kinetic) << " J\n"
        << "highest rise     " << shortly(summary.highest_rise) << " J in one step\n"
-       << "deepest point    " << shortly(summary.deepest) << " m\n"
+       << "deepest point    " << shortly(summary.deepest) << " m at the end of a step\n"
        << "reaction error   " << shortly(summary.reaction_error) << " of the contact impulses\n"
        << "run time         " << shortly(summary.run_time) << " s, "
        << shortly(1e3 * summary.run_time / std::max(1L, end.step)) << " ms a step\n";
@@ -67,13 +68,15 @@ void run(const Arguments& arguments) {
   }
   SimulationSetup setup = loadSimulation(arguments.scene);
   if (!arguments.integrator.empty()) setup.scheme = schemeOf(arguments.integrator);
-  if (arguments.step != 0.0) setup.step = arguments.step;
-  if (arguments.duration != 0.0) setup.duration = arguments.duration;
+  setup.step = arguments.step.value_or(setup.step);
+  setup.duration = arguments.duration.value_or(setup.duration);
+  for (const std::string& warning : setup.warnings) std::cerr << "sdf_ccd: " << warning << std::endl;
   Simulation simulation(setup.world, setup.states, setup.scheme, setup.step);
   const double wanted = std::ceil(setup.duration / setup.step - 1e-9);
   if (!(wanted >= 1.0) || !(wanted <= 1e9)) {
     throw std::runtime_error("duration / step must be 1 to 1e9 steps, got " + shortly(wanted));
   }
+  const Interrupt interrupt;
   SimulationOutput out(arguments.out, setup, arguments.frames);
   const StepRecord start = simulation.last();
   out.add(simulation);
@@ -90,6 +93,10 @@ void run(const Arguments& arguments) {
     }
     out.add(simulation);
     bar(double(i + 1) / wanted);
+    if (interrupt.asked()) {
+      failure = "interrupted after step " + std::to_string(i + 1);
+      break;
+    }
   }
   std::string said = report(arguments, setup, start, simulation.last(), summary);
   if (!failure.empty()) said += "stopped          " + failure + "\n";
@@ -107,16 +114,18 @@ void addSimulateCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "Rigid bodies under the contact model");
   command->footer(
       "Writes steps.csv (per step: energies [J], momentum [N s] and angular momentum [N m s] about the scene's origin, "
-      "error of action against reaction, deepest point [m], points in contact, linear solves, run time [s]), "
-      "poses.csv, "
-      "summary.txt, and, built with ROS, simulation.bag for rviz. A run that cannot go on says which body stopped it, "
-      "at "
-      "which step and why, keeps what it has, and exits with 1.");
+      "error of action against reaction, deepest point and points in contact at the step's end [m], linear solves, run "
+      "time [s]), poses.csv, summary.txt, and, built with ROS, simulation.bag for rviz. A point may have been deeper "
+      "between two ends. A run that cannot go on says which body stopped it, at which step and why, keeps what it has, "
+      "and exits with 1; so does one that is interrupted (Ctrl-C).");
   command->add_option("scene", arguments->scene, "YAML file, as those in config/scenes")->required();
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--integrator", arguments->integrator, "continuous, discrete or implicit; default the scene's");
-  command->add_option("--step", arguments->step, "Time step [s]; default the scene's");
-  command->add_option("--duration", arguments->duration, "Time to simulate [s]; default the scene's");
+  command->add_option_function<double>(
+      "--step", [arguments](double step) { arguments->step = step; }, "Time step [s]; default the scene's");
+  command->add_option_function<double>(
+      "--duration", [arguments](double duration) { arguments->duration = duration; },
+      "Time to simulate [s]; default the scene's");
   command->add_option("--frames", arguments->frames, "Poses written per second; default 30");
   command->callback([arguments] { run(*arguments); });
 }

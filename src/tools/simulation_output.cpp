@@ -71,6 +71,8 @@ void SimulationOutput::writeStep(const StepRecord& r) {
 }
 
 void SimulationOutput::writePoses(const Simulation& simulation) {
+  char time[32];
+  std::snprintf(time, sizeof time, "%.9g", simulation.last().time);  // as in steps.csv
   for (std::size_t b = 0; b < simulation.states().size(); ++b) {
     const Isometry3d& X = simulation.states()[b].X_OB;
     const Vector3d p_W = simulation.world().origin_W + X.translation();
@@ -78,7 +80,7 @@ void SimulationOutput::writePoses(const Simulation& simulation) {
     char row[256];
     std::snprintf(row, sizeof row, ",%.15g,%.15g,%.15g,%.9g,%.9g,%.9g,%.9g\n", p_W.x(), p_W.y(), p_W.z(), q.x(), q.y(),
                   q.z(), q.w());
-    poses_.stream() << simulation.last().time << "," << simulation.world().bodies[b].name << row;
+    poses_.stream() << time << "," << simulation.world().bodies[b].name << row;
   }
 }
 

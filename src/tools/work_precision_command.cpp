@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "commands.h"
@@ -26,7 +27,7 @@ struct Arguments {
   std::string study;
   std::string out;
   std::string mesh;
-  int queries = 0;
+  std::optional<int> queries;
   bool quick = false;
 };
 
@@ -64,7 +65,7 @@ void run(const Arguments& arguments) {
   const std::vector<Study> wanted = chosen(arguments.study);
   precision::StudyInput input;
   input.mesh = meshOf(arguments.mesh);
-  input.queries = arguments.queries != 0 ? arguments.queries : arguments.quick ? kQuickQueries : kQueries;
+  input.queries = arguments.queries.value_or(arguments.quick ? kQuickQueries : kQueries);
   if (input.queries < 10 || input.queries > 10'000'000) throw std::invalid_argument("--queries must be 10 to 1e7");
   input.quick = arguments.quick;
   const bool can_plot = precision::haveGnuplot();
@@ -102,14 +103,16 @@ void addWorkPrecisionCommand(CLI::App& app) {
   command->footer(
       described +
       "Each asks the same random queries of every setting, in turn, on one thread, prints a table and writes "
-      "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Even fields hold 32-bit floats; adaptive ones (of a "
-      "maximum error) 7 bits per corner of a leaf, whose rounding is part of that error.");
+      "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Even fields have 16 bits a sample, of the study "
+      "cell also 32; adaptive ones (of a maximum error) 7 bits per corner of a leaf, whose rounding is part of that "
+      "error.");
   command->add_option("study", arguments->study, "One of the studies below; all of them without any");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--mesh", arguments->mesh,
                       "Closed mesh that fields and shells are made of; default a lumpy ball of 0.2 m (not for step)");
-  command->add_option("--queries", arguments->queries,
-                      "Segments or places per setting; default 2000. Of motions of bodies fewer");
+  command->add_option_function<int>(
+      "--queries", [arguments](int queries) { arguments->queries = queries; },
+      "Segments or places per setting; default 2000. Of motions of bodies fewer");
   command->add_flag("--quick", arguments->quick, "A fifth of the queries, without the finest settings");
   command->callback([arguments] { run(*arguments); });
 }

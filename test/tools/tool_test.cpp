@@ -321,7 +321,31 @@ TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {
   EXPECT_EQ((steps + poses).find("nan"), std::string::npos);
   expectRefused("simulate no.yaml --out no", "no.yaml: cannot be read");
   expectRefused("simulate scene.yaml --out no --integrator leapfrog", "leapfrog");
-  expectRefused("simulate scene.yaml --out no --step -1", "time step");
+  for (const char* step : {"-1", "0"}) {
+    expectRefused(std::string("simulate scene.yaml --out no --step ") + step, "time step must be");
+  }
+  expectRefused("simulate scene.yaml --out no --duration 0", "duration / step must be 1 to 1e9 steps");
+  expectRefused("simulate . --out no", "is a directory");
+}
+
+TEST_F(Tool, InterruptedSimulationKeepsWhatItHas) {
+  write("scene.yaml",
+        "step: 0.001\nduration: 1.0e+5\nshapes: {ball: {type: sphere, radius: 0.1}}\n"
+        "bodies: [{name: ball, shape: ball}]\n");
+  const std::string script = "cd '" + path("").string() +
+                             "' && { '" SDF_CCD_TOOL
+                             "' simulate scene.yaml --out made > ../out.txt 2> /dev/null & "
+                             "for i in $(seq 300); do ls made/steps.csv.* > /dev/null 2>&1 && break; sleep 0.1; done; "
+                             "sleep 0.2; kill -INT $!; wait $!; }";
+  const int status = std::system(script.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), kPartlyDone);
+  EXPECT_NE(readText(path("made/summary.txt")).find("interrupted after step"), std::string::npos);
+  const std::string steps = readText(path("made/steps.csv"));
+  EXPECT_EQ(steps.back(), '\n');
+  for (const fs::directory_entry& file : fs::directory_iterator(path("made"))) {
+    const std::string extension = file.path().extension().string();
+    EXPECT_TRUE(extension == ".csv" || extension == ".txt" || extension == ".bag") << file.path();
+  }
 }
 
 TEST_F(Tool, SimulationThatCannotGoOnKeepsWhatItHas) {
@@ -371,6 +395,7 @@ TEST_F(Tool, WorkPrecisionWithoutGnuplotKeepsTheNumbers) {
 TEST_F(Tool, WorkPrecisionRefusesWhatItCannotMeasure) {
   expectRefused("work-precision speed --out study", "study `speed` is none of cell, max-error");
   expectRefused("work-precision cell --queries 3 --out study", "--queries");
+  expectRefused("work-precision cell --queries 0 --out study", "--queries");
   expectRefused("work-precision cell --mesh missing.stl --out study", "missing.stl");
   write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n");
   expectRefused("work-precision cell --mesh open.off --out study", "inside and outside must be certain");
