@@ -28,7 +28,7 @@ ContactOptions readContact(YamlMap contact) {
   return options;
 }
 
-constexpr double kMostCopies = 100'000;
+constexpr std::size_t kMostBodies = 5000;  // all their pairs are kept, and looked at in every step
 
 /// A copy of a body, as `repeat` asks for it.
 struct Copy {
@@ -45,8 +45,8 @@ std::vector<Copy> readCopies(YamlMap& body) {
   const bool tumble = repeat.get("tumble", false);
   std::mt19937_64 random(repeat.get("seed", 1));
   repeat.finish();
-  if (!(count.minCoeff() >= 1.0) || !(count.prod() <= kMostCopies) || count != count.array().round().matrix()) {
-    repeat.fail(repeat.node("count"), "`count`: whole numbers from 1, together at most " + numberText(kMostCopies));
+  if (!(count.minCoeff() >= 1.0) || !(count.prod() <= double(kMostBodies)) || count != count.array().round().matrix()) {
+    repeat.fail(repeat.node("count"), "`count`: whole numbers from 1, together at most " + std::to_string(kMostBodies));
   }
   const auto uniform = [&] { return 2.0 * (double(random() >> 11) * 0x1.0p-53) - 1.0; };
   std::vector<Copy> copies;
@@ -117,6 +117,9 @@ void readBody(YamlMap entry, const Shapes& shapes, std::set<std::string>& names,
                            Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
   const std::string name = body.name;
   for (const Copy& copy : readCopies(entry)) {
+    if (setup.world.bodies.size() == kMostBodies) {
+      entry.fail(entry.node("name"), "there are more than " + std::to_string(kMostBodies) + " bodies");
+    }
     body.name = name + copy.suffix;
     if (!names.insert(body.name).second) entry.fail(entry.node("name"), "there are two bodies `" + body.name + "`");
     state.X_OB.linear() = (turn * copy.turn).toRotationMatrix();

@@ -97,8 +97,9 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   holds(reasonOf("type: box, size", "type: foo, size"), "line 6, shape `box`: type `foo` is not known");
   holds(reasonOf("shape: box", "shape: box, mass: 1, density: 2"), "line 10, body: `mass` or `density`, not both");
   holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [1.5, 1, 1], spacing: [1, 1, 1]}"), "whole numbers");
-  holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [1000, 1000, 1000], spacing: [1, 1, 1]}"),
-        "at most 100000");
+  holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [1000, 1000, 1000], spacing: [1, 1, 1]}"), "at most 5000");
+  holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [5000, 1, 1], spacing: [1, 1, 1]}"),
+        "more than 5000 bodies");
   holds(reasonOf("velocity: [0.5, 0, -1]", "velocity: [0, 0, -1.0e+160]"),
         "body `box`, step 0: its energy or momentum");
   holds(reasonOf("0.0625], rpy", "1.0e+12], rpy"), "body `ground`, step 0: it lies 1e+12 m from the scene's origin");
