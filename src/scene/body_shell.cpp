@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sdf_ccd/shell/contact_gap.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -18,16 +20,32 @@ double knownDepth(const std::vector<ShellPart>& parts, std::size_t own, const Ve
   return depth;
 }
 
+/// Sets the radii of the whole. A part whose points cover it as finely as edges are sampled is all edges, and flat:
+/// what meets it is within its covering radius of a point, and off by the other body's flatness alone, whereas
+/// contactGap() adds twice the flatness of both.
+void setRadii(const std::vector<ShellPart>& parts, PointShell& all) {
+  double covering = 0.0;
+  all.edge_radius = 0.0;
+  for (const ShellPart& part : parts) {
+    const PointShell& shell = part.shell;
+    all.covering_radius = std::max(all.covering_radius, shell.covering_radius);
+    if (shell.covering_radius <= contactGap(shell, shell)) {
+      covering = std::max(covering, shell.covering_radius);
+    } else {
+      all.edge_radius = std::max(all.edge_radius, shell.edge_radius);
+      all.flatness = std::max(all.flatness, shell.flatness);
+    }
+  }
+  all.edge_radius = std::max(all.edge_radius, covering - 2.0 * all.flatness);
+}
+
 }  // namespace
 
 PointShell unionShell(const std::vector<ShellPart>& parts) {
   PointShell all;
-  all.edge_radius = 0.0;
+  setRadii(parts, all);
   for (std::size_t own = 0; own < parts.size(); ++own) {
     const PointShell& shell = parts[own].shell;
-    all.covering_radius = std::max(all.covering_radius, shell.covering_radius);
-    all.edge_radius = std::max(all.edge_radius, shell.edge_radius);
-    all.flatness = std::max(all.flatness, shell.flatness);
     for (std::size_t i = 0; i < shell.size(); ++i) {
       const Vector3d p_B = parts[own].X_BG * shell.points[i];
       const double depth = knownDepth(parts, own, p_B);

@@ -88,9 +88,9 @@ class BodyBuilder {
         primitives.emplace_back(primitive);
         shells.push_back({geometry.X_BG, makeShell(primitive, edges_only), &primitives.back()});
       } else {
-        note(pool_.makeShell(*meshes_[i]).outcome);
+        note(pool_.makeShell(*meshes_[i], hasSiblings()).outcome);
         const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
-        shells.push_back({geometry.X_BG, *meshes_[i]->shell, known ? &*meshes_[i]->field : nullptr});
+        shells.push_back({geometry.X_BG, *meshes_[i]->shells[hasSiblings()], known ? &*meshes_[i]->field : nullptr});
       }
     }
     return unionShell(shells);
@@ -99,6 +99,7 @@ class BodyBuilder {
  private:
   PointShell makeShell(const Primitive& primitive, bool edges_only) {
     ShellOptions options = options_.shell;
+    options.has_siblings = hasSiblings();
     std::string warning;
     const auto make = [&](double gap) {
       options.edge_gap = gap;
@@ -110,6 +111,8 @@ class BodyBuilder {
     if (!warning.empty()) report_.warnings.push_back(warning);
     return shell;
   }
+
+  bool hasSiblings() const { return meshes_.size() > 1; }
 
   static const Primitive& primitiveOf(const GeometryDescription& geometry) {
     return std::get<Primitive>(geometry.shape);

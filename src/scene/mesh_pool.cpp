@@ -76,9 +76,10 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   return {true, made.outcome};
 }
 
-MeshPool::Made MeshPool::makeShell(PooledMesh& mesh) {
-  if (mesh.shell) return {};
+MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
+  if (mesh.shells[has_siblings]) return {};
   ShellOptions options = options_.shell;
+  options.has_siblings = has_siblings;
   std::string warning;
   const auto make = [&](double gap) {
     options.edge_gap = gap;
@@ -87,7 +88,7 @@ MeshPool::Made MeshPool::makeShell(PooledMesh& mesh) {
   };
   CachedShell made = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
   if (!warning.empty()) made.outcome.warning = warning;
-  mesh.shell = std::move(made.shell);
+  mesh.shells[has_siblings] = std::move(made.shell);
   return {true, made.outcome};
 }
 

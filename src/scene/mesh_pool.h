@@ -17,7 +17,7 @@ struct PooledMesh {
   std::optional<double> cell_size;  ///< of its field [m]; none: as the scene's options say
   MeshQuality quality;              ///< empty for voxels
   std::optional<DistanceField> field;
-  std::optional<PointShell> shell;
+  std::optional<PointShell> shells[2];  ///< of a body of its own, and beside siblings
 };
 
 /// Makes fields and shells of meshes, each once however many bodies have it (fingers, a second arm).
@@ -38,7 +38,7 @@ class MeshPool {
   /// Where SceneOptions::max_error asks for more than a field or shell may cost, a coarser one is made; the outcome's
   /// warning says so.
   Made makeField(PooledMesh& mesh, const Progress& progress);
-  Made makeShell(PooledMesh& mesh);
+  Made makeShell(PooledMesh& mesh, bool has_siblings);
 
  private:
   const SceneOptions& options_;

@@ -10,9 +10,13 @@ namespace sdf_ccd {
 struct EdgeSampling {
   double radius;    ///< [m]
   double flatness;  ///< [m]
+  double
+      covering;  ///< where all of a surface needs fewer points than its edges; leaves room for siblings' flatness [m]
 
   explicit EdgeSampling(const ShellOptions& options)
-      : radius(0.8 * options.edge_gap), flatness(0.05 * options.edge_gap) {}
+      : radius(0.8 * options.edge_gap),
+        flatness(0.05 * options.edge_gap),
+        covering(options.has_siblings ? 0.9 * options.edge_gap : options.edge_gap) {}
 };
 
 /// Whether points on edges are asked for.

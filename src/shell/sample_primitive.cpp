@@ -56,6 +56,7 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
     if (hasEdges(options)) deviation = std::min(deviation, kEdgeDeviation * edges.flatness);
     edges.radius -= deviation;  // its points are lifted
     edges.flatness -= deviation;
+    edges.covering -= 2 * deviation;
     flat.spacing = options.spacing - 2 * deviation;
     if (hasEdges(options)) flat.edge_gap = options.edge_gap - 2 * deviation;
     // Where the tessellation is finer than the shell, its vertices are no features to be kept.

@@ -72,8 +72,8 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& asked, co
   ShellOptions options = asked;
   std::vector<SurfaceEdge> edges;
   if (hasEdges(asked)) edges = edgesOfFlatPieces(surface, sampling.flatness);
-  if (kEdgesAreMore * edgePoints(length(edges), sampling.radius) > facePoints(area, asked.edge_gap)) {
-    options.spacing = asked.edge_gap;  // all of a finely curved surface needs fewer points than its edges
+  if (kEdgesAreMore * edgePoints(length(edges), sampling.radius) > facePoints(area, sampling.covering)) {
+    options.spacing = sampling.covering;  // all of a finely curved surface needs fewer points than its edges
     edges.clear();
   }
   requireRoom(area, options);
@@ -117,7 +117,7 @@ double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options) {
   if (!hasEdges(options)) return faces;
   const EdgeSampling sampling(options);
   const double on_edges = edgePoints(length(edgesOfFlatPieces(surface, sampling.flatness)), sampling.radius);
-  return std::min(faces + on_edges, facePoints(area, options.edge_gap));
+  return std::min(faces + on_edges, facePoints(area, sampling.covering));
 }
 
 }  // namespace sdf_ccd

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scene/knob.h"
 #include "scene/scene_case.h"
 #include "sdf_ccd/scene/error_budget.h"
 #include "sdf_ccd/scene/scene_cost.h"
@@ -10,17 +11,6 @@ namespace sdf_ccd {
 namespace {
 
 using namespace test;
-
-SceneOptions knob(double max_error) {
-  const ErrorBudget budget = shareOut(max_error);
-  SceneOptions options;
-  options.field.max_error = budget.field;
-  options.shell.spacing = budget.face_spacing;
-  options.shell.edge_gap = budget.edge_gap;
-  options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
-  options.max_error = max_error;
-  return options;
-}
 
 MonitorOptions chords(double max_error) {
   MonitorOptions options = soft();
@@ -81,6 +71,17 @@ TEST(MaxError, BoxesAreToldApartAtAMillimetre) {
   };
   EXPECT_EQ(verdictAt(0.0017), Verdict::kClear);  // the bound, and what the field may be off by
   EXPECT_EQ(verdictAt(-0.0017), Verdict::kContact);
+}
+
+TEST(MaxError, ABodyOfSeveralElementsIsHeldToItsShare) {
+  BodyDescription hand = body("hand", meshShape(boxMesh({0.04, 0.03, 0.02})));
+  hand.geometry.push_back({Primitive(Cylinder{0.008, 0.055}), pose({0.09, 0, 0}, 1.5707963, {0, 1, 0}), "finger"});
+  hand.geometry.push_back({Primitive(Sphere{0.008}), translation({0.145, 0, 0}), "tip"});
+  for (const double max_error : {0.005, 0.002, 0.001}) {
+    const auto scene = build({hand, body("other", meshShape(boxMesh({0.1, 0.05, 0.03})))}, knob(max_error));
+    EXPECT_LE(scene->bound.total(), max_error);
+    EXPECT_LE(scene->reports[0].gap, shareOut(max_error).edge_gap * (1.0 + 1e-9));
+  }
 }
 
 TEST(MaxError, ATableIsHeldToTheEdgeGap) {
