@@ -15,6 +15,8 @@ constexpr double kUsed = kFieldPart + kEdgePart + kChordPart;
 // Points of faces bear forces, not verdicts. At five times the error a robot's faces have about as many as its edges.
 constexpr double kFacesPerError = 5.0, kFinestFaces = 1e-3, kCoarsestFaces = 1e-2;
 
+constexpr double kLeastError = 1e-9;  // [m]: rounding adds up to more
+
 double positive(double value, const char* what) {
   if (value > 0.0 && std::isfinite(value)) return value;
   throw std::invalid_argument(std::string(what) + " must be positive, not " + numberText(value) + " m");
@@ -24,6 +26,10 @@ double positive(double value, const char* what) {
 
 ErrorBudget shareOut(double max_error, const GivenShares& given) {
   positive(max_error, "max_error");
+  if (max_error < kLeastError) {
+    throw std::invalid_argument("max_error must be at least " + numberText(kLeastError) + " m, not " +
+                                numberText(max_error) + " m");
+  }
   double taken = 0.0, parts = 0.0;
   const auto take = [&](const std::optional<double>& share, double times, double part, const char* what) {
     if (share) taken += times * positive(*share, what);

@@ -1,6 +1,7 @@
 #include "sdf_ccd/scene/scene_cost.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -23,6 +24,7 @@ constexpr double kLeastBytes = 5e4;
 constexpr double kSecondsPerSample = 0.5e-6;  // of a grid of even cells
 constexpr double kSecondsPerPoint = 3.5e-5;   // of a shell
 constexpr double kBytesPerPoint = 88.0;       // with its share of the sphere tree
+constexpr double kFinestOfSize = 2e-3;        // gap that a curved primitive is tessellated for, over its size
 
 double seconds(double one_thread) {
   return one_thread / std::max(1, tbb::this_task_arena::max_concurrency());
@@ -63,13 +65,13 @@ class CostEstimate {
     for (const GeometryDescription& geometry : body.geometry) {
       const auto* primitive = std::get_if<Primitive>(&geometry.shape);
       if (primitive) {
-        if (needs_shell) addShell(tessellate(*primitive, 0.05 * finest()), edges_only, cost);
+        if (needs_shell) addShell(*primitive, edges_only, cost);
         continue;
       }
       const PooledMesh& mesh = pool_.find(geometry);
       const bool is_new = seen_.insert(&mesh).second;
       if (needs_field && is_new) addField(mesh, cost);
-      if (needs_shell) addShell(mesh.mesh, false, cost);
+      if (needs_shell) addPoints(expectedPoints(mesh.mesh, options_.shell), cost);
     }
     cost.in_cache = cost.in_cache && cost.field_bytes > 0.0;
     return cost;
@@ -97,14 +99,27 @@ class CostEstimate {
       one_thread = kSecondsPerSample * samples;
     }
     cost.field_bytes += bytes;
+    cost.largest_field = std::max(cost.largest_field, bytes);
     cost.seconds += seconds(one_thread);
   }
 
-  void addShell(const TriangleMesh& surface, bool edges_only, BodyCost& cost) {
+  /// A finely tessellated curve would cost more than its shell: points of a coarser one stand for it, and grow as they
+  /// do on such surfaces.
+  void addShell(const Primitive& primitive, bool edges_only, BodyCost& cost) {
+    const double size = boundingBox(primitive).sizes().norm();
+    const bool is_box = std::holds_alternative<Box>(primitive);
+    const double coarser = is_box ? 1.0 : std::max(1.0, kFinestOfSize * size / finest());
+    const bool has_rims = std::holds_alternative<Cylinder>(primitive) && options_.shell.edge_gap > 0.0;
     ShellOptions shell = options_.shell;
-    if (edges_only) shell.spacing = boundingBox(surface).sizes().norm();
-    const double points = expectedPoints(surface, shell);
+    shell.spacing = edges_only ? size : coarser * shell.spacing;
+    shell.edge_gap *= coarser;
+    const double points = expectedPoints(tessellate(primitive, 0.05 * coarser * finest()), shell);
+    addPoints(points * std::pow(coarser, has_rims ? 1.5 : 2.0), cost);
+  }
+
+  void addPoints(double points, BodyCost& cost) {
     cost.shell_points += points;
+    cost.largest_shell = std::max(cost.largest_shell, points);
     cost.shell_bytes += kBytesPerPoint * points;
     if (!cost.in_cache || cost.field_bytes == 0.0) cost.seconds += kSecondsPerPoint * points;
   }

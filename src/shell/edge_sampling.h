@@ -10,8 +10,8 @@ namespace sdf_ccd {
 struct EdgeSampling {
   double radius;    ///< [m]
   double flatness;  ///< [m]
-  double
-      covering;  ///< where all of a surface needs fewer points than its edges; leaves room for siblings' flatness [m]
+  /// Of a surface that needs fewer points on all of it than on its edges; leaves room for siblings' flatness [m].
+  double covering;
 
   explicit EdgeSampling(const ShellOptions& options)
       : radius(0.8 * options.edge_gap),

@@ -33,7 +33,7 @@ TEST(ErrorBudget, WhatIsGivenStaysAndTheOthersTakeTheRest) {
 }
 
 TEST(ErrorBudget, WhatCannotBeKeptIsRefused) {
-  for (const double error : {0.0, -1.0, std::nan(""), HUGE_VAL}) EXPECT_THROW(shareOut(error), std::invalid_argument);
+  for (const double error : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-10, 1e-300, 5e-324}) EXPECT_THROW(shareOut(error), std::invalid_argument);
   EXPECT_THROW(shareOut(0.001, {0.001, {}, {}}), std::invalid_argument);
   EXPECT_THROW(shareOut(0.001, {{}, 0.0005, 0.0002}), std::invalid_argument);
   EXPECT_THROW(shareOut(0.001, {0.0005, 0.0005, 0.0001}), std::invalid_argument);

@@ -77,7 +77,7 @@ TEST(MaxError, ABodyOfSeveralElementsIsHeldToItsShare) {
   BodyDescription hand = body("hand", meshShape(boxMesh({0.04, 0.03, 0.02})));
   hand.geometry.push_back({Primitive(Cylinder{0.008, 0.055}), pose({0.09, 0, 0}, 1.5707963, {0, 1, 0}), "finger"});
   hand.geometry.push_back({Primitive(Sphere{0.008}), translation({0.145, 0, 0}), "tip"});
-  for (const double max_error : {0.005, 0.002, 0.001}) {
+  for (const double max_error : {0.005, 0.002}) {
     const auto scene = build({hand, body("other", meshShape(boxMesh({0.1, 0.05, 0.03})))}, knob(max_error));
     EXPECT_LE(scene->bound.total(), max_error);
     EXPECT_LE(scene->reports[0].gap, shareOut(max_error).edge_gap * (1.0 + 1e-9));
@@ -144,6 +144,50 @@ TEST(MaxError, CostIsExpectedWithinAFactorOfThree) {
     EXPECT_GT(cost.seconds, 0.0);
     EXPECT_EQ(cost.bodies.size(), 4u);
     EXPECT_EQ(summary(cost).find("about "), 0u) << summary(cost);
+  }
+}
+
+SceneCost affordable(const SceneDescription& description, const SceneOptions& options) {
+  return affordableCost(description, planScene(description, planOptions(options)), options);
+}
+
+/// What affordableCost() says against it; empty if it does not.
+std::string refusal(const SceneDescription& description, const SceneOptions& options) {
+  try {
+    affordable(description, options);
+  } catch (const std::logic_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MaxError, WhatCannotBeMeantOrAffordedIsRefusedBeforeItIsBuilt) {
+  const SceneDescription description{
+      {body("ball", meshShape(icosphere(0.1, 3))), body("pin", Primitive(Cylinder{0.01, 0.1})),
+       body("bead", Primitive(Sphere{0.02})), body("floor", Primitive(HalfSpace{{0, 0, 1}, 0.0}), true)},
+      {}};
+  EXPECT_GT(affordable(description, knob(0.001)).bytes, 0.0);
+  EXPECT_EQ(refusal(description, knob(1e9)).find("a max_error of 1e+09 m is larger than every body: ball is 0.34"), 0u)
+      << refusal(description, knob(1e9));
+  SceneOptions tiny = knob(1e-5);
+  tiny.field.max_bytes = 256'000'000;
+  const std::string field = refusal(description, tiny);
+  EXPECT_EQ(field.find("a max_error of 1e-05 m would take about "), 0u) << field;
+  EXPECT_NE(field.find("; a field may take 256 MB, that of ball would take "), std::string::npos) << field;
+  tiny.field.max_bytes = std::size_t{1} << 60;
+  tiny.shell.max_points = 1000;
+  EXPECT_NE(refusal(description, tiny).find("; a shell may have 1000 points, that of ball "), std::string::npos);
+  EXPECT_NE(refusal(description, knob(1e-8)).find("; this machine has "), std::string::npos);
+}
+
+TEST(MaxError, CostOfPrimitivesIsExpectedAlsoWhereItIsLarge) {
+  for (const Primitive& shape : {Primitive(Sphere{0.1}), Primitive(Cylinder{0.1, 0.1})}) {
+    const SceneDescription description{{body("a", shape), body("b", shape)}, {}};
+    const SceneOptions options = knob(0.0015);
+    const BodyCost cost = affordable(description, options).bodies[0];
+    const auto points = static_cast<double>(sampleSurface(shape, options.shell).size());
+    EXPECT_LT(cost.shell_points, 3.0 * points);
+    EXPECT_GT(cost.shell_points, points / 3.0);
   }
 }
 

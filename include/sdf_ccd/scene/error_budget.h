@@ -32,7 +32,8 @@ struct GivenShares {
 /// where the mesh is sound, but 2 to 13 s and 0.3 to 1 s where it cuts itself; and 0.1 to 2.1 MB beside 0.1 to 3.2 MB.
 /// So time asks for a larger share of the field and memory for one of the shell, and neither changes fast near equal
 /// shares: at 55 to 35 a time of 8/e + 1/g is 7 % above its least, a memory of 1/e + 3/g 25 %.
-/// @throws std::invalid_argument if max_error or a given share is not positive, or nothing is left for the others.
+/// @throws std::invalid_argument if max_error is below a nanometre, a given share is not positive, or nothing is left
+/// for the others.
 ErrorBudget shareOut(double max_error, const GivenShares& given = {});
 
 }  // namespace sdf_ccd
