@@ -9,7 +9,7 @@
 
 #include "ros/cycle_messages.h"
 #include "ros/world_markers.h"
-#include "sdf_ccd/scene/scene_cost.h"
+#include "sdf_ccd/scene/over_budget.h"
 
 namespace sdf_ccd {
 namespace {
@@ -114,9 +114,7 @@ void CollisionMonitor::setUp() {
 
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
-  const SceneCost cost =
-      expectedCost(described_.scene, planScene(described_.scene, planOptions(parameters_.scene)), parameters_.scene);
-  NODELET_INFO("Expected: %s", summary(cost).c_str());
+  NODELET_INFO("Expected: %s", summary(affordableCost(described_, parameters_.scene)).c_str());
   scene_ = buildDescribed(described_, parameters_.scene, [this](const std::string& body, double share) {
     if (!waitFor(0.0)) throw Stopped();
     const std::string progress = "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
@@ -132,6 +130,11 @@ void CollisionMonitor::buildFields() {
       NODELET_WARN("%s: %s", report.name.c_str(), warning.c_str());
       health_.warnings.push_back(report.name + ": " + warning);
     }
+  }
+  const std::string over = overBudget(*scene_, parameters_.scene);
+  if (!over.empty()) {
+    NODELET_WARN("%s", over.c_str());
+    health_.warnings.push_back(over);
   }
   health_.wanted_rate = parameters_.rate;
   health_.max_error = parameters_.scene.max_error.value_or(0.0);

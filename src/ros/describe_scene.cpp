@@ -104,6 +104,10 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   return described;
 }
 
+SceneCost affordableCost(const DescribedScene& described, const SceneOptions& options) {
+  return affordableCost(described.scene, planScene(described.scene, planOptions(options)), options);
+}
+
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const SceneOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {
   const ScenePlan plan = planScene(described.scene, planOptions(options));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ros/parameters.h"
+#include "sdf_ccd/scene/scene_cost.h"
 
 namespace sdf_ccd {
 
@@ -27,6 +28,9 @@ ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::stri
 /// reason in BodyDescription::failure.
 /// @throws std::exception if the URDF or the SRDF cannot be read, or two bodies share a name.
 DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader);
+
+/// What building the scene is expected to cost. @throws as affordableCost() of the core.
+SceneCost affordableCost(const DescribedScene& described, const SceneOptions& options);
 
 /// Plans and builds what the scene needs.
 /// @param progress  called with the body's name and the share of all bodies done.

@@ -37,27 +37,37 @@ double ownGap(const Body& body) {
   return body.shell.size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
 }
 
+/// A body and a source of error, and what to say of them.
+struct Reason {
+  std::pair<std::string, std::string> key;
+  std::string text;
+};
+
 /// Why the points of a pair leave a gap of more than their share.
-std::string gapReason(const Scene& scene, const PlannedPair& pair, double gap, double share) {
+Reason gapReason(const Scene& scene, const PlannedPair& pair, double gap, double share) {
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
   const std::string much = " of " + millimetres(gap) + " mm between points";
   const std::string not_share = ", not " + millimetres(share);
-  if (pair.a_shell_b_field && pair.b_shell_a_field)
-    return (ownGap(a) > ownGap(b) ? a : b).name + " has gaps" + much + not_share;
-  return (pair.a_shell_b_field ? b : a).name + " is only a field, so gaps" + much + " of faces count" + not_share;
+  if (pair.a_shell_b_field && pair.b_shell_a_field) {
+    const std::string& name = (ownGap(a) > ownGap(b) ? a : b).name;
+    return {{name, "gap"}, name + " has gaps" + much + not_share};
+  }
+  const std::string& name = (pair.a_shell_b_field ? b : a).name;
+  return {{name, "gap"}, name + " is only a field, so gaps" + much + " of faces count" + not_share};
 }
 
 /// The reasons why a pair's bound is more than asked for.
-std::vector<std::string> reasons(const Scene& scene, const PlannedPair& pair, const SceneOptions& options) {
+std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const SceneOptions& options) {
   const ErrorBound bound = pairBound(scene, pair);
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
-  std::vector<std::string> found;
+  std::vector<Reason> found;
   const double field = fieldShare(options.field), gap = options.shell.edge_gap;
   if (bound.gap > kRounding * gap) found.push_back(gapReason(scene, pair, bound.gap, gap));
   if (bound.field > kRounding * field) {
     const Body& worse = fieldError(a) > fieldError(b) ? a : b;
-    found.push_back("the field of " + worse.name + " has an error of " + millimetres(bound.field) + " mm, not " +
-                    millimetres(field));
+    found.push_back({{worse.name, "field"},
+                     "the field of " + worse.name + " has an error of " + millimetres(bound.field) + " mm, not " +
+                         millimetres(field)});
   }
   return found;
 }
@@ -66,14 +76,17 @@ std::vector<std::string> reasons(const Scene& scene, const PlannedPair& pair, co
 
 std::string overBudget(const Scene& scene, const SceneOptions& options) {
   if (!options.max_error || scene.bound.total() <= *options.max_error) return "";
-  std::map<std::string, double> totals;  // of the worst pair with this reason
+  std::map<std::pair<std::string, std::string>, std::pair<double, std::string>> largest;  // bound and text of the worst
   for (const PlannedPair& pair : scene.pairs) {
     const double total = pairBound(scene, pair).total() + options.motion_margin;
     if (total <= *options.max_error) continue;
-    for (const std::string& reason : reasons(scene, pair, options)) totals[reason] = std::max(totals[reason], total);
+    for (const Reason& reason : reasons(scene, pair, options)) {
+      auto& known = largest[reason.key];
+      if (total > known.first) known = {total, reason.text};
+    }
   }
   std::vector<std::pair<double, std::string>> worst;
-  for (const auto& [reason, total] : totals) worst.emplace_back(-total, reason);
+  for (const auto& [key, bound] : largest) worst.emplace_back(-bound.first, bound.second);
   std::sort(worst.begin(), worst.end());
   std::string text = "the error bound is " + millimetres(scene.bound.total()) + " mm, more than the max_error of " +
                      millimetres(*options.max_error) + " mm";

@@ -22,6 +22,8 @@ using test::kPartlyDone;
 using test::readText;
 using test::ToolRun;
 
+namespace fs = std::filesystem;
+
 using Row = std::map<std::string, std::string>;  // by the column's name
 
 constexpr double kBegin = 100.0, kPeriod = 1.0 / 30.0;  // [s]
@@ -260,6 +262,44 @@ TEST_F(CheckBag, BadBagsAreRefused) {
     write("bad.urdf", text);
     expectRefused("check-bag arm.bag --urdf bad.urdf --out no", "bad.urdf: the URDF cannot be parsed: ");
   }
+}
+
+TEST_F(CheckBag, MaxErrorIsKeptByABodyOfSeveralElements) {
+  const ToolRun result = run(check("arm.bag", "made", "--max-error 0.005"));
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_EQ(result.error.find("warning"), std::string::npos) << result.error;
+  EXPECT_EQ(result.out.find("expected         about "), 0u) << result.out;
+  EXPECT_NE(readText(path("made/plan.txt")).find("within the max_error of 5.00"), std::string::npos);
+}
+
+TEST_F(CheckBag, ABoundAboveMaxErrorIsAWarning) {
+  write("ball.yaml", "world: [{name: dome, type: sphere, radius: 2.0, xyz: [2.5, 0, 0]}]\ncache_directory: cache\n");
+  const ToolRun result = run("check-bag arm.bag --urdf " SDF_CCD_SOURCE_DIR
+                             "/config/demo/arm.urdf --config ball.yaml --out made --max-error 0.005");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_EQ(result.error.find("sdf_ccd: warning: the error bound is "), 0u) << result.error;
+  EXPECT_NE(result.error.find("more than the max_error of 5.00 mm: dome is only a field"), std::string::npos)
+      << result.error;
+}
+
+TEST_F(CheckBag, WhatCannotBeMeantIsRefusedBeforeItIsBuilt) {
+  expectRefused(check("arm.bag", "no", "--max-error 1e-6"), "a max_error of 1e-06 m would take about ");
+  expectRefused(check("arm.bag", "no", "--max-error 1e-300"), "max_error must be at least 1e-09 m, not 1e-300 m");
+  expectRefused(check("arm.bag", "no", "--max-error 1e9"), "a max_error of 1e+09 m is larger than every body: ");
+  expectRefused(check("arm.bag", "no", "--rate 1e9"), "a rate of 1e+09 Hz is above the largest, 10000 Hz");
+}
+
+TEST_F(CheckBag, InterruptedItLeavesNothing) {
+  write("fine.yaml", "cache: false\nfield: {cell_size: 0.0007}\n");
+  const std::string script = "cd '" + path("").string() + "' && { '" SDF_CCD_TOOL "' " +
+                             check("arm.bag", "no", "--config fine.yaml") +
+                             " > /dev/null 2> ../error.txt & "
+                             "for i in $(seq 300); do ls no/summary.txt.* > /dev/null 2>&1 && break; sleep 0.02; done; "
+                             "kill -INT $!; wait $!; }";
+  const int status = std::system(script.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), kBadInput);
+  EXPECT_NE(readText(path("../error.txt")).find("interrupted: nothing is written to no"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("no")));
 }
 
 TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {

@@ -10,16 +10,21 @@
 
 #include "commands.h"
 #include "cycle_report.h"
+#include "interrupt.h"
 #include "monitor_config.h"
 #include "print.h"
 #include "progress_bar.h"
 #include "ros/bag_check.h"
 #include "ros/checked_bag.h"
+#include "sdf_ccd/geometry/number_text.h"
+#include "sdf_ccd/scene/over_budget.h"
 
 namespace sdf_ccd::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kFastestRate = 1e4;  // of cycles, each over all pairs [Hz]
 
 struct Arguments {
   std::string bag;
@@ -28,6 +33,9 @@ struct Arguments {
   RecordedMotionOptions motion;
   int threads = 0;  // 0: one per core
 };
+
+/// Thrown out of the work when the user ends it; no std::exception, which would be one body's failure.
+struct Interrupted {};
 
 void require(bool is_good, const std::string& what) {
   if (!is_good) throw std::runtime_error(what);
@@ -50,6 +58,7 @@ struct CheckFiles {
     summary.commit();
   }
 
+  Interrupt interrupt;  ///< it must not leave them there
   OutputDirectory directory;
   OutputFile summary, plan;
   OutputPath bag;
@@ -59,14 +68,21 @@ struct CheckFiles {
 /// Passes what the loop finds on to the files, and shows how far it is.
 class Recorder : public BagObserver {
  public:
-  Recorder(const RecordedMotion& motion, const MonitorLoop& loop, CheckedBag& bag, CycleReport& report)
-      : begin_(motion.begin()), length_((motion.end() - begin_).toSec()), loop_(loop), bag_(bag), report_(report) {}
+  Recorder(const RecordedMotion& motion, const MonitorLoop& loop, CheckedBag& bag, CheckFiles& files)
+      : begin_(motion.begin()),
+        length_((motion.end() - begin_).toSec()),
+        loop_(loop),
+        bag_(bag),
+        interrupt_(files.interrupt),
+        report_(files.report) {}
 
   void onTransforms(const RecordedTransforms& transforms) override {
     bag_.addTransforms(transforms);
+    if (interrupt_.asked()) throw Interrupted();
     bar_(length_ > 0.0 ? (transforms.recorded - begin_).toSec() / length_ : 1.0);
   }
   void onCycle(const ros::Time& now) override {
+    if (interrupt_.asked()) throw Interrupted();
     const ContactArray contacts = toContactArray(loop_);
     bag_.addCycle(contacts, now);
     report_.add(contacts);
@@ -79,12 +95,17 @@ class Recorder : public BagObserver {
   double length_;  // [s]
   const MonitorLoop& loop_;
   CheckedBag& bag_;
+  const Interrupt& interrupt_;
   CycleReport& report_;
 };
 
-std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const SceneOptions& options) {
+std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const SceneOptions& options,
+                                          const Interrupt& interrupt) {
   ProgressBar bar("fields and shells");
-  return buildDescribed(described, options, [&](const std::string&, double share) { bar(share); });
+  return buildDescribed(described, options, [&](const std::string&, double share) {
+    if (interrupt.asked()) throw Interrupted();
+    bar(share);
+  });
 }
 
 std::string planText(const Scene& scene, const std::vector<std::string>& warnings) {
@@ -99,7 +120,7 @@ double check(const RecordedMotion& motion, const MonitorParameters& parameters, 
   const auto start = std::chrono::steady_clock::now();
   CheckedBag bag(files.bag.part(), loop, parameters.markers);
   bag.addScene(described.scene, motion.begin());
-  Recorder recorder(motion, loop, bag, files.report);
+  Recorder recorder(motion, loop, bag, files);
   checkBag(motion, parameters, loop, recorder);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -132,12 +153,22 @@ void requireComplete(const CycleStatistics& statistics, const Scene& scene) {
 
 void run(const Arguments& arguments) {
   const MonitorParameters parameters = readParameters(arguments.config);
+  require(parameters.rate <= kFastestRate,
+          "a rate of " + numberText(parameters.rate) + " Hz is above the largest, " + numberText(kFastestRate) + " Hz");
   const std::string urdf_directory = fs::absolute(arguments.config.urdf).parent_path().string();
   const DescribedScene described =
       describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), urdf_directory));
   const RecordedMotion motion(arguments.bag, described, arguments.motion);
+  const std::string expected = "expected         " + summary(affordableCost(described, parameters.scene)) + "\n";
+  std::cout << expected << std::flush;
   CheckFiles files(arguments.out);
-  const std::shared_ptr<const Scene> scene = buildWithBar(described, parameters.scene);
+  const std::shared_ptr<const Scene> scene = buildWithBar(described, parameters.scene, files.interrupt);
+  const std::string over = overBudget(*scene, parameters.scene);
+  std::vector<std::string> warnings = described.warnings;
+  if (!over.empty()) {
+    std::cerr << "sdf_ccd: warning: " << over << std::endl;
+    warnings.push_back(over);
+  }
   MonitorLoop loop(scene, described.fixed_frame, parameters);
   const double took = check(motion, parameters, described, loop, files);
   const CycleStatistics& statistics = files.report.statistics();
@@ -152,8 +183,8 @@ void run(const Arguments& arguments) {
        << statistics.summary(motion.begin()) << "speed            " << rounded(length, 1) << " s in " << shortly(took)
        << " s: " << shortly(length / took) << " times real time\n";
   std::cout << text.str() << std::flush;
-  files.summary.stream() << text.str();
-  files.plan.stream() << planText(*scene, described.warnings);
+  files.summary.stream() << expected << text.str();
+  files.plan.stream() << planText(*scene, warnings);
   files.commit("Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
   requireComplete(statistics, *scene);
 }
@@ -169,7 +200,11 @@ void checkThenRun(const Arguments& arguments) {
     limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
   }
   console_bridge::noOutputHandler();  // what broken transforms leave unchecked is reported as that
-  run(arguments);
+  try {
+    run(arguments);
+  } catch (const Interrupted&) {
+    throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
+  }
 }
 
 }  // namespace
