@@ -44,7 +44,7 @@ TEST(OverBudget, NamesWhatWasMadeCoarser) {
       build({body("a", meshShape(icosphere(0.1, 3))), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))}, options);
   const std::string text = overBudget(*scene, options);
   EXPECT_NE(text.find("the field of a has an error of "), std::string::npos) << text;
-  EXPECT_NE(text.find("a has gaps of "), std::string::npos) << text;
+  EXPECT_NE(text.find("b has gaps of "), std::string::npos) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos);
 }
 
