@@ -166,7 +166,7 @@ TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
   // The ball dips into the ground and comes out again, then the other one does.
   const auto dip = [&](int deepest) {
     std::vector<Isometry3d> X;
-    for (int k = 0; k < 5; ++k) X.push_back(translation({deepest, 0, k == deepest ? 0.09 : 0.3}));
+    for (int k = 0; k < 5; ++k) X.push_back(translation({double(deepest), 0, k == deepest ? 0.09 : 0.3}));
     return X;
   };
   CycleMotion motion = cycle(0.4, {still(Isometry3d::Identity(), 5), dip(1), dip(3)});
