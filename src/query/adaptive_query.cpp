@@ -1,19 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ball_exit.h"
-#include "cell_spans.h"
-#include "grid_walk.h"
+#include "adaptive_walk.h"
 #include "representation_queries.h"
 
 namespace sdf_ccd {
-namespace {
-
-GridWalk walkThrough(const AdaptiveGrid& grid, const Segment& segment) {
-  return {{grid.shape().origin, grid.shape().unit(), grid.shape().units()}, segment};
-}
-
-}  // namespace
 
 void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const SegmentOptions& options,
                        Intervals& intervals) {
@@ -32,11 +23,8 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
       }
       walk.advance();
     } else {
-      // All of the block is on one side, and so is the ball about its centre that reaches to the isosurface. Less a
-      // little: the ball is measured in metres and the walk in units.
-      const double side = shape.unit() * block.side;
-      const FreeBall ball{shape.origin + shape.unit() * block.low.cast<double>() + Vector3d::Constant(0.5 * side),
-                          (std::abs(block.distance) - margin) * (1.0 - 1e-9), block.distance < 0.0};
+      // All of the block is on one side, and so is the ball about its centre that reaches to the isosurface.
+      const FreeBall ball = farBall(grid, block, margin);
       passFree(block.low, block.side, ball, ball_exit, walk, intervals);
     }
     if (stopsAtEnter(options.mode) && !intervals.empty()) break;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "cell_cubic.h"
 #include "representation_queries.h"
 #include "sdf_ccd/field/sparse_grid.h"
 
@@ -27,6 +26,13 @@ void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExi
   walk.advance();
 }
 
+CellCubic cubicAlong(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma) {
+  const auto local = [&](double t) {
+    return Vector3d((walk.local(t, cell.low) / cell.side).array().max(0.0).min(1.0));
+  };
+  return cellCubic(corners, local(walk.t()), local(cell.t_exit), sigma);
+}
+
 void appendCellSpans(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma,
                      Intervals& intervals) {
   // The corners bound the cell exactly.
@@ -36,10 +42,7 @@ void appendCellSpans(const std::array<double, 8>& corners, const GridWalk& walk,
     appendSpan(intervals, walk.t(), cell.t_exit);
     return;
   }
-  const auto local = [&](double t) {
-    return Vector3d((walk.local(t, cell.low) / cell.side).array().max(0.0).min(1.0));
-  };
-  const CellIntervals found = nonPositive(cellCubic(corners, local(walk.t()), local(cell.t_exit), sigma));
+  const CellIntervals found = nonPositive(cubicAlong(corners, walk, cell, sigma));
   const double length = cell.t_exit - walk.t();
   for (int i = 0; i < found.count; ++i) {
     const Interval& span = found.interval[i];

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "ball_exit.h"
+#include "cell_cubic.h"
 #include "grid_walk.h"
 #include "sdf_ccd/query/interval.h"
 
@@ -29,6 +30,9 @@ void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals);
 /// it leaves that.
 void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals);
+
+/// The trilinear function of a cell's corner values along the walk, from where it is to where it leaves, less sigma.
+CellCubic cubicAlong(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma);
 
 /// Appends the spans of the walk's parameter in which the trilinear function of eight corner values is at most sigma.
 void appendCellSpans(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma,

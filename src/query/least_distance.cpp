@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "../field/sample_bracket.h"
-#include "cell_cubic.h"
-#include "cell_spans.h"
-#include "grid_walk.h"
+#include "adaptive_walk.h"
 
 namespace sdf_ccd {
 namespace {
@@ -132,8 +130,7 @@ class LeastSearch {
 /// From the leaves that the path crosses. Its `low` exceeds the band if that is not known: where the path is deeper
 /// than any leaf is, or always farther out.
 LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
-  const AdaptiveShape& shape = grid.shape();
-  GridWalk walk({shape.origin, shape.unit(), shape.units()}, segment);
+  GridWalk walk = walkThrough(grid, segment);
   const BallExit ball_exit(segment);
   LeastDistance least{0.0, kInfinity, kInfinity, kInfinity};
   Intervals no_intervals;
@@ -141,20 +138,15 @@ LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
     const AdaptiveBlock block = grid.block(walk.cell());
     if (!block.leaf) {
       if (block.distance < 0.0) return {0.0, kInfinity, kInfinity, kInfinity};
-      const double side = shape.unit() * block.side;
-      const FreeBall ball{shape.origin + shape.unit() * block.low.cast<double>() + Vector3d::Constant(0.5 * side),
-                          (block.distance - shape.band) * (1.0 - 1e-9), false};
-      passFree(block.low, block.side, ball, ball_exit, walk, no_intervals);
+      passFree(block.low, block.side, farBall(grid, block, grid.shape().band), ball_exit, walk, no_intervals);
       continue;
     }
-    const double t = walk.t(), t_exit = walk.exit(block.low, block.low.array() + block.side);
+    const WalkedCell cell{block.low, block.side, walk.exit(block.low, block.low.array() + block.side)};
+    const double t = walk.t(), t_exit = cell.t_exit;
     const std::array<double, 8> corners = grid.corners(block);
     const double lowest = *std::min_element(corners.begin(), corners.end()), error = grid.leafError(block);
     if (t_exit > t && (lowest - error < least.low || lowest + error < least.high || lowest < least.value)) {
-      const auto local = [&](double at) {
-        return Vector3d((walk.local(at, block.low) / block.side).array().max(0.0).min(1.0));
-      };
-      const LowestPlace place = lowestPlace(cellCubic(corners, local(t), local(t_exit), 0.0));
+      const LowestPlace place = lowestPlace(cubicAlong(corners, walk, cell, 0.0));
       least.low = std::min(least.low, place.value - error);
       least.high = std::min(least.high, place.value + error);
       if (place.value < least.value) {
