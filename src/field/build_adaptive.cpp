@@ -164,10 +164,11 @@ BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int d
     std::optional<FittedLeaf>& leaf = octants.leaf[half];
     if (half >= octants.tried && std::abs(distance) <= octant_beyond) leaf = fit.octantLeaf(half, half_scale, error_);
     const bool far = leaf && provedFar(half_scale, leaf->word, distance);
-    if (leaf && !far) count(sizeof(LeafWord) + sizeof(std::uint8_t));
+    const bool wide = leaf && !far;
+    if (wide) count(sizeof(LeafWord) + sizeof(std::uint8_t));
     for (int k = 0; k < 8; ++k) {
       BuiltCell& child = (*built.children)[childIndex(half, k)];
-      if (leaf && !far) {
+      if (wide) {
         child.kind = BuiltCell::kWide;
         child.leaf = *leaf;
         continue;

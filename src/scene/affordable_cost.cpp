@@ -28,11 +28,16 @@ double sizeOf(const BodyDescription& body) {
 
 void requireSmallerThanBodies(const SceneDescription& description, double max_error) {
   const BodyDescription* largest = nullptr;
-  for (const BodyDescription& body : description.bodies)
-    if (sizeOf(body) > (largest ? sizeOf(*largest) : 0.0)) largest = &body;
-  if (!largest || max_error <= sizeOf(*largest)) return;
+  double longest = 0.0;
+  for (const BodyDescription& body : description.bodies) {
+    const double size = sizeOf(body);
+    if (size <= longest) continue;
+    longest = size;
+    largest = &body;
+  }
+  if (!largest || max_error <= longest) return;
   throw std::invalid_argument("a max_error of " + numberText(max_error) + " m is larger than every body: " +
-                              largest->name + " is " + numberText(sizeOf(*largest)) + " m long");
+                              largest->name + " is " + numberText(longest) + " m long");
 }
 
 double machineBytes() {
