@@ -1,29 +1,10 @@
 #include "sdf_ccd/field/adaptive_grid.h"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
 namespace sdf_ccd {
-
-namespace top_word {
-
-std::uint32_t far(double distance) {
-  const float value = static_cast<float>(distance * (1.0 - 1e-6));
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits & ~kKind;
-}
-
-float distance(std::uint32_t word) {
-  word &= ~kKind;
-  float value = 0.0F;
-  std::memcpy(&value, &word, sizeof value);
-  return value;
-}
-
-}  // namespace top_word
 
 namespace leaf_error {
 
@@ -109,7 +90,6 @@ void AdaptiveGrid::check() const {
     const std::uint32_t word = arrays_.top[i], index = word >> 2;
     switch (word & top_word::kKind) {
       case top_word::kFar:
-        if (!std::isfinite(top_word::distance(word))) fail("a distance is not finite");
         break;
       case top_word::kLeaf:
         inside(index, arrays_.leaves.size);
@@ -148,27 +128,30 @@ void AdaptiveGrid::check() const {
   }
 }
 
+AdaptiveBlock AdaptiveGrid::farTopBlock(const Vector3i& low, const FarBall& ball) const {
+  const double step = FarBall::step(shape_.size) * shape_.cell, radius = ball.steps * step;
+  const double out = ball.offset.cast<double>().norm() * shape_.cell;
+  const Vector3d center =
+      (low + AdaptiveShape::kUnits * ball.offset).cast<double>().array() + 0.5 * AdaptiveShape::kUnits;
+  // Less than a step was rounded off; the rest is what single precision made of distances.
+  const double slack = (out > 0.0 ? FarBall::kSlack * shape_.cell : 0.0) + step + 1e-5 * radius;
+  return {low, AdaptiveShape::kUnits, false, 0, 0, center, radius, ball.inside, radius - out + slack};
+}
+
 AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
   // Sides are powers of two: shifts and masks, as a division costs as much as a miss in the cache.
   constexpr int kTop = 7;
   static_assert(1 << kTop == AdaptiveShape::kUnits, "a top cell's side");
   const int x = unit.x(), y = unit.y(), z = unit.z();
   const auto lowOf = [&](int shift) { return Vector3i(x >> shift << shift, y >> shift << shift, z >> shift << shift); };
-  const auto far = [&](int shift, double distance) {
-    return AdaptiveBlock{lowOf(shift), 1 << shift, false, 0, 0, distance};
-  };
   const auto leaf = [&](int shift, std::size_t i) {
-    return AdaptiveBlock{lowOf(shift), 1 << shift, true, arrays_.leaves[i], i, 0.0};
+    return AdaptiveBlock{lowOf(shift), 1 << shift, true, arrays_.leaves[i], i};
   };
   const auto half = [&](int shift, std::uint32_t split) {
     --shift;
     const int k = (x >> shift & 1) | (y >> shift & 1) << 1 | (z >> shift & 1) << 2;
-    return AdaptiveBlock{lowOf(shift),
-                         1 << shift,
-                         true,
-                         arrays_.splits[split].leaves[k],
-                         arrays_.leaves.size + 8 * std::size_t(split) + k,
-                         0.0};
+    return AdaptiveBlock{lowOf(shift), 1 << shift, true, arrays_.splits[split].leaves[k],
+                         arrays_.leaves.size + 8 * std::size_t(split) + k};
   };
 
   const std::uint32_t word =
@@ -176,7 +159,7 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
   std::uint32_t index = word >> 2;
   switch (word & top_word::kKind) {
     case top_word::kFar:
-      return far(kTop, top_word::distance(word));
+      return farTopBlock(lowOf(kTop), FarBall::of(word));
     case top_word::kLeaf:
       return leaf(kTop, index);
     case top_word::kSplit:
@@ -188,7 +171,10 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
     const int child = (x >> shift & 3) | (y >> shift & 3) << 2 | (z >> shift & 3) << 4;
     const std::uint8_t code = arrays_.nodes[index].codes[child];
     if (code >= node_code::kFar && code < node_code::kWide) {
-      return far(shift, node_code::steps(code) * far_steps_[depth]);
+      const double radius = std::abs(node_code::steps(code)) * far_steps_[depth];
+      const Vector3i low = lowOf(shift);
+      const Vector3d center = low.cast<double>().array() + 0.5 * (1 << shift);
+      return {low, 1 << shift, false, 0, 0, center, radius, node_code::steps(code) < 0.0, radius + far_steps_[depth]};
     }
     const NodeBases& bases = arrays_.bases[index];
     if (code >= node_code::kWide) return leaf(shift + 1, std::size_t(bases.leaf) + (code - node_code::kWide));

@@ -24,23 +24,14 @@ FieldValue leafValue(const AdaptiveGrid& grid, const LocatedBlock& at) {
   return {trilinear(corners, at.u), trilinearGradient(corners, at.u) / (at.block.side * grid.shape().unit())};
 }
 
-/// What a far block's distance was rounded down by, at most [m].
-double farRounding(const AdaptiveGrid& grid, const AdaptiveBlock& block) {
-  for (int depth = 0; depth < AdaptiveShape::kMaxDepth; ++depth) {
-    if (block.side == AdaptiveShape::kUnits >> (2 * depth + 2)) return grid.farStep(depth);
-  }
-  return std::abs(block.distance) * 1e-5;
-}
-
-/// Of the distance in a far block, from that at its centre.
+/// Of the distance in a far block: at least as far as its ball's surface is, at most as far as its centre says.
 DistanceBounds farBounds(const AdaptiveGrid& grid, const LocatedBlock& at) {
   const AdaptiveShape& shape = grid.shape();
-  const double away = (at.u.array() - 0.5).matrix().norm() * at.block.side * shape.unit();
-  const double rounding = farRounding(grid, at.block);
-  if (at.block.distance < 0.0) {
-    return {at.block.distance - rounding - away, std::min(at.block.distance + away, -shape.band)};
-  }
-  return {std::max(at.block.distance - away, shape.band), at.block.distance + rounding + away};
+  const Vector3d from_low = at.block.side * at.u, half = Vector3d::Constant(0.5 * at.block.side);
+  const double away = (from_low - half).norm() * shape.unit();
+  const double from_ball = (at.block.low.cast<double>() + from_low - at.block.ball_center).norm() * shape.unit();
+  const double low = std::max(at.block.ball_radius - from_ball, shape.band), high = at.block.most + away;
+  return at.block.inside ? DistanceBounds{-high, -low} : DistanceBounds{low, high};
 }
 
 /// The distance at the centre of a top cell, and its error [m].

@@ -12,6 +12,7 @@
 
 #include "cell_fit.h"
 #include "cube_corner.h"
+#include "far_ball_search.h"
 #include "near_triangles.h"
 #include "progress_counter.h"
 #include "sdf_ccd/field/sparse_grid.h"
@@ -59,6 +60,8 @@ class AdaptiveBuilder {
   bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
   /// Whether a far cell at this depth can tell its side: the rounded distance of its centre is not zero.
   bool holdsFar(double center_distance, int depth) const;
+  /// For all top cells; those near the surface get other words.
+  void setFarBalls();
   BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants);
   void count(std::size_t bytes);
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
@@ -69,6 +72,7 @@ class AdaptiveBuilder {
   AdaptiveShape shape_;
   double error_;
   std::size_t max_bytes_;
+  std::vector<float> centers_;  ///< distances at the top cells' centres [top cells]
   tbb::concurrent_vector<std::pair<std::size_t, BuiltCell>> built_;  ///< top cells near the surface, in no order
   ProgressCounter counter_;
   std::atomic<std::size_t> bytes_{0};
@@ -97,7 +101,7 @@ void AdaptiveBuilder::block(const NearTriangles& near, const Vector3i& low, int 
     }
     const std::size_t index = (std::size_t(c.z()) * shape_.size.y() + c.y()) * shape_.size.x() + c.x();
     const double distance = octants.centerDistance(k);
-    data_.top[index] = top_word::far(distance);
+    centers_[index] = static_cast<float>(distance / shape_.cell);
     if (std::abs(distance) <= beyond) {
       CellFit fit(octants[k]);
       built_.emplace_back(index, cell(fit, octants[k], 0));
@@ -114,7 +118,7 @@ bool AdaptiveBuilder::provedFar(const LeafScale& scale, LeafWord leaf, double ce
 }
 
 bool AdaptiveBuilder::holdsFar(double center_distance, int depth) const {
-  if (depth == 0) return center_distance != 0.0;
+  if (depth == 0) return true;
   const double parent = shape_.cell / double(1 << (2 * depth - 2));
   return node_code::steps(node_code::far(center_distance / AdaptiveGrid::farStepFor(parent, shape_.band))) != 0.0;
 }
@@ -248,9 +252,19 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
   }
 }
 
+void AdaptiveBuilder::setFarBalls() {
+  data_.top.resize(shape_.count());
+  const FarBallSearch search(FarBallSearch::Lattice::kCenters, shape_.size, centers_);
+  tbb::parallel_for(0, shape_.size.z(), [&](int z) {
+    std::size_t index = std::size_t(z) * shape_.size.x() * shape_.size.y();
+    for (int y = 0; y < shape_.size.y(); ++y)
+      for (int x = 0; x < shape_.size.x(); ++x) data_.top[index++] = search.ball({x, y, z}).word();
+  });
+}
+
 AdaptiveGrid AdaptiveBuilder::build() {
   count(shape_.count() * sizeof(std::uint32_t));
-  data_.top.resize(shape_.count());
+  centers_.resize(shape_.count());
   // Blocks of so many cells along a side share a search for the triangles near them.
   constexpr int kBlock = 4;
   const Vector3i blocks = (shape_.size.array() + (kBlock - 1)) / kBlock;
@@ -272,6 +286,7 @@ AdaptiveGrid AdaptiveBuilder::build() {
     const double side = shape_.unit();
     shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
   }
+  setFarBalls();
   std::sort(built_.begin(), built_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [index, cell] : built_) {
     std::uint32_t& word = data_.top[index];

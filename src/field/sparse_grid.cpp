@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include <tbb/parallel_for.h>
+
 #include "cube_corner.h"
+#include "far_ball_search.h"
 
 namespace sdf_ccd {
 namespace {
@@ -23,32 +25,32 @@ std::array<double, 8> cornersOf(const GridShape& shape, View<float> corners, con
   return c;
 }
 
-/// The distance at a far brick's centre, towards zero: it exceeds band + cell there as all over the brick, and is
-/// within half a diagonal of the corners'.
-double centerDistance(const GridShape& shape, View<float> corners, const Vector3i& brick) {
-  const std::array<double, 8> c = cornersOf(shape, corners, brick);
-  if (!shape.exact) return std::copysign(std::numeric_limits<float>::min(), c[0]);
-  double farthest = 0.0;
-  for (const double value : c) farthest = std::max(farthest, std::abs(value) * (1.0 - 1e-6));
-  const double by_corner = farthest - kHalfSqrt3 * GridShape::kBrick * shape.cell;
-  return std::copysign(std::max(by_corner, shape.band + 0.5 * shape.cell), c[0]);
+/// A word per brick.
+std::vector<std::uint32_t> brickWords(const GridShape& shape, const GridData& data) {
+  std::vector<float> corners;  // in bricks
+  const double bricks_per_metre = 1.0 / (GridShape::kBrick * shape.cell);
+  corners.reserve(data.corners.size());
+  for (const float metres : data.corners) corners.push_back(static_cast<float>(metres * bricks_per_metre));
+  const FarBallSearch search(FarBallSearch::Lattice::kCorners, shape.bricks, corners);
+  std::vector<std::uint32_t> words(data.slots.size());
+  tbb::parallel_for(0, shape.bricks.z(), [&](int z) {
+    for (int y = 0; y < shape.bricks.y(); ++y)
+      for (int x = 0; x < shape.bricks.x(); ++x) {
+        const Vector3i brick(x, y, z);
+        const std::size_t i = shape.brickIndex(brick);
+        if (data.slots[i] != SparseGrid::kFar) {
+          words[i] = brick_word::slot(data.slots[i]);
+        } else if (shape.exact) {
+          words[i] = search.ball(brick).word();
+        } else {
+          words[i] = FarBall{{}, 0, data.corners[shape.cornerIndex(brick)] < 0.0F}.word();
+        }
+      }
+  });
+  return words;
 }
 
 }  // namespace
-
-std::uint32_t brick_word::far(double distance) {
-  auto rounded = static_cast<float>(distance);
-  if (std::abs(double(rounded)) > std::abs(distance)) rounded = std::nextafterf(rounded, 0.0F);
-  std::uint32_t bits;
-  std::memcpy(&bits, &rounded, sizeof bits);
-  return bits & ~1U;
-}
-
-float brick_word::distance(std::uint32_t word) {
-  float value;
-  std::memcpy(&value, &word, sizeof value);
-  return value;
-}
 
 SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
   const auto owned = std::make_shared<OwnedGrid>();
@@ -59,14 +61,7 @@ SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
     throw std::invalid_argument("sparse grid: " + std::to_string(slots.size()) + " slots and " +
                                 std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
   }
-  owned->words.reserve(slots.size());
-  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
-    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
-      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
-        const std::int32_t slot = slots[owned->words.size()];
-        owned->words.push_back(slot == kFar ? brick_word::far(centerDistance(shape, arrays_.corners, b))
-                                            : brick_word::slot(slot));
-      }
+  owned->words = brickWords(shape, owned->data);
   arrays_.words = viewOf(owned->words);
   owned->data.slots = {};
   owner_ = owned;
@@ -103,7 +98,6 @@ void SparseGrid::check() const {
   for (std::size_t i = 0; i < arrays_.words.size; ++i) {
     const std::uint32_t word = arrays_.words[i];
     if (!brick_word::isFar(word) && word >> 1 >= stored) fail("slot " + std::to_string(word >> 1));
-    if (brick_word::isFar(word) && !std::isfinite(brick_word::distance(word))) fail("a distance is not finite");
   }
 }
 

@@ -13,13 +13,11 @@ inline GridWalk walkThrough(const AdaptiveGrid& grid, const Segment& segment) {
   return {{grid.shape().origin, grid.shape().unit(), grid.shape().units()}, segment};
 }
 
-/// About a far block's centre: the true distance there exceeds `margin` [m] all over it, on one side. Less a little:
-/// the ball is measured in metres and the walk in units.
+/// A far block's: the true distance exceeds `margin` [m] all over it, on one side. Less a little: the ball is measured
+/// in metres and the walk in units.
 inline FreeBall farBall(const AdaptiveGrid& grid, const AdaptiveBlock& block, double margin) {
   const AdaptiveShape& shape = grid.shape();
-  const Vector3d center = block.low.cast<double>().array() + 0.5 * block.side;
-  return {shape.origin + shape.unit() * center, (std::abs(block.distance) - margin) * (1.0 - 1e-9),
-          block.distance < 0.0};
+  return {shape.origin + shape.unit() * block.ball_center, (block.ball_radius - margin) * (1.0 - 1e-9), block.inside};
 }
 
 }  // namespace sdf_ccd

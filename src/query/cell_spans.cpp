@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "representation_queries.h"
-#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd {
 
@@ -15,7 +14,11 @@ void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals) {
 void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals) {
   // A ball that holds the block is left later; but not by a segment of no length.
-  if (ball.radius > kHalfSqrt3 * side * walk.lattice().cell * (1.0 + 1e-9)) {
+  const CellLattice& lattice = walk.lattice();
+  const double half = 0.5 * side * lattice.cell;
+  const Vector3d center = lattice.origin + lattice.cell * low.cast<double>() + Vector3d::Constant(half);
+  const Vector3d farthest_corner = (center - ball.center).array().abs() + half;
+  if (ball.radius > farthest_corner.norm() * (1.0 + 1e-9)) {
     const double t = ball_exit(ball.center, ball.radius, walk.t());
     if (t > walk.t()) return passTo(t, ball.inside, walk, intervals);
   }

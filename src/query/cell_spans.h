@@ -26,8 +26,8 @@ struct FreeBall {
 /// Takes a walk to t, within which all is on one side: appends the span if that is the inside.
 void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals);
 
-/// Takes a walk out of a block of cells [low, low + side) that is as free as the ball about its centre, and on to where
-/// it leaves that.
+/// Takes a walk out of a block of cells [low, low + side) that is as free as a ball next to it, and on to where it
+/// leaves that.
 void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals);
 

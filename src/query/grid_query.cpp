@@ -12,12 +12,11 @@ namespace {
 
 constexpr int kBrick = GridShape::kBrick;
 
-/// About a far brick's centre.
-FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, std::uint32_t word, double sigma) {
+/// Of a far brick.
+FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, const FarBall& ball, double sigma) {
   const GridShape& shape = grid.shape();
-  const double distance = brick_word::distance(word);
-  return {shape.origin + kBrick * shape.cell * (brick.cast<double>().array() + 0.5).matrix(),
-          std::abs(distance) - std::abs(sigma) - grid.errorBound(), distance < 0.0};
+  return {shape.origin + kBrick * shape.cell * (brick + ball.offset).cast<double>(),
+          ball.steps * grid.ballStep() - std::abs(sigma) - grid.errorBound(), ball.inside};
 }
 
 /// About the sample nearest to a place of a sampled brick. With v the sample and h the cell no place nearer than
@@ -46,7 +45,7 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
     const Vector3i brick = walk.cell() / kBrick;
     const std::uint32_t word = grid.word(brick);
     if (brick_word::isFar(word)) {
-      const FreeBall ball = brickBall(grid, brick, word, sigma);
+      const FreeBall ball = brickBall(grid, brick, FarBall::of(word), sigma);
       passFree(kBrick * brick, kBrick, ball, ball_exit, walk, intervals);
     } else {
       const std::int32_t slot = grid.slot(brick);

@@ -37,7 +37,7 @@ inline Blocks locateTop(const AdaptiveLanes& g, VI word, const VI* cell) {
   Blocks b;
   b.far = hn::Eq(kind, whole(0));
   b.node = hn::Eq(kind, whole(3));
-  b.radius = hn::Mul(hn::BitCast(f, hn::AndNot(whole(3), word)), real(g.per_metre));
+  setFarBall(g, word, b);
   b.log_side = whole(LaneBox::kLogUnits);
   const hn::RebindToUnsigned<I> bits;
   b.place = hn::BitCast(n, hn::ShiftRight<2>(hn::BitCast(bits, word)));
@@ -78,10 +78,11 @@ inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetc
   b.far = hn::AndNot(wide, hn::Eq(kind, whole(3)));
   b.node = hn::Eq(kind, whole(1));
   b.log_side = hn::Sub(lanes.log_side, hn::IfThenElse(wide, whole(1), whole(2)));
-  const VI magnitude = hn::And(code, whole(31));
-  const VI steps = hn::IfThenElse(hn::Eq(hn::And(code, whole(32)), whole(0)), magnitude, hn::Neg(magnitude));
+  const VF steps = hn::ConvertTo(f, hn::And(code, whole(31)));
   const VF parent = hn::ConvertTo(f, hn::Shl(whole(1), lanes.log_side));
-  b.radius = hn::Mul(hn::ConvertTo(f, steps), hn::MulAdd(parent, real(g.far_step_per_side), real(g.far_step)));
+  b.radius = hn::Mul(steps, hn::MulAdd(parent, real(g.far_step_per_side), real(g.far_step)));
+  b.inside = hn::Ne(hn::And(code, whole(32)), whole(0));
+  for (VF& ball : b.ball) ball = hn::Mul(parent, real(0.125F));
   b.place = hn::Add(base, hn::And(code, hn::IfThenElse(wide, whole(7), whole(63))));
   enterSplits(hn::Eq(kind, whole(2)), lanes.cell, b);
   return b;

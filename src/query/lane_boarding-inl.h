@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
 
 #include <hwy/highway.h>
 
@@ -20,157 +22,179 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Segments on their way into a queue, clipped to the grid's box: in double precision where one starts far outside.
+/// Segments on their way into the grid, clipped to its box: in double precision where one reaches far outside. Each
+/// step is taken for all of them before the next, as vectors that are read just after parts of them were written wait.
 struct Boarding {
-  static constexpr int kGroup = 32;
-  static constexpr double kSurelyWithinReach = 4e11;  ///< from the grid's origin, and along the segment [m]
+  static constexpr int kMost = 128;
 
-  float o[3][kGroup], d[3][kGroup];
-  float t0[kGroup], t1[kGroup];  ///< the part of each segment that lies in the box
-  std::int32_t within[kGroup];   ///< 1, or 0 for those that do not meet the box
-  bool doubtful = false;         ///< one may not be within reach
+  float o[3][kMost], d[3][kMost];
+  float t0[kMost], t1[kMost];  ///< the part of each segment that lies in the box; none: t0 > t1
+  bool doubtful = false;       ///< one may not be within reach
 
-  /// Of a group; of less, the last one stands in for the others.
+  /// Of 1 to kMost segments; the last one also fills its vector.
   Boarding(const LaneBox& g, const Segment* segments, int count) {
-    if (count < kGroup) {
-      std::array<Segment, kGroup> filled;
-      for (int i = 0; i < kGroup; ++i) filled[i] = segments[std::min(i, count - 1)];
-      clipAll(g, filled.data());
-    } else {
-      clipAll(g, segments);
-    }
+    HWY_ALIGN float numbers[kNumbers * kMost];
+    convert(g, segments, count, numbers);
+    deinterleave(numbers, count);
+    clipAll(g, segments, count);
   }
 
  private:
   using Single = hn::ScalableTag<float>;
   using Wide = hn::ScalableTag<double>;
-  using V = hn::Vec<Wide>;
+  using OneWide = hn::CappedTag<double, 1>;
   static constexpr Single single{};
-  static constexpr Wide wide{};
-  static constexpr hn::Rebind<float, Wide> narrow{};
-
-  void clipAll(const LaneBox& g, const Segment* segments) {
-    bool near = true;
-    for (int i = 0; i < kGroup; i += int(hn::Lanes(wide))) near = convert(g, segments + i, i) && near;
-    if (near) {
-      for (int i = 0; i < kGroup; i += int(hn::Lanes(single))) clipConverted(g, i);
-    } else {
-      for (int i = 0; i < kGroup; i += int(hn::Lanes(wide))) clipFar(g, segments + i, i);
-    }
-  }
-
-  /// Starts and ends of as many segments as there are lanes.
-  static void load(const Segment* segments, V* starts, V* ends) {
-#if HWY_TARGET == HWY_SCALAR
-    for (int k = 0; k < 3; ++k) {
-      starts[k] = hn::Set(wide, segments->start[k]);
-      ends[k] = hn::Set(wide, segments->end[k]);
-    }
-#else
-    static_assert(sizeof(Segment) == 6 * sizeof(double), "numbers without gaps");
-    const double* numbers = segments->start.data();
-    V low[3], high[3];  // a start, an end, a start, ...
-    hn::LoadInterleaved3(wide, numbers, low[0], low[1], low[2]);
-    hn::LoadInterleaved3(wide, numbers + 3 * hn::Lanes(wide), high[0], high[1], high[2]);
-    for (int k = 0; k < 3; ++k) {
-      starts[k] = hn::ConcatEven(wide, high[k], low[k]);
-      ends[k] = hn::ConcatOdd(wide, high[k], low[k]);
-    }
-#endif
-  }
+  static constexpr int kNumbers = 6;
+  static_assert(sizeof(Segment) == kNumbers * sizeof(double), "numbers without gaps");
+  static_assert(kMost % hn::MaxLanes(single) == 0, "whole vectors");
 
   /// Starts, and ways from there, relative to the grid's origin [units].
-  static void locate(const LaneBox& g, const Segment* segments, V* at, V* way) {
-    const V units = hn::Set(wide, g.units_per_metre);
-    load(segments, at, way);
-    for (int k = 0; k < 3; ++k) {
-      way[k] = hn::Mul(hn::Sub(way[k], at[k]), units);
-      at[k] = hn::Mul(hn::Sub(at[k], hn::Set(wide, g.origin[k])), units);
-    }
-  }
-
-  static double longest(const LaneBox& g) {
-    return double(std::max({g.top_size[0], g.top_size[1], g.top_size[2]})) * LaneBox::kUnits;
-  }
-
-  /// As they come. @return whether all are so near the box that single precision will do for the rest.
-  bool convert(const LaneBox& g, const Segment* segments, int i) {
-    const V near = hn::Set(wide, 2.0 * longest(g));
-    V at[3], way[3], farthest = hn::Zero(wide);
-    locate(g, segments, at, way);
-    for (int k = 0; k < 3; ++k) farthest = hn::Max(farthest, hn::Max(hn::Abs(at[k]), hn::Abs(way[k])));
-    store(at, way, i);
-    return hn::AllTrue(wide, hn::Le(farthest, near));
-  }
-
-  void clipConverted(const LaneBox& g, int i) {
-    hn::Vec<Single> at[3], way[3];
-    for (int k = 0; k < 3; ++k) {
-      at[k] = hn::LoadU(single, o[k] + i);
-      way[k] = hn::LoadU(single, d[k] + i);
-    }
-    const auto part = clip(single, g, at, way);
-    for (int k = 0; k < 3; ++k) {
-      hn::StoreU(at[k], single, o[k] + i);
-      hn::StoreU(way[k], single, d[k] + i);
-    }
-    hn::StoreU(part.from, single, t0 + i);
-    hn::StoreU(part.to, single, t1 + i);
-    const hn::RebindToSigned<Single> whole;
-    hn::StoreU(hn::ConvertTo(whole, part.meets), whole, within + i);
-  }
-
-  void clipFar(const LaneBox& g, const Segment* segments, int i) {
-    V at[3], way[3];
-    locate(g, segments, at, way);
-    const V reach = hn::Set(wide, kSurelyWithinReach * g.units_per_metre);
-    for (int k = 0; k < 3; ++k) {
-      const auto near = hn::And(hn::Le(hn::Abs(at[k]), reach), hn::Le(hn::Abs(way[k]), reach));
-      doubtful = doubtful || !hn::AllTrue(wide, near);
-    }
-    const auto part = clip(wide, g, at, way);
-    store(at, way, i);
-    hn::StoreU(hn::DemoteTo(narrow, part.from), narrow, t0 + i);
-    hn::StoreU(hn::DemoteTo(narrow, part.to), narrow, t1 + i);
-    const hn::Rebind<std::int32_t, Wide> whole;
-    hn::StoreU(hn::DemoteTo(whole, part.meets), whole, within + i);
-  }
-
-  template <class Lane>
-  struct Part {
-    Lane from, to;
-    Lane meets;  ///< 1, or 0 for segments that do not meet the box
+  template <class Tag>
+  struct Ways {
+    hn::Vec<Tag> at[3], way[3];
   };
 
-  /// Leaves of segments what lies in the box.
-  template <class Tag, class Lane = hn::Vec<Tag>>
-  static Part<Lane> clip(Tag tag, const LaneBox& g, Lane* at, Lane* way) {
-    using T = hn::TFromD<Tag>;
-    const Lane zero = hn::Zero(tag), one = hn::Set(tag, T(1));
-    Lane from = zero, to = one;
+  template <class Tag>
+  struct Part {
+    hn::Vec<Tag> from, to;
+  };
+
+  static int lanes() { return static_cast<int>(hn::Lanes(single)); }
+
+  /// Starts and ends in single precision once they are relative to the grid's origin [units]; numbers x, y, z, x, ...
+  static void convert(const LaneBox& g, const Segment* segments, int count, float* relative) {
+    constexpr Wide wide;
+    constexpr hn::Rebind<float, Wide> narrow;
+    const int step = static_cast<int>(hn::Lanes(wide)), all = kNumbers * count;
+    double origins[3 * hn::MaxLanes(wide)];
+    for (std::size_t i = 0; i < std::size(origins); ++i) origins[i] = g.origin[i % 3];
+    const auto units = hn::Set(wide, g.units_per_metre);
+    const double* numbers = segments->start.data();
+    int j = 0;
+    for (; j + 3 * step <= all; j += 3 * step) {
+      for (int k = 0; k < 3 * step; k += step) {
+        const auto number = hn::Sub(hn::LoadU(wide, numbers + j + k), hn::LoadU(wide, origins + k));
+        hn::StoreU(hn::DemoteTo(narrow, hn::Mul(number, units)), narrow, relative + j + k);
+      }
+    }
+    for (; j < all; ++j) relative[j] = static_cast<float>((numbers[j] - g.origin[j % 3]) * g.units_per_metre);
+    const int whole_vectors = (count + lanes() - 1) / lanes() * lanes();
+    for (; j < kNumbers * whole_vectors; ++j) relative[j] = relative[j - kNumbers];
+  }
+
+  void deinterleave(const float* relative, int count) {
+    for (int i = 0; i < count; i += lanes()) {
+#if HWY_TARGET == HWY_SCALAR
+      for (int k = 0; k < 3; ++k) {
+        o[k][i] = relative[kNumbers * i + k];
+        d[k][i] = relative[kNumbers * i + 3 + k] - o[k][i];
+      }
+#else
+      hn::Vec<Single> low[3], high[3];  // a start, an end, a start, ...
+      const float* numbers = relative + kNumbers * i;
+      hn::LoadInterleaved3(single, numbers, low[0], low[1], low[2]);
+      hn::LoadInterleaved3(single, numbers + 3 * lanes(), high[0], high[1], high[2]);
+      for (int k = 0; k < 3; ++k) {
+        const auto start = hn::ConcatEven(single, high[k], low[k]), end = hn::ConcatOdd(single, high[k], low[k]);
+        put(start, o[k] + i);
+        put(hn::Sub(end, start), d[k] + i);
+      }
+#endif
+    }
+  }
+
+  /// For segments that stay this near to the grid's origin single precision will do [units].
+  static double nearReach(const LaneBox& g) {
+    return 2.0 * std::max({g.top_size[0], g.top_size[1], g.top_size[2]}) * LaneBox::kUnits;
+  }
+
+  void clipAll(const LaneBox& g, const Segment* segments, int count) {
+    const auto surely_near = hn::Set(single, static_cast<float>(0.9 * nearReach(g)));
+    const auto zero = hn::Zero(single), one = hn::Set(single, 1.0F);
+    for (int i = 0; i < count; i += lanes()) {
+      Ways<Single> ways;
+      auto inside = hn::Eq(one, one);
+      auto farthest = zero;
+      for (int k = 0; k < 3; ++k) {
+        ways.at[k] = hn::LoadU(single, o[k] + i);
+        ways.way[k] = hn::LoadU(single, d[k] + i);
+        const auto end = hn::Add(ways.at[k], ways.way[k]);
+        const auto low = hn::Min(ways.at[k], end), high = hn::Max(ways.at[k], end);
+        const auto size = hn::Set(single, static_cast<float>(g.top_size[k] * LaneBox::kUnits));
+        inside = hn::And(inside, hn::And(hn::Ge(low, zero), hn::Le(high, size)));
+        farthest = hn::Max(farthest, hn::Max(hn::Neg(low), high));
+      }
+      if (hn::AllTrue(single, inside)) {
+        put(zero, t0 + i);
+        put(one, t1 + i);
+        continue;
+      }
+      store<Single>(clip(single, g, inside, ways), ways, i);
+      if (hn::AllTrue(single, hn::Le(farthest, surely_near))) continue;
+      for (int j = i; j < std::min(i + lanes(), count); ++j) clipFar(g, segments[j], j);
+    }
+  }
+
+  /// A segment that is not near is clipped anew, in double precision.
+  void clipFar(const LaneBox& g, const Segment& segment, int i) {
+    constexpr OneWide wide;
+    const double reach = kSurelyWithinReach * g.units_per_metre;
+    Ways<OneWide> ways;
+    bool near = true;
     for (int k = 0; k < 3; ++k) {
-      const Lane size = hn::Set(tag, T(g.top_size[k] * LaneBox::kUnits));
-      const auto still = hn::Lt(hn::Abs(way[k]), hn::Set(tag, T(1e-30)));
-      const Lane per_way = hn::Div(one, hn::IfThenElse(still, one, way[k]));
-      const Lane a = hn::Mul(hn::Neg(at[k]), per_way), b = hn::Mul(hn::Sub(size, at[k]), per_way);
-      const auto beside = hn::And(still, hn::Or(hn::Lt(at[k], zero), hn::Gt(at[k], size)));
+      const double at = (segment.start[k] - g.origin[k]) * g.units_per_metre;
+      const double way = (segment.end[k] - segment.start[k]) * g.units_per_metre;
+      near = near && std::max(std::abs(at), std::abs(at + way)) <= nearReach(g);
+      doubtful = doubtful || !(std::abs(at) <= reach && std::abs(way) <= reach);
+      ways.at[k] = hn::Set(wide, at);
+      ways.way[k] = hn::Set(wide, way);
+    }
+    if (!near) store<OneWide>(clip(wide, g, hn::MaskFromVec(hn::Zero(wide)), ways), ways, i);
+  }
+
+  static constexpr double kSurelyWithinReach = 4e11;  ///< from the grid's origin, and along the segment [m]
+
+  /// Leaves of segments what lies in the box. @param inside  those of which all does.
+  template <class Tag>
+  static Part<Tag> clip(Tag tag, const LaneBox& g, hn::Mask<Tag> inside, Ways<Tag>& ways) {
+    using T = hn::TFromD<Tag>;
+    const auto zero = hn::Zero(tag), one = hn::Set(tag, T(1));
+    auto from = zero, to = one;
+    for (int k = 0; k < 3; ++k) {
+      const auto at = ways.at[k], way = ways.way[k];
+      const auto size = hn::Set(tag, T(g.top_size[k] * LaneBox::kUnits));
+      const auto still = hn::Lt(hn::Abs(way), hn::Set(tag, T(1e-30)));
+      const auto per_way = hn::Div(one, hn::IfThenElse(still, one, way));
+      const auto a = hn::Mul(hn::Neg(at), per_way), b = hn::Mul(hn::Sub(size, at), per_way);
+      const auto beside = hn::And(still, hn::Or(hn::Lt(at, zero), hn::Gt(at, size)));
       from = hn::Max(from, hn::IfThenElse(still, zero, hn::Min(a, b)));
       to = hn::Min(to, hn::IfThenElse(still, one, hn::Max(a, b)));
       to = hn::IfThenElse(beside, hn::Set(tag, T(-1)), to);
     }
-    const Lane length = hn::Sub(to, from);
+    to = hn::IfThenElse(inside, one, to);  // whatever was rounded
+    const auto length = hn::Sub(to, from);
     for (int k = 0; k < 3; ++k) {
-      at[k] = hn::MulAdd(from, way[k], at[k]);
-      way[k] = hn::Mul(length, way[k]);
+      ways.at[k] = hn::MulAdd(from, ways.way[k], ways.at[k]);
+      ways.way[k] = hn::Mul(length, ways.way[k]);
     }
-    return {from, to, hn::IfThenElseZero(hn::Le(from, to), one)};
+    return {from, to};
   }
 
-  void store(const V* at, const V* way, int i) {
+  template <class Tag>
+  void store(const Part<Tag>& part, const Ways<Tag>& ways, int i) {
     for (int k = 0; k < 3; ++k) {
-      hn::StoreU(hn::DemoteTo(narrow, at[k]), narrow, o[k] + i);
-      hn::StoreU(hn::DemoteTo(narrow, way[k]), narrow, d[k] + i);
+      put(ways.at[k], o[k] + i);
+      put(ways.way[k], d[k] + i);
     }
+    put(part.from, t0 + i);
+    put(part.to, t1 + i);
+  }
+
+  static void put(hn::Vec<Single> v, float* to) {
+    hn::StoreU(v, single, to);
+  }
+  static void put(hn::Vec<OneWide> v, float* to) {
+    *to = static_cast<float>(hn::GetLane(v));
   }
 };
 

@@ -22,7 +22,7 @@ inline Blocks locateTop(const EvenLanes& g, VI word, const VI* /*cell*/) {
   Blocks b;
   b.far = hn::Eq(hn::And(word, whole(1)), hn::Zero(n));
   b.node = hn::Not(b.far);
-  b.radius = hn::Mul(hn::BitCast(f, word), real(g.per_metre));
+  setFarBall(g, word, b);
   b.log_side = whole(LaneBox::kLogUnits);
   b.place = hn::IfThenElseZero(b.node, hn::ShiftRight<1>(word));
   return b;

@@ -13,7 +13,7 @@ void setBox(LaneBox& box, const Vector3d& origin, double unit, const Vector3i& s
   }
   box.top = top;
   box.units_per_metre = 1.0 / unit;
-  box.per_metre = static_cast<float>(1.0 / unit);
+  box.ball_step = static_cast<float>(FarBall::step(size) * LaneBox::kUnits);
 }
 
 }  // namespace
@@ -23,6 +23,7 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
   const AdaptiveShape& shape = grid.shape();
   setBox(*this, shape.origin, shape.unit(), shape.size, arrays.top.data);
+  ball_place = 0.5F * kUnits;
   nodes = arrays.nodes.data;
   bases = arrays.bases.data;
   leaves = arrays.leaves.data;
@@ -47,6 +48,7 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
 EvenLanes::EvenLanes(const SparseGrid& grid, double sigma_metres) {
   const GridShape& shape = grid.shape();
   setBox(*this, shape.origin, GridShape::kBrick * shape.cell / kUnits, shape.bricks, grid.words().data);
+  ball_place = 0.0F;
   samples = grid.samples().data;
   const bool in_steps = shape.step > 0.0;
   steps = in_steps ? grid.steps().data : nullptr;

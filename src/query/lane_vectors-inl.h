@@ -64,12 +64,12 @@ struct Lanes {
     log_side = hn::IfThenElseZero(used, hn::LoadU(n, queue.log_side.data() + first));
   }
 
-  /// Those that board; place: whether they meet the box.
+  /// Those that board.
   Lanes(const Boarding& boarding, int first, int first_id)
       : t(real(0.0F)),
         enter(real(-1.0F)),
         id(hn::Iota(n, first_id + first)),
-        place(hn::LoadU(n, boarding.within + first)),
+        place(hn::Zero(n)),
         log_side(hn::Zero(n)) {
     for (int k = 0; k < 3; ++k) {
       o[k] = hn::LoadU(f, boarding.o[k] + first);
@@ -134,11 +134,28 @@ HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, Flig
 /// The block that each lane is in.
 struct Blocks {
   VI log_side;
-  VI place;   ///< of a leaf or node
-  VF radius;  ///< where `far`: signed distance of the surface from the centre [units]
+  VI place;  ///< of a leaf or node
   MI far;
   MI node;  ///< to be asked further; neither far nor node: a leaf
+  // Where `far`: a ball free of surface.
+  VF ball[3];  ///< its centre, from the block's first corner [units]
+  VF radius;   ///< [units]
+  MI inside;
 };
+
+/// The balls that the words of far top cells say (see FarBall).
+inline void setFarBall(const LaneBox& g, VI word, Blocks& b) {
+  const auto offset = [&](VI high) {
+    const VF cells = hn::ConvertTo(f, hn::ShiftRight<27>(high));
+    return hn::MulAdd(cells, real(LaneBox::kUnits), real(g.ball_place));
+  };
+  b.ball[0] = offset(hn::ShiftLeft<25>(word));
+  b.ball[1] = offset(hn::ShiftLeft<20>(word));
+  b.ball[2] = offset(hn::ShiftLeft<15>(word));
+  const VI steps = hn::And(hn::ShiftRight<17>(word), whole(FarBall::kMostSteps));
+  b.radius = hn::Mul(hn::ConvertTo(f, steps), real(g.ball_step));
+  b.inside = hn::Lt(word, hn::Zero(n));
+}
 
 /// The index of each lane's top cell.
 inline VI topIndex(const LaneBox& g, const VI* cell) {

@@ -137,7 +137,7 @@ LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
   while (walk.inside()) {
     const AdaptiveBlock block = grid.block(walk.cell());
     if (!block.leaf) {
-      if (block.distance < 0.0) return {0.0, kInfinity, kInfinity, kInfinity};
+      if (block.inside) return {0.0, kInfinity, kInfinity, kInfinity};
       passFree(block.low, block.side, farBall(grid, block, grid.shape().band), ball_exit, walk, no_intervals);
       continue;
     }

@@ -48,8 +48,11 @@ class Chunk {
     }
     for (const std::int32_t lost : work_.lost) retry(field, segments, first, lost, options);
     if (first_only) {
-      for (int i = 0; i < count; ++i) {
-        if (work_.first[i] >= 0.0F) hits.push_back(hitOf(first, i, work_.first[i], work_.first[i]));
+      for (std::uint32_t i = 0; i < work_.found.size(); ++i) {
+        for (std::uint64_t left = work_.found[i]; left != 0; left &= left - 1) {
+          const std::uint32_t id = 64 * i + __builtin_ctzll(left);
+          hits.push_back(hitOf(first, id, work_.first[id], work_.first[id]));
+        }
       }
     } else {
       sortHits(first, count, hits);
@@ -87,7 +90,7 @@ class Chunk {
     work_.begin[lost] = 0.0F;
     work_.end[lost] = 1.0F;
     for (const SegmentHit& hit : single) hits.push_back({static_cast<std::uint32_t>(lost), hit.enter, hit.exit});
-    work_.first[lost] = single.empty() ? -1.0F : single.front().enter;
+    if (!single.empty()) work_.setFirst(lost, single.front().enter);
   }
 
   FlightWork work_;

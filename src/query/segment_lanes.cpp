@@ -30,6 +30,7 @@ class Follower {
   int run(const Segment* segments, int count) {
     work_.hits.clear();
     work_.lost.clear();
+    work_.found.fill(0);
     for (Queues* queues : {&work_.top, &work_.node}) (*queues)[0].size = (*queues)[1].size = 0;
     work_.leaf.size = 0;
     // Each pass takes each flight through a cell; none meets more than this.
@@ -61,7 +62,7 @@ class Follower {
  private:
   using Queues = std::array<FlightQueue, 2>;
 
-  int flying() const { return work_.top[next_].size + work_.node[next_].size; }
+  int flying() const { return work_.top[next_].size + work_.node[next_].size + work_.leaf.size; }
 
   template <class Step>
   void takeAll(FlightQueue& queue, const Step& step) {
@@ -76,28 +77,41 @@ class Follower {
 
   /// Fills up with segments from number `first` on. @return the first that still waits.
   int board(const Segment* segments, int first, int count) {
-    static_assert(FlightWork::kSegments % Boarding::kGroup == 0, "a group's times have room");
-    for (int room = FlightQueue::kCapacity - flying(); first < count && room >= Boarding::kGroup;
-         room -= Boarding::kGroup) {
-      const int group = std::min(Boarding::kGroup, count - first);
+    while (first < count && FlightQueue::kCapacity - flying() >= Boarding::kMost) {
+      const int group = std::min(Boarding::kMost, count - first);
       const Boarding boarding(g_, segments + first, group);
       if (boarding.doubtful) {
         const auto within = [](const Segment& s) { return isWithinReach(s); };
         const int found = int(std::find_if_not(segments + first, segments + first + group, within) - segments);
         if (found < first + group) refused_ = found;
       }
-      std::fill_n(work_.first.data() + first, Boarding::kGroup, -1.0F);
-      std::copy_n(boarding.t0, Boarding::kGroup, work_.begin.data() + first);
-      std::copy_n(boarding.t1, Boarding::kGroup, work_.end.data() + first);
-      for (int i = 0; i < Boarding::kGroup; i += static_cast<int>(hn::Lanes(f))) {
-        Lanes lanes(boarding, i, first);
-        const MI which = hn::And(hn::Lt(lanes.id, whole(count)), hn::Gt(lanes.place, hn::Zero(n)));
-        findCells(lanes);
-        arrive(lanes, which);
-      }
-      first += Boarding::kGroup;
+      std::copy_n(boarding.t0, group, work_.begin.data() + first);
+      std::copy_n(boarding.t1, group, work_.end.data() + first);
+      takeOff(boarding, first, group);
+      first += group;
     }
     return first;
+  }
+
+  /// A group's first step: most short segments are done with it.
+  void takeOff(const Boarding& boarding, int first, int count) {
+    const int width = static_cast<int>(hn::Lanes(f));
+    std::int32_t cell[3][Boarding::kMost], word[Boarding::kMost];
+    for (int i = 0; i < count; i += width) {
+      Lanes lanes(boarding, i, first);
+      findCells(lanes);
+      for (int k = 0; k < 3; ++k) hn::StoreU(lanes.cell[k], n, cell[k] + i);
+      hn::StoreU(topIndex(g_, lanes.cell), n, word + i);
+    }
+    const std::uint32_t* top = g_.top;
+    for (int i = 0; i < count; ++i) word[i] = static_cast<std::int32_t>(top[word[i]]);
+    for (int i = 0; i < count; i += width) {
+      Lanes lanes(boarding, i, first);
+      for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
+      const MI in_box = asWhole(hn::Le(hn::LoadU(f, boarding.t0 + i), hn::LoadU(f, boarding.t1 + i)));
+      const MI used = hn::And(in_box, hn::FirstN(n, static_cast<std::size_t>(count - i)));
+      sort(locateTop(g_, hn::LoadU(n, word + i), lanes.cell), lanes, used, work_.node[next_]);
+    }
   }
 
   void hit(std::int32_t id, float enter, float exit) {
@@ -119,7 +133,7 @@ class Follower {
     if (first_only_) {
       const Unpacked<float> enters(t);
       const Unpacked<std::int32_t> ids(lanes.id);
-      forEach(begin, [&](std::size_t i) { work_.first[ids[i]] = enters[i]; });
+      forEach(begin, [&](std::size_t i) { work_.setFirst(ids[i], enters[i]); });
       return begin;
     }
     lanes.enter = hn::IfThenElse(asReal(begin), t, lanes.enter);
@@ -146,6 +160,7 @@ class Follower {
 
   /// Lanes that have come to a new place.
   HWY_INLINE void arrive(const Lanes& lanes, MI which) {
+    if (hn::AllFalse(n, which)) return;
     append(which, lanes, topIndex(g_, lanes.cell), lanes.log_side, work_.top[next_]);
   }
 
@@ -168,7 +183,7 @@ class Follower {
     const MI leaf = hn::AndNot(hn::Or(at.far, at.node), used);
     if (!hn::AllFalse(n, node)) append(node, lanes, at.place, at.log_side, nodes);
     if (!hn::AllFalse(n, leaf)) append(leaf, lanes, at.place, at.log_side, work_.leaf);
-    if (!hn::AllFalse(n, far)) arrive(lanes, passFar(lanes, at.log_side, at.radius, far));
+    if (!hn::AllFalse(n, far)) arrive(lanes, passFar(lanes, at, far));
   }
 
   /// Where lanes leave a ball that holds them; t where it does not. In numbers relative to where the lanes are: small,
@@ -195,28 +210,33 @@ class Follower {
     return hn::AndNot(done, live);
   }
 
-  /// Through far blocks: to the exit of the ball about the centre that is free of the isosurface, or of the block.
+  /// Through far blocks: to the exit of a ball that is free of the isosurface, or of the block.
   /// @return lanes that are neither done nor hit; they stand in their new cells.
-  HWY_INLINE MI passFar(Lanes& lanes, VI log_side, VF distance, MI live) {
-    const MI inside = asWhole(hn::Lt(distance, real(0.0F)));
-    live = hn::AndNot(turn(inside, live, lanes.t, lanes), live);
-    const VI side = hn::Shl(whole(1), log_side), mask = hn::Neg(side);
+  HWY_INLINE MI passFar(Lanes& lanes, const Blocks& at, MI live) {
+    live = hn::AndNot(turn(at.inside, live, lanes.t, lanes), live);
+    const VI side = hn::Shl(whole(1), at.log_side), mask = hn::Neg(side);
     const VF half = hn::Mul(hn::ConvertTo(f, side), real(0.5F));
-    VF center[3];
-    for (int k = 0; k < 3; ++k) center[k] = hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), half);
-    const VF rounded = hn::MulAdd(hn::Abs(distance), real(1.0F - 1e-5F), real(-0.01F));
-    const VF radius = hn::Max(hn::Sub(rounded, real(g_.margin)), real(0.0F));
-    const VF t_ball = ballExit(lanes, center, hn::Mul(radius, radius));
+    const VF rounded = hn::MulAdd(at.radius, real(1.0F - 1e-5F), real(-0.01F));
+    const VF radius = hn::Max(hn::Sub(rounded, real(g_.margin)), real(0.0F)), radius2 = hn::Mul(radius, radius);
+    VF center[3], farthest2 = real(0.0F);  // and of the block's farthest corner from it
+    for (int k = 0; k < 3; ++k) {
+      center[k] = hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), at.ball[k]);
+      const VF to_corner = hn::Add(hn::Abs(hn::Sub(at.ball[k], half)), half);
+      farthest2 = hn::MulAdd(to_corner, to_corner, farthest2);
+    }
+    const VF t_ball = ballExit(lanes, center, radius2);
     // A ball that holds all of the block is left later than the block.
-    const MI covered = asWhole(hn::Gt(radius, hn::Mul(half, real(1.7330F))));
+    const MI covered = asWhole(hn::Gt(radius2, hn::Mul(farthest2, real(1.001F))));
     if (hn::AllFalse(n, hn::AndNot(covered, live))) {
       const MI done = hn::And(live, asWhole(hn::Ge(t_ball, real(1.0F))));
       finish(done, lanes);
+      const MI onward = hn::AndNot(done, live);
+      if (hn::AllFalse(n, onward)) return onward;
       lanes.t = t_ball;
       findCells(lanes);
-      return hn::AndNot(done, live);
+      return onward;
     }
-    const Exits exits = exitsOf(lanes, log_side);
+    const Exits exits = exitsOf(lanes, at.log_side);
     // Covered lanes go the way they go without neighbours that are not.
     const MF jump = hn::Or(asReal(covered), hn::Gt(t_ball, exits.t));
     return moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_ball, exits.t), live);
@@ -265,7 +285,7 @@ class Follower {
     // Less than a unit could be lost in rounding, and leave the lane where it is for ever.
     const MF jump = hn::And(hn::Gt(free, real(1.0F)), hn::Gt(t_free, exits.t));
     const MI onward = moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_free, exits.t), going);
-    if (!hn::AllFalse(n, onward)) arrive(lanes, onward);
+    arrive(lanes, onward);
   }
 
   /// @return lanes that are done with.
@@ -296,7 +316,7 @@ class Follower {
       const Interval& span = found.interval[i];
       if (enter < 0.0F) enter = timeOf(span.enter);
       if (first_only_) {
-        work_.first[id] = enter;
+        work_.setFirst(id, enter);
         return true;
       }
       if (span.exit == 1.0) return false;

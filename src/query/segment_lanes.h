@@ -19,7 +19,8 @@ struct LaneBox {
   double units_per_metre;
   std::array<std::int32_t, 3> top_size;  ///< top cells per axis
   const std::uint32_t* top;              ///< a word per top cell, x fastest
-  float per_metre;                       ///< units
+  float ball_step;                       ///< of FarBall [units]
+  float ball_place;   ///< of a top cell's place in the lattice of balls' centres, from its first corner [units]
   float margin;       ///< a ball of the true distance less this holds no place where the field is sigma [units]
   float leaf_margin;  ///< and one of a leaf's distance from sigma less this none beyond the leaf [units]
 };
@@ -34,7 +35,7 @@ struct AdaptiveLanes : LaneBox {
   const SplitLeaves* splits;
   float sigma;  ///< [units]
   /// [units] per step for a node or leaf of no side, and what a unit of side adds: of far children's distances
-  /// (AdaptiveGrid::farStep) and of leaves' rounding (LeafScale).
+  /// (AdaptiveGrid::farStepFor) and of leaves' rounding (LeafScale).
   float far_step, far_step_per_side;
   float offset, offset_per_side, corner, corner_per_side;
 };
@@ -110,10 +111,16 @@ struct FlightWork {
   std::array<FlightQueue, 2> top, node;  ///< in turn: one is read, the other written
   FlightQueue leaf;
   Fetched fetched;
-  std::array<float, kSegments> begin, end;  ///< the part of each segment that is within the grid's box
-  std::array<float, kSegments> first;       ///< of each segment the first hit, if only that is asked; −1: none
-  std::vector<FlightHit> hits;              ///< all others; of one segment in order of time
-  std::vector<std::int32_t> lost;           ///< to be asked one by one: those that did not end
+  std::array<float, kSegments> begin, end;          ///< the part of each segment that is within the grid's box
+  std::array<float, kSegments> first;               ///< of each segment the first hit, if only that is asked,
+  std::array<std::uint64_t, kSegments / 64> found;  ///< for those whose bit is set
+  std::vector<FlightHit> hits;                      ///< all others; of one segment in order of time
+  std::vector<std::int32_t> lost;                   ///< to be asked one by one: those that did not end
+
+  void setFirst(std::int32_t id, float enter) {
+    first[id] = enter;
+    found[id / 64] |= std::uint64_t{1} << id % 64;
+  }
 };
 
 /// Follows segments 0 to count − 1 to their ends or to their first hit.

@@ -50,15 +50,6 @@ TEST(NodeCode, FarDistancesAreRoundedTowardsZero) {
   }
 }
 
-TEST(TopWord, FarDistancesAreRoundedTowardsZero) {
-  for (const double distance : {1e-6, -0.3, 12.0, -1e4}) {
-    const std::uint32_t word = top_word::far(distance);
-    EXPECT_EQ(word & top_word::kKind, top_word::kFar);
-    EXPECT_LE(std::abs(top_word::distance(word)), std::abs(distance));
-    EXPECT_NEAR(top_word::distance(word), distance, 3e-6 * std::abs(distance));
-  }
-}
-
 TEST(LeafError, IsRoundedUp) {
   const double error_bound = 0.003;
   for (double error = error_bound; error > 1e-5 * error_bound; error *= 0.97) {
@@ -305,8 +296,11 @@ TEST(AdaptiveGrid, DamagedIndicesAreRefused) {
     return s;
   }();
   AdaptiveData far;
-  far.top = {top_word::far(2.0), top_word::far(-2.0)};
-  EXPECT_EQ(AdaptiveGrid(shape, far).block({5, 6, 200}).distance, top_word::distance(top_word::far(-2.0)));
+  far.top = {FarBall{{}, 7, false}.word(), FarBall{{1, 0, -2}, 900, true}.word()};
+  const AdaptiveBlock block = AdaptiveGrid(shape, far).block({5, 6, 200});
+  EXPECT_TRUE(block.inside);
+  EXPECT_NEAR(block.ball_radius, 900 * FarBall::step(shape.size), 1e-12);
+  EXPECT_EQ(block.ball_center, Vector3d(192.0, 64.0, -64.0));
   AdaptiveData lost = far;
   lost.top[1] = 7 << 2 | top_word::kLeaf;
   EXPECT_THROW(AdaptiveGrid(shape, lost), std::invalid_argument);

@@ -256,28 +256,6 @@ TEST(DistanceField, SparseFieldFollowsTheSurface) {
   EXPECT_LT(double(fine) / coarse, 5.0);
 }
 
-TEST(DistanceField, FarBricksSayHowFarTheSurfaceIs) {
-  const DistanceField field = boxField(200);
-  const SparseGrid& grid = *field.grid();
-  const GridShape& shape = grid.shape();
-  const double side = GridShape::kBrick * shape.cell;
-  int far = 0, useful = 0;
-  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
-    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
-      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x()) {
-        const std::uint32_t word = grid.word(b);
-        if (!brick_word::isFar(word)) continue;
-        const Vector3d center = shape.origin + side * (b.cast<double>().array() + 0.5).matrix();
-        const double truth = signedDistance(Primitive(Box{kHalf}), center), said = brick_word::distance(word);
-        ASSERT_LE(std::abs(said), std::abs(truth) + 1e-9);
-        ASSERT_EQ(said < 0.0, truth < 0.0);
-        ++far;
-        useful += std::abs(said) > 0.5 * std::sqrt(3.0) * side;
-      }
-  EXPECT_GT(far, 500);
-  EXPECT_GT(useful, far / 3);
-}
-
 /// Design §3.3: with v the sample at c and h the cell, no place nearer to c than √((v − σ)² − ¾h²) is interpolated to
 /// σ, where v is the distance; where it is rounded it is less by its own rounding and that of the samples around it.
 TEST_P(SampleBits, NothingNearASampleIsInterpolatedToAnIsovalue) {

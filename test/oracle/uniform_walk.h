@@ -37,7 +37,7 @@ struct LatticeCell {
 inline LatticeCell latticeCell(const DistanceField& field, const Vector3i& c) {
   if (const AdaptiveGrid* grid = field.adaptive()) {
     const AdaptiveBlock block = grid->block(c);
-    if (!block.leaf) return {block.low, block.side, false, {block.distance}};
+    if (!block.leaf) return {block.low, block.side, false, {block.inside ? -1.0 : 1.0}};
     return {block.low, block.side, true, grid->corners(block)};
   }
   const SparseGrid& grid = *field.grid();

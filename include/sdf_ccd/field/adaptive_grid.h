@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "sdf_ccd/field/far_ball.h"
 #include "sdf_ccd/field/view.h"
 #include "sdf_ccd/geometry/eigen_types.h"
 
@@ -96,13 +97,10 @@ struct AdaptiveData {
   std::vector<std::uint8_t> leaf_errors;  ///< by AdaptiveBlock::index; apart, as a query's steps do not need them
 };
 
-/// What a top cell's word says: a kind in its last two bits, and an index or the distance at the cell's centre.
+/// What a top cell's word says: a kind in its last two bits, and an index or a FarBall about a top cell's centre.
 namespace top_word {
 constexpr std::uint32_t kFar = 0, kLeaf = 1, kSplit = 2, kNode = 3;
 constexpr std::uint32_t kKind = 3;
-/// Rounded towards zero, so that a ball of that radius is free of surface.
-std::uint32_t far(double distance);
-float distance(std::uint32_t word);
 }  // namespace top_word
 
 /// What a node's code says.
@@ -111,7 +109,7 @@ namespace node_code {
 /// node's other leaves.
 constexpr int kLeaf = 0, kNode = 64, kSplit = 128, kFar = 192, kWide = 248;
 constexpr int kFarSteps = 23;  ///< largest magnitude of a far child's distance
-/// A far child's distance at its centre, rounded towards zero, in steps of AdaptiveGrid::farStep().
+/// A far child's distance at its centre, rounded towards zero, in steps of AdaptiveGrid::farStepFor().
 inline std::uint8_t far(double steps) {
   const int magnitude = static_cast<int>(std::min(std::floor(std::abs(steps)), double(kFarSteps)));
   return static_cast<std::uint8_t>(kFar + (steps < 0.0 ? 32 : 0) + magnitude);
@@ -128,7 +126,11 @@ struct AdaptiveBlock {
   bool leaf;          ///< false: far from the surface
   LeafWord word;      ///< of a leaf
   std::size_t index;  ///< of a leaf: its rank among those of the array, or after them among those of the splits
-  double distance;    ///< far: of the surface from the centre, signed, its magnitude rounded down [m]
+  /// Far: a ball free of surface, and on which side of it that is with all of the block.
+  Vector3d ball_center = Vector3d::Zero();  ///< [units]
+  double ball_radius = 0.0;                 ///< [m]
+  bool inside = false;
+  double most = 0.0;  ///< far: |φ| at the block's own centre does not exceed this [m]
 };
 
 /// Signed distances in cells whose size follows the shape of the surface (the paper's "future work"): a coarse grid
@@ -170,13 +172,11 @@ class AdaptiveGrid {
   /// How leaves of a side of 2^k units are rounded.
   const LeafScale& scale(int side_units) const { return scales_[__builtin_ctz(static_cast<unsigned>(side_units))]; }
 
-  /// Distance per step of a far child of a node at this depth (0: child of a top cell) [m].
-  double farStep(int node_depth) const { return far_steps_[node_depth]; }
-
   std::size_t leafCount() const { return arrays_.leaves.size + 8 * arrays_.splits.size; }
   std::size_t bytes() const;
 
-  /// As farStep(), for cells of side `node_side` [m] that are divided because they may hold |φ| ≤ band.
+  /// Distance per step of a far child, of cells of side `node_side` [m] that are divided because they may hold
+  /// |φ| ≤ band [m].
   static double farStepFor(double node_side, double band) { return (band + 1.53 * node_side) / node_code::kFarSteps; }
 
   /// The rounding of leaves of side h [m]: those whose cell, or twice as large a cell around it, may hold |φ| ≤ band.
@@ -185,12 +185,13 @@ class AdaptiveGrid {
  private:
   void check() const;
   void setScales();
+  AdaptiveBlock farTopBlock(const Vector3i& low, const FarBall& ball) const;
 
   AdaptiveShape shape_;
   Arrays arrays_;
   std::shared_ptr<const void> owner_;
-  std::array<LeafScale, 8> scales_;  ///< by log2 of the side in units
-  std::array<double, AdaptiveShape::kMaxDepth> far_steps_;
+  std::array<LeafScale, 8> scales_;                         ///< by log2 of the side in units
+  std::array<double, AdaptiveShape::kMaxDepth> far_steps_;  ///< farStepFor() of nodes at each depth
 };
 
 }  // namespace sdf_ccd

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "sdf_ccd/field/far_ball.h"
 #include "sdf_ccd/field/view.h"
 #include "sdf_ccd/geometry/eigen_types.h"
 
@@ -51,24 +52,21 @@ struct GridData {
   std::vector<std::int16_t> steps;  ///< in their place where the shape has a step: how many of it
 };
 
-/// What a brick's word says: with its last bit set a slot, above it; else the bits of a distance.
+/// What a brick's word says: with its last bit set a slot, above it; else a FarBall about a brick's corner.
 namespace brick_word {
 inline std::uint32_t slot(std::int32_t slot) {
   return static_cast<std::uint32_t>(slot) << 1 | 1U;
 }
-/// Rounded towards zero, so that a ball of that radius is free of surface.
-std::uint32_t far(double distance);
 inline bool isFar(std::uint32_t word) {
   return (word & 1U) == 0;
 }
-float distance(std::uint32_t word);
 }  // namespace brick_word
 
 /// Samples of a signed distance, dense in bricks near the surface, one per brick corner elsewhere.
 ///
 /// Memory order: x fastest, then y, then z. A brick has samples unless |φ| > band + cell all over it; instead of those
-/// a far brick has the distance at its centre, rounded down, by whose ball a query goes on (design §3.3): farther than
-/// by the paper's min/max octree (§3.2), and without its memory.
+/// a far brick has a FarBall, by which a query goes on (design §3.3): farther than by the paper's min/max octree
+/// (§3.2), and without its memory.
 class SparseGrid {
  public:
   static constexpr std::int32_t kFar = -1;
@@ -119,6 +117,9 @@ class SparseGrid {
 
   /// Distances at a brick's corners, ordered like cellCorners().
   std::array<double, 8> brickCorners(const Vector3i& brick) const;
+
+  /// Radius of balls, per step [m].
+  double ballStep() const { return GridShape::kBrick * shape_.cell * FarBall::step(shape_.bricks); }
 
   std::uint32_t word(const Vector3i& brick) const { return arrays_.words[shape_.brickIndex(brick)]; }
 
