@@ -58,7 +58,7 @@ struct Lanes {
       cell[k] = hn::LoadU(n, queue.cell[k].data() + first);
     }
     t = hn::LoadU(f, queue.t.data() + first);
-    enter = hn::LoadU(f, queue.enter.data() + first);
+    enter = real(-1.0F);
     id = hn::LoadU(n, queue.id.data() + first);
     place = hn::LoadU(n, queue.place.data() + first);
     log_side = hn::IfThenElseZero(used, hn::LoadU(n, queue.log_side.data() + first));
@@ -110,6 +110,7 @@ class Front {
 };
 
 /// Puts the lanes of a mask at the end of a queue.
+template <bool keeps_enter>
 HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
   const int end = queue.size;
   const Front front(which);
@@ -124,11 +125,21 @@ HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, Flig
     putWhole(lanes.cell[k], queue.cell[k]);
   }
   put(lanes.t, queue.t);
-  put(lanes.enter, queue.enter);
+  if constexpr (keeps_enter) put(lanes.enter, queue.enter);
   putWhole(lanes.id, queue.id);
   putWhole(place, queue.place);
   putWhole(log_side, queue.log_side);
   queue.size = end + static_cast<int>(hn::CountTrue(n, which));
+}
+
+/// The same for hits.
+HWY_INLINE void append(MI which, VI id, VF enter, VF exit, FlightHits& hits) {
+  hits.makeRoom();
+  const Front front(which);
+  hn::StoreU(front(id), n, hits.id.data() + hits.size);
+  hn::StoreU(front(enter), f, hits.enter.data() + hits.size);
+  hn::StoreU(front(exit), f, hits.exit.data() + hits.size);
+  hits.size += static_cast<int>(hn::CountTrue(n, which));
 }
 
 /// The block that each lane is in.

@@ -47,54 +47,76 @@ class Chunk {
                                   " is not finite, or reaches farther than 1e12 m");
     }
     for (const std::int32_t lost : work_.lost) retry(field, segments, first, lost, options);
-    if (first_only) {
-      for (std::uint32_t i = 0; i < work_.found.size(); ++i) {
-        for (std::uint64_t left = work_.found[i]; left != 0; left &= left - 1) {
-          const std::uint32_t id = 64 * i + __builtin_ctzll(left);
-          hits.push_back(hitOf(first, id, work_.first[id], work_.first[id]));
-        }
-      }
-    } else {
-      sortHits(first, count, hits);
-    }
+    const std::size_t before = hits.size();
+    hits.resize(before + work_.hits.size);
+    first_only ? sortFirst(first, hits.data() + before) : sortAll(first, count, hits.data() + before);
   }
 
  private:
   /// In the segment's own parameter.
-  SegmentHit hitOf(std::size_t first, std::uint32_t id, float enter, float exit) const {
+  float time(std::int32_t id, float t) const {
     const float begin = work_.begin[id], end = work_.end[id];
-    const auto time = [&](float t) { return t < 1.0F ? begin + t * (end - begin) : end; };
-    return {static_cast<std::uint32_t>(first + id), time(enter), time(exit)};
+    return t < 1.0F ? begin + t * (end - begin) : end;
+  }
+
+  SegmentHit hit(std::size_t first, int i) const {
+    const FlightHits& found = work_.hits;
+    const std::int32_t id = found.id[i];
+    return {static_cast<std::uint32_t>(first + id), time(id, found.enter[i]), time(id, found.exit[i])};
   }
 
   /// In the order of segments; those of one segment already are in order of time.
-  void sortHits(std::size_t first, int count, Hits& hits) {
+  void sortAll(std::size_t first, int count, SegmentHit* sorted) {
+    const FlightHits& found = work_.hits;
     std::fill_n(place_.begin(), count + 1, 0);
-    for (const FlightHit& hit : work_.hits) ++place_[hit.id + 1];
+    for (int i = 0; i < found.size; ++i) ++place_[found.id[i] + 1];
     for (int i = 0; i < count; ++i) place_[i + 1] += place_[i];
-    const std::size_t before = hits.size();
-    hits.resize(before + work_.hits.size());
-    for (const FlightHit& hit : work_.hits) {
-      hits[before + place_[hit.id]++] = hitOf(first, hit.id, hit.enter, hit.exit);
+    for (int i = 0; i < found.size; ++i) sorted[place_[found.id[i]]++] = hit(first, i);
+  }
+
+  /// The same where no segment has two.
+  void sortFirst(std::size_t first, SegmentHit* sorted) {
+    const FlightHits& found = work_.hits;
+    has_hit_.fill(0);
+    for (int i = 0; i < found.size; ++i) {
+      const std::int32_t id = found.id[i];
+      has_hit_[id / 64] |= std::uint64_t{1} << id % 64;
+      place_[id] = i;
+    }
+    for (std::size_t k = 0; k < has_hit_.size(); ++k) {
+      for (std::uint64_t left = has_hit_[k]; left != 0; left &= left - 1) {
+        *sorted++ = hit(first, place_[64 * k + __builtin_ctzll(left)]);
+      }
     }
   }
 
   /// A flight that did not end: its hits are replaced by those of the single query.
   void retry(const DistanceField& field, const Segment* segments, std::size_t first, std::int32_t lost,
              const SegmentOptions& options) {
-    auto& hits = work_.hits;
-    const auto is_lost = [&](const FlightHit& hit) { return hit.id == static_cast<std::uint32_t>(lost); };
-    hits.erase(std::remove_if(hits.begin(), hits.end(), is_lost), hits.end());
+    FlightHits& hits = work_.hits;
+    int kept = 0;
+    for (int i = 0; i < hits.size; ++i) {
+      if (hits.id[i] == lost) continue;
+      hits.id[kept] = hits.id[i];
+      hits.enter[kept] = hits.enter[i];
+      hits.exit[kept++] = hits.exit[i];
+    }
+    hits.size = kept;
     Hits single;
     askSingly(field, segments, first + lost, first + lost + 1, options, single);
     work_.begin[lost] = 0.0F;
     work_.end[lost] = 1.0F;
-    for (const SegmentHit& hit : single) hits.push_back({static_cast<std::uint32_t>(lost), hit.enter, hit.exit});
-    if (!single.empty()) work_.setFirst(lost, single.front().enter);
+    for (const SegmentHit& hit : single) {
+      hits.makeRoom();
+      hits.id[hits.size] = lost;
+      hits.enter[hits.size] = hit.enter;
+      hits.exit[hits.size++] = hit.exit;
+    }
   }
 
   FlightWork work_;
   std::array<int, FlightWork::kSegments + 1> place_;
+  std::array<std::uint64_t, FlightWork::kSegments / 64> has_hit_;
 };
 
 #endif
@@ -107,8 +129,8 @@ void askInChunks(std::size_t count, const Ask& ask, Hits& hits) {
   static_assert(kChunk == FlightWork::kSegments, "a chunk fills one thread's room");
 #endif
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
-  if (chunks <= 1) {
-    if (chunks == 1) ask(std::size_t{0}, count, hits);
+  if (chunks <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
+    for (std::size_t i = 0; i < chunks; ++i) ask(i * kChunk, std::min(count, (i + 1) * kChunk), hits);
     return;
   }
   std::vector<Hits> found(chunks);

@@ -22,15 +22,15 @@ namespace {
 
 /// Segments wait in queues for the memory that their next step reads: a top cell's word, a node's code, a leaf. A pass
 /// reads it for all of a queue, then takes the queue's flights one step further in vectors.
-template <class Grid>
+/// @tparam first_only  a segment is done with where its first hit begins.
+template <class Grid, bool first_only>
 class Follower {
  public:
-  Follower(const Grid& grid, bool first_only, FlightWork& work) : g_(grid), first_only_(first_only), work_(work) {}
+  Follower(const Grid& grid, FlightWork& work) : g_(grid), work_(work) {}
 
   int run(const Segment* segments, int count) {
-    work_.hits.clear();
+    work_.hits.size = 0;
     work_.lost.clear();
-    work_.found.fill(0);
     for (Queues* queues : {&work_.top, &work_.node}) (*queues)[0].size = (*queues)[1].size = 0;
     work_.leaf.size = 0;
     // Each pass takes each flight through a cell; none meets more than this.
@@ -70,6 +70,7 @@ class Follower {
     for (int i = 0; i < queue.size; i += width) {
       const MI used = hn::FirstN(n, static_cast<std::size_t>(queue.size - i));
       Lanes lanes(queue, i, used);
+      if constexpr (!first_only) lanes.enter = hn::LoadU(f, queue.enter.data() + i);
       step(lanes, used, i);
     }
     queue.size = 0;
@@ -114,39 +115,31 @@ class Follower {
     }
   }
 
-  void hit(std::int32_t id, float enter, float exit) {
-    work_.hits.push_back({static_cast<std::uint32_t>(id), enter, exit});
-  }
-
   /// Lanes found to be inside (or outside) from t on, and not before: begins or ends their hits.
   /// @return lanes that are done with.
-  MI turn(MI inside, MI of, VF t, Lanes& lanes) {
-    const MI was = asWhole(hn::Ge(lanes.enter, real(0.0F)));
-    const MI begin = hn::And(of, hn::AndNot(was, inside)), end = hn::And(of, hn::AndNot(inside, was));
-    if (!hn::AllFalse(n, end)) {
-      const Unpacked<float> enters(lanes.enter), exits(t);
-      const Unpacked<std::int32_t> ids(lanes.id);
-      forEach(end, [&](std::size_t i) { hit(ids[i], enters[i], exits[i]); });
-      lanes.enter = hn::IfThenElse(asReal(end), real(-1.0F), lanes.enter);
-    }
-    if (hn::AllFalse(n, begin)) return begin;
-    if (first_only_) {
-      const Unpacked<float> enters(t);
-      const Unpacked<std::int32_t> ids(lanes.id);
-      forEach(begin, [&](std::size_t i) { work_.setFirst(ids[i], enters[i]); });
+  HWY_INLINE MI turn(MI inside, MI of, VF t, Lanes& lanes) {
+    if constexpr (first_only) {
+      const MI begin = hn::And(of, inside);
+      if (!hn::AllFalse(n, begin)) append(begin, lanes.id, t, t, work_.hits);
       return begin;
     }
-    lanes.enter = hn::IfThenElse(asReal(begin), t, lanes.enter);
+    const MI was = asWhole(hn::Ge(lanes.enter, real(0.0F)));
+    const MI begin = hn::And(of, hn::AndNot(was, inside)), end = hn::And(of, hn::AndNot(inside, was));
+    if (!hn::AllFalse(n, end)) append(end, lanes.id, lanes.enter, t, work_.hits);
+    lanes.enter = hn::IfThenElse(asReal(end), real(-1.0F), hn::IfThenElse(asReal(begin), t, lanes.enter));
     return none();
   }
 
   /// Ends the hits of lanes that end inside.
-  void finish(MI done, const Lanes& lanes) {
+  HWY_INLINE void finish(MI done, const Lanes& lanes) {
+    if constexpr (first_only) return;
     const MI inside = hn::And(done, asWhole(hn::Ge(lanes.enter, real(0.0F))));
-    if (hn::AllFalse(n, inside)) return;
-    const Unpacked<float> enters(lanes.enter);
-    const Unpacked<std::int32_t> ids(lanes.id);
-    forEach(inside, [&](std::size_t i) { hit(ids[i], enters[i], 1.0F); });
+    if (!hn::AllFalse(n, inside)) append(inside, lanes.id, lanes.enter, real(1.0F), work_.hits);
+  }
+
+  /// Puts lanes into a queue.
+  HWY_INLINE void wait(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
+    append<!first_only>(which, lanes, place, log_side, queue);
   }
 
   /// The unit cubes of lanes whose t is anywhere in a far cell.
@@ -161,7 +154,7 @@ class Follower {
   /// Lanes that have come to a new place.
   HWY_INLINE void arrive(const Lanes& lanes, MI which) {
     if (hn::AllFalse(n, which)) return;
-    append(which, lanes, topIndex(g_, lanes.cell), lanes.log_side, work_.top[next_]);
+    wait(which, lanes, topIndex(g_, lanes.cell), lanes.log_side, work_.top[next_]);
   }
 
   void fetchTop(const FlightQueue& queue) {
@@ -181,8 +174,8 @@ class Follower {
   HWY_INLINE void sort(const Blocks& at, Lanes& lanes, MI used, FlightQueue& nodes) {
     const MI far = hn::And(used, at.far), node = hn::And(used, at.node);
     const MI leaf = hn::AndNot(hn::Or(at.far, at.node), used);
-    if (!hn::AllFalse(n, node)) append(node, lanes, at.place, at.log_side, nodes);
-    if (!hn::AllFalse(n, leaf)) append(leaf, lanes, at.place, at.log_side, work_.leaf);
+    if (!hn::AllFalse(n, node)) wait(node, lanes, at.place, at.log_side, nodes);
+    if (!hn::AllFalse(n, leaf)) wait(leaf, lanes, at.place, at.log_side, work_.leaf);
     if (!hn::AllFalse(n, far)) arrive(lanes, passFar(lanes, at, far));
   }
 
@@ -250,14 +243,14 @@ class Follower {
   /// In a brick: through the ball about the nearest sample, if that takes the lane out of its cell; else to the cell.
   HWY_INLINE void descend(const EvenLanes& grid, Lanes& lanes, MI used, int first) {
     const VI log_cell = whole(EvenLanes::kLogCell);
-    if (!grid.exact) return append(used, lanes, lanes.place, log_cell, work_.leaf);
+    if (!grid.exact) return wait(used, lanes, lanes.place, log_cell, work_.leaf);
     const SampleBall ball = nearestBall(grid, lanes, work_.fetched, first);
     const VF t_ball = ballExit(lanes, ball.center, ball.radius2);
     const Exits exits = exitsOf(lanes, log_cell);
     const MF jump = hn::Gt(t_ball, exits.t);
     const MI leaf = hn::AndNot(asWhole(jump), used);
     MI far = hn::And(used, asWhole(jump));
-    if (!hn::AllFalse(n, leaf)) append(leaf, lanes, lanes.place, log_cell, work_.leaf);
+    if (!hn::AllFalse(n, leaf)) wait(leaf, lanes, lanes.place, log_cell, work_.leaf);
     if (hn::AllFalse(n, far)) return;
     far = hn::AndNot(turn(ball.inside, far, lanes.t, lanes), far);
     arrive(lanes, moveOn(lanes, exits, jump, t_ball, far));
@@ -315,8 +308,8 @@ class Follower {
     for (int i = 0; i < found.count; ++i) {
       const Interval& span = found.interval[i];
       if (enter < 0.0F) enter = timeOf(span.enter);
-      if (first_only_) {
-        work_.setFirst(id, enter);
+      if (first_only) {
+        hit(id, enter, enter);
         return true;
       }
       if (span.exit == 1.0) return false;
@@ -326,8 +319,15 @@ class Follower {
     return false;
   }
 
+  void hit(std::int32_t id, float enter, float exit) {
+    FlightHits& hits = work_.hits;
+    hits.makeRoom();
+    hits.id[hits.size] = id;
+    hits.enter[hits.size] = enter;
+    hits.exit[hits.size++] = exit;
+  }
+
   const Grid& g_;
-  bool first_only_;
   FlightWork& work_;
   int refused_ = -1;  ///< a segment that is not within reach
   int next_ = 0;      ///< of each pair of queues, the one that is written
@@ -336,11 +336,13 @@ class Follower {
 }  // namespace
 
 int followAdaptive(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
-  return Follower(grid, first_only, work).run(segments, count);
+  return first_only ? Follower<AdaptiveLanes, true>(grid, work).run(segments, count)
+                    : Follower<AdaptiveLanes, false>(grid, work).run(segments, count);
 }
 
 int followEven(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
-  return Follower(grid, first_only, work).run(segments, count);
+  return first_only ? Follower<EvenLanes, true>(grid, work).run(segments, count)
+                    : Follower<EvenLanes, false>(grid, work).run(segments, count);
 }
 
 }  // namespace HWY_NAMESPACE

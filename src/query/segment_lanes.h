@@ -97,11 +97,22 @@ struct Fetched {
   std::array<Pairs, 4> pairs;              ///< of a leaf's corners: two words a flight, or one
 };
 
-/// Something inside: of segment number `id`.
-struct FlightHit {
-  std::uint32_t id;
-  float enter;
-  float exit;
+/// Where segments are inside; those of one segment in order of time.
+struct FlightHits {
+  static constexpr int kSlack = 32;
+
+  std::vector<std::int32_t> id;
+  std::vector<float> enter, exit;
+  int size = 0;  ///< and room beyond it for a vector
+
+  void makeRoom() {
+    if (size + kSlack > static_cast<int>(id.size())) resize(2 * size + 1024);
+  }
+  void resize(int room) {
+    id.resize(room);
+    enter.resize(room);
+    exit.resize(room);
+  }
 };
 
 /// What following segments needs and gives; reused.
@@ -111,19 +122,12 @@ struct FlightWork {
   std::array<FlightQueue, 2> top, node;  ///< in turn: one is read, the other written
   FlightQueue leaf;
   Fetched fetched;
-  std::array<float, kSegments> begin, end;          ///< the part of each segment that is within the grid's box
-  std::array<float, kSegments> first;               ///< of each segment the first hit, if only that is asked,
-  std::array<std::uint64_t, kSegments / 64> found;  ///< for those whose bit is set
-  std::vector<FlightHit> hits;                      ///< all others; of one segment in order of time
-  std::vector<std::int32_t> lost;                   ///< to be asked one by one: those that did not end
-
-  void setFirst(std::int32_t id, float enter) {
-    first[id] = enter;
-    found[id / 64] |= std::uint64_t{1} << id % 64;
-  }
+  std::array<float, kSegments> begin, end;  ///< the part of each segment that is within the grid's box
+  FlightHits hits;
+  std::vector<std::int32_t> lost;  ///< to be asked one by one: those that did not end
 };
 
-/// Follows segments 0 to count − 1 to their ends or to their first hit.
+/// Follows segments 0 to count − 1 to their ends or to where their first hit begins (which is all that is known of it).
 /// @return the number of a segment that is not within reach, where there is one; else −1.
 int followFlights(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
 int followFlights(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
