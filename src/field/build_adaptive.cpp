@@ -315,10 +315,10 @@ AdaptiveGrid AdaptiveBuilder::build() {
   return {shape_, std::move(data_)};
 }
 
-/// Top cells along the longest side. More of them shorten a query's way through far cells and lie denser than the
-/// surface needs; measured on scans, memory stays within a quarter of the least that any number gives.
+/// Top cells along the longest side. More of them shorten a query's way through far cells and spare it nodes; up to
+/// these they cost less memory than that is worth (measured on scans and links).
 int topCells(double relative_error) {
-  return static_cast<int>(std::clamp(std::round(1.3 / std::sqrt(relative_error)), 8.0, 96.0));
+  return static_cast<int>(std::clamp(std::round(2.0 / std::sqrt(relative_error)), 8.0, 80.0));
 }
 
 }  // namespace
