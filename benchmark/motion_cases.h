@@ -92,7 +92,7 @@ class MotionCases {
       const ChordPath path{{{0.0, 1.0, pose(R, distance * u), pose(R, (distance - step) * u), 0}}, 0.0};
       ShellQueryResult result;
       shellIntervals(subject_.field, subject_.shell, subject_.tree, path, {}, result);
-      double first = 2.0;
+      double first = result.inside.empty() ? 2.0 : 0.0;
       for (const ShellHit& hit : result.hits) first = std::min(first, hit.interval.enter);
       if (first <= 1.0) return distance - first * step;
     }

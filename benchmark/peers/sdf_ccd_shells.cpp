@@ -46,8 +46,8 @@ class Tree : public ShellSystem {
     ShellAnswer answer;
     for (std::size_t i = 0; i < count; ++i) {
       shellIntervals(subject_.field, subject_.shell, subject_.tree, straight(pairs[i]), {}, result_);
-      answer.contacts += long(result_.hits.size());
-      answer.pairs_in_contact += !result_.hits.empty();
+      answer.contacts += result_.count();
+      answer.pairs_in_contact += result_.touches();
     }
     return answer;
   }

@@ -69,7 +69,9 @@ void ContactSearch::run(const StepMotion& motion, const std::function<void(const
     chords.tolerance = world_.chord_tolerance * std::max(shell.ball.radius, 1e-9);
     cutIntoChords(relative_, shell.ball, chords, path_);
     shellIntervals(*world_.bodies[role.field_body].shape->field, shell.shell, shell.tree, path_, {}, query_);
-    if (!query_.hits.empty()) visit({role.shell_body, role.field_body, role.weight, path_, query_.hits});
+    if (!query_.touches()) continue;
+    listHits(query_, hits_);
+    visit({role.shell_body, role.field_body, role.weight, path_, hits_});
   }
 }
 

@@ -38,6 +38,7 @@ class ContactSearch {
   RelativePath relative_;
   ChordPath path_;
   ShellQueryResult query_;
+  std::vector<ShellHit> hits_;
 };
 
 }  // namespace sdf_ccd

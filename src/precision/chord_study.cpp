@@ -80,11 +80,13 @@ class ChordSystem {
     cutIntoChords({{0.0, 1.0}, {motion.X_FP_start, motion.X_FP_end}}, ball_, options_, path_);
     shellIntervals(field_, shell_.shell, shell_.tree, path_, {}, result_);
     double first = -1.0;
-    for (const ShellHit& hit : result_.hits) {
-      const Chord& chord = path_.chords[hit.chord];
-      const double t = chord.t_start + hit.interval.enter * (chord.t_end - chord.t_start);
+    const auto offer = [&](int chord_index, double s) {
+      const Chord& chord = path_.chords[chord_index];
+      const double t = chord.t_start + s * (chord.t_end - chord.t_start);
       if (first < 0.0 || t < first) first = t;
-    }
+    };
+    for (const ShellHit& hit : result_.hits) offer(hit.chord, hit.interval.enter);
+    for (const InsidePoints& points : result_.inside) offer(points.chord, 0.0);
     return first;
   }
 

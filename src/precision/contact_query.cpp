@@ -56,7 +56,7 @@ std::vector<Motion> presses(const DistanceField& field, const TreeShell& shell, 
     const Motion motion{start, posed(turn * R, middle + (pressed - travel) * u, middle)};
     ContactQuery query(field, shell, motion);
     query.find();
-    if (!query.hits.hits.empty()) motions.push_back(motion);
+    if (!query.hits.empty()) motions.push_back(motion);
   }
   return motions;
 }
@@ -68,11 +68,12 @@ ContactQuery::ContactQuery(const DistanceField& field, const TreeShell& shell, c
       X_CF(2, Isometry3d::Identity()) {}
 
 void ContactQuery::find() {
-  shellIntervals(field, shell.shell, shell.tree, path, {}, hits);
+  shellIntervals(field, shell.shell, shell.tree, path, {}, found);
+  listHits(found, hits);
 }
 
 const ContactImpulse& ContactQuery::integrate(const ContactOptions& options) {
-  integrateContact({field, shell.shell, path, X_CF, siblings}, hits.hits, options, true, impulse);
+  integrateContact({field, shell.shell, path, X_CF, siblings}, hits, options, true, impulse);
   return impulse;
 }
 

@@ -51,7 +51,8 @@ struct ContactQuery {
   ChordPath path;
   std::vector<Isometry3d> X_CF;
   std::vector<SiblingField> siblings;
-  ShellQueryResult hits;
+  ShellQueryResult found;
+  std::vector<ShellHit> hits;
   ContactImpulse impulse;
 };
 

@@ -3,120 +3,188 @@
 #include <algorithm>
 #include <limits>
 
-#include "sdf_ccd/query/segment_batch.h"
+#include "shell_points.h"
+#include "sphere_sides.h"
 
 namespace sdf_ccd {
 namespace {
 
-/// Nodes still to visit; kept by each thread so that steady-state queries allocate nothing.
-std::vector<std::int32_t>& nodeStack() {
-  thread_local std::vector<std::int32_t> stack;
-  stack.clear();
-  return stack;
+/// Memory of a search, kept by each thread so that steady-state queries allocate nothing.
+struct SearchWork {
+  std::vector<std::int32_t> stack;    ///< nodes still to visit
+  std::vector<std::int32_t> asked;    ///< nodes that are asked together
+  std::vector<std::int32_t> pending;  ///< nodes whose points are still to be asked
+};
+
+SearchWork& searchWork() {
+  thread_local SearchWork work;
+  work.stack.clear();
+  return work;
 }
 
-Segment along(const Chord& chord, const Vector3d& p_P) {
-  return {chord.X_FP_start * p_P, chord.X_FP_end * p_P};
-}
-
-/// Points whose segments are asked together: grids answer batches faster.
-class PointBatch {
+/// A shell's way through a field, chord by chord.
+class ShellSearch {
  public:
-  PointBatch(const DistanceField& field, double sigma, std::vector<ShellHit>& hits)
-      : field_(field), options_{sigma}, hits_(hits) {
-    segments_.clear();
-    points_.clear();
-  }
+  ShellSearch(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
+              const ShellQueryOptions& options, ShellQueryResult& result)
+      : shell_(shell),
+        nodes_(tree.nodes.data()),
+        options_(options),
+        result_(result),
+        work_(searchWork()),
+        // A point's roots are those of the interpolated field, the spheres' test is about the true distance.
+        sides_(field, {field.errorBound() + options.sigma, field.errorBound() - options.sigma},
+               {tree.nodes[0].center, tree.nodes[0].radius}),
+        points_(field, shell, options, result) {}
 
-  void add(int point, int chord, const Segment& segment) {
-    chord_ = chord;
-    points_.push_back(point);
-    segments_.push_back(segment);
-    if (segments_.size() == kMost) ask();
-  }
+  bool done() const { return options_.any && result_.touches(); }
 
-  void ask() {
-    segmentIntervals(field_, segments_.data(), segments_.size(), options_, found_);
-    for (const SegmentHit& hit : found_.hits) {
-      hits_.push_back({points_[hit.segment], chord_, {double(hit.enter), double(hit.exit)}});
+  void follow(const Chord& chord, int index) {
+    index_ = index;
+    sides_.begin(chord);
+    points_.begin(chord, index);
+    work_.stack.assign(1, 0);
+    work_.pending.clear();
+    askNode();  // bodies apart need no more
+    while (!done()) {
+      if (!work_.pending.empty() && (options_.any || work_.stack.empty())) {
+        sides_.sortsPoints() ? sortPoints() : askPoints();
+      } else if (!work_.stack.empty()) {
+        sides_.inVectors() ? askNodes() : askNode();
+      } else {
+        break;
+      }
     }
-    segments_.clear();
-    points_.clear();
+    points_.finish();
   }
 
  private:
-  static constexpr std::size_t kMost = 16384;
-  const DistanceField& field_;
-  SegmentOptions options_;
-  std::vector<ShellHit>& hits_;
-  int chord_ = 0;
-  // Kept by each thread, as above.
-  static thread_local std::vector<Segment> segments_;
-  static thread_local std::vector<int> points_;
-  static thread_local BatchResult found_;
+  /// Its points cost less than the spheres below it.
+  bool isSmall(const SphereTree::Node& node) const {
+    constexpr std::int32_t kFewPoints = 16;
+    return node.first_child < 0 || (sides_.inVectors() && node.end - node.begin <= kFewPoints);
+  }
+
+  void askNode() {
+    const std::int32_t i = work_.stack.back();
+    work_.stack.pop_back();
+    ++result_.nodes_visited;
+    take(i, sides_.of(nodes_[i].center, nodes_[i].radius));
+  }
+
+  /// Those on top of the stack, together.
+  void askNodes() {
+    std::vector<std::int32_t>&stack = work_.stack, &asked = work_.asked;
+    const std::size_t count = std::min<std::size_t>(stack.size(), SphereGroup::kCapacity);
+    asked.assign(stack.end() - count, stack.end());
+    stack.resize(stack.size() - count);
+    result_.nodes_visited += static_cast<long>(count);
+    SphereGroup& group = sides_.group();
+    group.size = 0;
+    for (const std::int32_t i : asked) group.add(nodes_[i].center, nodes_[i].radius);
+    sides_.askGroup();
+    for (std::size_t i = 0; i < count && !done(); ++i) take(asked[i], group.sideOf(static_cast<int>(i)));
+  }
+
+  void take(std::int32_t i, SweptSide side) {
+    const SphereTree::Node& node = nodes_[i];
+    if (side == SweptSide::kOutside) return;
+    if (side == SweptSide::kInside) return addInside(node.begin, node.end);
+    if (isSmall(node)) {
+      work_.pending.push_back(i);
+    } else {
+      divide(node);
+    }
+  }
+
+  /// Puts nodes below a node on the stack: as many as fill a vector, where spheres are asked in vectors.
+  void divide(const SphereTree::Node& node) {
+    constexpr int kLevels = 3;
+    const SphereTree::Node *first = nodes_ + node.first_child, *last = first + node.child_count;
+    for (int level = 1; level < kLevels && sides_.inVectors(); ++level) {
+      if (std::any_of(first, last, [this](const SphereTree::Node& below) { return isSmall(below); })) break;
+      last = nodes_ + last[-1].first_child + last[-1].child_count;
+      first = nodes_ + first->first_child;
+    }
+    for (; last != first; --last) work_.stack.push_back(static_cast<std::int32_t>(last - nodes_) - 1);
+  }
+
+  void addInside(std::int32_t begin, std::int32_t end) {
+    if (options_.any) {
+      result_.hits.push_back({begin, index_, {0.0, 1.0}});
+    } else {
+      result_.inside.push_back({begin, end, index_});
+    }
+  }
+
+  /// Points of one node.
+  void askPoints() {
+    const SphereTree::Node& node = nodes_[work_.pending.back()];
+    work_.pending.pop_back();
+    for (std::int32_t p = node.begin; p < node.end && !done(); ++p) points_.ask(p);
+  }
+
+  /// Points of several nodes: as spheres of no radius first, which leaves those that meet the surface or nearly do.
+  void sortPoints() {
+    SphereGroup& group = sides_.group();
+    group.size = 0;
+    std::vector<std::int32_t>&pending = work_.pending, &asked = work_.asked;
+    asked.clear();
+    for (; !pending.empty(); pending.pop_back()) {
+      const SphereTree::Node& node = nodes_[pending.back()];
+      if (group.size + node.end - node.begin > SphereGroup::kCapacity) break;
+      asked.push_back(pending.back());
+      for (std::int32_t p = node.begin; p < node.end; ++p) group.add(shell_.points[p], 0.0);
+    }
+    sides_.askGroup();
+    int i = 0;
+    for (const std::int32_t k : asked) {
+      for (std::int32_t p = nodes_[k].begin; p < nodes_[k].end && !done(); ++p, ++i) {
+        const SweptSide side = group.sideOf(i);
+        if (side == SweptSide::kUnknown) points_.ask(p);
+        if (side == SweptSide::kInside) addInside(p, p + 1);
+      }
+    }
+  }
+
+  const PointShell& shell_;
+  const SphereTree::Node* nodes_;
+  const ShellQueryOptions& options_;
+  ShellQueryResult& result_;
+  SearchWork& work_;
+  SphereSides sides_;
+  ShellPoints points_;
+  int index_ = 0;
 };
 
-thread_local std::vector<Segment> PointBatch::segments_;
-thread_local std::vector<int> PointBatch::points_;
-thread_local BatchResult PointBatch::found_;
-
 }  // namespace
+
+long ShellQueryResult::count() const {
+  long count = static_cast<long>(hits.size());
+  for (const InsidePoints& points : inside) count += points.end - points.begin;
+  return count;
+}
+
+void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits) {
+  hits.clear();
+  auto hit = result.hits.begin();
+  for (const InsidePoints& points : result.inside) {
+    for (; hit != result.hits.end() && hit->chord < points.chord; ++hit) hits.push_back(*hit);
+    for (int i = points.begin; i < points.end; ++i) hits.push_back({i, points.chord, {0.0, 1.0}});
+  }
+  hits.insert(hits.end(), hit, result.hits.end());
+}
 
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
                     const ShellQueryOptions& options, ShellQueryResult& result) {
   result.hits.clear();
+  result.inside.clear();
   result.nodes_visited = 0;
   result.points_tested = 0;
   if (tree.nodes.empty()) return;
-  // A point's roots are those of the interpolated field, the node's test is about the true distance.
-  const double outside_margin = options.sigma + field.errorBound(), inside_margin = field.errorBound() - options.sigma;
-  const SegmentOptions segment_options{options.sigma, options.any ? SegmentMode::kAny : SegmentMode::kAll};
-  constexpr double kFarSweep = 4.0;  // radii
-  constexpr std::int32_t kFewPoints = 16;
-  const bool batched = !field.primitive() && !options.any;
-  PointBatch batch(field, options.sigma, result.hits);
-  thread_local Intervals intervals;
-  std::vector<std::int32_t>& stack = nodeStack();
-  for (std::size_t c = 0; c < path.chords.size(); ++c) {
-    const Chord& chord = path.chords[c];
-    const int chord_index = static_cast<int>(c);
-    stack.push_back(0);
-    while (!stack.empty()) {
-      const SphereTree::Node& node = tree.nodes[stack.back()];
-      stack.pop_back();
-      ++result.nodes_visited;
-      // Points run straight between the chord's ends, so a point stays within the radius of the centre's segment.
-      const Segment center = along(chord, node.center);
-      const SweptSide side = sweptSide(field, center, {node.radius + outside_margin, node.radius + inside_margin});
-      if (side == SweptSide::kOutside) continue;
-      if (side == SweptSide::kInside) {
-        for (std::int32_t i = node.begin; i < node.end; ++i) {
-          result.hits.push_back({i, chord_index, {0.0, 1.0}});
-          if (options.any) return;
-        }
-        continue;
-      }
-      // A sphere's test costs as much as several points of a batch: not for few points, nor where spheres are swept far
-      // and rarely miss what their parent meets.
-      const bool few = batched && node.end - node.begin <= kFewPoints;
-      const bool swept_far = batched && (center.end - center.start).norm() > kFarSweep * node.radius;
-      if (node.first_child >= 0 && !few && !swept_far) {
-        for (std::int32_t i = node.child_count; i-- > 0;) stack.push_back(node.first_child + i);
-        continue;
-      }
-      result.points_tested += node.end - node.begin;
-      for (std::int32_t i = node.begin; i < node.end; ++i) {
-        const Segment segment = along(chord, shell.points[i]);
-        if (batched) {
-          batch.add(i, chord_index, segment);
-          continue;
-        }
-        segmentIntervals(field, segment, segment_options, intervals);
-        for (const Interval& interval : intervals) result.hits.push_back({i, chord_index, interval});
-        if (options.any && !result.hits.empty()) return;
-      }
-    }
-    if (batched) batch.ask();
+  ShellSearch search(field, shell, tree, options, result);
+  for (std::size_t c = 0; c < path.chords.size() && !search.done(); ++c) {
+    search.follow(path.chords[c], static_cast<int>(c));
   }
 }
 
@@ -125,7 +193,7 @@ double clearance(const DistanceField& field, const SphereTree& tree, const Point
   double nearest = std::numeric_limits<double>::infinity();  // of the points seen
   double bound = nearest;                                    // of all points
   if (tree.nodes.empty()) return bound;
-  std::vector<std::int32_t>& stack = nodeStack();
+  std::vector<std::int32_t>& stack = searchWork().stack;
   stack.push_back(0);
   while (!stack.empty()) {
     const SphereTree::Node& node = tree.nodes[stack.back()];

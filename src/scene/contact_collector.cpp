@@ -47,17 +47,18 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
     const BodyPart& part = role.field().parts[p];
     const ChordPath& path = role.partPath(part);
     shellIntervals(part.field, shell.shell, shell.tree, path, {}, query_);
-    if (query_.hits.empty()) continue;
+    if (!query_.touches()) continue;
+    listHits(query_, hits_);
     if (!have_poses) setFieldPoses(role);
     have_poses = true;
     X_CG_.clear();
     for (const Isometry3d& X_CF : X_CF_) X_CG_.push_back(X_CF * part.X_BG);
     const ContactInput input{part.field, shell.shell, path, X_CG_, siblings[p]};
-    integrateContact(input, query_.hits, options, with_impulse, impulse_);
+    integrateContact(input, hits_, options, with_impulse, impulse_);
     impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
 
-    for (std::size_t h = 0; h < query_.hits.size(); ++h) {
-      const ShellHit& hit = query_.hits[h];
+    for (std::size_t h = 0; h < hits_.size(); ++h) {
+      const ShellHit& hit = hits_[h];
       const HitDepth& depth = impulse_.depths[h];
       const Chord& chord = path.chords[hit.chord];
       const auto timeAt = [&](double s) {

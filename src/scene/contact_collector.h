@@ -49,6 +49,7 @@ class ContactCollector {
   std::vector<Isometry3d> X_CF_;  // per end of a chord, of the field's body
   std::vector<Isometry3d> X_CG_;  // the same of a part
   ShellQueryResult query_;
+  std::vector<ShellHit> hits_;
   ContactImpulse impulse_;
 };
 

@@ -67,7 +67,7 @@ bool PairRole::mayComeNearer(double distance) {
       continue;
     }
     shellIntervals(part.field, shell_->shell, shell_->tree, path, {distance, true}, query_);
-    if (!query_.hits.empty()) return true;
+    if (query_.touches()) return true;
   }
   return false;
 }

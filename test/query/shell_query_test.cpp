@@ -1,6 +1,7 @@
 #include "sdf_ccd/query/shell_query.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -37,6 +38,13 @@ std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& s
     segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kAll}, found);
     for (const SegmentHit& hit : found.hits) hits.push_back({int(hit.segment), c, {hit.enter, hit.exit}});
   }
+  return hits;
+}
+
+std::vector<ShellHit> allHits(const ShellQueryResult& result) {
+  std::vector<ShellHit> hits;
+  listHits(result, hits);
+  EXPECT_EQ(long(hits.size()), result.count());
   return hits;
 }
 
@@ -96,8 +104,8 @@ TEST(ShellQuery, EqualsLinearScanOnAdaptiveField) {
     ShellQueryResult result;
     shellIntervals(field, shell, tree, path, {}, result);
     std::map<int, double> inside;  // time by point
-    for (const ShellHit& hit : result.hits) inside[hit.point] += hit.interval.exit - hit.interval.enter;
-    hits += long(result.hits.size());
+    for (const ShellHit& hit : allHits(result)) inside[hit.point] += hit.interval.exit - hit.interval.enter;
+    hits += result.count();
     for (const ShellHit& hit : linearScan(field, shell, path, 0.0))
       inside[hit.point] -= hit.interval.exit - hit.interval.enter;
     for (const auto& [point, difference] : inside) grazing += std::abs(difference) > 1e-5;
@@ -121,9 +129,9 @@ TEST(ShellQuery, EqualsLinearScanOnEveryPoint) {
       const double sigma = i % 3 == 0 ? 0.0 : test::uniform(random, -1, 1) * std::min(scene.field.band(), 0.02);
       ShellQueryResult result;
       shellIntervals(scene.field, scene.shell, scene.tree, path, {sigma}, result);
-      expectEqual(result.hits, linearScan(scene.field, scene.shell, path, sigma));
+      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path, sigma));
       if (HasFatalFailure()) return;
-      hits += long(result.hits.size());
+      hits += result.count();
       visits += result.points_tested;
       points += long(scene.shell.size() * path.chords.size());
     }
@@ -157,9 +165,127 @@ TEST(ShellQuery, EqualsLinearScanOnAdversarialMotions) {
       cutIntoChords({{0.0, 1.0}, {from, to}}, rootBall(scene.tree), {1e-3, 40}, path);
       ShellQueryResult result;
       shellIntervals(scene.field, scene.shell, scene.tree, path, {0.0, false}, result);
-      expectEqual(result.hits, linearScan(scene.field, scene.shell, path, 0.0));
+      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path, 0.0));
       if (HasFatalFailure()) return;
     }
+  }
+}
+
+/// Bodies of a kind that meet in a motion, by how far they move and turn.
+struct Motions {
+  const char* name;
+  double reach, turn, travel;
+};
+constexpr Motions kMotions[] = {
+    {"random", 0.5, 3.0, 0.6}, {"small", 0.25, 0.01, 0.005}, {"deep", 0.03, 0.01, 0.005}, {"clear", 3.0, 0.01, 0.005}};
+
+/// Points inside all along are those of the linear scan too, of fields of all kinds.
+TEST(ShellQuery, EqualsLinearScanOnMotionsOfAllKinds) {
+  Random random(11);
+  const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);
+  FieldOptions adaptive, floats, steps;
+  adaptive.max_error = 0.001;
+  steps.cells = floats.cells = 48;
+  floats.sample_bits = 32;
+  const std::vector<DistanceField> fields{buildField(torus, adaptive), buildField(torus, steps),
+                                          buildField(torus, floats), DistanceField(Primitive(Sphere{0.15}))};
+  ShellOptions spacing;
+  spacing.spacing = 0.01;
+  PointShell shell = sampleSurface(torus, spacing);
+  const SphereTree tree = buildSphereTree(shell);
+  for (const Motions& kind : kMotions) {
+    long hits = 0, inside = 0, tested = 0, points = 0;
+    for (const DistanceField& field : fields) {
+      for (int i = 0; i < 12; ++i) {
+        ChordPath path;
+        Isometry3d X_FP = test::pose(random, 3.0, kind.reach);
+        if (kind.reach > 1.0) X_FP.translation() = kind.reach * test::direction(random);
+        for (int c = 0; c < 1 + i % 3; ++c) {
+          const Isometry3d end = test::pose(random, kind.turn, kind.travel) * X_FP;
+          path.chords.push_back({double(c), c + 1.0, X_FP, end, 0});
+          X_FP = end;
+        }
+        const double sigma = i % 2 ? 0.0 : test::uniform(random, -1.0, 1.0) * std::min(field.band(), 0.02);
+        ShellQueryResult result;
+        shellIntervals(field, shell, tree, path, {sigma}, result);
+        expectEqual(allHits(result), linearScan(field, shell, path, sigma));
+        if (HasFatalFailure()) FAIL() << kind.name;
+        hits += long(result.hits.size());
+        inside += result.count() - long(result.hits.size());
+        tested += result.points_tested;
+        points += long(shell.size() * path.chords.size());
+        ShellQueryResult any;
+        shellIntervals(field, shell, tree, path, {sigma, true}, any);
+        EXPECT_EQ(any.hits.size(), result.touches() ? 1U : 0U);
+        EXPECT_LE(any.points_tested, result.points_tested + 1);
+        EXPECT_LE(any.nodes_visited, result.nodes_visited);
+      }
+    }
+    const bool clear = kind.reach > 1.0;
+    EXPECT_EQ(hits == 0, clear) << kind.name;
+    EXPECT_EQ(inside == 0, clear) << kind.name;
+    EXPECT_LT(tested, points / 2) << kind.name;
+  }
+}
+
+/// Where a mesh is open the field changes its sign without a surface: which points are inside next to there is open
+/// too.
+TEST(ShellQuery, NearlyEqualsLinearScanOnOpenMeshes) {
+  Random random(12);
+  TriangleMesh open = test::torusMesh(0.2, 0.08, 24, 12);
+  ShellOptions spacing;
+  spacing.spacing = 0.01;
+  PointShell shell = sampleSurface(open, spacing);
+  const SphereTree tree = buildSphereTree(shell);
+  open.triangles.resize(open.triangles.size() * 3 / 4);
+  FieldOptions adaptive, even;
+  adaptive.max_error = 0.01;
+  even.cells = 24;
+  for (const DistanceField& field : {buildField(open, adaptive), buildField(open, even)}) {
+    double both = 0.0, difference = 0.0;  // times inside
+    for (int i = 0; i < 40; ++i) {
+      const Isometry3d start = test::pose(random, 3.0, 0.2);
+      ChordPath path;
+      path.chords.push_back({0.0, 1.0, start, test::pose(random, 0.01, i % 2 ? 0.005 : 0.5) * start, 0});
+      ShellQueryResult result;
+      shellIntervals(field, shell, tree, path, {}, result);
+      std::vector<double> inside(shell.size(), 0.0);
+      for (const ShellHit& hit : linearScan(field, shell, path, 0.0)) {
+        inside[hit.point] += hit.interval.exit - hit.interval.enter;
+        both += hit.interval.exit - hit.interval.enter;
+      }
+      for (const ShellHit& hit : allHits(result)) inside[hit.point] -= hit.interval.exit - hit.interval.enter;
+      for (const double time : inside) difference += std::abs(time);
+    }
+    EXPECT_GT(both, 500.0);
+    EXPECT_LT(difference, 0.01 * both);
+  }
+}
+
+TEST(ShellQuery, ListsHitsByChordWithThoseInsideAllAlong) {
+  ShellQueryResult result;
+  result.hits = {{7, 0, {0.2, 0.4}}, {3, 1, {0.0, 0.5}}, {3, 1, {0.7, 1.0}}, {9, 3, {0.1, 0.2}}};
+  result.inside = {{0, 2, 1}, {4, 5, 2}};
+  EXPECT_EQ(result.count(), 7);
+  const std::vector<ShellHit> hits = allHits(result);
+  ASSERT_EQ(hits.size(), 7U);
+  for (std::size_t i = 0; i + 1 < hits.size(); ++i) EXPECT_LE(hits[i].chord, hits[i + 1].chord);
+  expectEqual(hits, {{7, 0, {0.2, 0.4}},
+                     {3, 1, {0.0, 0.5}},
+                     {3, 1, {0.7, 1.0}},
+                     {0, 1, {0.0, 1.0}},
+                     {1, 1, {0.0, 1.0}},
+                     {4, 2, {0.0, 1.0}},
+                     {9, 3, {0.1, 0.2}}});
+}
+
+TEST(ShellQuery, RefusesAPathThatIsNotFinite) {
+  for (const Scene& scene : scenes()) {
+    ChordPath path;
+    cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), Isometry3d::Identity()}}, rootBall(scene.tree), {}, path);
+    path.chords[0].X_FP_end.translation().setConstant(std::numeric_limits<double>::quiet_NaN());
+    ShellQueryResult result;
+    EXPECT_THROW(shellIntervals(scene.field, scene.shell, scene.tree, path, {}, result), std::invalid_argument);
   }
 }
 
@@ -199,7 +325,7 @@ TEST(ShellQuery, EmptyShellNeverHits) {
   cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), Isometry3d::Identity()}}, {}, {}, path);
   ShellQueryResult result;
   shellIntervals(field, shell, tree, path, {}, result);
-  EXPECT_TRUE(result.hits.empty());
+  EXPECT_FALSE(result.touches());
 }
 
 }  // namespace

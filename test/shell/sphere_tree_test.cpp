@@ -34,6 +34,7 @@ void expectSound(const SphereTree& tree, const PointShell& shell) {
   EXPECT_EQ(tree.nodes[0].begin, 0);
   EXPECT_EQ(tree.nodes[0].end, static_cast<int>(shell.size()));
   std::vector<int> in_leaves(shell.size(), 0);
+  int next_child = 1;
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
     const SphereTree::Node& node = tree.nodes[n];
     for (int i = node.begin; i < node.end; ++i) {
@@ -45,7 +46,8 @@ void expectSound(const SphereTree& tree, const PointShell& shell) {
       EXPECT_EQ(node.child_count, 0);
       continue;
     }
-    EXPECT_GT(node.first_child, static_cast<int>(n));
+    EXPECT_EQ(node.first_child, next_child) << "children of neighbours are neighbours";
+    next_child += node.child_count;
     int next = node.begin;
     for (int child = node.first_child; child < node.first_child + node.child_count; ++child) {
       EXPECT_EQ(tree.nodes[child].begin, next);

@@ -22,18 +22,37 @@ struct ShellQueryOptions {
   bool any = false;    ///< stop at the first hit, whose exit is not looked for
 };
 
-struct ShellQueryResult {
-  std::vector<ShellHit> hits;  ///< by chord, then as the tree meets their points; those of one point by time
-  long nodes_visited = 0;
-  long points_tested = 0;
+/// Points [begin, end) of a shell that are inside all along a chord.
+struct InsidePoints {
+  int begin;
+  int end;
+  int chord;
 };
+
+struct ShellQueryResult {
+  std::vector<ShellHit> hits;        ///< by chord, then as the tree meets their points; those of one point by time
+  std::vector<InsidePoints> inside;  ///< by chord; of other points than the chord's hits
+  long nodes_visited = 0;            ///< spheres of the tree that were asked
+  long points_tested = 0;            ///< whose segments were asked
+
+  /// Whether a point is inside at any time.
+  bool touches() const { return !hits.empty() || !inside.empty(); }
+
+  /// Intervals of points, chord by chord.
+  long count() const;
+};
+
+/// Every interval as a hit of its own, by chord.
+/// @param hits  replaced; its memory is reused.
+void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits);
 
 /// All intervals in which points of a shell are on or inside the isosurface φ = σ while they run along a path.
 ///
 /// Source: Xu & Barbič 2014, §3.3. A node of the sphere tree is skipped if its centre's segment stays farther than
 /// radius + σ + the field's error from the surface, and one that stays deeper than that is inside all the time; the
-/// result equals that of testing every point. Points meet a grid in batches (see segment_batch.h for the
-/// tolerance, and for the threads of large shells).
+/// result equals that of testing every point (of an open mesh, whose field changes its sign without a surface, but for
+/// points that pass there). Spheres and points meet a grid in batches (see segment_batch.h for the tolerance, and for
+/// the threads of large shells).
 /// Reuses the memory of `result`.
 /// @param shell, tree  frame P; the tree was built over the shell.
 /// @param path         X_FP, as chords.

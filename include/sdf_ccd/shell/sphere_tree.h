@@ -17,7 +17,8 @@ struct SphereTree {
     std::int32_t first_child;  ///< children are consecutive; -1 for a leaf
     std::int32_t child_count;
   };
-  std::vector<Node> nodes;  ///< root first, parents before children; empty for an empty shell
+  /// Root first, level by level: children of neighbours are neighbours too. Empty for an empty shell.
+  std::vector<Node> nodes;
 };
 
 /// Builds the tree; the shell's points (and normals and areas) are reordered so that every node's are consecutive.

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sdf_ccd/query/segment_batch.h"
+#include "sdf_ccd/query/shell_query.h"
+
+namespace sdf_ccd {
+
+/// A shell point's path on a chord.
+inline Segment along(const Chord& chord, const Vector3d& p_P) {
+  return {chord.X_FP_start * p_P, chord.X_FP_end * p_P};
+}
+
+/// Asks points for their intervals: those of grids together, as batches are faster.
+class ShellPoints {
+ public:
+  ShellPoints(const DistanceField& field, const PointShell& shell, const ShellQueryOptions& options,
+              ShellQueryResult& result)
+      : field_(field),
+        shell_(shell),
+        options_(options),
+        result_(result),
+        work_(threadWork()),
+        batched_(!field.primitive() && !options.any) {}
+
+  /// The chord that points are asked for from now on.
+  void begin(const Chord& chord, int index) {
+    chord_ = &chord;
+    index_ = index;
+    work_.points.clear();
+    work_.segments.clear();
+  }
+
+  void ask(std::int32_t point) {
+    ++result_.points_tested;
+    const Segment segment = along(*chord_, shell_.points[point]);
+    if (!batched_) return askSingly(point, segment);
+    work_.points.push_back(point);
+    work_.segments.push_back(segment);
+    if (work_.points.size() == kMost) finish();
+  }
+
+  /// Answers those that wait.
+  void finish() {
+    if (work_.points.empty()) return;
+    segmentIntervals(field_, work_.segments.data(), work_.segments.size(), {options_.sigma}, work_.found);
+    for (const SegmentHit& hit : work_.found.hits) {
+      result_.hits.push_back({work_.points[hit.segment], index_, {double(hit.enter), double(hit.exit)}});
+    }
+    work_.points.clear();
+    work_.segments.clear();
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16384;
+
+  struct Work {
+    std::vector<int> points;
+    std::vector<Segment> segments;
+    BatchResult found;
+    Intervals intervals;
+  };
+
+  /// Kept by each thread, so that steady-state queries allocate nothing.
+  static Work& threadWork() {
+    thread_local Work work;
+    return work;
+  }
+
+  void askSingly(std::int32_t point, const Segment& segment) {
+    const SegmentOptions options{options_.sigma, options_.any ? SegmentMode::kAny : SegmentMode::kAll};
+    segmentIntervals(field_, segment, options, work_.intervals);
+    for (const Interval& interval : work_.intervals) result_.hits.push_back({point, index_, interval});
+  }
+
+  const DistanceField& field_;
+  const PointShell& shell_;
+  const ShellQueryOptions& options_;
+  ShellQueryResult& result_;
+  Work& work_;
+  const bool batched_;
+  const Chord* chord_ = nullptr;
+  int index_ = 0;
+};
+
+}  // namespace sdf_ccd
