@@ -54,15 +54,9 @@ class Chunk {
 
  private:
   /// In the segment's own parameter.
-  float time(std::int32_t id, float t) const {
+  float time(std::size_t id, float t) const {
     const float begin = work_.begin[id], end = work_.end[id];
     return t < 1.0F ? begin + t * (end - begin) : end;
-  }
-
-  SegmentHit hit(std::size_t first, int i) const {
-    const FlightHits& found = work_.hits;
-    const std::int32_t id = found.id[i];
-    return {static_cast<std::uint32_t>(first + id), time(id, found.enter[i]), time(id, found.exit[i])};
   }
 
   /// In the order of segments; those of one segment already are in order of time.
@@ -71,7 +65,11 @@ class Chunk {
     std::fill_n(place_.begin(), count + 1, 0);
     for (int i = 0; i < found.size; ++i) ++place_[found.id[i] + 1];
     for (int i = 0; i < count; ++i) place_[i + 1] += place_[i];
-    for (int i = 0; i < found.size; ++i) sorted[place_[found.id[i]]++] = hit(first, i);
+    for (int i = 0; i < found.size; ++i) {
+      const std::int32_t id = found.id[i];
+      sorted[place_[id]++] = {static_cast<std::uint32_t>(first + id), time(id, found.enter[i]),
+                              time(id, found.exit[i])};
+    }
   }
 
   /// The same where no segment has two.
@@ -85,7 +83,9 @@ class Chunk {
     }
     for (std::size_t k = 0; k < has_hit_.size(); ++k) {
       for (std::uint64_t left = has_hit_[k]; left != 0; left &= left - 1) {
-        *sorted++ = hit(first, place_[64 * k + __builtin_ctzll(left)]);
+        const std::size_t id = 64 * k + __builtin_ctzll(left);
+        const float enter = time(id, found.enter[place_[id]]);
+        *sorted++ = {static_cast<std::uint32_t>(first + id), enter, enter};
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "cell_cubic.h"
@@ -157,6 +158,20 @@ class Follower {
     wait(which, lanes, topIndex(g_, lanes.cell), lanes.log_side, work_.top[next_]);
   }
 
+  /// The same for those that came from other cells of a brick's: they need not ask which brick it is.
+  HWY_INLINE void arriveFrom(const VI* from, const Lanes& lanes, MI which) {
+    if constexpr (std::is_same_v<Grid, EvenLanes>) {
+      VI changed = hn::Zero(n);
+      for (int k = 0; k < 3; ++k) changed = hn::Or(changed, hn::Xor(from[k], lanes.cell[k]));
+      const MI same_brick = hn::And(which, hn::Lt(changed, whole(LaneBox::kUnits)));
+      if (!hn::AllFalse(n, same_brick)) {
+        wait(same_brick, lanes, lanes.place, whole(LaneBox::kLogUnits), work_.node[next_]);
+      }
+      which = hn::AndNot(same_brick, which);
+    }
+    arrive(lanes, which);
+  }
+
   void fetchTop(const FlightQueue& queue) {
     const std::uint32_t* top = g_.top;
     const std::int32_t* place = queue.place.data();
@@ -253,7 +268,9 @@ class Follower {
     if (!hn::AllFalse(n, leaf)) wait(leaf, lanes, lanes.place, log_cell, work_.leaf);
     if (hn::AllFalse(n, far)) return;
     far = hn::AndNot(turn(ball.inside, far, lanes.t, lanes), far);
-    arrive(lanes, moveOn(lanes, exits, jump, t_ball, far));
+    const VI from[3] = {lanes.cell[0], lanes.cell[1], lanes.cell[2]};
+    const MI onward = moveOn(lanes, exits, jump, t_ball, far);
+    arriveFrom(from, lanes, onward);
   }
 
   HWY_INLINE void crossLeaf(Lanes& lanes, MI used, int first) {
@@ -277,8 +294,9 @@ class Follower {
     const VF t_free = hn::Add(hn::Div(free, hn::Sqrt(length2)), exits.t);
     // Less than a unit could be lost in rounding, and leave the lane where it is for ever.
     const MF jump = hn::And(hn::Gt(free, real(1.0F)), hn::Gt(t_free, exits.t));
+    const VI from[3] = {lanes.cell[0], lanes.cell[1], lanes.cell[2]};
     const MI onward = moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_free, exits.t), going);
-    arrive(lanes, onward);
+    arriveFrom(from, lanes, onward);
   }
 
   /// @return lanes that are done with.
