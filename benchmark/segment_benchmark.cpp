@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
   using namespace sdf_ccd::benchmark;
   StudyOptions full;
   full.cells = {128, 256, 512, 1024};
-  full.errors = {"1e-3", "1e-4"};
+  full.errors = {"1e-3", "2e-4", "1e-4"};
   StudyOptions quick = full;
   quick.cells = {128};
   quick.errors = {"1e-3"};
