@@ -108,11 +108,15 @@ inline LeafCorners leafCorners(const AdaptiveLanes& g, const Lanes& lanes, const
   hn::LoadInterleaved2(n, fetched.pairs[0].data() + 2 * first, low, high);
   const VI byte = whole(0x7F);
   const auto step = [&](VI word) { return hn::ConvertTo(f, hn::And(word, byte)); };
-  LeafCorners corners{
-      {step(low), step(hn::ShiftRight<8>(low)), step(hn::ShiftRight<16>(low)), step(hn::ShiftRight<24>(low)),
-       step(high), step(hn::ShiftRight<8>(high)), step(hn::ShiftRight<16>(high)), step(hn::ShiftRight<24>(high))},
-      {},
-      {}};
+  LeafCorners corners;
+  const VI words[] = {low, high};
+  for (int k = 0; k < 2; ++k) {
+    VF* corner = corners.corner + 4 * k;
+    corner[0] = step(words[k]);
+    corner[1] = step(hn::ShiftRight<8>(words[k]));
+    corner[2] = step(hn::ShiftRight<16>(words[k]));
+    corner[3] = step(hn::ShiftRight<24>(words[k]));
+  }
   const auto topBits = [](VI word) {
     const VI bits =
         hn::And(hn::BitCast(n, hn::ShiftRight<7>(hn::BitCast(hn::RebindToUnsigned<I>(), word))), whole(0x01010101));

@@ -52,6 +52,7 @@ struct Boarding {
   /// Starts, and ways from there, relative to the grid's origin [units].
   template <class Tag>
   struct Ways {
+    HWY_INLINE Ways() {}  // as Blocks()
     hn::Vec<Tag> at[3], way[3];
   };
 

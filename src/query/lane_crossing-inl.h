@@ -17,6 +17,8 @@ namespace {
 
 /// Each lane's leaf: its eight corners and the isovalue, in steps of a length that is its own.
 struct LeafCorners {
+  HWY_INLINE LeafCorners() {}  // as Blocks()
+
   VF corner[8];
   VF iso;
   VF step;  ///< [units]

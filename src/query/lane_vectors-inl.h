@@ -144,6 +144,8 @@ HWY_INLINE void append(MI which, VI id, VF enter, VF exit, FlightHits& hits) {
 
 /// The block that each lane is in.
 struct Blocks {
+  HWY_INLINE Blocks() {}  // one that the compiler makes is not for this kind of processor: on Arm it cannot be called
+
   VI log_side;
   VI place;  ///< of a leaf or node
   MI far;
@@ -178,6 +180,8 @@ inline VI topIndex(const LaneBox& g, const VI* cell) {
 
 /// Where each lane leaves a block, and through which face.
 struct Exits {
+  HWY_INLINE Exits() {}  // as Blocks()
+
   VI low[3], side;
   VF t;
   MF axis[3];

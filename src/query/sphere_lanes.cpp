@@ -21,6 +21,8 @@ namespace {
 
 /// Balls without surface [units].
 struct FreeBalls {
+  HWY_INLINE FreeBalls() {}  // as Blocks()
+
   VF center[3];
   VF radius;  ///< negative: there is none
   MI inside;

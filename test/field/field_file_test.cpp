@@ -177,7 +177,7 @@ TEST_F(FieldFile, SaysWhatIsWrong) {
   EXPECT_NE(reason(path("later")).find("version 99"), std::string::npos);
   writeCheckedFile(path("earlier"), "field", 2, {{&value, sizeof value}});
   EXPECT_NE(reason(path("earlier")).find("version 2"), std::string::npos);
-  writeCheckedFile(path("short"), "field", 3, {{&value, sizeof value}});
+  writeCheckedFile(path("short"), "field", 4, {{&value, sizeof value}});
   EXPECT_NE(reason(path("short")).find("damaged"), std::string::npos);
   EXPECT_THROW(saveField(DistanceField(Primitive(Sphere{1})), path("s")), std::invalid_argument);
   EXPECT_THROW(saveField(buildField(mesh_, options_), path("no/such/folder")), std::runtime_error);
