@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint32_t kVersion = 4;  // of an even field's file
+
 /// A directory of this test's own.
 class FieldFile : public testing::Test {
  protected:
@@ -121,7 +123,7 @@ void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
 TEST_F(FieldFile, BadStepsAreRefused) {
   saveField(buildField(mesh_, options_), path("a.field"));
   const auto loadWith = [&](double step, std::int32_t sample_bits) {
-    const auto file = CheckedFile::open(path("a.field"), "field", 3);
+    const auto file = CheckedFile::open(path("a.field"), "field", kVersion);
     std::vector<std::string> bytes(file->sectionCount());
     std::vector<FileSection> sections;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -133,7 +135,7 @@ TEST_F(FieldFile, BadStepsAreRefused) {
     // The shape ends with them.
     bytes[0].replace(bytes[0].size() - 12, 4, reinterpret_cast<const char*>(&sample_bits), 4);
     bytes[0].replace(bytes[0].size() - 8, 8, reinterpret_cast<const char*>(&step), 8);
-    writeCheckedFile(path("b.field"), "field", 3, sections);
+    writeCheckedFile(path("b.field"), "field", kVersion, sections);
     return loadField(path("b.field"));
   };
   EXPECT_EQ(loadWith(1e-5, 16).grid()->shape().step, 1e-5);
@@ -175,9 +177,9 @@ TEST_F(FieldFile, SaysWhatIsWrong) {
   EXPECT_NE(reason(path("other")).find("holds a shell"), std::string::npos);
   writeCheckedFile(path("later"), "field", 99, {{&value, sizeof value}});
   EXPECT_NE(reason(path("later")).find("version 99"), std::string::npos);
-  writeCheckedFile(path("earlier"), "field", 2, {{&value, sizeof value}});
-  EXPECT_NE(reason(path("earlier")).find("version 2"), std::string::npos);
-  writeCheckedFile(path("short"), "field", 4, {{&value, sizeof value}});
+  writeCheckedFile(path("earlier"), "field", kVersion - 1, {{&value, sizeof value}});
+  EXPECT_NE(reason(path("earlier")).find("version " + std::to_string(kVersion - 1)), std::string::npos);
+  writeCheckedFile(path("short"), "field", kVersion, {{&value, sizeof value}});
   EXPECT_NE(reason(path("short")).find("damaged"), std::string::npos);
   EXPECT_THROW(saveField(DistanceField(Primitive(Sphere{1})), path("s")), std::invalid_argument);
   EXPECT_THROW(saveField(buildField(mesh_, options_), path("no/such/folder")), std::runtime_error);
