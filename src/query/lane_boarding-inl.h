@@ -114,12 +114,11 @@ struct Boarding {
   }
 
   void clipAll(const LaneBox& g, const Segment* segments, int count) {
-    const auto surely_near = hn::Set(single, static_cast<float>(0.9 * nearReach(g)));
+    const auto reach = hn::Set(single, static_cast<float>(0.9 * nearReach(g)));
     const auto zero = hn::Zero(single), one = hn::Set(single, 1.0F);
     for (int i = 0; i < count; i += lanes()) {
       Ways<Single> ways;
-      auto inside = hn::Eq(one, one);
-      auto farthest = zero;
+      auto inside = hn::Eq(one, one), surely_near = inside;  // not where a number is none
       for (int k = 0; k < 3; ++k) {
         ways.at[k] = hn::LoadU(single, o[k] + i);
         ways.way[k] = hn::LoadU(single, d[k] + i);
@@ -127,7 +126,7 @@ struct Boarding {
         const auto low = hn::Min(ways.at[k], end), high = hn::Max(ways.at[k], end);
         const auto size = hn::Set(single, static_cast<float>(g.top_size[k] * LaneBox::kUnits));
         inside = hn::And(inside, hn::And(hn::Ge(low, zero), hn::Le(high, size)));
-        farthest = hn::Max(farthest, hn::Max(hn::Neg(low), high));
+        surely_near = hn::And(surely_near, hn::And(hn::Ge(low, hn::Neg(reach)), hn::Le(high, reach)));
       }
       if (hn::AllTrue(single, inside)) {
         put(zero, t0 + i);
@@ -135,7 +134,7 @@ struct Boarding {
         continue;
       }
       store<Single>(clip(single, g, inside, ways), ways, i);
-      if (hn::AllTrue(single, hn::Le(farthest, surely_near))) continue;
+      if (hn::AllTrue(single, surely_near)) continue;
       for (int j = i; j < std::min(i + lanes(), count); ++j) clipFar(g, segments[j], j);
     }
   }

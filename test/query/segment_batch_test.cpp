@@ -339,5 +339,23 @@ TEST(SegmentBatch, RefusesWhatIsNotFiniteOrOutsideTheBand) {
   }
 }
 
+TEST(SegmentBatch, NamesTheSegmentThatItRefuses) {
+  for (const DistanceField& field : {torus(), evenTorus()}) {
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 3e12}) {
+      for (int k = 0; k < 6; ++k) {
+        std::vector<Segment> segments(40, Segment{Vector3d::Zero(), Vector3d::Constant(0.01)});
+        (k < 3 ? segments[21].start : segments[21].end)[k % 3] = bad;
+        BatchResult result;
+        try {
+          segmentIntervals(field, segments.data(), segments.size(), {}, result);
+          ADD_FAILURE() << bad << " at " << k;
+        } catch (const std::invalid_argument& error) {
+          EXPECT_NE(std::string(error.what()).find("segment 21 "), std::string::npos) << error.what();
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd
