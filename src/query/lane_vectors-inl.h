@@ -170,6 +170,15 @@ inline void setFarBall(const LaneBox& g, VI word, Blocks& b) {
   b.inside = hn::Lt(word, hn::Zero(n));
 }
 
+/// The unit cubes of lanes whose t is anywhere in the grid.
+HWY_INLINE void findCells(const LaneBox& g, Lanes& lanes) {
+  for (int k = 0; k < 3; ++k) {
+    const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
+    // Towards zero; what is below is clamped.
+    lanes.cell[k] = hn::Min(hn::Max(hn::ConvertTo(n, lanes.at(k)), hn::Zero(n)), last);
+  }
+}
+
 /// The index of each lane's top cell.
 inline VI topIndex(const LaneBox& g, const VI* cell) {
   const VI x = hn::ShiftRight<LaneBox::kLogUnits>(cell[0]), y = hn::ShiftRight<LaneBox::kLogUnits>(cell[1]),

@@ -107,10 +107,7 @@ class Chunk {
     work_.begin[lost] = 0.0F;
     work_.end[lost] = 1.0F;
     for (const SegmentHit& hit : single) {
-      hits.makeRoom();
-      hits.id[hits.size] = lost;
-      hits.enter[hits.size] = hit.enter;
-      hits.exit[hits.size++] = hit.exit;
+      hits.add(lost, hit.enter, hit.exit);
     }
   }
 

@@ -101,7 +101,7 @@ class Follower {
     std::int32_t cell[3][Boarding::kMost], word[Boarding::kMost];
     for (int i = 0; i < count; i += width) {
       Lanes lanes(boarding, i, first);
-      findCells(lanes);
+      findCells(g_, lanes);
       for (int k = 0; k < 3; ++k) hn::StoreU(lanes.cell[k], n, cell[k] + i);
       hn::StoreU(topIndex(g_, lanes.cell), n, word + i);
     }
@@ -141,15 +141,6 @@ class Follower {
   /// Puts lanes into a queue.
   HWY_INLINE void wait(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
     append<!first_only>(which, lanes, place, log_side, queue);
-  }
-
-  /// The unit cubes of lanes whose t is anywhere in a far cell.
-  HWY_INLINE void findCells(Lanes& lanes) const {
-    for (int k = 0; k < 3; ++k) {
-      const VI last = whole(g_.top_size[k] * LaneBox::kUnits - 1);
-      // Towards zero; what is below is clamped.
-      lanes.cell[k] = hn::Min(hn::Max(hn::ConvertTo(n, lanes.at(k)), hn::Zero(n)), last);
-    }
   }
 
   /// Lanes that have come to a new place.
@@ -241,7 +232,7 @@ class Follower {
       const MI onward = hn::AndNot(done, live);
       if (hn::AllFalse(n, onward)) return onward;
       lanes.t = t_ball;
-      findCells(lanes);
+      findCells(g_, lanes);
       return onward;
     }
     const Exits exits = exitsOf(lanes, at.log_side);
@@ -320,29 +311,21 @@ class Follower {
     const auto timeOf = [&](double u) { return static_cast<float>(start + u * (double(end) - double(start))); };
     const bool at_start = found.count > 0 && found.interval[0].enter == 0.0;
     if (enter >= 0.0F && !at_start) {
-      hit(id, enter, start);
+      work_.hits.add(id, enter, start);
       enter = -1.0F;
     }
     for (int i = 0; i < found.count; ++i) {
       const Interval& span = found.interval[i];
       if (enter < 0.0F) enter = timeOf(span.enter);
       if (first_only) {
-        hit(id, enter, enter);
+        work_.hits.add(id, enter, enter);
         return true;
       }
       if (span.exit == 1.0) return false;
-      hit(id, enter, timeOf(span.exit));
+      work_.hits.add(id, enter, timeOf(span.exit));
       enter = -1.0F;
     }
     return false;
-  }
-
-  void hit(std::int32_t id, float enter, float exit) {
-    FlightHits& hits = work_.hits;
-    hits.makeRoom();
-    hits.id[hits.size] = id;
-    hits.enter[hits.size] = enter;
-    hits.exit[hits.size++] = exit;
   }
 
   const Grid& g_;

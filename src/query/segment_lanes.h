@@ -108,6 +108,12 @@ struct FlightHits {
   void makeRoom() {
     if (size + kSlack > static_cast<int>(id.size())) resize(2 * size + 1024);
   }
+  void add(std::int32_t segment, float begin, float end) {
+    makeRoom();
+    id[size] = segment;
+    enter[size] = begin;
+    exit[size++] = end;
+  }
   void resize(int room) {
     id.resize(room);
     enter.resize(room);

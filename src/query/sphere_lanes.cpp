@@ -236,10 +236,7 @@ class Sweeper {
 
   /// Balls that may hold the lanes: about what is known next to them.
   HWY_INLINE FreeBalls ballsAt(Lanes& lanes, MI active) {
-    for (int k = 0; k < 3; ++k) {
-      const VI last = whole(g_.top_size[k] * LaneBox::kUnits - 1);
-      lanes.cell[k] = hn::Min(hn::Max(hn::ConvertTo(n, lanes.at(k)), hn::Zero(n)), last);
-    }
+    findCells(g_, lanes);
     hn::StoreU(topIndex(g_, lanes.cell), n, work_.waiting.place.data());
     std::int32_t* word = work_.fetched.word.data();
     for (std::size_t i = 0; i < hn::Lanes(n); ++i) word[i] = static_cast<std::int32_t>(g_.top[work_.waiting.place[i]]);
