@@ -27,6 +27,15 @@ std::array<double, 8> octantOf(const std::array<double, 27>& lattice, int k) {
   return {v[0], v[1], v[3], v[4], v[9], v[10], v[12], v[13]};
 }
 
+std::array<double, 8> cornersOf(const std::array<double, 27>& v) {
+  return {v[0], v[2], v[6], v[8], v[18], v[20], v[24], v[26]};
+}
+
+std::array<double, 27> difference(std::array<double, 27> a, const std::array<double, 27>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return a;
+}
+
 template <std::size_t n>
 double largest(const std::array<double, n>& errors) {
   double most = 0.0;
@@ -47,7 +56,9 @@ CellFit::CellFit(const NearTriangles& near, CellFit& around, const Vector3i& par
   around.take(cube, 1, near);
   for (int z = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x) set(kSteps / 2 * Vector3i(x, y, z), around.at(cube.low + Vector3i(x, y, z)));
+      for (int x = 0; x < 3; ++x) {
+        set(kSteps / 2 * Vector3i(x, y, z), around.at(cube.low + kSteps / 8 * Vector3i(x, y, z)));
+      }
   set(Vector3i::Constant(kSteps / 2), near.centerDistance());
 }
 
@@ -67,52 +78,53 @@ void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
       }
 }
 
-CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
-  Corners values;
-  for (int k = 0; k < 8; ++k) values[k] = at(cube.low + cube.side * cubeCorner(k));
-  return values;
-}
-
-CellFit::Lattice CellFit::errorsOf(const Cube& cube, Lattice values) const {
-  const int half = cube.side / 2;
-  const double* const first = values_.data() + index(cube.low);
+CellFit::Lattice CellFit::latticeOf(const Cube& cube, const NearTriangles& near) {
+  const bool kept = cube.side % (2 * kKept) == 0;
+  if (kept) take(cube, 2, near);
+  Lattice values;
+  DistanceWriter<double> writer(near, values.data());
   for (int z = 0, i = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x, ++i) values[i] -= first[half * (x + 9 * (y + 9 * z))];
+      for (int x = 0; x < 3; ++x, ++i) {
+        const Vector3i p = cube.low + cube.side / 2 * Vector3i(x, y, z);
+        if (kept || (x != 1 && y != 1 && z != 1)) {
+          values[i] = at(p);
+        } else {
+          writer.add(i, low_ + step_ * p.cast<double>());
+        }
+      }
   return values;
 }
 
 double CellFit::provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
-  Corners errors = cornersOf(cube);
-  for (int k = 0; k < 8; ++k) errors[k] = leaf[k] - errors[k];
-  if (largest(errors) > most) return kUnproved;
-  const double error = boundFrom(errors, cube.side, near);
-  // A bound far above what is seen at the corners comes of the normals' range: parts know more of it.
+  const Lattice exact = latticeOf(cube, near);
+  const double seen = largest(difference(refined(leaf), exact));
+  if (seen > most) return kUnproved;
+  const double error = GradientBound(near).error(step_ * cube.side, cornersOf(exact), leaf);
+  // A bound far above what is seen comes of the gradients' range: parts know more of it.
   constexpr double kTight = 2.0;
-  if (error <= most && error <= kTight * largest(errors)) return error;
-  const double in_parts = provedInParts(cube, near, leaf, most);
-  return error <= most ? std::min(error, in_parts) : in_parts;
+  if (error <= most && error <= kTight * seen) return error;
+  return std::min(error <= most ? error : kUnproved, provedInParts(cube, near, leaf, most));
 }
 
 double CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
   if (cube.side == 1) return kUnproved;
-  take(cube, 2, near);
-  const int half = cube.side / 2;
-  const Lattice values = refined(leaf);
-  const Lattice errors = errorsOf(cube, values);
-  if (largest(errors) > most) return kUnproved;
+  const Lattice exact = latticeOf(cube, near), values = refined(leaf);
+  if (largest(difference(values, exact)) > most) return kUnproved;
+  const GradientBound bound(near);
   std::optional<NearOctants> own;
   double worst = 0.0;
   for (int k = 0; k < 8; ++k) {
-    const Corners at_corners = octantOf(errors, k);
-    double error = boundFrom(at_corners, half, near);
+    const Cube part{cube.low + cube.side / 2 * cubeCorner(k), cube.side / 2};
+    const Corners part_exact = octantOf(exact, k), part_leaf = octantOf(values, k);
+    double error = bound.error(step_ * part.side, part_exact, part_leaf);
     if (error > most) {
       if (cube.side < kSteps && !own) own.emplace(near);
       const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
-      error = boundFrom(at_corners, half, part_near);
-      if (error > most) {
-        error = provedInParts({cube.low + half * cubeCorner(k), half}, part_near, octantOf(values, k), most);
+      if (part_near.size() < near.size()) {
+        error = GradientBound(part_near).error(step_ * part.side, part_exact, part_leaf);
       }
+      if (error > most) error = provedInParts(part, part_near, part_leaf, most);
       if (error > most) return kUnproved;
     }
     worst = std::max(worst, error);
@@ -120,34 +132,17 @@ double CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const
   return worst;
 }
 
-double CellFit::boundFrom(const Corners& errors, int side, const NearTriangles& near) const {
-  const double w = step_ * side;
-  // At s (−1 to 1 from face to face along an axis) the corners' errors count with at most their mean + Σ a s, a half
-  // the largest difference along an edge, and interpolation adds at most Σ b (1 − s²), b a quarter of the slopes'
-  // range.
-  double bound = std::abs(std::accumulate(errors.begin(), errors.end(), 0.0)) / 8.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    double a = 0.0;
-    for (int k = 0; k < 8; ++k) {
-      if ((k >> axis & 1) == 0) a = std::max(a, 0.5 * std::abs(errors[k] - errors[k | 1 << axis]));
-    }
-    const double b = 0.25 * w * near.slopeRange()[axis];
-    bound += a < 2.0 * b ? b + a * a / (4.0 * b) : a;
-  }
-  return std::min(bound, largest(errors) + w * near.interpolationError());
-}
-
 std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale,
                                         double most) {
   take(cube, 1, near);
   const Vector3i middle = cube.low.array() + cube.side / 2;
   if (std::isnan(at(middle))) set(middle, near.centerDistance());
-  Corners corners = cornersOf(cube);
+  Corners corners;
+  for (int k = 0; k < 8; ++k) corners[k] = at(cube.low + cube.side * cubeCorner(k));
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
   if (std::abs(mean - at(middle)) > 2.0 * most) return std::nullopt;
   // Curvature pulls the interpolant to one side: half of that, taken off, halves the largest error.
-  take(cube, 2, near);
-  const Lattice errors = errorsOf(cube, refined(corners));
+  const Lattice errors = difference(refined(corners), latticeOf(cube, near));
   const auto [low, high] = std::minmax_element(errors.begin(), errors.end());
   if (*high - *low > 2.0 * most) return std::nullopt;
   for (double& value : corners) value -= 0.5 * (*high + *low);
@@ -167,8 +162,7 @@ std::optional<FittedLeaf> CellFit::octantLeaf(int k, const LeafScale& scale, dou
 
 FittedLeaf CellFit::roundedLeaf(int k, const LeafScale& scale) {
   const Cube cube = octantCube(k);
-  take(cube, 1, octants()[k]);
-  return {scale.encode(cornersOf(cube)), kHalfSqrt3 * step_ * cube.side + scale.rounding()};
+  return {scale.encode(cornersOf(latticeOf(cube, octants()[k]))), kHalfSqrt3 * step_ * cube.side + scale.rounding()};
 }
 
 }  // namespace sdf_ccd

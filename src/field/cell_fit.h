@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cube_corner.h"
+#include "gradient_bound.h"
 #include "near_triangles.h"
 #include "sdf_ccd/field/adaptive_grid.h"
 
@@ -16,15 +17,14 @@ struct FittedLeaf {
   double error = 0.0;
 };
 
-/// A cell's signed distances at a lattice of 9×9×9 places, taken when asked for, and what they prove about leaves that
-/// would stand in its place.
+/// A cell's signed distances at a lattice of 9×9×9 places, every second step, taken when asked for, and what they prove
+/// about leaves that would stand in its place.
 ///
-/// The proof. Where the gradients of φ in a cube lie close together, trilinear interpolation of its corners is hardly
-/// wrong: see NearTriangles::interpolationError(). A leaf's interpolant equals that of its own values at the cube's
-/// corners: its error is at most the largest error at the corners plus that. Flat surface: nothing is added.
+/// The proof. A leaf's interpolant is, in every part of the cell, that of its own values at the part's corners: see
+/// GradientBound for what it may be off by there. Parts are halved until it is proved, with fewer triangles near them.
 class CellFit {
  public:
-  static constexpr int kSteps = 8;
+  static constexpr int kSteps = 16;
 
   /// A cube of the lattice: first corner and side, in steps.
   struct Cube {
@@ -52,23 +52,22 @@ class CellFit {
   NearOctants& octants();
 
  private:
-  using Corners = std::array<double, 8>;
+  static constexpr int kKept = 2;  ///< distances are kept at every second place
+
+  using Corners = GradientBound::Corners;
   using Lattice = std::array<double, 27>;  ///< of a cube: corners and middles between them, x fastest
 
-  static int index(const Vector3i& p) { return p.x() + 9 * (p.y() + 9 * p.z()); }
+  static int index(const Vector3i& p) { return (p.x() + 9 * (p.y() + 9 * p.z())) / kKept; }
   static Cube octantCube(int k) { return {kSteps / 2 * cubeCorner(k), kSteps / 2}; }
   std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
   /// Takes the distances that are missing at the cube's places, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
-  Corners cornersOf(const Cube& cube) const;
-  /// What an interpolant's values at the 27 places of a cube exceed the exact ones by.
-  Lattice errorsOf(const Cube& cube, Lattice values) const;
+  /// The distances at the places of a cube.
+  Lattice latticeOf(const Cube& cube, const NearTriangles& near);
   /// Bound on what an interpolant with these values at the cube's corners differs by from φ in the cube; infinite if
   /// none up to `most` is proved.
   double provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
   double provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
-  /// What errors at a cube's corners say that an interpolant is wrong by all over it, at most.
-  double boundFrom(const Corners& errors, int side, const NearTriangles& near) const;
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../geometry/double_lanes.h"
 #include "sdf_ccd/geometry/separating_triangles.h"
 
 namespace sdf_ccd {
 namespace {
+
+using namespace lanes;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -29,13 +32,10 @@ double reach(const SpaceCube& cube, double distance) {
 /// @param distance, gradient  at the cube's centre, the distance or less; NaN: not known.
 bool mayBeNearest(double distance, const Vector3d& gradient, double side, const PlaceLanes::Lane& other) {
   const Vector3d slope = 0.5 * side * gradient;
-  double above = kInfinity;
-  for (int c = 0; c < 8; ++c) {
-    const double tangent = distance + ((c & 1) ? slope.x() : -slope.x()) + ((c & 2) ? slope.y() : -slope.y()) +
-                           ((c & 4) ? slope.z() : -slope.z());
-    above = std::min(above, tangent - other[c]);
-  }
-  return !(above > 0.0) || std::isnan(slope.x());
+  const Doubles across = {-slope.x() - slope.y(), slope.x() - slope.y(), slope.y() - slope.x(), slope.x() + slope.y()};
+  const Doubles above = smaller(distance + across - slope.z() - load(other.data()),
+                                distance + across + slope.z() - load(other.data() + 4));
+  return !(std::min(std::min(above[0], above[1]), std::min(above[2], above[3])) > 0.0) || std::isnan(slope.x());
 }
 
 /// Distances of a cube's corners from a triangle, to within rounding.
@@ -90,23 +90,7 @@ void SurfaceIndex::ways(int i, const PlaceLanes& places, WayLanes& ways) const {
 NearTriangles::NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube, double distance,
                              const std::int32_t* ids, std::size_t count)
     : surface_(&surface), cube_(cube), distance_(distance), ids_(ids), count_(count) {
-  setGradients();
-}
-
-void NearTriangles::setGradients() {
   setCone();
-  interpolation_ = kHalfSqrt3 * cone_.sine;
-  if (!(cone_.sine < 1.0)) return;
-  // A gradient is a sum of normals whose weights sum up to 1 to 1 / cos of the cone's angle.
-  const double most = 1.0 / std::sqrt(1.0 - cone_.sine * cone_.sine);
-  Vector3d low = surface_->face(ids_[0]).normal, high = low;
-  for (std::size_t i = 1; i < count_; ++i) {
-    const Vector3d& normal = surface_->face(ids_[i]).normal;
-    low = low.cwiseMin(normal);
-    high = high.cwiseMax(normal);
-  }
-  slope_range_ = (high.cwiseMax(most * high) - low.cwiseMin(most * low)) * (1.0 + kSlack);
-  interpolation_ = std::min(interpolation_, 0.25 * slope_range_.sum());
 }
 
 void NearTriangles::setCone() {
@@ -220,7 +204,7 @@ NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const Sig
 }
 
 NearOctants::NearOctants(const NearTriangles& around)
-    : around_(around), ways_(new WayLanes[around.size()]), ids_(new std::int32_t[8 * around.size()]) {
+    : around_(around), ways_(way_room_.of(around.size())), ids_(id_room_.of(around.size())) {
   PlaceLanes centers;
   for (int k = 0; k < 8; ++k) centers.set(k, around_.cube().octant(k).center);
   PlaceLanes::Lane best2;
@@ -262,7 +246,7 @@ int NearOctants::sign(int k, std::size_t nearest) const {
 const NearTriangles& NearOctants::operator[](int k) {
   NearTriangles& near = near_[k];
   if (near.size() > 0) return near;
-  std::int32_t* const first = ids_.get() + k * around_.size();
+  std::int32_t* const first = ids_ + k * around_.size();
   std::int32_t* last = first;
   *last++ = nearest_[k];
   const SpaceCube octant = around_.cube().octant(k);

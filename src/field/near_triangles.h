@@ -79,15 +79,6 @@ class NearTriangles {
   /// Holds the gradient of the signed distance wherever it is defined in the cube.
   const DirectionCone& gradientCone() const { return cone_; }
 
-  /// By how much of the side of any cube within this one trilinear interpolation from its corners may be wrong.
-  ///
-  /// φ less a linear function along the cone's axis has slopes of at most its sine s: √3/2 s (design §3.3). Or, axis by
-  /// axis: a function whose slope lies in [m, M] leaves the chord over a length w by at most (M − m) w / 4.
-  double interpolationError() const { return interpolation_; }
-
-  /// Along each axis, of the slopes of φ in the cube: the largest less the smallest.
-  const Vector3d& slopeRange() const { return slope_range_; }
-
   /// The sign at a place of the cube, `distance` from the surface, where its closest triangles do not tell it.
   int signFarther(const Vector3d& p, double distance) const;
 
@@ -105,7 +96,6 @@ class NearTriangles {
     int sign;
   };
   Closest closest(const Vector3d& p) const;
-  void setGradients();
   void setCone();
   const Vector3d* setCone(Vector3d axis);
 
@@ -115,8 +105,6 @@ class NearTriangles {
   const std::int32_t* ids_ = nullptr;
   std::size_t count_ = 0;
   DirectionCone cone_;
-  double interpolation_ = kHalfSqrt3;
-  Vector3d slope_range_ = Vector3d::Constant(2.0);
 };
 
 /// Writes the signed distances at places of a cube to where they belong, eight at a time.
@@ -174,17 +162,33 @@ class NearOctants {
 
   /// Signed distance at the octant's centre [m].
   double centerDistance(int k) const { return distances_[k]; }
+  SignedSurface::Nearest nearest(int k) const { return {distances_[k], nearest_[k]}; }
 
   const NearTriangles& operator[](int k);
 
  private:
   int sign(int k, std::size_t nearest) const;
 
+  /// Room for each triangle around: in here if they are few, as they mostly are.
+  template <class T, std::size_t per_triangle>
+  struct Room {
+    static constexpr std::size_t kFew = 12;
+    std::array<T, kFew * per_triangle> few;
+    std::unique_ptr<T[]> many;
+
+    T* of(std::size_t triangles) {
+      if (triangles > kFew) many.reset(new T[triangles * per_triangle]);
+      return many ? many.get() : few.data();
+    }
+  };
+
   const NearTriangles& around_;
-  std::unique_ptr<WayLanes[]> ways_;     ///< of each triangle around to the octants' centres
+  Room<WayLanes, 1> way_room_;
+  Room<std::int32_t, 8> id_room_;
+  WayLanes* ways_;                       ///< of each triangle around to the octants' centres
+  std::int32_t* ids_;                    ///< for each octant room for all triangles around
   std::array<std::int32_t, 8> nearest_;  ///< triangle at each octant's centre
   std::array<double, 8> distances_;
-  std::unique_ptr<std::int32_t[]> ids_;  ///< for each octant room for all triangles around
   std::array<NearTriangles, 8> near_;
 };
 

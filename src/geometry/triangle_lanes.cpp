@@ -2,33 +2,16 @@
 
 #include <cmath>
 
-// Compiled for processors with wider vectors too; which one is taken is decided when the program is loaded.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
-#define SDF_CCD_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#define SDF_CCD_LANES
-#endif
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
+#include "double_lanes.h"
 
 namespace sdf_ccd {
 namespace {
 
-constexpr int kWidth = 4;
-using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
-
-#define SDF_CCD_INLINE inline __attribute__((always_inline))
-
-SDF_CCD_INLINE Doubles load(const PlaceLanes::Lane& lane, int k) {
-  return *reinterpret_cast<const Doubles*>(lane.data() + k);
-}
-
-SDF_CCD_INLINE void store(const Doubles& values, int k, PlaceLanes::Lane& lane) {
-  *reinterpret_cast<Doubles*>(lane.data() + k) = values;
-}
+using namespace lanes;
 
 SDF_CCD_INLINE Doubles clamped(const Doubles& t, double most) {
-  const Doubles zero = {}, end = zero + most, positive = t > zero ? t : zero;
-  return positive < end ? positive : end;
+  const Doubles zero = {};
+  return smaller(larger(t, zero), zero + most);
 }
 
 /// The way from the closest point to a place: in the triangle's plane, and along its normal.
@@ -40,8 +23,8 @@ struct Way {
 
 /// In the plane: to the nearest of the edges' closest points, or nothing within them.
 SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PlaceLanes& places, int k) {
-  const Doubles x = load(places.x, k) - t.origin[0], y = load(places.y, k) - t.origin[1],
-                z = load(places.z, k) - t.origin[2];
+  const Doubles x = load(places.x.data() + k) - t.origin[0], y = load(places.y.data() + k) - t.origin[1],
+                z = load(places.z.data() + k) - t.origin[2];
   const Doubles u = t.u[0] * x + t.u[1] * y + t.u[2] * z;
   const Doubles v = t.v[0] * x + t.v[1] * y + t.v[2] * z;
   const Doubles zero = {};
@@ -62,8 +45,7 @@ SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PlaceLanes& places, int k)
 
   // The least of the heights over the three edges (times their lengths).
   const Doubles over_bc = edge * v - t.height * w, over_ca = t.height * u - t.c * v;
-  Doubles over = v < over_bc ? v : over_bc;
-  over = over < over_ca ? over : over_ca;
+  const Doubles over = smaller(smaller(v, over_bc), over_ca);
   return {over < zero ? best_u : zero, over < zero ? best_v : zero,
           t.normal[0] * x + t.normal[1] * y + t.normal[2] * z};
 }
@@ -92,20 +74,20 @@ SDF_CCD_LANES void offer(const FlatTriangle& t, const Vector3d& axis, const Plac
   const double an = t.normal[0] * axis[0] + t.normal[1] * axis[1] + t.normal[2] * axis[2];
   for (int k = 0; k < PlaceLanes::kCount; k += kWidth) {
     const Way way = wayTo(t, places, k);
-    const Doubles distance2 = way.squared(), held2 = load(closest.distance2, k);
-    const Doubles side = way.u * au + way.v * av + way.normal * an, held = load(closest.side, k);
-    store(distance2 < held2 ? side : held, k, closest.side);
-    store(distance2 < held2 ? distance2 : held2, k, closest.distance2);
+    const Doubles distance2 = way.squared(), held2 = load(closest.distance2.data() + k);
+    const Doubles side = way.u * au + way.v * av + way.normal * an, held = load(closest.side.data() + k);
+    store(distance2 < held2 ? side : held, closest.side.data() + k);
+    store(distance2 < held2 ? distance2 : held2, closest.distance2.data() + k);
   }
 }
 
 SDF_CCD_LANES void ways(const FlatTriangle& t, const PlaceLanes& places, WayLanes& ways) {
   for (int k = 0; k < PlaceLanes::kCount; k += kWidth) {
     const Way way = wayTo(t, places, k);
-    store(way.squared(), k, ways.distance2);
-    store(way.u * t.u[0] + way.v * t.v[0] + way.normal * t.normal[0], k, ways.x);
-    store(way.u * t.u[1] + way.v * t.v[1] + way.normal * t.normal[1], k, ways.y);
-    store(way.u * t.u[2] + way.v * t.v[2] + way.normal * t.normal[2], k, ways.z);
+    store(way.squared(), ways.distance2.data() + k);
+    store(way.u * t.u[0] + way.v * t.v[0] + way.normal * t.normal[0], ways.x.data() + k);
+    store(way.u * t.u[1] + way.v * t.v[1] + way.normal * t.normal[1], ways.y.data() + k);
+    store(way.u * t.u[2] + way.v * t.v[2] + way.normal * t.normal[2], ways.z.data() + k);
   }
 }
 

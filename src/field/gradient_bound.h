@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+
+#include "near_triangles.h"
+
+namespace sdf_ccd {
+
+/// What the gradients of φ in a cube say of the error of an interpolant there.
+///
+/// On the way from a corner a to a place x the distance grows at least by m(x − a), m(v) the least of g·v over all
+/// gradients g in the cube: φ(x) ≥ φ(a) + m(x − a). That holds for each corner, hence for means of what two of them
+/// say. The right-hand side is concave, so that it is nowhere below what is interpolated between its values at the
+/// cube's corners. An interpolant, less that: its largest value at a corner bounds how far it is above φ. Two corners
+/// that lie across from each other, and the right weights: where the surface has one edge, their two planes are those
+/// of its faces, and the bound is what the edge demands. Below φ alike, with the most that the distance grows.
+///
+/// A gradient is a sum of the near triangles' normals whose weights sum up to 1 to 1 / cos of their cone's angle; where
+/// these are not in one cone, it is only known that |g| ≤ 1.
+class GradientBound {
+ public:
+  using Corners = std::array<double, 8>;
+
+  explicit GradientBound(const NearTriangles& near);
+
+  /// Bound on |interpolant − φ| in a cube within near's.
+  /// @param side    of the cube [m].
+  /// @param exact   φ at the cube's corners [m].
+  /// @param values  the interpolant's there [m].
+  double error(double side, const Corners& exact, const Corners& values) const;
+
+ private:
+  static constexpr int kPairs = 4;  ///< of corners across from each other: k and 7 − k
+  struct Table {
+    alignas(64) std::array<std::array<double, kPairs>, 8> from_low, from_high;  ///< [at][pair], for a side of 1
+  };
+
+  static double above(const Table& growth, double side, const Corners& exact, const Corners& values, double sign);
+
+  Table least_, most_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,37 @@
+#pragma once
+
+// Vectors of doubles as the compiler writes them, for files that are compiled for processors with wider vectors too:
+// functions marked SDF_CCD_LANES; which of them is taken is decided when the program is loaded.
+
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#define SDF_CCD_LANES __attribute__((target_clones("avx2", "default")))
+#else
+#define SDF_CCD_LANES
+#endif
+#define SDF_CCD_INLINE inline __attribute__((always_inline))
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
+
+namespace sdf_ccd::lanes {
+
+constexpr int kWidth = 4;
+using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
+
+using DoublesInMemory = double __attribute__((vector_size(kWidth * sizeof(double)), aligned(8), may_alias));
+
+SDF_CCD_INLINE Doubles load(const double* from) {
+  return *reinterpret_cast<const DoublesInMemory*>(from);
+}
+
+SDF_CCD_INLINE void store(const Doubles& values, double* to) {
+  *reinterpret_cast<DoublesInMemory*>(to) = values;
+}
+
+SDF_CCD_INLINE Doubles larger(const Doubles& a, const Doubles& b) {
+  return a > b ? a : b;
+}
+
+SDF_CCD_INLINE Doubles smaller(const Doubles& a, const Doubles& b) {
+  return a < b ? a : b;
+}
+
+}  // namespace sdf_ccd::lanes

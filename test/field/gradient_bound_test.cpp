@@ -1,0 +1,93 @@
+#include "field/gradient_bound.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "sdf_ccd/field/sparse_grid.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+
+/// Interpolants in small cubes near a mesh, against the exact distance at places all over the cube.
+class GradientBoundTest : public testing::Test {
+ protected:
+  struct Seen {
+    double bound, error;
+  };
+
+  Seen compare(const SurfaceIndex& index, const SpaceCube& cube, double wrong) {
+    const SignedSurface& surface = index.exact();
+    // As the first octant of another: lists of octants hold only triangles that may matter, down to large ones.
+    const Vector3d around = cube.corner(7);
+    const NearCube found(index, {around, 2.0 * cube.side}, surface.nearest(around));
+    NearOctants octants(found.near());
+    GradientBound::Corners exact, values;
+    for (int k = 0; k < 8; ++k) {
+      exact[k] = surface.signedDistance(cube.corner(k));
+      values[k] = exact[k] + test::uniform(random_, -wrong, wrong);
+    }
+    Seen seen{GradientBound(octants[0]).error(cube.side, exact, values), 0.0};
+    constexpr int kSteps = 6;
+    for (int i = 0; i < (kSteps + 1) * (kSteps + 1) * (kSteps + 1); ++i) {
+      const Vector3d u =
+          Vector3d(i % (kSteps + 1), i / (kSteps + 1) % (kSteps + 1), i / (kSteps + 1) / (kSteps + 1)) / kSteps;
+      const Vector3d p = cube.corner(0) + cube.side * u;
+      seen.error = std::max(seen.error, std::abs(trilinear(values, u) - surface.signedDistance(p)));
+    }
+    return seen;
+  }
+
+  /// Ratios of bound to error of cubes about places of the surface's box, the tightest first.
+  std::vector<double> ratios(const TriangleMesh& mesh, double side, double wrong) {
+    const SurfaceIndex index(mesh);
+    std::vector<double> all;
+    for (int i = 0; i < 400; ++i) {
+      const AlignedBox3d box = boundingBox(mesh);
+      const Seen seen = compare(index, {test::uniformIn(random_, box), test::uniform(random_, 0.2, 1.0) * side}, wrong);
+      EXPECT_LE(seen.error, seen.bound + 1e-12);
+      if (seen.error > 1e-9) all.push_back(seen.bound / seen.error);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  Random random_{5};
+};
+
+TEST_F(GradientBoundTest, HoldsOnSmallTriangles) {
+  EXPECT_FALSE(ratios(test::icosphere(0.3, 3), 0.1, 0.0).empty());
+}
+
+TEST_F(GradientBoundTest, HoldsForAnyInterpolant) {
+  EXPECT_FALSE(ratios(test::boxMesh({0.2, 0.15, 0.1}), 0.1, 0.02).empty());
+}
+
+TEST_F(GradientBoundTest, HoldsWhereNoConeHoldsTheGradients) {
+  EXPECT_FALSE(ratios(test::boxMesh({0.2, 0.15, 1e-4}), 0.05, 0.0).empty());
+}
+
+TEST_F(GradientBoundTest, IsZeroOverFlatFaces) {
+  const TriangleMesh mesh = test::boxMesh({0.2, 0.15, 0.1});
+  EXPECT_LT(compare(SurfaceIndex(mesh), {{0.05, 0.02, 0.1}, 0.04}, 0.0).bound, 1e-12);
+}
+
+TEST_F(GradientBoundTest, IsTightAtAnEdge) {
+  const TriangleMesh mesh = test::icosphere(0.3, 2);
+  const SurfaceIndex index(mesh);
+  std::vector<double> ratios;
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d on_edge = 0.5 * (mesh.vertices[t[0]] + mesh.vertices[t[1]]);
+    const Seen seen = compare(index, {on_edge + 0.001 * test::direction(random_), 0.005}, 0.0);
+    ratios.push_back(seen.bound / seen.error);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  EXPECT_LT(ratios[ratios.size() / 2], 2.0);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
