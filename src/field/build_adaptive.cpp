@@ -53,8 +53,30 @@ class AdaptiveBuilder {
   AdaptiveGrid build();
 
  private:
-  /// Measures the top cells of a cube of them, and builds those that are near the surface.
-  void block(const NearTriangles& near, const Vector3i& low, int side);
+  /// A cube of top cells: first cell and side, in cells. The last ones may end beyond the grid.
+  struct Block {
+    Vector3i low;
+    int side;
+
+    Block octant(int k) const { return {low + side / 2 * cubeCorner(k), side / 2}; }
+  };
+  Vector3d center(const Block& block) const {
+    return shape_.origin + shape_.cell * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
+  }
+  bool withinGrid(const Vector3i& cell) const { return (cell.array() < shape_.size.array()).all(); }
+  std::size_t index(const Vector3i& cell) const {
+    return (std::size_t(cell.z()) * shape_.size.y() + cell.y()) * shape_.size.x() + cell.x();
+  }
+  /// Whether |φ| > band in all of a cube of this side.
+  bool isFar(double center_distance, double side) const {
+    return std::abs(center_distance) > shape_.band + kHalfSqrt3 * side * (1.0 + 1e-9);
+  }
+
+  /// Measures a block's cells, and builds those that are near the surface.
+  void measure(const Block& block, const SignedSurface::Nearest& at_center);
+  void measureNear(const Block& block, const NearTriangles& near);
+  /// Cells that are all far: one by one, each starting from what the last one found.
+  void measureFar(const Block& block, SignedSurface::Nearest last);
   BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth);
   /// Whether a proved leaf shows that |φ| exceeds the band all over it, on the side that its cell's centre is on.
   bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
@@ -88,25 +110,48 @@ void AdaptiveBuilder::count(std::size_t bytes) {
   }
 }
 
-void AdaptiveBuilder::block(const NearTriangles& near, const Vector3i& low, int side) {
-  NearOctants octants(near);
-  const double beyond = shape_.band + kHalfSqrt3 * shape_.cell * (1.0 + 1e-9);
-  const int half = side / 2;
-  for (int k = 0; k < 8; ++k) {
-    const Vector3i c = low + half * cubeCorner(k);
-    if ((c.array() >= shape_.size.array()).any()) continue;
-    if (half > 1) {
-      block(octants[k], c, half);
-      continue;
-    }
-    const std::size_t index = (std::size_t(c.z()) * shape_.size.y() + c.y()) * shape_.size.x() + c.x();
-    const double distance = octants.centerDistance(k);
-    centers_[index] = static_cast<float>(distance / shape_.cell);
-    if (std::abs(distance) <= beyond) {
-      CellFit fit(octants[k]);
-      built_.emplace_back(index, cell(fit, octants[k], 0));
-    }
+void AdaptiveBuilder::measure(const Block& block, const SignedSurface::Nearest& at_center) {
+  const SpaceCube cube{center(block), block.side * shape_.cell};
+  if (isFar(at_center.distance, cube.side)) return measureFar(block, at_center);
+  const NearCube near(surface_, cube, at_center);
+  measureNear(block, near.near());
+}
+
+void AdaptiveBuilder::measureFar(const Block& block, SignedSurface::Nearest last) {
+  Vector3d last_place = center(block);
+  for (int i = 0; i < block.side * block.side * block.side; ++i) {
+    // To and fro, so that each cell is next to the last one.
+    const int row = i / block.side, layer = row / block.side, x = i % block.side, y = row % block.side;
+    const auto turned = [&](int k, int turns) { return turns % 2 == 0 ? k : block.side - 1 - k; };
+    const Vector3i cell = block.low + Vector3i(turned(x, row), turned(y, layer), layer);
+    if (!withinGrid(cell)) continue;
+    const Vector3d place = center({cell, 1});
+    last = surface_.exact().next(place, last, (place - last_place).norm());
+    last_place = place;
+    centers_[index(cell)] = static_cast<float>(last.distance / shape_.cell);
     counter_.add();
+  }
+}
+
+void AdaptiveBuilder::measureNear(const Block& block, const NearTriangles& near) {
+  NearOctants octants(near);
+  for (int k = 0; k < 8; ++k) {
+    const Block part = block.octant(k);
+    if (!withinGrid(part.low)) continue;
+    const bool far = isFar(octants.centerDistance(k), part.side * shape_.cell);
+    if (part.side > 1 && far) {
+      measureFar(part, octants.nearest(k));
+    } else if (part.side > 1) {
+      measureNear(part, octants[k]);
+    } else {
+      const std::size_t cell_index = index(part.low);
+      centers_[cell_index] = static_cast<float>(octants.centerDistance(k) / shape_.cell);
+      if (!far) {
+        CellFit fit(octants[k]);
+        built_.emplace_back(cell_index, cell(fit, octants[k], 0));
+      }
+      counter_.add();
+    }
   }
 }
 
@@ -269,15 +314,12 @@ AdaptiveGrid AdaptiveBuilder::build() {
   constexpr int kBlock = 4;
   const Vector3i blocks = (shape_.size.array() + (kBlock - 1)) / kBlock;
   tbb::parallel_for(0, blocks.y() * blocks.z(), [&](int row) {
+    const SignedSurface& exact = surface_.exact();
     SignedSurface::Nearest nearest{};
     for (int x = 0; x < blocks.x(); ++x) {
-      const Vector3i low = kBlock * Vector3i(x, row % blocks.y(), row / blocks.y());
-      const Vector3d center = shape_.origin + shape_.cell * (low.cast<double>().array() + 0.5 * kBlock).matrix();
-      const SpaceCube cube{center, kBlock * shape_.cell};
-      const SignedSurface& exact = surface_.exact();
-      nearest = x == 0 ? exact.nearest(center) : exact.next(center, nearest, cube.side);
-      const NearCube near(surface_, cube, nearest);
-      block(near.near(), low, kBlock);
+      const Block block{kBlock * Vector3i(x, row % blocks.y(), row / blocks.y()), kBlock};
+      nearest = x == 0 ? exact.nearest(center(block)) : exact.next(center(block), nearest, kBlock * shape_.cell);
+      measure(block, nearest);
     }
   });
 
@@ -318,7 +360,7 @@ AdaptiveGrid AdaptiveBuilder::build() {
 /// Top cells along the longest side. More of them shorten a query's way through far cells and spare it nodes; up to
 /// these they cost less memory than that is worth (measured on scans and links).
 int topCells(double relative_error) {
-  return static_cast<int>(std::clamp(std::round(2.0 / std::sqrt(relative_error)), 8.0, 80.0));
+  return static_cast<int>(std::clamp(std::round(2.0 / std::sqrt(relative_error)), 8.0, 56.0));
 }
 
 }  // namespace
