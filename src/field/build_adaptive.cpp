@@ -360,7 +360,7 @@ AdaptiveGrid AdaptiveBuilder::build() {
 /// Top cells along the longest side. More of them shorten a query's way through far cells and spare it nodes; up to
 /// these they cost less memory than that is worth (measured on scans and links).
 int topCells(double relative_error) {
-  return static_cast<int>(std::clamp(std::round(2.0 / std::sqrt(relative_error)), 8.0, 56.0));
+  return static_cast<int>(std::clamp(std::round(2.0 / std::sqrt(relative_error)), 8.0, 64.0));
 }
 
 }  // namespace

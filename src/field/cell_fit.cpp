@@ -8,8 +8,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kUnproved = std::numeric_limits<double>::infinity();
-
 /// A cube's corner values and the means between them.
 std::array<double, 27> refined(const std::array<double, 8>& corners) {
   std::array<double, 27> v;
@@ -36,11 +34,9 @@ std::array<double, 27> difference(std::array<double, 27> a, const std::array<dou
   return a;
 }
 
-template <std::size_t n>
-double largest(const std::array<double, n>& errors) {
-  double most = 0.0;
-  for (const double e : errors) most = std::max(most, std::abs(e));
-  return most;
+Deviation deviationOf(const std::array<double, 27>& errors) {
+  const auto [low, high] = std::minmax_element(errors.begin(), errors.end());
+  return {*high, -*low};
 }
 
 }  // namespace
@@ -82,6 +78,11 @@ CellFit::Lattice CellFit::latticeOf(const Cube& cube, const NearTriangles& near)
   const bool kept = cube.side % (2 * kKept) == 0;
   if (kept) take(cube, 2, near);
   Lattice values;
+  fill(values, cube, kept, near);
+  return values;
+}
+
+void CellFit::fill(Lattice& values, const Cube& cube, bool kept, const NearTriangles& near) const {
   DistanceWriter<double> writer(near, values.data());
   for (int z = 0, i = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
@@ -93,41 +94,40 @@ CellFit::Lattice CellFit::latticeOf(const Cube& cube, const NearTriangles& near)
           writer.add(i, low_ + step_ * p.cast<double>());
         }
       }
-  return values;
 }
 
-double CellFit::provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
+Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
   const Lattice exact = latticeOf(cube, near);
-  const double seen = largest(difference(refined(leaf), exact));
-  if (seen > most) return kUnproved;
-  const double error = GradientBound(near).error(step_ * cube.side, cornersOf(exact), leaf);
+  const Deviation seen = deviationOf(difference(refined(leaf), exact));
+  if (seen.largest() > most) return seen;
+  const Deviation whole = GradientBound(near).deviation(step_ * cube.side, cornersOf(exact), leaf);
   // A bound far above what is seen comes of the gradients' range: parts know more of it.
   constexpr double kTight = 2.0;
-  if (error <= most && error <= kTight * seen) return error;
-  return std::min(error <= most ? error : kUnproved, provedInParts(cube, near, leaf, most));
+  if (whole.largest() <= std::min(most, kTight * seen.largest())) return whole;
+  const Deviation in_parts = deviationInParts(cube, near, leaf, most);
+  return whole.largest() < std::min(most, in_parts.largest()) ? whole : in_parts;
 }
 
-double CellFit::provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
-  if (cube.side == 1) return kUnproved;
+Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
   const Lattice exact = latticeOf(cube, near), values = refined(leaf);
-  if (largest(difference(values, exact)) > most) return kUnproved;
+  const Deviation seen = deviationOf(difference(values, exact));
+  if (seen.largest() > most) return seen;
   const GradientBound bound(near);
   std::optional<NearOctants> own;
-  double worst = 0.0;
-  for (int k = 0; k < 8; ++k) {
+  Deviation worst;
+  for (int k = 0; k < 8 && worst.largest() <= most; ++k) {
     const Cube part{cube.low + cube.side / 2 * cubeCorner(k), cube.side / 2};
     const Corners part_exact = octantOf(exact, k), part_leaf = octantOf(values, k);
-    double error = bound.error(step_ * part.side, part_exact, part_leaf);
-    if (error > most) {
+    Deviation found = bound.deviation(step_ * part.side, part_exact, part_leaf);
+    if (found.largest() > most) {
       if (cube.side < kSteps && !own) own.emplace(near);
       const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
       if (part_near.size() < near.size()) {
-        error = GradientBound(part_near).error(step_ * part.side, part_exact, part_leaf);
+        found = GradientBound(part_near).deviation(step_ * part.side, part_exact, part_leaf);
       }
-      if (error > most) error = provedInParts(part, part_near, part_leaf, most);
-      if (error > most) return kUnproved;
+      if (found.largest() > most && part.side > 1) found = deviationInParts(part, part_near, part_leaf, most);
     }
-    worst = std::max(worst, error);
+    worst.include(found);
   }
   return worst;
 }
@@ -142,14 +142,19 @@ std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& n
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
   if (std::abs(mean - at(middle)) > 2.0 * most) return std::nullopt;
   // Curvature pulls the interpolant to one side: half of that, taken off, halves the largest error.
-  const Lattice errors = difference(refined(corners), latticeOf(cube, near));
-  const auto [low, high] = std::minmax_element(errors.begin(), errors.end());
-  if (*high - *low > 2.0 * most) return std::nullopt;
-  for (double& value : corners) value -= 0.5 * (*high + *low);
-  const LeafWord word = scale.encode(corners);
-  const double error = provedError(cube, near, scale.decode(word), most);
-  if (error > most) return std::nullopt;
-  return FittedLeaf{word, error};
+  const Deviation seen = deviationOf(difference(refined(corners), latticeOf(cube, near)));
+  if (seen.above + seen.below > 2.0 * most) return std::nullopt;
+  for (double& value : corners) value -= 0.5 * (seen.above - seen.below);
+  // Where that is not right for the places between, what is found there says which way to go on.
+  constexpr int kTries = 4;
+  for (int i = 0; i < kTries; ++i) {
+    const LeafWord word = scale.encode(corners);
+    const Deviation found = deviation(cube, near, scale.decode(word), most);
+    if (found.largest() <= most) return FittedLeaf{word, found.largest()};
+    if (found.above + found.below > 2.0 * most) break;
+    for (double& value : corners) value -= 0.5 * (found.above - found.below);
+  }
+  return std::nullopt;
 }
 
 std::optional<FittedLeaf> CellFit::leaf(const LeafScale& scale, double most) {

@@ -64,10 +64,11 @@ class CellFit {
   void take(const Cube& cube, int steps, const NearTriangles& near);
   /// The distances at the places of a cube.
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
-  /// Bound on what an interpolant with these values at the cube's corners differs by from φ in the cube; infinite if
-  /// none up to `most` is proved.
-  double provedError(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
-  double provedInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
+  void fill(Lattice& values, const Cube& cube, bool kept, const NearTriangles& near) const;
+  /// How far an interpolant with these values at the cube's corners is from φ in the cube: what is proved if that is
+  /// not more than `most`, else what was found where it is more.
+  Deviation deviation(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
+  Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;

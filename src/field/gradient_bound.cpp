@@ -122,8 +122,8 @@ SDF_CCD_LANES double GradientBound::above(const Table& growth, double side, cons
   return lowestTop(lines);
 }
 
-double GradientBound::error(double side, const Corners& exact, const Corners& values) const {
-  return std::max({0.0, above(least_, side, exact, values, 1.0), above(most_, side, exact, values, -1.0)});
+Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values) const {
+  return {above(least_, side, exact, values, 1.0), above(most_, side, exact, values, -1.0)};
 }
 
 }  // namespace sdf_ccd

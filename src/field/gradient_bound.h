@@ -1,10 +1,22 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "near_triangles.h"
 
 namespace sdf_ccd {
+
+/// How far an interpolant is above φ, and below it, at most [m].
+struct Deviation {
+  double above = 0.0, below = 0.0;
+
+  double largest() const { return std::max(above, below); }
+  void include(const Deviation& other) {
+    above = std::max(above, other.above);
+    below = std::max(below, other.below);
+  }
+};
 
 /// What the gradients of φ in a cube say of the error of an interpolant there.
 ///
@@ -23,11 +35,11 @@ class GradientBound {
 
   explicit GradientBound(const NearTriangles& near);
 
-  /// Bound on |interpolant − φ| in a cube within near's.
+  /// Bounds on interpolant − φ in a cube within near's.
   /// @param side    of the cube [m].
   /// @param exact   φ at the cube's corners [m].
   /// @param values  the interpolant's there [m].
-  double error(double side, const Corners& exact, const Corners& values) const;
+  Deviation deviation(double side, const Corners& exact, const Corners& values) const;
 
  private:
   static constexpr int kPairs = 4;  ///< of corners across from each other: k and 7 − k

@@ -31,7 +31,7 @@ class GradientBoundTest : public testing::Test {
       exact[k] = surface.signedDistance(cube.corner(k));
       values[k] = exact[k] + test::uniform(random_, -wrong, wrong);
     }
-    Seen seen{GradientBound(octants[0]).error(cube.side, exact, values), 0.0};
+    Seen seen{GradientBound(octants[0]).deviation(cube.side, exact, values).largest(), 0.0};
     constexpr int kSteps = 6;
     for (int i = 0; i < (kSteps + 1) * (kSteps + 1) * (kSteps + 1); ++i) {
       const Vector3d u =
