@@ -5,7 +5,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 struct ShapeRecord {
   double origin[3];

@@ -28,7 +28,7 @@ struct Header {
   std::uint32_t byte_order;
   std::uint64_t file_bytes;
   std::uint64_t section_count;
-  std::uint64_t checksum;  ///< XXH64 of the section table and the sections
+  std::uint64_t checksum;  ///< XXH3 (64 bits) of the section table and the sections
 };
 static_assert(sizeof(Header) == 56, "the file's layout must not depend on the compiler");
 
@@ -109,8 +109,8 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
 
   // Checksummed as it is written: table, sections and the zeros between them.
   static constexpr char kZeros[kAlignment] = {};
-  XXH64_state_t* state = XXH64_createState();
-  XXH64_reset(state, 0);
+  XXH3_state_t* state = XXH3_createState();
+  XXH3_64bits_reset(state);
   const auto eachPiece = [&](auto&& piece) {
     std::size_t at = sizeof(Header);
     const auto emit = [&](const void* data, std::size_t bytes) {
@@ -124,9 +124,9 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
     }
     emit(kZeros, aligned(at) - at);
   };
-  eachPiece([&](const void* data, std::size_t bytes) { XXH64_update(state, data, bytes); });
-  header.checksum = XXH64_digest(state);
-  XXH64_freeState(state);
+  eachPiece([&](const void* data, std::size_t bytes) { XXH3_64bits_update(state, data, bytes); });
+  header.checksum = XXH3_64bits_digest(state);
+  XXH3_freeState(state);
 
   TemporaryFile file(path);
   file.write(&header, sizeof header);
@@ -173,7 +173,7 @@ void CheckedFile::verify(const std::string& kind, std::uint32_t version) {
     fail(path_, "truncated: " + std::to_string(bytes_) + " of " + std::to_string(header.file_bytes) + " bytes");
   }
   if (header.section_count > kMaxSections || sizeof(Header) + header.section_count * sizeof(SectionEntry) > bytes_ ||
-      XXH64(start + sizeof(Header), bytes_ - sizeof(Header), 0) != header.checksum) {
+      XXH3_64bits(start + sizeof(Header), bytes_ - sizeof(Header)) != header.checksum) {
     fail(path_, "damaged: the checksum does not fit");
   }
   for (std::size_t i = 0; i < header.section_count; ++i) {

@@ -8,7 +8,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "shell";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 static_assert(sizeof(Vector3d) == 3 * sizeof(double), "points are written as three numbers each");
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 4;  // of an even field's file
+constexpr std::uint32_t kVersion = 5;  // of an even field's file
 
 /// A directory of this test's own.
 class FieldFile : public testing::Test {
