@@ -207,21 +207,23 @@ BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int d
   const double octant_beyond = shape_.band + 0.5 * near.cube().radius() * (1.0 + 1e-9);
   const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * near.cube().side, shape_.band);
   for (int half = 0; half < 8; ++half) {
-    NearOctants quarters(fit.octants()[half]);
-    for (int k = 0; k < 8; ++k) (*built.children)[childIndex(half, k)].distance = quarters.centerDistance(k);
     const double distance = fit.octants().centerDistance(half);
     std::optional<FittedLeaf>& leaf = octants.leaf[half];
     if (half >= octants.tried && std::abs(distance) <= octant_beyond) leaf = fit.octantLeaf(half, half_scale, error_);
     const bool far = leaf && provedFar(half_scale, leaf->word, distance);
-    const bool wide = leaf && !far;
-    if (wide) count(sizeof(LeafWord) + sizeof(std::uint8_t));
-    for (int k = 0; k < 8; ++k) {
-      BuiltCell& child = (*built.children)[childIndex(half, k)];
-      if (wide) {
+    if (leaf && !far) {
+      count(sizeof(LeafWord) + sizeof(std::uint8_t));
+      for (int k = 0; k < 8; ++k) {
+        BuiltCell& child = (*built.children)[childIndex(half, k)];
         child.kind = BuiltCell::kWide;
         child.leaf = *leaf;
-        continue;
       }
+      continue;
+    }
+    NearOctants quarters(fit.octants()[half]);
+    for (int k = 0; k < 8; ++k) {
+      BuiltCell& child = (*built.children)[childIndex(half, k)];
+      child.distance = quarters.centerDistance(k);
       if (std::abs(child.distance) > beyond || (far && holdsFar(child.distance, depth + 1))) continue;
       const NearTriangles& child_near = quarters[k];
       CellFit child_fit(child_near, fit, 2 * cubeCorner(half) + cubeCorner(k));
