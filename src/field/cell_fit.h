@@ -17,30 +17,18 @@ struct FittedLeaf {
   double error = 0.0;
 };
 
-/// A cell's signed distances at a lattice of 9×9×9 places, every second step, taken when asked for, and what they prove
-/// about leaves that would stand in its place.
+/// A cell's signed distances at a lattice of 9×9×9 places, taken when asked for, and what they prove about leaves that
+/// would stand in its place.
 ///
 /// The proof. A leaf's interpolant is, in every part of the cell, that of its own values at the part's corners: see
 /// GradientBound for what it may be off by there. Parts are halved until it is proved, with fewer triangles near them.
 class CellFit {
  public:
-  static constexpr int kSteps = 16;
-
-  /// A cube of the lattice: first corner and side, in steps.
-  struct Cube {
-    Vector3i low;
-    int side;
-  };
-
   /// @param near  of the cell.
   explicit CellFit(const NearTriangles& near);
 
   /// For one of the 4×4×4 parts of another cell, with what is known of it there.
   CellFit(const NearTriangles& near, CellFit& around, const Vector3i& part);
-
-  /// Signed distance at a lattice place: NaN if it was not asked for yet.
-  double at(const Vector3i& place) const { return values_[index(place)]; }
-  void set(const Vector3i& place, double distance) { values_[index(place)] = distance; }
 
   /// A leaf for the cell, or for its octant k, if it is proved to differ by at most `most` [m] from φ in it.
   std::optional<FittedLeaf> leaf(const LeafScale& scale, double most);
@@ -52,12 +40,21 @@ class CellFit {
   NearOctants& octants();
 
  private:
-  static constexpr int kKept = 2;  ///< distances are kept at every second place
+  static constexpr int kSteps = 16;  ///< along the cell's side
+  static constexpr int kKept = 2;    ///< distances are kept at every second step
 
+  /// A cube of the cell: first corner and side, in steps.
+  struct Cube {
+    Vector3i low;
+    int side;
+  };
   using Corners = GradientBound::Corners;
   using Lattice = std::array<double, 27>;  ///< of a cube: corners and middles between them, x fastest
 
   static int index(const Vector3i& p) { return (p.x() + 9 * (p.y() + 9 * p.z())) / kKept; }
+  /// Signed distance at a place that is kept: NaN if it was not asked for yet.
+  double at(const Vector3i& place) const { return values_[index(place)]; }
+  void set(const Vector3i& place, double distance) { values_[index(place)] = distance; }
   static Cube octantCube(int k) { return {kSteps / 2 * cubeCorner(k), kSteps / 2}; }
   std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
   /// Takes the distances that are missing at the cube's places, steps + 1 along each side.

@@ -88,17 +88,14 @@ inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetc
   return b;
 }
 
-inline const LeafWord* leafOf(const AdaptiveLanes& g, std::int32_t place) {
-  const std::int32_t half = place - FlightQueue::kSplit;
-  return half >= 0 ? &g.splits[half >> 3].leaves[half & 7] : g.leaves + place;
-}
-
 inline void fetchLeaves(const AdaptiveLanes& g, const FlightQueue& queue, Fetched& fetched) {
-  const AdaptiveLanes lanes = g;
+  // By index rather than by a branch: which of the two it is cannot be foreseen.
+  const LeafWord* const leaves[] = {g.leaves, g.splits ? g.splits->leaves.data() : nullptr};
   const std::int32_t* place = queue.place.data();
   std::int32_t* pair = fetched.pairs[0].data();
   for (int i = 0, size = queue.size; i < size; ++i) {
-    std::memcpy(pair + 2 * i, leafOf(lanes, place[i]), sizeof(LeafWord));
+    const LeafWord* leaf = leaves[place[i] >= FlightQueue::kSplit] + (place[i] & (FlightQueue::kSplit - 1));
+    std::memcpy(pair + 2 * i, leaf, sizeof(LeafWord));
   }
 }
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "lane_adaptive-inl.h"
 #include "lane_even-inl.h"
@@ -262,13 +261,7 @@ class Sweeper {
     }
     if (hn::AllFalse(n, leaf)) return;
     await(leaf, place, lanes);
-    const LeafWord* leaves[] = {grid.leaves, grid.splits ? grid.splits->leaves.data() : nullptr};
-    std::int32_t* pairs = work_.fetched.pairs[0].data();
-    for (std::size_t i = 0; i < hn::Lanes(n); ++i) {
-      const auto at_leaf = static_cast<std::uint32_t>(work_.waiting.place[i]);
-      const LeafWord* leaf_word = leaves[at_leaf >> 30] + (at_leaf & (FlightQueue::kSplit - 1));
-      std::memcpy(pairs + 2 * i, leaf_word, sizeof(LeafWord));
-    }
+    fetchLeaves(grid, work_.waiting, work_.fetched);
     balls.replace(leaf, leafBalls(grid, lanes, work_.fetched));
   }
 
