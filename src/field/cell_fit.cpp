@@ -65,67 +65,74 @@ NearOctants& CellFit::octants() {
 
 void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
   DistanceWriter<double> writer(near, values_.data());
-  const int step = cube.side / steps;
-  for (int z = 0; z <= cube.side; z += step)
-    for (int y = 0; y <= cube.side; y += step)
-      for (int x = 0; x <= cube.side; x += step) {
-        const Vector3i p = cube.low + Vector3i(x, y, z);
-        if (std::isnan(values_[index(p)])) writer.add(index(p), low_ + step_ * p.cast<double>());
+  const int first = index(cube.low), step = cube.side / steps;
+  for (int z = 0; z <= steps; ++z)
+    for (int y = 0; y <= steps; ++y)
+      for (int x = 0; x <= steps; ++x) {
+        const int i = first + step / kKept * (x + kSide * (y + kSide * z));
+        if (std::isnan(values_[i])) writer.add(i, place(cube.low + step * Vector3i(x, y, z)));
       }
 }
 
 CellFit::Lattice CellFit::latticeOf(const Cube& cube, const NearTriangles& near) {
-  const bool kept = cube.side % (2 * kKept) == 0;
-  if (kept) take(cube, 2, near);
+  const int half = cube.side / 2;
+  if (half % kKept != 0) return finestLattice(cube, near);
+  take(cube, 2, near);
   Lattice values;
-  fill(values, cube, kept, near);
+  const double* const first = values_.data() + index(cube.low);
+  for (int z = 0, i = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x, ++i) values[i] = first[half / kKept * (x + kSide * (y + kSide * z))];
   return values;
 }
 
-void CellFit::fill(Lattice& values, const Cube& cube, bool kept, const NearTriangles& near) const {
-  DistanceWriter<double> writer(near, values.data());
-  for (int z = 0, i = 0; z < 3; ++z)
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x, ++i) {
-        const Vector3i p = cube.low + cube.side / 2 * Vector3i(x, y, z);
-        if (kept || (x != 1 && y != 1 && z != 1)) {
-          values[i] = at(p);
-        } else {
-          writer.add(i, low_ + step_ * p.cast<double>());
-        }
-      }
+CellFit::Lattice CellFit::finestLattice(const Cube& cube, const NearTriangles& near) const {
+  Lattice values;
+  {
+    DistanceWriter<double> writer(near, values.data());
+    for (int i = 0; i < 27; ++i) {
+      const Vector3i step(i % 3, i / 3 % 3, i / 9);
+      const bool corner = (step.array() != 1).all();
+      if (corner) values[i] = at(cube.low + step);
+      if (!corner) writer.add(i, place(cube.low + step));
+    }
+  }
+  return values;
 }
 
 Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
   const Lattice exact = latticeOf(cube, near);
   const Deviation seen = deviationOf(difference(refined(leaf), exact));
   if (seen.largest() > most) return seen;
-  const Deviation whole = GradientBound(near).deviation(step_ * cube.side, cornersOf(exact), leaf);
+  const GradientBound bound(near);
+  const Deviation whole = bound.deviation(step_ * cube.side, cornersOf(exact), leaf, seen);
   // A bound far above what is seen comes of the gradients' range: parts know more of it.
   constexpr double kTight = 2.0;
   if (whole.largest() <= std::min(most, kTight * seen.largest())) return whole;
-  const Deviation in_parts = deviationInParts(cube, near, leaf, most);
+  const Deviation in_parts = deviationInParts(cube, near, bound, leaf, most);
   return whole.largest() < std::min(most, in_parts.largest()) ? whole : in_parts;
 }
 
-Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
+Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
+                                    const Corners& leaf, double most) {
   const Lattice exact = latticeOf(cube, near), values = refined(leaf);
-  const Deviation seen = deviationOf(difference(values, exact));
-  if (seen.largest() > most) return seen;
-  const GradientBound bound(near);
+  Deviation worst = deviationOf(difference(values, exact));
   std::optional<NearOctants> own;
-  Deviation worst;
   for (int k = 0; k < 8 && worst.largest() <= most; ++k) {
     const Cube part{cube.low + cube.side / 2 * cubeCorner(k), cube.side / 2};
     const Corners part_exact = octantOf(exact, k), part_leaf = octantOf(values, k);
-    Deviation found = bound.deviation(step_ * part.side, part_exact, part_leaf);
+    Deviation found = bound.deviation(step_ * part.side, part_exact, part_leaf, worst);
     if (found.largest() > most) {
       if (cube.side < kSteps && !own) own.emplace(near);
       const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
+      std::optional<GradientBound> own_bound;
       if (part_near.size() < near.size()) {
-        found = GradientBound(part_near).deviation(step_ * part.side, part_exact, part_leaf);
+        own_bound.emplace(part_near);
+        found = own_bound->deviation(step_ * part.side, part_exact, part_leaf, worst);
       }
-      if (found.largest() > most && part.side > 1) found = deviationInParts(part, part_near, part_leaf, most);
+      if (found.largest() > most && part.side > 1) {
+        found = deviationInParts(part, part_near, own_bound ? *own_bound : bound, part_leaf, most);
+      }
     }
     worst.include(found);
   }

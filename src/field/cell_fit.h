@@ -51,7 +51,10 @@ class CellFit {
   using Corners = GradientBound::Corners;
   using Lattice = std::array<double, 27>;  ///< of a cube: corners and middles between them, x fastest
 
-  static int index(const Vector3i& p) { return (p.x() + 9 * (p.y() + 9 * p.z())) / kKept; }
+  static constexpr int kSide = kSteps / kKept + 1;  ///< places that are kept along each side
+
+  static int index(const Vector3i& p) { return (p.x() + kSide * (p.y() + kSide * p.z())) / kKept; }
+  Vector3d place(const Vector3i& p) const { return low_ + step_ * p.cast<double>(); }
   /// Signed distance at a place that is kept: NaN if it was not asked for yet.
   double at(const Vector3i& place) const { return values_[index(place)]; }
   void set(const Vector3i& place, double distance) { values_[index(place)] = distance; }
@@ -61,17 +64,19 @@ class CellFit {
   void take(const Cube& cube, int steps, const NearTriangles& near);
   /// The distances at the places of a cube.
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
-  void fill(Lattice& values, const Cube& cube, bool kept, const NearTriangles& near) const;
+  /// Of one of two steps, whose middles are not kept.
+  Lattice finestLattice(const Cube& cube, const NearTriangles& near) const;
   /// How far an interpolant with these values at the cube's corners is from φ in the cube: what is proved if that is
   /// not more than `most`, else what was found where it is more.
   Deviation deviation(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
-  Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
+  Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
+                             const Corners& leaf, double most);
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;
   Vector3d low_;
   double step_;
-  std::array<double, 729> values_;  ///< NaN: not taken yet
+  std::array<double, kSide * kSide * kSide> values_;  ///< NaN: not taken yet
 };
 
 }  // namespace sdf_ccd

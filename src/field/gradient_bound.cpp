@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "../geometry/double_lanes.h"
 
@@ -14,11 +15,19 @@ using namespace lanes;
 constexpr int kWays = 28;
 
 /// Of the way from corner a to corner b.
-constexpr int wayIndex(int a, int b) {
-  int index = 13, stride = 1;
-  for (int axis = 0; axis < 3; ++axis, stride *= 3) index += stride * ((b >> axis & 1) - (a >> axis & 1));
-  return index;
-}
+struct WayIndex {
+  std::array<std::array<std::uint8_t, 8>, 8> at{};
+
+  constexpr WayIndex() {
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b) {
+        int index = 13, stride = 1;
+        for (int axis = 0; axis < 3; ++axis, stride *= 3) index += stride * ((b >> axis & 1) - (a >> axis & 1));
+        at[a][b] = static_cast<std::uint8_t>(index);
+      }
+  }
+};
+constexpr WayIndex kWayIndex;
 
 struct Ways {
   alignas(64) std::array<double, kWays> x{}, y{}, z{};
@@ -70,15 +79,20 @@ SDF_CCD_INLINE Lines highest(const Lines* lines, const Doubles& weight) {
   return top;
 }
 
-/// The least over the weights from 0 to 1 of what is highest there, of the best pair. Between two weights, the next is
-/// where their highest lines meet; any weight gives a bound, so that it need not be the best.
-SDF_CCD_INLINE double lowestTop(const Lines* lines) {
+SDF_CCD_INLINE double leastOf(const Doubles& v) {
+  return std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
+}
+
+/// The least over the weights from 0 to 1 of what is highest there, of the best pair, unless less than `enough` is
+/// found before. Between two weights, the next is where their highest lines meet; any weight gives a bound, so that it
+/// need not be the best.
+SDF_CCD_INLINE double lowestTop(const Lines* lines, double enough) {
   const Doubles zero = {}, one = zero + 1.0;
   Doubles low = zero, high = one;
   Lines at_low = highest(lines, low), at_high = highest(lines, high);
   Doubles best = smaller(at_low.value, at_high.value);
   constexpr int kRounds = 2;
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < kRounds && leastOf(best) > enough; ++i) {
     const Doubles bend = at_low.slope - at_high.slope;
     const Doubles meet = (at_high.value - at_low.value + low * at_low.slope - high * at_high.slope) / bend;
     const Doubles weight = (meet > low) & (meet < high) ? meet : low;
@@ -90,7 +104,7 @@ SDF_CCD_INLINE double lowestTop(const Lines* lines) {
     high = falls ? high : weight;
     at_high = {falls ? at_high.value : at.value, falls ? at_high.slope : at.slope};
   }
-  return std::min(std::min(best[0], best[1]), std::min(best[2], best[3]));
+  return leastOf(best);
 }
 
 }  // namespace
@@ -100,16 +114,16 @@ GradientBound::GradientBound(const NearTriangles& near) {
   leastGrowth(near, least);
   for (int k = 0; k < 8; ++k)
     for (int pair = 0; pair < kPairs; ++pair) {
-      least_.from_low[k][pair] = least[wayIndex(pair, k)];
-      least_.from_high[k][pair] = least[wayIndex(7 - pair, k)];
-      most_.from_low[k][pair] = -least[wayIndex(k, pair)];
-      most_.from_high[k][pair] = -least[wayIndex(k, 7 - pair)];
+      least_.from_low[k][pair] = least[kWayIndex.at[pair][k]];
+      least_.from_high[k][pair] = least[kWayIndex.at[7 - pair][k]];
+      most_.from_low[k][pair] = -least[kWayIndex.at[k][pair]];
+      most_.from_high[k][pair] = -least[kWayIndex.at[k][7 - pair]];
     }
 }
 
 /// How far the interpolant is above φ (sign 1) or below it (−1), at most.
 SDF_CCD_LANES double GradientBound::above(const Table& growth, double side, const Corners& exact, const Corners& values,
-                                          double sign) {
+                                          double sign, double enough) {
   const Doubles low = sign * load(exact.data());
   const Doubles high = {sign * exact[7], sign * exact[6], sign * exact[5], sign * exact[4]};
   Lines lines[8];
@@ -119,11 +133,12 @@ SDF_CCD_LANES double GradientBound::above(const Table& growth, double side, cons
     const Doubles second = at - (high + step * load(growth.from_high[k].data()));
     lines[k] = {first, second - first};
   }
-  return lowestTop(lines);
+  return lowestTop(lines, enough);
 }
 
-Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values) const {
-  return {above(least_, side, exact, values, 1.0), above(most_, side, exact, values, -1.0)};
+Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values,
+                                   const Deviation& enough) const {
+  return {above(least_, side, exact, values, 1.0, enough.above), above(most_, side, exact, values, -1.0, enough.below)};
 }
 
 }  // namespace sdf_ccd

@@ -39,7 +39,8 @@ class GradientBound {
   /// @param side    of the cube [m].
   /// @param exact   φ at the cube's corners [m].
   /// @param values  the interpolant's there [m].
-  Deviation deviation(double side, const Corners& exact, const Corners& values) const;
+  /// @param enough  bounds below these are not made tighter.
+  Deviation deviation(double side, const Corners& exact, const Corners& values, const Deviation& enough = {}) const;
 
  private:
   static constexpr int kPairs = 4;  ///< of corners across from each other: k and 7 − k
@@ -47,7 +48,8 @@ class GradientBound {
     alignas(64) std::array<std::array<double, kPairs>, 8> from_low, from_high;  ///< [at][pair], for a side of 1
   };
 
-  static double above(const Table& growth, double side, const Corners& exact, const Corners& values, double sign);
+  static double above(const Table& growth, double side, const Corners& exact, const Corners& values, double sign,
+                      double enough);
 
   Table least_, most_;
 };

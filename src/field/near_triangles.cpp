@@ -29,13 +29,17 @@ double reach(const SpaceCube& cube, double distance) {
 ///
 /// A triangle's distance is convex. So it exceeds its tangent at the centre; and that of the other triangle nowhere
 /// exceeds what is interpolated between the corners. A tangent that is above at each corner is above all over.
-/// @param distance, gradient  at the cube's centre, the distance or less; NaN: not known.
-bool mayBeNearest(double distance, const Vector3d& gradient, double side, const PlaceLanes::Lane& other) {
-  const Vector3d slope = 0.5 * side * gradient;
+/// @param distance  at the cube's centre, or less [m].
+/// @param way       to the centre from the place that it is the distance to, or a longer one: the gradient's direction.
+/// @param length    of the way [m].
+bool mayBeNearest(double distance, const Vector3d& way, double length, double side, const PlaceLanes::Lane& other) {
+  // All times the way's length, which spares the division; a way of length zero shows nothing.
+  const Vector3d slope = 0.5 * side * way;
   const Doubles across = {-slope.x() - slope.y(), slope.x() - slope.y(), slope.y() - slope.x(), slope.x() + slope.y()};
-  const Doubles above = smaller(distance + across - slope.z() - load(other.data()),
-                                distance + across + slope.z() - load(other.data() + 4));
-  return !(std::min(std::min(above[0], above[1]), std::min(above[2], above[3])) > 0.0) || std::isnan(slope.x());
+  const Doubles middle = distance * length + across;
+  const Doubles above =
+      smaller(middle - slope.z() - length * load(other.data()), middle + slope.z() - length * load(other.data() + 4));
+  return !(std::min(std::min(above[0], above[1]), std::min(above[2], above[3])) > 0.0);
 }
 
 /// Distances of a cube's corners from a triangle, to within rounding.
@@ -195,7 +199,7 @@ NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const Sig
   const auto may_matter = [&](const Vector3d& center, double radius) {
     const Vector3d way = cube.center - center;
     const double distance = way.norm();
-    return distance - radius <= most && mayBeNearest(distance - radius, way / distance, cube.side, at_corners);
+    return distance - radius <= most && mayBeNearest(distance - radius, way, distance, cube.side, at_corners);
   };
   surface.exact().tree().forEachTriangle(may_matter, [&](int t) {
     if (t != nearest.triangle) ids_.push_back(t);
@@ -258,7 +262,7 @@ const NearTriangles& NearOctants::operator[](int k) {
     if (!measured) at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, most);
     measured = true;
     const double distance = std::sqrt(ways_[i].distance2[k]);
-    if (mayBeNearest(distance, ways_[i].at(k) / distance, octant.side, at_corners)) *last++ = around_.triangle(i);
+    if (mayBeNearest(distance, ways_[i].at(k), distance, octant.side, at_corners)) *last++ = around_.triangle(i);
   }
   near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};
   return near;
