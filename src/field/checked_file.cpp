@@ -5,11 +5,14 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 #include <xxhash.h>
 
@@ -28,7 +31,7 @@ struct Header {
   std::uint32_t byte_order;
   std::uint64_t file_bytes;
   std::uint64_t section_count;
-  std::uint64_t checksum;  ///< XXH3 (64 bits) of the section table and the sections
+  std::uint64_t checksum;  ///< of the section table and the sections, see Checksum
 };
 static_assert(sizeof(Header) == 56, "the file's layout must not depend on the compiler");
 
@@ -50,6 +53,51 @@ std::size_t aligned(std::size_t offset) {
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
   throw std::runtime_error(path + ": " + what);
 }
+
+/// XXH3 (64 bits) of the XXH3 of each piece, so that pieces can be read at the same time.
+class Checksum {
+ public:
+  static std::uint64_t of(const char* data, std::size_t bytes) {
+    std::vector<std::uint64_t> pieces((bytes + kPiece - 1) / kPiece);
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+      pieces[i] = XXH3_64bits(data + i * kPiece, std::min(kPiece, bytes - i * kPiece));
+    });
+    return of(pieces);
+  }
+
+  Checksum() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+
+  void add(const void* data, std::size_t bytes) {
+    for (const char* from = static_cast<const char*>(data); bytes > 0;) {
+      const std::size_t part = std::min(bytes, kPiece - in_piece_);
+      XXH3_64bits_update(state_.get(), from, part);
+      from += part;
+      bytes -= part;
+      in_piece_ += part;
+      if (in_piece_ == kPiece) endPiece();
+    }
+  }
+  std::uint64_t digest() {
+    if (in_piece_ > 0) endPiece();
+    return of(pieces_);
+  }
+
+ private:
+  static constexpr std::size_t kPiece = std::size_t{1} << 20;
+
+  static std::uint64_t of(const std::vector<std::uint64_t>& pieces) {
+    return XXH3_64bits(pieces.data(), pieces.size() * sizeof(std::uint64_t));
+  }
+  void endPiece() {
+    pieces_.push_back(XXH3_64bits_digest(state_.get()));
+    XXH3_64bits_reset(state_.get());
+    in_piece_ = 0;
+  }
+
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+  std::vector<std::uint64_t> pieces_;
+  std::size_t in_piece_ = 0;
+};
 
 /// A file that is removed again unless it is committed.
 class TemporaryFile {
@@ -109,8 +157,6 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
 
   // Checksummed as it is written: table, sections and the zeros between them.
   static constexpr char kZeros[kAlignment] = {};
-  XXH3_state_t* state = XXH3_createState();
-  XXH3_64bits_reset(state);
   const auto eachPiece = [&](auto&& piece) {
     std::size_t at = sizeof(Header);
     const auto emit = [&](const void* data, std::size_t bytes) {
@@ -124,9 +170,9 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
     }
     emit(kZeros, aligned(at) - at);
   };
-  eachPiece([&](const void* data, std::size_t bytes) { XXH3_64bits_update(state, data, bytes); });
-  header.checksum = XXH3_64bits_digest(state);
-  XXH3_freeState(state);
+  Checksum checksum;
+  eachPiece([&](const void* data, std::size_t bytes) { checksum.add(data, bytes); });
+  header.checksum = checksum.digest();
 
   TemporaryFile file(path);
   file.write(&header, sizeof header);
@@ -173,7 +219,7 @@ void CheckedFile::verify(const std::string& kind, std::uint32_t version) {
     fail(path_, "truncated: " + std::to_string(bytes_) + " of " + std::to_string(header.file_bytes) + " bytes");
   }
   if (header.section_count > kMaxSections || sizeof(Header) + header.section_count * sizeof(SectionEntry) > bytes_ ||
-      XXH3_64bits(start + sizeof(Header), bytes_ - sizeof(Header)) != header.checksum) {
+      Checksum::of(start + sizeof(Header), bytes_ - sizeof(Header)) != header.checksum) {
     fail(path_, "damaged: the checksum does not fit");
   }
   for (std::size_t i = 0; i < header.section_count; ++i) {

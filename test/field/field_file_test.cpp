@@ -157,6 +157,23 @@ TEST_F(FieldFile, EveryDamageOfAnAdaptiveFieldIsNoticed) {
   expectDamageIsNoticed(adaptive());
 }
 
+/// Large files are checked in pieces, which sections and zeros between them do not end at.
+TEST_F(FieldFile, DamageOfLargeFilesIsNoticed) {
+  const std::vector<char> first((1 << 20) - 7, 'a'), second((3 << 20) + 5, 'b');
+  writeCheckedFile(path("large"), "test", 1, {{first.data(), first.size()}, {second.data(), second.size()}});
+  const auto file = CheckedFile::open(path("large"), "test", 1);
+  std::size_t count = 0;
+  const char* read_back = file->section<char>(1, count);
+  EXPECT_EQ(std::vector<char>(read_back, read_back + count), second);
+  const std::string good = read(path("large"));
+  for (std::size_t at = 100; at < good.size(); at += 200'000) {
+    std::string bad = good;
+    bad[at] ^= 1;
+    write(path("bad"), bad);
+    EXPECT_THROW(CheckedFile::open(path("bad"), "test", 1), std::runtime_error) << at;
+  }
+}
+
 TEST_F(FieldFile, SaysWhatIsWrong) {
   const auto reason = [&](const std::string& file) -> std::string {
     try {
