@@ -95,7 +95,7 @@ SDF_CCD_INLINE double lowestTop(const Lines* lines, double enough) {
   for (int i = 0; i < kRounds && leastOf(best) > enough; ++i) {
     const Doubles bend = at_low.slope - at_high.slope;
     const Doubles meet = (at_high.value - at_low.value + low * at_low.slope - high * at_high.slope) / bend;
-    const Doubles weight = (meet > low) & (meet < high) ? meet : low;
+    const Doubles weight = ((meet > low) & (meet < high)) ? meet : low;
     const Lines at = highest(lines, weight);
     best = smaller(best, at.value);
     const auto falls = at.slope < zero;
