@@ -203,13 +203,12 @@ BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int d
   built.kind = BuiltCell::kNode;
   built.children = std::make_unique<std::array<BuiltCell, 64>>();
   count(sizeof(AdaptiveNode) + sizeof(NodeBases));
-  const double beyond = shape_.band + 0.25 * near.cube().radius() * (1.0 + 1e-9);
-  const double octant_beyond = shape_.band + 0.5 * near.cube().radius() * (1.0 + 1e-9);
-  const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * near.cube().side, shape_.band);
+  const double half_side = 0.5 * near.cube().side, child_side = 0.5 * half_side;
+  const LeafScale half_scale = AdaptiveGrid::leafScaleFor(half_side, shape_.band);
   for (int half = 0; half < 8; ++half) {
     const double distance = fit.octants().centerDistance(half);
     std::optional<FittedLeaf>& leaf = octants.leaf[half];
-    if (half >= octants.tried && std::abs(distance) <= octant_beyond) leaf = fit.octantLeaf(half, half_scale, error_);
+    if (half >= octants.tried && !isFar(distance, half_side)) leaf = fit.octantLeaf(half, half_scale, error_);
     const bool far = leaf && provedFar(half_scale, leaf->word, distance);
     if (leaf && !far) {
       count(sizeof(LeafWord) + sizeof(std::uint8_t));
@@ -224,7 +223,7 @@ BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int d
     for (int k = 0; k < 8; ++k) {
       BuiltCell& child = (*built.children)[childIndex(half, k)];
       child.distance = quarters.centerDistance(k);
-      if (std::abs(child.distance) > beyond || (far && holdsFar(child.distance, depth + 1))) continue;
+      if (isFar(child.distance, child_side) || (far && holdsFar(child.distance, depth + 1))) continue;
       const NearTriangles& child_near = quarters[k];
       CellFit child_fit(child_near, fit, 2 * cubeCorner(half) + cubeCorner(k));
       child = cell(child_fit, child_near, depth + 1);

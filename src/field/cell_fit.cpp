@@ -25,10 +25,6 @@ std::array<double, 8> octantOf(const std::array<double, 27>& lattice, int k) {
   return {v[0], v[1], v[3], v[4], v[9], v[10], v[12], v[13]};
 }
 
-std::array<double, 8> cornersOf(const std::array<double, 27>& v) {
-  return {v[0], v[2], v[6], v[8], v[18], v[20], v[24], v[26]};
-}
-
 std::array<double, 27> difference(std::array<double, 27> a, const std::array<double, 27>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
   return a;
@@ -74,6 +70,12 @@ void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
       }
 }
 
+CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
+  Corners values;
+  for (int k = 0; k < 8; ++k) values[k] = at(cube.low + cube.side * cubeCorner(k));
+  return values;
+}
+
 CellFit::Lattice CellFit::latticeOf(const Cube& cube, const NearTriangles& near) {
   const int half = cube.side / 2;
   if (half % kKept != 0) return finestLattice(cube, near);
@@ -92,30 +94,31 @@ CellFit::Lattice CellFit::finestLattice(const Cube& cube, const NearTriangles& n
     DistanceWriter<double> writer(near, values.data());
     for (int i = 0; i < 27; ++i) {
       const Vector3i step(i % 3, i / 3 % 3, i / 9);
-      const bool corner = (step.array() != 1).all();
-      if (corner) values[i] = at(cube.low + step);
-      if (!corner) writer.add(i, place(cube.low + step));
+      if ((step.array() != 1).all()) {
+        values[i] = at(cube.low + step);
+      } else {
+        writer.add(i, place(cube.low + step));
+      }
     }
   }
   return values;
 }
 
-Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most) {
-  const Lattice exact = latticeOf(cube, near);
+Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
+                             const Lattice& exact, const Corners& leaf, double most) {
   const Deviation seen = deviationOf(difference(refined(leaf), exact));
   if (seen.largest() > most) return seen;
-  const GradientBound bound(near);
-  const Deviation whole = bound.deviation(step_ * cube.side, cornersOf(exact), leaf, seen);
+  const Deviation whole = bound.deviation(step_ * cube.side, cornersOf(cube), leaf, seen);
   // A bound far above what is seen comes of the gradients' range: parts know more of it.
   constexpr double kTight = 2.0;
   if (whole.largest() <= std::min(most, kTight * seen.largest())) return whole;
-  const Deviation in_parts = deviationInParts(cube, near, bound, leaf, most);
+  const Deviation in_parts = deviationInParts(cube, near, bound, exact, leaf, most);
   return whole.largest() < std::min(most, in_parts.largest()) ? whole : in_parts;
 }
 
 Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                                    const Corners& leaf, double most) {
-  const Lattice exact = latticeOf(cube, near), values = refined(leaf);
+                                    const Lattice& exact, const Corners& leaf, double most) {
+  const Lattice values = refined(leaf);
   Deviation worst = deviationOf(difference(values, exact));
   std::optional<NearOctants> own;
   for (int k = 0; k < 8 && worst.largest() <= most; ++k) {
@@ -131,7 +134,8 @@ Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near,
         found = own_bound->deviation(step_ * part.side, part_exact, part_leaf, worst);
       }
       if (found.largest() > most && part.side > 1) {
-        found = deviationInParts(part, part_near, own_bound ? *own_bound : bound, part_leaf, most);
+        const GradientBound& part_bound = own_bound ? *own_bound : bound;
+        found = deviationInParts(part, part_near, part_bound, latticeOf(part, part_near), part_leaf, most);
       }
     }
     worst.include(found);
@@ -144,19 +148,20 @@ std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& n
   take(cube, 1, near);
   const Vector3i middle = cube.low.array() + cube.side / 2;
   if (std::isnan(at(middle))) set(middle, near.centerDistance());
-  Corners corners;
-  for (int k = 0; k < 8; ++k) corners[k] = at(cube.low + cube.side * cubeCorner(k));
+  Corners corners = cornersOf(cube);
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
   if (std::abs(mean - at(middle)) > 2.0 * most) return std::nullopt;
   // Curvature pulls the interpolant to one side: half of that, taken off, halves the largest error.
-  const Deviation seen = deviationOf(difference(refined(corners), latticeOf(cube, near)));
+  const Lattice exact = latticeOf(cube, near);
+  const Deviation seen = deviationOf(difference(refined(corners), exact));
   if (seen.above + seen.below > 2.0 * most) return std::nullopt;
   for (double& value : corners) value -= 0.5 * (seen.above - seen.below);
   // Where that is not right for the places between, what is found there says which way to go on.
+  const GradientBound bound(near);
   constexpr int kTries = 4;
   for (int i = 0; i < kTries; ++i) {
     const LeafWord word = scale.encode(corners);
-    const Deviation found = deviation(cube, near, scale.decode(word), most);
+    const Deviation found = deviation(cube, near, bound, exact, scale.decode(word), most);
     if (found.largest() <= most) return FittedLeaf{word, found.largest()};
     if (found.above + found.below > 2.0 * most) break;
     for (double& value : corners) value -= 0.5 * (found.above - found.below);
@@ -174,7 +179,8 @@ std::optional<FittedLeaf> CellFit::octantLeaf(int k, const LeafScale& scale, dou
 
 FittedLeaf CellFit::roundedLeaf(int k, const LeafScale& scale) {
   const Cube cube = octantCube(k);
-  return {scale.encode(cornersOf(latticeOf(cube, octants()[k]))), kHalfSqrt3 * step_ * cube.side + scale.rounding()};
+  take(cube, 1, octants()[k]);
+  return {scale.encode(cornersOf(cube)), kHalfSqrt3 * step_ * cube.side + scale.rounding()};
 }
 
 }  // namespace sdf_ccd

@@ -62,15 +62,19 @@ class CellFit {
   std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
   /// Takes the distances that are missing at the cube's places, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
+  /// Those at the corners of a cube, which were taken before.
+  Corners cornersOf(const Cube& cube) const;
   /// The distances at the places of a cube.
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
   /// Of one of two steps, whose middles are not kept.
   Lattice finestLattice(const Cube& cube, const NearTriangles& near) const;
   /// How far an interpolant with these values at the cube's corners is from φ in the cube: what is proved if that is
   /// not more than `most`, else what was found where it is more.
-  Deviation deviation(const Cube& cube, const NearTriangles& near, const Corners& leaf, double most);
+  /// @param exact  the distances at the cube's places.
+  Deviation deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound, const Lattice& exact,
+                      const Corners& leaf, double most);
   Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                             const Corners& leaf, double most);
+                             const Lattice& exact, const Corners& leaf, double most);
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;

@@ -1,6 +1,5 @@
 #include "gradient_bound.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -77,10 +76,6 @@ SDF_CCD_INLINE Lines highest(const Lines* lines, const Doubles& weight) {
     top.value = larger(value, top.value);
   }
   return top;
-}
-
-SDF_CCD_INLINE double leastOf(const Doubles& v) {
-  return std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
 }
 
 /// The least over the weights from 0 to 1 of what is highest there, of the best pair, unless less than `enough` is

@@ -39,7 +39,7 @@ bool mayBeNearest(double distance, const Vector3d& way, double length, double si
   const Doubles middle = distance * length + across;
   const Doubles above =
       smaller(middle - slope.z() - length * load(other.data()), middle + slope.z() - length * load(other.data() + 4));
-  return !(std::min(std::min(above[0], above[1]), std::min(above[2], above[3])) > 0.0);
+  return !(leastOf(above) > 0.0);
 }
 
 /// Distances of a cube's corners from a triangle, to within rounding.
@@ -207,18 +207,18 @@ NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const Sig
   near_ = {surface, cube, nearest.distance, ids_.data(), ids_.size()};
 }
 
-NearOctants::NearOctants(const NearTriangles& around)
-    : around_(around), ways_(way_room_.of(around.size())), ids_(id_room_.of(around.size())) {
+NearOctants::NearOctants(const NearTriangles& around) : around_(around), ways_(around.size()), ids_(around.size()) {
+  WayLanes* const ways = ways_.get();
   PlaceLanes centers;
   for (int k = 0; k < 8; ++k) centers.set(k, around_.cube().octant(k).center);
   PlaceLanes::Lane best2;
   best2.fill(kInfinity);
   std::array<std::size_t, 8> best{};
   for (std::size_t i = 0; i < around_.size(); ++i) {
-    around_.surface().ways(around_.triangle(i), centers, ways_[i]);
+    around_.surface().ways(around_.triangle(i), centers, ways[i]);
     for (int k = 0; k < 8; ++k) {
-      if (ways_[i].distance2[k] < best2[k]) {
-        best2[k] = ways_[i].distance2[k];
+      if (ways[i].distance2[k] < best2[k]) {
+        best2[k] = ways[i].distance2[k];
         best[k] = i;
       }
     }
@@ -230,17 +230,18 @@ NearOctants::NearOctants(const NearTriangles& around)
 }
 
 int NearOctants::sign(int k, std::size_t nearest) const {
+  const WayLanes* const ways = ways_.get();
   const auto sideOf = [](double along) { return along < 0.0 ? -1 : 1; };
   const DirectionCone& cone = around_.gradientCone();
-  if (cone.sine < 1.0) return sideOf(ways_[nearest].at(k).dot(cone.axis));
+  if (cone.sine < 1.0) return sideOf(ways[nearest].at(k).dot(cone.axis));
   // As in NearTriangles::signedDistance().
-  const double best2 = ways_[nearest].distance2[k];
+  const double best2 = ways[nearest].distance2[k];
   int agreed = 0;
   bool agree = true;
   for (std::size_t i = 0; i < around_.size() && agree; ++i) {
-    if (ways_[i].distance2[k] > best2 * (1.0 + kTie)) continue;
+    if (ways[i].distance2[k] > best2 * (1.0 + kTie)) continue;
     const SurfaceIndex::Face& face = around_.surface().face(around_.triangle(i));
-    const int side = face.separates ? sideOf(ways_[i].at(k).dot(face.normal)) : 0;
+    const int side = face.separates ? sideOf(ways[i].at(k).dot(face.normal)) : 0;
     agree = side != 0 && (agreed == 0 || side == agreed);
     agreed = side;
   }
@@ -250,7 +251,8 @@ int NearOctants::sign(int k, std::size_t nearest) const {
 const NearTriangles& NearOctants::operator[](int k) {
   NearTriangles& near = near_[k];
   if (near.size() > 0) return near;
-  std::int32_t* const first = ids_ + k * around_.size();
+  const WayLanes* const ways = ways_.get();
+  std::int32_t* const first = ids_.get() + k * around_.size();
   std::int32_t* last = first;
   *last++ = nearest_[k];
   const SpaceCube octant = around_.cube().octant(k);
@@ -258,11 +260,11 @@ const NearTriangles& NearOctants::operator[](int k) {
   PlaceLanes::Lane at_corners;
   bool measured = false;
   for (std::size_t i = 0; i < around_.size(); ++i) {
-    if (ways_[i].distance2[k] > most * most || around_.triangle(i) == nearest_[k]) continue;
+    if (ways[i].distance2[k] > most * most || around_.triangle(i) == nearest_[k]) continue;
     if (!measured) at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, most);
     measured = true;
-    const double distance = std::sqrt(ways_[i].distance2[k]);
-    if (mayBeNearest(distance, ways_[i].at(k), distance, octant.side, at_corners)) *last++ = around_.triangle(i);
+    const double distance = std::sqrt(ways[i].distance2[k]);
+    if (mayBeNearest(distance, ways[i].at(k), distance, octant.side, at_corners)) *last++ = around_.triangle(i);
   }
   near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};
   return near;

@@ -171,22 +171,23 @@ class NearOctants {
 
   /// Room for each triangle around: in here if they are few, as they mostly are.
   template <class T, std::size_t per_triangle>
-  struct Room {
-    static constexpr std::size_t kFew = 12;
-    std::array<T, kFew * per_triangle> few;
-    std::unique_ptr<T[]> many;
+  class Room {
+   public:
+    explicit Room(std::size_t triangles) : many_(triangles > kFew ? new T[triangles * per_triangle] : nullptr) {}
 
-    T* of(std::size_t triangles) {
-      if (triangles > kFew) many.reset(new T[triangles * per_triangle]);
-      return many ? many.get() : few.data();
-    }
+    T* get() { return many_ ? many_.get() : few_.data(); }
+    const T* get() const { return many_ ? many_.get() : few_.data(); }
+
+   private:
+    static constexpr std::size_t kFew = 12;
+
+    std::array<T, kFew * per_triangle> few_;
+    std::unique_ptr<T[]> many_;
   };
 
   const NearTriangles& around_;
-  Room<WayLanes, 1> way_room_;
-  Room<std::int32_t, 8> id_room_;
-  WayLanes* ways_;                       ///< of each triangle around to the octants' centres
-  std::int32_t* ids_;                    ///< for each octant room for all triangles around
+  Room<WayLanes, 1> ways_;               ///< of each triangle around to the octants' centres
+  Room<std::int32_t, 8> ids_;            ///< for each octant room for all triangles around
   std::array<std::int32_t, 8> nearest_;  ///< triangle at each octant's centre
   std::array<double, 8> distances_;
   std::array<NearTriangles, 8> near_;

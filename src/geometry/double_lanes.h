@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 // Vectors of doubles as the compiler writes them, for files that are compiled for processors with wider vectors too:
 // functions marked SDF_CCD_LANES; which of them is taken is decided when the program is loaded.
 
@@ -32,6 +34,10 @@ SDF_CCD_INLINE Doubles larger(const Doubles& a, const Doubles& b) {
 
 SDF_CCD_INLINE Doubles smaller(const Doubles& a, const Doubles& b) {
   return a < b ? a : b;
+}
+
+SDF_CCD_INLINE double leastOf(const Doubles& v) {
+  return std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
 }
 
 }  // namespace sdf_ccd::lanes

@@ -179,6 +179,12 @@ HWY_INLINE void findCells(const LaneBox& g, Lanes& lanes) {
   }
 }
 
+/// The words of top cells; they may take their indices' place.
+inline void fetchTop(const LaneBox& g, const std::int32_t* index, int count, std::int32_t* word) {
+  const std::uint32_t* top = g.top;
+  for (int i = 0; i < count; ++i) word[i] = static_cast<std::int32_t>(top[index[i]]);
+}
+
 /// The index of each lane's top cell.
 inline VI topIndex(const LaneBox& g, const VI* cell) {
   const VI x = hn::ShiftRight<LaneBox::kLogUnits>(cell[0]), y = hn::ShiftRight<LaneBox::kLogUnits>(cell[1]),

@@ -46,7 +46,7 @@ class Follower {
       last_flying = flying;
       next_ ^= 1;
       FlightQueue &top = work_.top[next_ ^ 1], &node = work_.node[next_ ^ 1], &leaf = work_.leaf;
-      fetchTop(top);
+      fetchTop(g_, top.place.data(), top.size, work_.fetched.word.data());
       takeAll(top, [&](Lanes& lanes, MI used, int first) { crossTop(lanes, used, first, node); });
       fetchBelow(g_, node, work_.fetched);
       takeAll(node, [&](Lanes& lanes, MI used, int first) { descend(g_, lanes, used, first); });
@@ -105,8 +105,7 @@ class Follower {
       for (int k = 0; k < 3; ++k) hn::StoreU(lanes.cell[k], n, cell[k] + i);
       hn::StoreU(topIndex(g_, lanes.cell), n, word + i);
     }
-    const std::uint32_t* top = g_.top;
-    for (int i = 0; i < count; ++i) word[i] = static_cast<std::int32_t>(top[word[i]]);
+    fetchTop(g_, word, count, word);
     for (int i = 0; i < count; i += width) {
       Lanes lanes(boarding, i, first);
       for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
@@ -161,13 +160,6 @@ class Follower {
       which = hn::AndNot(same_brick, which);
     }
     arrive(lanes, which);
-  }
-
-  void fetchTop(const FlightQueue& queue) {
-    const std::uint32_t* top = g_.top;
-    const std::int32_t* place = queue.place.data();
-    std::int32_t* word = work_.fetched.word.data();
-    for (int i = 0, size = queue.size; i < size; ++i) word[i] = static_cast<std::int32_t>(top[place[i]]);
   }
 
   /// By what the top cell's word says: through a far cell, or to the queue of what stands there.

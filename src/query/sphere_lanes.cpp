@@ -238,7 +238,7 @@ class Sweeper {
     findCells(g_, lanes);
     hn::StoreU(topIndex(g_, lanes.cell), n, work_.waiting.place.data());
     std::int32_t* word = work_.fetched.word.data();
-    for (std::size_t i = 0; i < hn::Lanes(n); ++i) word[i] = static_cast<std::int32_t>(g_.top[work_.waiting.place[i]]);
+    fetchTop(g_, work_.waiting.place.data(), static_cast<int>(hn::Lanes(n)), word);
     const Blocks at = locateTop(g_, hn::LoadU(n, word), lanes.cell);
     FreeBalls balls = farBalls(at, lanes);
     descend(g_, at, active, lanes, balls);

@@ -42,33 +42,32 @@ class GradientBoundTest : public testing::Test {
     return seen;
   }
 
-  /// Ratios of bound to error of cubes about places of the surface's box, the tightest first.
-  std::vector<double> ratios(const TriangleMesh& mesh, double side, double wrong) {
+  /// In cubes about places of the surface's box.
+  void expectHolds(const TriangleMesh& mesh, double side, double wrong) {
     const SurfaceIndex index(mesh);
-    std::vector<double> all;
+    const AlignedBox3d box = boundingBox(mesh);
+    int with_error = 0;
     for (int i = 0; i < 400; ++i) {
-      const AlignedBox3d box = boundingBox(mesh);
       const Seen seen = compare(index, {test::uniformIn(random_, box), test::uniform(random_, 0.2, 1.0) * side}, wrong);
       EXPECT_LE(seen.error, seen.bound + 1e-12);
-      if (seen.error > 1e-9) all.push_back(seen.bound / seen.error);
+      with_error += seen.error > 1e-9;
     }
-    std::sort(all.begin(), all.end());
-    return all;
+    EXPECT_GT(with_error, 0);
   }
 
   Random random_{5};
 };
 
 TEST_F(GradientBoundTest, HoldsOnSmallTriangles) {
-  EXPECT_FALSE(ratios(test::icosphere(0.3, 3), 0.1, 0.0).empty());
+  expectHolds(test::icosphere(0.3, 3), 0.1, 0.0);
 }
 
 TEST_F(GradientBoundTest, HoldsForAnyInterpolant) {
-  EXPECT_FALSE(ratios(test::boxMesh({0.2, 0.15, 0.1}), 0.1, 0.02).empty());
+  expectHolds(test::boxMesh({0.2, 0.15, 0.1}), 0.1, 0.02);
 }
 
 TEST_F(GradientBoundTest, HoldsWhereNoConeHoldsTheGradients) {
-  EXPECT_FALSE(ratios(test::boxMesh({0.2, 0.15, 1e-4}), 0.05, 0.0).empty());
+  expectHolds(test::boxMesh({0.2, 0.15, 1e-4}), 0.05, 0.0);
 }
 
 TEST_F(GradientBoundTest, IsZeroOverFlatFaces) {
