@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 // Vectors of doubles as the compiler writes them, for files that are compiled for processors with wider vectors too:
 // functions marked SDF_CCD_LANES; which of them is taken is decided when the program is loaded.
@@ -34,6 +35,10 @@ SDF_CCD_INLINE Doubles larger(const Doubles& a, const Doubles& b) {
 
 SDF_CCD_INLINE Doubles smaller(const Doubles& a, const Doubles& b) {
   return a < b ? a : b;
+}
+
+SDF_CCD_INLINE Doubles squareRoot(const Doubles& v) {
+  return Doubles{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
 
 SDF_CCD_INLINE double leastOf(const Doubles& v) {

@@ -54,6 +54,15 @@ Vector3d closestOnSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c
   return best;
 }
 
+/// About the triangle's place nearest to its box's centre, or a place near it.
+FlatCylinder discAbout(const Vector3d& a, const Vector3d& b, const Vector3d& c, bool sliver) {
+  const Vector3d middle = 0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c));
+  const Vector3d normal = sliver ? Vector3d::Zero() : Vector3d((b - a).cross(c - a).normalized());
+  FlatCylinder disc{middle - normal.dot(middle - a) * normal, normal};
+  for (const Vector3d& corner : {a, b, c}) disc.extend(corner);
+  return disc;
+}
+
 }  // namespace
 
 Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
@@ -70,15 +79,7 @@ Vector3d closestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d&
 }
 
 MeasuredTriangle::MeasuredTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
-    : a_(a),
-      b_(b),
-      c_(c),
-      center_(0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c))),
-      // A little more than that, for rounding.
-      radius_(
-          std::sqrt(std::max({(a - center_).squaredNorm(), (b - center_).squaredNorm(), (c - center_).squaredNorm()})) *
-          (1.0 + 1e-9)),
-      sliver_(isSliver(a, b, c)) {}
+    : a_(a), b_(b), c_(c), sliver_(isSliver(a, b, c)), disc_(discAbout(a, b, c, sliver_)) {}
 
 Vector3d MeasuredTriangle::closest(const Vector3d& p) const {
   return sliver_ ? closestOnSliver(a_, b_, c_, p) : closestByRegions(a_, b_, c_, p);

@@ -1,19 +1,21 @@
 #include "sdf_ccd/geometry/triangle_tree.h"
 
 #include <cmath>
-#include <utility>
 
+#include "double_lanes.h"
 #include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {
 
-/// One child of every node on the way down waits on the stack; the builder keeps the depth below 96.
-constexpr int kStackSize = 128;
+using namespace lanes;
+
+/// Three nodes of every quad on the way down wait on the stack; the builder keeps the depth below 96.
+constexpr int kStackSize = 3 * 96 + 1;
 
 struct Pending {
-  double bound2;  ///< squared distance to the node's box
-  std::int32_t node;
+  double bound2;              ///< its squared distance is no less
+  std::int32_t first, count;  ///< as in a quad
 };
 
 double squaredDistance(const AlignedBox3d& box, const Vector3d& p) {
@@ -36,28 +38,45 @@ TriangleTree::ClosestPoint TriangleTree::closestPointNear(const Vector3d& p, int
   return best;
 }
 
+SDF_CCD_INLINE void TriangleTree::leastDistances2(const Quad& quad, const Vector3d& p, double* least) {
+  const Doubles zero = {};
+  Doubles box2 = zero, center2 = zero, along = zero;
+  for (int k = 0; k < 3; ++k) {
+    const Doubles to_box = larger(larger(load(quad.low[k].data()) - p[k], p[k] - load(quad.high[k].data())), zero);
+    const Doubles to_center = p[k] - load(quad.center[k].data());
+    box2 += to_box * to_box;
+    center2 += to_center * to_center;
+    along += to_center * load(quad.axis[k].data());
+  }
+  const Doubles across = squareRoot(larger(center2 - along * along, zero));
+  const Doubles above = larger(larger(along, -along) - load(quad.half_height.data()), zero);
+  const Doubles beside = larger(across - load(quad.radius.data()), zero);
+  store(larger(box2, (above * above + beside * beside) * (1.0 - 1e-12)), least);
+}
+
 /// Looks for what is nearer than √best2.
-void TriangleTree::search(const Vector3d& p, double best2, ClosestPoint& best) const {
+SDF_CCD_LANES void TriangleTree::search(const Vector3d& p, double best2, ClosestPoint& best) const {
   std::array<Pending, kStackSize> stack;
   int size = 0;
-  stack[size++] = {squaredDistance(nodes_[0].box, p), 0};
+  stack[size++] = {0.0, 0, nodes_[0].count};
   while (size > 0) {
-    const auto [bound2, index] = stack[--size];
+    const auto [bound2, first, count] = stack[--size];
     if (bound2 >= best2) continue;
-    const Node& node = nodes_[index];
-    if (node.count == 0) {
-      double near2 = squaredDistance(nodes_[node.first].box, p);
-      double far2 = squaredDistance(nodes_[node.first + 1].box, p);
-      std::int32_t near = node.first, far = node.first + 1;
-      if (far2 < near2) {
-        std::swap(near, far);
-        std::swap(near2, far2);
+    if (count == 0) {
+      const Quad& quad = quads_[first];
+      std::array<double, 4> bounds2;
+      leastDistances2(quad, p, bounds2.data());
+      // The nearest last, which is looked at next.
+      const int begin = size;
+      for (int k = 0; k < 4; ++k) {
+        if (bounds2[k] >= best2) continue;
+        int at = size++;
+        for (; at > begin && stack[at - 1].bound2 < bounds2[k]; --at) stack[at] = stack[at - 1];
+        stack[at] = {bounds2[k], quad.first[k], quad.count[k]};
       }
-      if (far2 < best2) stack[size++] = {far2, far};
-      if (near2 < best2) stack[size++] = {near2, near};
       continue;
     }
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+    for (std::int32_t i = first; i < first + count; ++i) {
       if (!triangles_[i].mayBeWithin(best.distance, p)) continue;
       const Vector3d q = triangles_[i].closest(p);
       const double distance2 = (q - p).squaredNorm();

@@ -51,12 +51,16 @@ class TriangleTree::Builder {
     tree_.places_.resize(count);
     for (int i = 0; i < count; ++i) tree_.places_[tree_.ids_[i]] = i;
     tree_.expansions_.resize(tree_.nodes_.size());
+    cylinders_.resize(tree_.nodes_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree_.nodes_.size(), 64), [this](const auto& range) {
       for (std::size_t node = range.begin(); node < range.end(); ++node) {
-        const Triangle* triangles = tree_.triangles_.data();
-        tree_.expansions_[node] = expand(triangles + ranges_[node].begin, triangles + ranges_[node].end);
+        const Triangle* const begin = tree_.triangles_.data() + ranges_[node].begin;
+        const Triangle* const end = tree_.triangles_.data() + ranges_[node].end;
+        tree_.expansions_[node] = expand(begin, end);
+        cylinders_[node] = cylinder(begin, end, tree_.expansions_[node]);
       }
     });
+    buildQuads();
   }
 
  private:
@@ -132,11 +136,63 @@ class TriangleTree::Builder {
     return static_cast<std::int32_t>(middle - tree_.ids_.data());
   }
 
+  /// About a node's triangles, its axis their mean normal.
+  static FlatCylinder cylinder(const Triangle* begin, const Triangle* end, const Expansion& expansion) {
+    FlatCylinder result{expansion.center, expansion.dipole.normalized()};
+    for (const Triangle* t = begin; t != end; ++t) {
+      for (const Vector3d& corner : {t->a(), t->b(), t->c()}) result.extend(corner);
+    }
+    return result;
+  }
+
+  void buildQuads() {
+    if (isLeaf(0)) return;
+    std::vector<std::int32_t> parents = {0};  // of each quad
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+      Quad& quad = tree_.quads_.emplace_back();
+      for (auto& lane : quad.low) lane.fill(std::numeric_limits<double>::infinity());
+      int lane = 0;
+      for (const std::int32_t node : below(parents[i])) {
+        const FlatCylinder& cylinder = cylinders_[node];
+        for (int k = 0; k < 3; ++k) {
+          quad.low[k][lane] = tree_.nodes_[node].box.min()[k];
+          quad.high[k][lane] = tree_.nodes_[node].box.max()[k];
+          quad.center[k][lane] = cylinder.center[k];
+          quad.axis[k][lane] = cylinder.axis[k];
+        }
+        quad.radius[lane] = cylinder.radius;
+        quad.half_height[lane] = cylinder.half_height;
+        quad.first[lane] = isLeaf(node) ? tree_.nodes_[node].first : static_cast<std::int32_t>(parents.size());
+        quad.count[lane] = tree_.nodes_[node].count;
+        if (!isLeaf(node)) parents.push_back(node);
+        ++lane;
+      }
+    }
+  }
+
+  bool isLeaf(std::int32_t node) const { return tree_.nodes_[node].count > 0; }
+
+  /// A node's children, and of the largest theirs: four at most.
+  std::vector<std::int32_t> below(std::int32_t node) const {
+    std::vector<std::int32_t> found = {tree_.nodes_[node].first, tree_.nodes_[node].first + 1};
+    while (found.size() < 4) {
+      const auto size = [&](std::int32_t i) { return isLeaf(i) ? -1.0 : halfArea(tree_.nodes_[i].box); };
+      const auto largest =
+          std::max_element(found.begin(), found.end(), [&](auto a, auto b) { return size(a) < size(b); });
+      if (isLeaf(*largest)) break;
+      const std::int32_t first = tree_.nodes_[*largest].first;
+      *largest = first;
+      found.push_back(first + 1);
+    }
+    return found;
+  }
+
   TriangleTree& tree_;
   const TriangleMesh& mesh_;
   std::vector<AlignedBox3d> boxes_;
   std::vector<Vector3d> centers_;
   std::vector<Range> ranges_;
+  std::vector<FlatCylinder> cylinders_;  ///< of the nodes
 };
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) {

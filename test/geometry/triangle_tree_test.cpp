@@ -64,6 +64,47 @@ TEST(TriangleTree, ClosestPointEqualsBruteForce) {
   }
 }
 
+TEST(TriangleTree, FlatPiecesSeenFromAboveLoseNothing) {
+  const TriangleMesh mesh = test::torusMesh(1, 0.3, 60, 20);
+  const TriangleTree tree(mesh);
+  std::mt19937_64 random(9);
+  int last = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p = randomPoint(random, std::pow(10.0, i % 5 - 1));
+    const TriangleTree::ClosestPoint found = tree.closestPointNear(p, last);
+    EXPECT_DOUBLE_EQ(found.distance, bruteDistance(mesh, p));
+    last = found.triangle;
+  }
+}
+
+TEST(FlatCylinder, HoldsWhatItWasMadeOf) {
+  std::mt19937_64 random(10);
+  for (int i = 0; i < 200; ++i) {
+    FlatCylinder cylinder{randomPoint(random, 1), randomPoint(random, 1).normalized()};
+    if (i % 10 == 0) cylinder.axis.setZero();
+    std::vector<Vector3d> held;
+    for (int k = 0; k < 5; ++k) held.push_back(randomPoint(random, 1));
+    for (const Vector3d& p : held) cylinder.extend(p);
+    const Vector3d p = randomPoint(random, 5);
+    double nearest = TriangleTree::kInfinity;
+    for (const Vector3d& q : held) nearest = std::min(nearest, (q - p).norm());
+    EXPECT_TRUE(cylinder.mayBeWithin(nearest, p));
+  }
+}
+
+TEST(FlatCylinder, TellsTheDistanceOfADiscFromAllSides) {
+  const FlatCylinder disc{Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.5};
+  const auto expectDistance = [&](double distance, const Vector3d& p) {
+    EXPECT_TRUE(disc.mayBeWithin(distance * (1 + 1e-9), p));
+    EXPECT_FALSE(disc.mayBeWithin(distance * (1 - 1e-9), p));
+  };
+  expectDistance(1.5, {0.5, 0.5, 2});
+  expectDistance(1.5, {0.5, 0.5, -2});
+  expectDistance(3, {0, 4, 0.2});
+  expectDistance(5, {0, 4, 4.5});
+  EXPECT_TRUE(disc.mayBeWithin(0.0, {0.5, 0.5, 0.4}));
+}
+
 TEST(TriangleTree, MaxDistanceCutsOffExactlyThere) {
   const TriangleTree tree(test::boxMesh({1, 1, 1}));
   EXPECT_EQ(tree.closestPoint({3, 0, 0}, 2.5).triangle >= 0, true);

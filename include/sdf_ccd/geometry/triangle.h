@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/geometry/flat_cylinder.h"
 
 /// What a single triangle abc answers. Degenerate triangles (a segment, a point) are welcome.
 namespace sdf_ccd {
@@ -23,17 +24,14 @@ class MeasuredTriangle {
   Vector3d closest(const Vector3d& p) const;
 
   /// False if every place of the triangle surely is farther than `distance` from p.
-  bool mayBeWithin(double distance, const Vector3d& p) const {
-    const double most = (distance + radius_) * (1.0 + 1e-12);
-    return (center_ - p).squaredNorm() <= most * most;
-  }
+  bool mayBeWithin(double distance, const Vector3d& p) const { return disc_.mayBeWithin(distance, p); }
 
   /// True if it is so thin that its plane is uncertain.
   bool sliver() const { return sliver_; }
 
   /// A ball that holds the triangle.
-  const Vector3d& center() const { return center_; }
-  double radius() const { return radius_; }
+  const Vector3d& center() const { return disc_.center; }
+  double radius() const { return disc_.radius; }
 
   const Vector3d& a() const { return a_; }
   const Vector3d& b() const { return b_; }
@@ -41,9 +39,8 @@ class MeasuredTriangle {
 
  private:
   Vector3d a_, b_, c_;
-  Vector3d center_;  ///< of its box
-  double radius_;    ///< of a ball about the centre that holds it
   bool sliver_;
+  FlatCylinder disc_;  ///< in its plane; of a sliver a ball
 };
 
 /// Signed solid angle of the triangle seen from p, over 4π: positive where p lies behind the counter-clockwise

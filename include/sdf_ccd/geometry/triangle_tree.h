@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "sdf_ccd/geometry/flat_cylinder.h"
 #include "sdf_ccd/geometry/triangle.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
@@ -12,8 +13,10 @@ namespace sdf_ccd {
 
 /// Box hierarchy over the triangles of a mesh, for closest points and winding numbers.
 ///
-/// Also holds, per node, the expansion of Barill et al. 2018 up to second order about the node's area-weighted
-/// centre. Copies the triangles in tree order, so the mesh need not outlive it. Queries are thread-safe.
+/// For closest points nodes are asked four at a time, and by flat cylinders beside their boxes: from afar, many boxes
+/// are about as near as the surface, but few pieces of it are. Also holds, per node, the expansion of Barill et al.
+/// 2018 up to second order about the node's area-weighted centre. Copies the triangles in tree order, so the mesh need
+/// not outlive it. Queries are thread-safe.
 class TriangleTree {
  public:
   /// @throws std::invalid_argument if the mesh is not valid (see validate()).
@@ -66,12 +69,27 @@ class TriangleTree {
     std::array<double, 10> second;  ///< xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
   };
 
+  /// Four nodes side by side, for closest points: the children or grandchildren of a node. Unused ones are infinitely
+  /// far away.
+  struct Quad {
+    using Lane = std::array<double, 4>;
+
+    std::array<Lane, 3> low, high;     ///< boxes
+    std::array<Lane, 3> center, axis;  ///< cylinders
+    Lane radius, half_height;
+    std::array<std::int32_t, 4> first;  ///< quad, or first triangle of a leaf
+    std::array<std::int32_t, 4> count;  ///< triangles of a leaf; else 0
+  };
+
   class Builder;
+  /// Of a quad's nodes, squared: what their boxes and their cylinders say.
+  static void leastDistances2(const Quad& quad, const Vector3d& p, double* least);
   void search(const Vector3d& p, double best2, ClosestPoint& best) const;
   static Expansion expand(const Triangle* begin, const Triangle* end);
   static double evaluate(const Expansion& expansion, const Vector3d& r, double distance2);
 
   std::vector<Node> nodes_;
+  std::vector<Quad> quads_;            ///< the root's first; none if it is a leaf
   std::vector<Expansion> expansions_;  ///< one per node
   std::vector<Triangle> triangles_;    ///< in tree order
   std::vector<std::int32_t> ids_;      ///< index in the mesh of each of `triangles_`
