@@ -32,7 +32,8 @@ double reach(const SpaceCube& cube, double distance) {
 /// @param distance  at the cube's centre, or less [m].
 /// @param way       to the centre from the place that it is the distance to, or a longer one: the gradient's direction.
 /// @param length    of the way [m].
-bool mayBeNearest(double distance, const Vector3d& way, double length, double side, const PlaceLanes::Lane& other) {
+SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& way, double length, double side,
+                                 const PlaceLanes::Lane& other) {
   // All times the way's length, which spares the division; a way of length zero shows nothing.
   const Vector3d slope = 0.5 * side * way;
   const Doubles across = {-slope.x() - slope.y(), slope.x() - slope.y(), slope.y() - slope.x(), slope.x() + slope.y()};
@@ -40,6 +41,20 @@ bool mayBeNearest(double distance, const Vector3d& way, double length, double si
   const Doubles above =
       smaller(middle - slope.z() - length * load(other.data()), middle + slope.z() - length * load(other.data() + 4));
   return !(leastOf(above) > 0.0);
+}
+
+/// Lists those of the triangles around that may matter in an octant after the nearest one to its centre. Returns the
+/// list's end.
+SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const WayLanes* ways, int octant, int nearest,
+                                     double most, const PlaceLanes::Lane& at_corners, std::int32_t* list) {
+  const double side = 0.5 * around.cube().side, most2 = most * most;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const double distance2 = ways[i].distance2[octant];
+    if (distance2 > most2 || around.triangle(i) == nearest) continue;
+    const double distance = std::sqrt(distance2);
+    if (mayBeNearest(distance, ways[i].at(octant), distance, side, at_corners)) *list++ = around.triangle(i);
+  }
+  return list;
 }
 
 /// Distances of a cube's corners from a triangle, to within rounding.
@@ -105,7 +120,8 @@ void NearTriangles::setCone() {
     sum += face.normal;
   }
   const Vector3d* farthest = setCone(sum);
-  if (count_ < 3 || cone_.sine == 0.0) return;
+  constexpr double kNarrow = 1e-6;
+  if (count_ < 3 || cone_.sine < kNarrow) return;
   // Where most normals lie on one side, the middle of the two that are farthest apart is a better axis than the mean.
   const Vector3d& first = *farthest;
   const Vector3d* second = &first;
@@ -122,16 +138,15 @@ const Vector3d* NearTriangles::setCone(Vector3d axis) {
   const double length = axis.norm();
   if (!(length > 0.0)) return farthest;
   axis /= length;
-  double cosine = 1.0, sine = 0.0;
+  double cosine = 1.0;
   for (std::size_t i = 0; i < count_; ++i) {
     const Vector3d& normal = surface_->face(ids_[i]).normal;
-    if (normal.dot(axis) < cosine) {
-      cosine = normal.dot(axis);
-      farthest = &normal;
-    }
-    sine = std::max(sine, normal.cross(axis).squaredNorm());
+    const double along = normal.dot(axis);
+    farthest = along < cosine ? &normal : farthest;
+    cosine = std::min(cosine, along);
   }
-  sine = std::min(1.0, std::sqrt(sine) * (1.0 + kSlack));
+  constexpr double kRounding = 1e-15;
+  const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0) + kRounding);
   if (cosine >= 0.1 && sine < cone_.sine) cone_ = {axis, sine};
   return farthest;
 }
@@ -251,21 +266,12 @@ int NearOctants::sign(int k, std::size_t nearest) const {
 const NearTriangles& NearOctants::operator[](int k) {
   NearTriangles& near = near_[k];
   if (near.size() > 0) return near;
-  const WayLanes* const ways = ways_.get();
   std::int32_t* const first = ids_.get() + k * around_.size();
-  std::int32_t* last = first;
-  *last++ = nearest_[k];
+  *first = nearest_[k];
   const SpaceCube octant = around_.cube().octant(k);
   const double most = reach(octant, distances_[k]);
-  PlaceLanes::Lane at_corners;
-  bool measured = false;
-  for (std::size_t i = 0; i < around_.size(); ++i) {
-    if (ways[i].distance2[k] > most * most || around_.triangle(i) == nearest_[k]) continue;
-    if (!measured) at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, most);
-    measured = true;
-    const double distance = std::sqrt(ways[i].distance2[k]);
-    if (mayBeNearest(distance, ways[i].at(k), distance, octant.side, at_corners)) *last++ = around_.triangle(i);
-  }
+  const PlaceLanes::Lane at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, most);
+  const std::int32_t* const last = listNear(around_, ways_.get(), k, nearest_[k], most, at_corners, first + 1);
   near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};
   return near;
 }
