@@ -11,7 +11,6 @@
 #include <cmath>
 #include <iterator>
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "segment_lanes.h"
@@ -72,11 +71,8 @@ struct Boarding {
     for (std::size_t i = 0; i < std::size(origins); ++i) origins[i] = g.origin[i % 3];
     const auto units = hn::Set(wide, g.units_per_metre);
     const double* numbers = segments->start.data();
-    // Those who board next will have come from memory by then.
-    constexpr int kAhead = kNumbers * kMost, kLine = 64 / sizeof(double);
     int j = 0;
     for (; j + 3 * step <= all; j += 3 * step) {
-      for (int k = 0; k < 3 * step; k += kLine) hwy::Prefetch(numbers + j + kAhead + k);
       for (int k = 0; k < 3 * step; k += step) {
         const auto number = hn::Sub(hn::LoadU(wide, numbers + j + k), hn::LoadU(wide, origins + k));
         hn::StoreU(hn::DemoteTo(narrow, hn::Mul(number, units)), narrow, relative + j + k);

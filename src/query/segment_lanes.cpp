@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "segment_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -89,14 +90,14 @@ class Follower {
       }
       std::copy_n(boarding.t0, group, work_.begin.data() + first);
       std::copy_n(boarding.t1, group, work_.end.data() + first);
-      takeOff(boarding, first, group);
+      takeOff(boarding, segments, first, group);
       first += group;
     }
     return first;
   }
 
   /// A group's first step: most short segments are done with it.
-  void takeOff(const Boarding& boarding, int first, int count) {
+  void takeOff(const Boarding& boarding, const Segment* segments, int first, int count) {
     const int width = static_cast<int>(hn::Lanes(f));
     std::int32_t cell[3][Boarding::kMost], word[Boarding::kMost];
     for (int i = 0; i < count; i += width) {
@@ -109,10 +110,19 @@ class Follower {
     for (int i = 0; i < count; i += width) {
       Lanes lanes(boarding, i, first);
       for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
+      prefetch(segments + first + count + i, width);
       const MI in_box = asWhole(hn::Le(hn::LoadU(f, boarding.t0 + i), hn::LoadU(f, boarding.t1 + i)));
       const MI used = hn::And(in_box, hn::FirstN(n, static_cast<std::size_t>(count - i)));
       sort(locateTop(g_, hn::LoadU(n, word + i), lanes.cell), lanes, used, work_.node[next_]);
     }
+  }
+
+  /// Has segments that board next brought from memory. For a few at a time: while more are under way than can be, all
+  /// wait.
+  static HWY_INLINE void prefetch(const Segment* segments, int count) {
+    constexpr int kLine = 64;
+    const char* const first = reinterpret_cast<const char*>(segments);
+    for (int k = 0; k < count * static_cast<int>(sizeof(Segment)); k += kLine) hwy::Prefetch(first + k);
   }
 
   /// Lanes found to be inside (or outside) from t on, and not before: begins or ends their hits.
