@@ -23,7 +23,10 @@ std::vector<NamedMesh> studyMeshes(const StudyOptions& options) {
     const std::size_t equals = argument.find('=');
     if (equals == std::string::npos) throw std::invalid_argument("--mesh " + argument + ": NAME=FILE is wanted");
     const std::string name = argument.substr(0, equals);
-    if (!isWanted(options.meshes, name)) continue;
+    if (!isWanted(options.meshes, name)) {
+      std::fprintf(stderr, "mesh %s is left out; --meshes %s asks for it\n", name.c_str(), name.c_str());
+      continue;
+    }
     meshes.push_back({name, orientOutward(loadMesh(argument.substr(equals + 1))).mesh});
   }
   if (meshes.empty()) {
