@@ -5,7 +5,6 @@
 #define HWY_TARGET_INCLUDE "segment_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "cell_cubic.h"
 #include "lane_adaptive-inl.h"
 #include "lane_even-inl.h"
+#include "prefetch.h"
 #include "segment_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -110,19 +110,11 @@ class Follower {
     for (int i = 0; i < count; i += width) {
       Lanes lanes(boarding, i, first);
       for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
-      prefetch(segments + first + count + i, width);
+      prefetch(segments + first + count + i, static_cast<std::size_t>(width));  // they board next
       const MI in_box = asWhole(hn::Le(hn::LoadU(f, boarding.t0 + i), hn::LoadU(f, boarding.t1 + i)));
       const MI used = hn::And(in_box, hn::FirstN(n, static_cast<std::size_t>(count - i)));
       sort(locateTop(g_, hn::LoadU(n, word + i), lanes.cell), lanes, used, work_.node[next_]);
     }
-  }
-
-  /// Has segments that board next brought from memory. For a few at a time: while more are under way than can be, all
-  /// wait.
-  static HWY_INLINE void prefetch(const Segment* segments, int count) {
-    constexpr int kLine = 64;
-    const char* const first = reinterpret_cast<const char*>(segments);
-    for (int k = 0; k < count * static_cast<int>(sizeof(Segment)); k += kLine) hwy::Prefetch(first + k);
   }
 
   /// Lanes found to be inside (or outside) from t on, and not before: begins or ends their hits.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "prefetch.h"
 #include "shell_points.h"
 #include "sphere_sides.h"
 
@@ -92,7 +93,8 @@ class ShellSearch {
     if (side == SweptSide::kInside) return addInside(node.begin, node.end);
     if (isSmall(node)) {
       work_.pending.push_back(i);
-      fetch(shell_.points.data() + node.begin, shell_.points.data() + node.end);
+      // A shell may be larger than the caches.
+      prefetch(shell_.points.data() + node.begin, static_cast<std::size_t>(node.end - node.begin));
     } else {
       divide(node);
     }
@@ -107,18 +109,8 @@ class ShellSearch {
       last = nodes_ + last[-1].first_child + last[-1].child_count;
       first = nodes_ + first->first_child;
     }
-    fetch(first, last);
+    prefetch(first, static_cast<std::size_t>(last - first));
     for (; last != first; --last) work_.stack.push_back(static_cast<std::int32_t>(last - nodes_) - 1);
-  }
-
-  /// Has memory brought here that will be read soon: shells are larger than caches.
-  template <class T>
-  static void fetch(const T* begin, const T* end) {
-#ifdef __GNUC__
-    constexpr std::ptrdiff_t kLine = 64;
-    const char* const last = reinterpret_cast<const char*>(end);
-    for (const char* at = reinterpret_cast<const char*>(begin); at < last; at += kLine) __builtin_prefetch(at);
-#endif
   }
 
   void addInside(std::int32_t begin, std::int32_t end) {
