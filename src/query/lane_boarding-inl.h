@@ -24,15 +24,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Segments on their way into the grid, clipped to its box: in double precision where one reaches far outside. Each
 /// step is taken for all of them before the next, as vectors that are read just after parts of them were written wait.
-struct Boarding {
+/// No vector lies across two lines of the cache.
+struct HWY_ALIGN_MAX Boarding {
   static constexpr int kMost = 128;
 
   float o[3][kMost], d[3][kMost];
-  float t0[kMost], t1[kMost];  ///< the part of each segment that lies in the box; none: t0 > t1
-  bool doubtful = false;       ///< one may not be within reach
+  float *t0, *t1;         ///< the part of each segment that lies in the box; none: t0 > t1
+  bool doubtful = false;  ///< one may not be within reach
 
   /// Of 1 to kMost segments; the last one also fills its vector.
-  Boarding(const LaneBox& g, const Segment* segments, int count) {
+  /// @param begins, ends  where t0 and t1 are written
+  Boarding(const LaneBox& g, const Segment* segments, int count, float* begins, float* ends) : t0(begins), t1(ends) {
     HWY_ALIGN float numbers[kNumbers * kMost];
     convert(g, segments, count, numbers);
     deinterleave(numbers, count);
@@ -124,11 +126,9 @@ struct Boarding {
         inside = hn::And(inside, hn::And(hn::Ge(low, zero), hn::Le(high, size)));
         surely_near = hn::And(surely_near, hn::And(hn::Ge(low, hn::Neg(reach)), hn::Le(high, reach)));
       }
-      if (hn::AllTrue(single, inside)) {
-        put(zero, t0 + i);
-        put(one, t1 + i);
-        continue;
-      }
+      put(zero, t0 + i);
+      put(one, t1 + i);
+      if (hn::AllTrue(single, inside)) continue;
       store<Single>(clip(single, g, inside, ways), ways, i);
       if (hn::AllTrue(single, surely_near)) continue;
       for (int j = i; j < std::min(i + lanes(), count); ++j) clipFar(g, segments[j], j);

@@ -39,6 +39,10 @@ inline MI asWhole(MF m) {
   return hn::RebindMask(n, m);
 }
 
+/// first, first + 1, ... (hn::Iota() writes them one by one, and waits to read them.)
+inline VI countFrom(int first) {
+  return hn::Add(whole(first), hn::Load(n, kLaneNumbers.data()));
+}
 inline MI none() {
   return hn::FirstN(n, 0);
 }
@@ -68,7 +72,7 @@ struct Lanes {
   Lanes(const Boarding& boarding, int first, int first_id)
       : t(real(0.0F)),
         enter(real(-1.0F)),
-        id(hn::Iota(n, first_id + first)),
+        id(countFrom(first_id + first)),
         place(hn::Zero(n)),
         log_side(hn::Zero(n)) {
     for (int k = 0; k < 3; ++k) {

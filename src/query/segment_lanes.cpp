@@ -82,14 +82,12 @@ class Follower {
   int board(const Segment* segments, int first, int count) {
     while (first < count && FlightQueue::kCapacity - flying() >= Boarding::kMost) {
       const int group = std::min(Boarding::kMost, count - first);
-      const Boarding boarding(g_, segments + first, group);
+      const Boarding boarding(g_, segments + first, group, work_.begin.data() + first, work_.end.data() + first);
       if (boarding.doubtful) {
         const auto within = [](const Segment& s) { return isWithinReach(s); };
         const int found = int(std::find_if_not(segments + first, segments + first + group, within) - segments);
         if (found < first + group) refused_ = found;
       }
-      std::copy_n(boarding.t0, group, work_.begin.data() + first);
-      std::copy_n(boarding.t1, group, work_.end.data() + first);
       takeOff(boarding, segments, first, group);
       first += group;
     }
@@ -99,7 +97,7 @@ class Follower {
   /// A group's first step: most short segments are done with it.
   void takeOff(const Boarding& boarding, const Segment* segments, int first, int count) {
     const int width = static_cast<int>(hn::Lanes(f));
-    std::int32_t cell[3][Boarding::kMost], word[Boarding::kMost];
+    HWY_ALIGN std::int32_t cell[3][Boarding::kMost], word[Boarding::kMost];
     for (int i = 0; i < count; i += width) {
       Lanes lanes(boarding, i, first);
       findCells(g_, lanes);
@@ -110,7 +108,9 @@ class Follower {
     for (int i = 0; i < count; i += width) {
       Lanes lanes(boarding, i, first);
       for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
-      prefetch(segments + first + count + i, static_cast<std::size_t>(width));  // they board next
+      // Those that board next, and, as they may be in slow memory, some that do after them.
+      prefetch(segments + first + count + i, static_cast<std::size_t>(width));
+      prefetch<CacheLevel::kSecond>(segments + first + 4 * count + i, static_cast<std::size_t>(width));
       const MI in_box = asWhole(hn::Le(hn::LoadU(f, boarding.t0 + i), hn::LoadU(f, boarding.t1 + i)));
       const MI used = hn::And(in_box, hn::FirstN(n, static_cast<std::size_t>(count - i)));
       sort(locateTop(g_, hn::LoadU(n, word + i), lanes.cell), lanes, used, work_.node[next_]);

@@ -66,9 +66,13 @@ constexpr std::array<std::array<std::uint8_t, 8>, 256> frontLanes() {
 }
 inline constexpr auto kFrontLanes = frontLanes();
 
+/// Of a vector's lanes, on any processor.
+alignas(64) inline constexpr std::array<std::int32_t, 16> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,
+                                                                       8, 9, 10, 11, 12, 13, 14, 15};
+
 /// Segments that wait for the same kind of step, an array per quantity. A segment runs from o to o + d within the
 /// grid's box while its parameter t goes from 0 to 1; lengths in units.
-struct FlightQueue {
+struct alignas(64) FlightQueue {
   static constexpr int kCapacity = 512;  ///< and as many are under way: their vectors are full, and fit the cache
   static constexpr int kSlack = 32;      ///< beyond the end, so that whole vectors may be read and written
   template <class T>
@@ -89,7 +93,7 @@ struct FlightQueue {
 
 /// What a queue's flights wait for, read flight by flight before they are taken on in vectors: of plain loads many are
 /// under way at once, and each costs less than a lane of a gather.
-struct Fetched {
+struct alignas(64) Fetched {
   using Pairs = std::array<std::int32_t, 2 * std::tuple_size_v<FlightQueue::Column<std::int32_t>>>;
 
   FlightQueue::Column<std::int32_t> word;  ///< of a top cell; a node's code; a sample's bits
