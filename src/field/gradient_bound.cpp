@@ -1,9 +1,10 @@
 #include "gradient_bound.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "../geometry/double_lanes.h"
+#include "../geometry/compiler_lanes.h"
 
 namespace sdf_ccd {
 namespace {
@@ -61,17 +62,33 @@ SDF_CCD_LANES void leastGrowth(const NearTriangles& near, double* least) {
   }
 }
 
-/// A line per pair of corners, over the weight of the second: its value and its slope.
+/// A lane for each pair of corners across from each other, twice: for how far an interpolant is above φ, and below it.
+using Floats = float __attribute__((vector_size(8 * sizeof(float))));
+constexpr int kPairs = 4;
+constexpr Floats kSign = {1.0F, 1.0F, 1.0F, 1.0F, -1.0F, -1.0F, -1.0F, -1.0F};
+
+/// The best pair's, above and below.
+struct Least {
+  float above, below;
+};
+SDF_CCD_INLINE Floats loadFloats(const float* aligned) {
+  return *reinterpret_cast<const Floats*>(aligned);
+}
+SDF_CCD_INLINE Least leastOf(const Floats& v) {
+  return {std::min(std::min(v[0], v[1]), std::min(v[2], v[3])), std::min(std::min(v[4], v[5]), std::min(v[6], v[7]))};
+}
+
+/// A line per lane, over the weight of the pair's second corner: its value and its slope.
 struct Lines {
-  Doubles value, slope;
+  Floats value, slope;
 };
 
-/// The highest of the lines of all eight corners, at each pair's weight.
-SDF_CCD_INLINE Lines highest(const Lines* lines, const Doubles& weight) {
+/// The highest of the lines of all eight corners, at each lane's weight.
+SDF_CCD_INLINE Lines highest(const Lines* lines, const Floats& weight) {
   Lines top = lines[0];
   top.value += weight * top.slope;
   for (int k = 1; k < 8; ++k) {
-    const Doubles value = lines[k].value + weight * lines[k].slope;
+    const Floats value = lines[k].value + weight * lines[k].slope;
     top.slope = value > top.value ? lines[k].slope : top.slope;
     top.value = larger(value, top.value);
   }
@@ -81,25 +98,27 @@ SDF_CCD_INLINE Lines highest(const Lines* lines, const Doubles& weight) {
 /// The least over the weights from 0 to 1 of what is highest there, of the best pair, unless less than `enough` is
 /// found before. Between two weights, the next is where their highest lines meet; any weight gives a bound, so that it
 /// need not be the best.
-SDF_CCD_INLINE double lowestTop(const Lines* lines, double enough) {
-  const Doubles zero = {}, one = zero + 1.0;
-  Doubles low = zero, high = one;
+SDF_CCD_INLINE Least lowestTop(const Lines* lines, const Least& enough) {
+  const Floats zero = {}, one = zero + 1.0F;
+  Floats low = zero, high = one;
   Lines at_low = highest(lines, low), at_high = highest(lines, high);
-  Doubles best = smaller(at_low.value, at_high.value);
+  Floats best = smaller(at_low.value, at_high.value);
+  Least found = leastOf(best);
   constexpr int kRounds = 2;
-  for (int i = 0; i < kRounds && leastOf(best) > enough; ++i) {
-    const Doubles bend = at_low.slope - at_high.slope;
-    const Doubles meet = (at_high.value - at_low.value + low * at_low.slope - high * at_high.slope) / bend;
-    const Doubles weight = ((meet > low) & (meet < high)) ? meet : low;
+  for (int i = 0; i < kRounds && (found.above > enough.above || found.below > enough.below); ++i) {
+    const Floats bend = at_low.slope - at_high.slope;
+    const Floats meet = (at_high.value - at_low.value + low * at_low.slope - high * at_high.slope) / bend;
+    const Floats weight = ((meet > low) & (meet < high)) ? meet : low;
     const Lines at = highest(lines, weight);
     best = smaller(best, at.value);
+    found = leastOf(best);
     const auto falls = at.slope < zero;
     low = falls ? weight : low;
     at_low = {falls ? at.value : at_low.value, falls ? at.slope : at_low.slope};
     high = falls ? high : weight;
     at_high = {falls ? at_high.value : at.value, falls ? at_high.slope : at.slope};
   }
-  return leastOf(best);
+  return found;
 }
 
 }  // namespace
@@ -107,33 +126,45 @@ SDF_CCD_INLINE double lowestTop(const Lines* lines, double enough) {
 GradientBound::GradientBound(const NearTriangles& near) {
   alignas(64) double least[kWays];
   leastGrowth(near, least);
+  float rounded[kWays];
+  for (int i = 0; i < kWays; ++i) rounded[i] = static_cast<float>(least[i]);
+  const auto growth = [&](int from, int to) { return rounded[kWayIndex.at[from][to]]; };
   for (int k = 0; k < 8; ++k)
     for (int pair = 0; pair < kPairs; ++pair) {
-      least_.from_low[k][pair] = least[kWayIndex.at[pair][k]];
-      least_.from_high[k][pair] = least[kWayIndex.at[7 - pair][k]];
-      most_.from_low[k][pair] = -least[kWayIndex.at[k][pair]];
-      most_.from_high[k][pair] = -least[kWayIndex.at[k][7 - pair]];
+      from_low_[k][pair] = growth(pair, k);
+      from_high_[k][pair] = growth(7 - pair, k);
+      from_low_[k][kPairs + pair] = growth(k, pair);
+      from_high_[k][kPairs + pair] = growth(k, 7 - pair);
     }
+  for (const double growth : least) most_growth_ = std::max(most_growth_, std::abs(growth));
 }
 
-/// How far the interpolant is above φ (sign 1) or below it (−1), at most.
-SDF_CCD_LANES double GradientBound::above(const Table& growth, double side, const Corners& exact, const Corners& values,
-                                          double sign, double enough) {
-  const Doubles low = sign * load(exact.data());
-  const Doubles high = {sign * exact[7], sign * exact[6], sign * exact[5], sign * exact[4]};
+SDF_CCD_LANES Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values,
+                                                 const Deviation& enough) const {
+  // In sides of the cube, and relative to one of the corners, so that single precision rounds little.
+  const double per_side = 1.0 / side;
+  float e[8], at[8];
+  double largest = most_growth_;
+  for (int k = 0; k < 8; ++k) {
+    const double phi = (exact[k] - exact[0]) * per_side, value = (values[k] - exact[0]) * per_side;
+    largest = std::max({largest, std::abs(phi), std::abs(value)});
+    e[k] = static_cast<float>(phi);
+    at[k] = static_cast<float>(value);
+  }
+  const Floats low = kSign * Floats{e[0], e[1], e[2], e[3], e[0], e[1], e[2], e[3]};
+  const Floats high = kSign * Floats{e[7], e[6], e[5], e[4], e[7], e[6], e[5], e[4]};
   Lines lines[8];
   for (int k = 0; k < 8; ++k) {
-    const double at = sign * values[k], step = sign * side;
-    const Doubles first = at - (low + step * load(growth.from_low[k].data()));
-    const Doubles second = at - (high + step * load(growth.from_high[k].data()));
+    const Floats value = kSign * at[k];
+    const Floats first = value - low - loadFloats(from_low_[k].data());
+    const Floats second = value - high - loadFloats(from_high_[k].data());
     lines[k] = {first, second - first};
   }
-  return lowestTop(lines, enough);
-}
-
-Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values,
-                                   const Deviation& enough) const {
-  return {above(least_, side, exact, values, 1.0, enough.above), above(most_, side, exact, values, -1.0, enough.below)};
+  const auto scaled = [&](double bound) { return static_cast<float>(bound * per_side); };
+  const Least found = lowestTop(lines, {scaled(enough.above), scaled(enough.below)});
+  // Each of the few numbers that a bound is made of is rounded by less than 2^-24 of the largest, or of some of those.
+  constexpr double kRounding = 0x1p-18;
+  return {side * (found.above + kRounding * largest), side * (found.below + kRounding * largest)};
 }
 
 }  // namespace sdf_ccd

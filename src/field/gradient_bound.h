@@ -43,15 +43,12 @@ class GradientBound {
   Deviation deviation(double side, const Corners& exact, const Corners& values, const Deviation& enough = {}) const;
 
  private:
-  static constexpr int kPairs = 4;  ///< of corners across from each other: k and 7 − k
-  struct Table {
-    alignas(64) std::array<std::array<double, kPairs>, 8> from_low, from_high;  ///< [at][pair], for a side of 1
-  };
+  using Lanes = std::array<float, 8>;  ///< see gradient_bound.cpp
 
-  static double above(const Table& growth, double side, const Corners& exact, const Corners& values, double sign,
-                      double enough);
-
-  Table least_, most_;
+  /// By how much the distance grows at least from the pairs' first (second) corners to corner k, or from there to them,
+  /// for a side of 1.
+  alignas(64) std::array<Lanes, 8> from_low_, from_high_;
+  double most_growth_ = 0.0;  ///< the largest of these numbers
 };
 
 }  // namespace sdf_ccd

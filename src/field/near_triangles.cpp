@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../geometry/double_lanes.h"
+#include "../geometry/compiler_lanes.h"
 #include "sdf_ccd/geometry/separating_triangles.h"
 
 namespace sdf_ccd {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "double_lanes.h"
+#include "compiler_lanes.h"
 
 namespace sdf_ccd {
 namespace {

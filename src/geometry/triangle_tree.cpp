@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "double_lanes.h"
+#include "compiler_lanes.h"
 #include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-// Vectors of doubles as the compiler writes them, for files that are compiled for processors with wider vectors too:
+// Vectors as the compiler writes them, for files that are compiled for processors with wider vectors too:
 // functions marked SDF_CCD_LANES; which of them is taken is decided when the program is loaded.
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#if __GNUC__ >= 12
+#define SDF_CCD_LANES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
 #define SDF_CCD_LANES __attribute__((target_clones("avx2", "default")))
+#endif
 #else
 #define SDF_CCD_LANES
 #endif
@@ -29,11 +33,13 @@ SDF_CCD_INLINE void store(const Doubles& values, double* to) {
   *reinterpret_cast<DoublesInMemory*>(to) = values;
 }
 
-SDF_CCD_INLINE Doubles larger(const Doubles& a, const Doubles& b) {
+template <class Lanes>
+SDF_CCD_INLINE Lanes larger(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
 
-SDF_CCD_INLINE Doubles smaller(const Doubles& a, const Doubles& b) {
+template <class Lanes>
+SDF_CCD_INLINE Lanes smaller(const Lanes& a, const Lanes& b) {
   return a < b ? a : b;
 }
 
