@@ -10,11 +10,17 @@
 namespace sdf_ccd {
 namespace {
 
+/// A node's points, or some of them.
+struct PointRange {
+  std::int32_t begin, end;
+};
+
 /// Memory of a search, kept by each thread so that steady-state queries allocate nothing.
 struct SearchWork {
-  std::vector<std::int32_t> stack;    ///< nodes still to visit
-  std::vector<std::int32_t> asked;    ///< nodes that are asked together
-  std::vector<std::int32_t> pending;  ///< nodes whose points are still to be asked
+  std::vector<std::int32_t> stack;  ///< nodes still to visit
+  std::vector<std::int32_t> asked;  ///< nodes that are asked together
+  std::vector<PointRange> pending;  ///< points still to be asked
+  std::vector<PointRange> sorted;   ///< points that are asked together as spheres
 };
 
 SearchWork& searchWork() {
@@ -92,7 +98,7 @@ class ShellSearch {
     if (side == SweptSide::kOutside) return;
     if (side == SweptSide::kInside) return addInside(node.begin, node.end);
     if (isSmall(node)) {
-      work_.pending.push_back(i);
+      work_.pending.push_back({node.begin, node.end});
       // A shell may be larger than the caches.
       prefetch(shell_.points.data() + node.begin, static_cast<std::size_t>(node.end - node.begin));
     } else {
@@ -121,29 +127,31 @@ class ShellSearch {
     }
   }
 
-  /// Points of one node.
+  /// Points of one range.
   void askPoints() {
-    const SphereTree::Node& node = nodes_[work_.pending.back()];
+    const PointRange range = work_.pending.back();
     work_.pending.pop_back();
-    for (std::int32_t p = node.begin; p < node.end && !done(); ++p) points_.ask(p);
+    for (std::int32_t p = range.begin; p < range.end && !done(); ++p) points_.ask(p);
   }
 
-  /// Points of several nodes: as spheres of no radius first, which leaves those that meet the surface or nearly do.
+  /// Points of several ranges: as spheres of no radius first, which leaves those that meet the surface or nearly do.
   void sortPoints() {
     SphereGroup& group = sides_.group();
     group.size = 0;
-    std::vector<std::int32_t>&pending = work_.pending, &asked = work_.asked;
-    asked.clear();
-    for (; !pending.empty(); pending.pop_back()) {
-      const SphereTree::Node& node = nodes_[pending.back()];
-      if (group.size + node.end - node.begin > SphereGroup::kCapacity) break;
-      asked.push_back(pending.back());
-      for (std::int32_t p = node.begin; p < node.end; ++p) group.add(shell_.points[p], 0.0);
+    std::vector<PointRange>&pending = work_.pending, &sorted = work_.sorted;
+    sorted.clear();
+    while (!pending.empty() && group.size < SphereGroup::kCapacity) {
+      PointRange& last = pending.back();
+      const PointRange some{last.begin, std::min(last.end, last.begin + SphereGroup::kCapacity - group.size)};
+      sorted.push_back(some);
+      for (std::int32_t p = some.begin; p < some.end; ++p) group.add(shell_.points[p], 0.0);
+      last.begin = some.end;
+      if (last.begin == last.end) pending.pop_back();
     }
     sides_.askGroup();
     int i = 0;
-    for (const std::int32_t k : asked) {
-      for (std::int32_t p = nodes_[k].begin; p < nodes_[k].end && !done(); ++p, ++i) {
+    for (const PointRange& range : sorted) {
+      for (std::int32_t p = range.begin; p < range.end && !done(); ++p, ++i) {
         const SweptSide side = group.sideOf(i);
         if (side == SweptSide::kUnknown) points_.ask(p);
         if (side == SweptSide::kInside) addInside(p, p + 1);

@@ -140,6 +140,28 @@ TEST(ShellQuery, EqualsLinearScanOnEveryPoint) {
   EXPECT_LT(visits, points / 2) << "the tree culls nothing";
 }
 
+TEST(ShellQuery, EqualsLinearScanWhereOneNodeHoldsAllPoints) {
+  Random random(9);
+  std::size_t most = 0;
+  for (const Scene& scene : scenes()) {
+    most = std::max(most, scene.shell.size());
+    SphereTree root{{scene.tree.nodes[0]}};
+    root.nodes[0].first_child = -1;
+    root.nodes[0].child_count = 0;
+    for (const double reach : {0.0, 0.01, 1.0}) {  // resting, short ways, long ways
+      ChordPath path;
+      path.chords.emplace_back();
+      path.chords[0].X_FP_start = test::pose(random, 3.0, 0.05);
+      path.chords[0].X_FP_end = test::pose(random, reach, reach) * path.chords[0].X_FP_start;
+      ShellQueryResult result;
+      shellIntervals(scene.field, scene.shell, root, path, {}, result);
+      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path, 0.0));
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(most, 1000U) << "more than are asked together";
+}
+
 TEST(ShellQuery, EqualsLinearScanOnAdversarialMotions) {
   Random random(2);
   for (const Scene& scene : scenes()) {
