@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sdf_ccd/query/segment_query.h"
 
@@ -14,21 +14,23 @@ class BallExit {
       : start_(segment.start),
         step_(segment.end - segment.start),
         length2_(step_.squaredNorm()),
-        per_length2_(1.0 / length2_) {}
+        per_length2_(1.0 / length2_),
+        rounding_(4.0 * std::numeric_limits<double>::epsilon() * (start_.norm() + step_.norm())) {}
 
   double operator()(const Vector3d& center, double radius, double t) const {
-    if (!(radius > 0.0) || !(length2_ > 0.0)) return t;
-    const Vector3d from = start_ - center;
-    const double half_b = from.dot(step_), c = from.squaredNorm() - radius * radius;
-    const double discriminant = half_b * half_b - length2_ * c;
-    if (!(discriminant > 0.0)) return t;
-    const double root = std::sqrt(discriminant), enter = (-half_b - root) * per_length2_;
-    return enter <= t ? std::max(t, (root - half_b) * per_length2_) : t;
+    const double free = radius - rounding_;
+    if (!(free > 0.0) || !(length2_ > 0.0)) return t;
+    // From where it is at t: from the start of a long segment the ball is too small to be seen.
+    const Vector3d from = start_ + t * step_ - center;
+    const double half_b = from.dot(step_), c = from.squaredNorm() - free * free;
+    if (!(c < 0.0)) return t;
+    return t + (std::sqrt(half_b * half_b - length2_ * c) - half_b) * per_length2_;
   }
 
  private:
   Vector3d start_, step_;
   double length2_, per_length2_;
+  double rounding_;  ///< of places along the segment [m]
 };
 
 }  // namespace sdf_ccd

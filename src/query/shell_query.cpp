@@ -95,7 +95,7 @@ class ShellSearch {
 
   void take(std::int32_t i, SweptSide side) {
     const SphereTree::Node& node = nodes_[i];
-    if (side == SweptSide::kOutside) return;
+    if (side == SweptSide::kOutside || node.begin == node.end) return;
     if (side == SweptSide::kInside) return addInside(node.begin, node.end);
     if (isSmall(node)) {
       work_.pending.push_back({node.begin, node.end});

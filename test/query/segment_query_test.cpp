@@ -180,5 +180,24 @@ TEST(SegmentQuery, HugeAndTinySegments) {
   EXPECT_TRUE(segmentIntervals(field, {{5, 5, 5}, {6, 6, 6}}).empty());
 }
 
+TEST(SegmentQuery, SegmentsOfAnyLengthMeetTheBodyTheyPassThrough) {
+  FieldOptions even, adaptive;
+  even.cells = 40;
+  adaptive.max_error = 0.005;
+  Random random(12);
+  for (const FieldOptions& options : {even, adaptive}) {
+    const DistanceField field = buildField(test::boxMesh({0.3, 0.5, 0.7}), options);
+    for (double length = 1e3; length <= 1e11; length *= 10.0) {
+      for (int i = 0; i < 200; ++i) {
+        const Vector3d middle = 0.05 * test::direction(random), half = 0.5 * length * test::direction(random);
+        const Segment segment{middle - half, middle + half};
+        for (const SegmentMode mode : {SegmentMode::kAll, SegmentMode::kFirst}) {
+          ASSERT_FALSE(segmentIntervals(field, segment, {0.0, mode}).empty()) << length << " m";
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -339,6 +339,24 @@ TEST(ShellQuery, ClearanceIsATightLowerBound) {
   }
 }
 
+TEST(ShellQuery, NodesWithoutPointsNeverHit) {
+  const DistanceField field{Primitive(Box{{0.2, 0.2, 0.2}})};
+  PointShell shell;
+  SphereTree tree;
+  tree.nodes.emplace_back();  // at the body's centre
+  tree.nodes[0].first_child = -1;
+  ChordPath path;
+  path.chords.emplace_back();
+  path.chords[0].X_FP_start = path.chords[0].X_FP_end = Isometry3d::Identity();
+  for (const bool any : {false, true}) {
+    ShellQueryOptions options;
+    options.any = any;
+    ShellQueryResult result;
+    shellIntervals(field, shell, tree, path, options, result);
+    EXPECT_FALSE(result.touches());
+  }
+}
+
 TEST(ShellQuery, EmptyShellNeverHits) {
   const DistanceField field{Primitive(Sphere{1.0})};
   PointShell shell;
