@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "prefetch.h"
+#include "representation_queries.h"
 #include "shell_points.h"
 #include "sphere_sides.h"
 
@@ -193,6 +194,7 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
   result.inside.clear();
   result.nodes_visited = 0;
   result.points_tested = 0;
+  checkIsovalue(field, options.sigma);
   if (tree.nodes.empty()) return;
   ShellSearch search(field, shell, tree, options, result);
   for (std::size_t c = 0; c < path.chords.size() && !search.done(); ++c) {

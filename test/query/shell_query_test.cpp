@@ -301,6 +301,19 @@ TEST(ShellQuery, ListsHitsByChordWithThoseInsideAllAlong) {
                      {9, 3, {0.1, 0.2}}});
 }
 
+TEST(ShellQuery, RefusesAnIsovalueBeyondTheBandWhereverTheShellIs) {
+  const Scene scene = scenes()[0];
+  for (const double away : {0.0, 0.25, 5.0}) {
+    ChordPath path;
+    path.chords.emplace_back();
+    path.chords[0].X_FP_start = Isometry3d(Eigen::Translation3d(away, 0.0, 0.0));
+    path.chords[0].X_FP_end = path.chords[0].X_FP_start;
+    ShellQueryResult result;
+    EXPECT_THROW(shellIntervals(scene.field, scene.shell, scene.tree, path, {1.5 * scene.field.band()}, result),
+                 std::invalid_argument);
+  }
+}
+
 TEST(ShellQuery, RefusesAPathThatIsNotFinite) {
   for (const Scene& scene : scenes()) {
     ChordPath path;

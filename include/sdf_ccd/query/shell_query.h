@@ -18,7 +18,7 @@ struct ShellHit {
 };
 
 struct ShellQueryOptions {
-  double sigma = 0.0;  ///< isovalue [m]
+  double sigma = 0.0;  ///< isovalue [m]; std::invalid_argument unless within the field's band
   bool any = false;    ///< stop at the first hit, whose exit is not looked for
 };
 
