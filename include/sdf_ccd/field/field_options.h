@@ -10,7 +10,9 @@ namespace sdf_ccd {
 struct FieldOptions {
   std::optional<int> cells;         ///< cells along the longest side of the surface's box
   std::optional<double> cell_size;  ///< [m]
-  std::optional<double> max_error;  ///< |interpolated − true distance| in the band [m]; cells of several sizes
+  /// |interpolated − true distance| in the band [m]; cells of several sizes. Where the smallest ones do not do the
+  /// field has a larger DistanceField::errorBound().
+  std::optional<double> max_error;
   double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken
   /// Of a sample where cells are of one size: 16 (whole steps, which add about 3e-4 of a cell to the error; more where
   /// the band is wide) or 32 (floats).
