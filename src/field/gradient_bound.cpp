@@ -62,18 +62,16 @@ SDF_CCD_LANES void leastGrowth(const NearTriangles& near, double* least) {
   }
 }
 
-/// A lane for each pair of corners across from each other, twice: for how far an interpolant is above φ, and below it.
-using Floats = float __attribute__((vector_size(8 * sizeof(float))));
+/// A lane of Floats for each pair of corners across from each other, twice: for how far an interpolant is above φ, and
+/// below it.
 constexpr int kPairs = 4;
+static_assert(2 * kPairs == kFloatWidth, "one vector");
 constexpr Floats kSign = {1.0F, 1.0F, 1.0F, 1.0F, -1.0F, -1.0F, -1.0F, -1.0F};
 
 /// The best pair's, above and below.
 struct Least {
   float above, below;
 };
-SDF_CCD_INLINE Floats loadFloats(const float* aligned) {
-  return *reinterpret_cast<const Floats*>(aligned);
-}
 SDF_CCD_INLINE Least leastOf(const Floats& v) {
   return {std::min(std::min(v[0], v[1]), std::min(v[2], v[3])), std::min(std::min(v[4], v[5]), std::min(v[6], v[7]))};
 }
@@ -136,7 +134,7 @@ GradientBound::GradientBound(const NearTriangles& near) {
       from_low_[k][kPairs + pair] = growth(k, pair);
       from_high_[k][kPairs + pair] = growth(k, 7 - pair);
     }
-  for (const double growth : least) most_growth_ = std::max(most_growth_, std::abs(growth));
+  for (const double by : least) most_growth_ = std::max(most_growth_, std::abs(by));
 }
 
 SDF_CCD_LANES Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values,
@@ -156,13 +154,14 @@ SDF_CCD_LANES Deviation GradientBound::deviation(double side, const Corners& exa
   Lines lines[8];
   for (int k = 0; k < 8; ++k) {
     const Floats value = kSign * at[k];
-    const Floats first = value - low - loadFloats(from_low_[k].data());
-    const Floats second = value - high - loadFloats(from_high_[k].data());
+    const Floats first = value - low - load(from_low_[k].data());
+    const Floats second = value - high - load(from_high_[k].data());
     lines[k] = {first, second - first};
   }
   const auto scaled = [&](double bound) { return static_cast<float>(bound * per_side); };
   const Least found = lowestTop(lines, {scaled(enough.above), scaled(enough.below)});
-  // Each of the few numbers that a bound is made of is rounded by less than 2^-24 of the largest, or of some of those.
+  // A bound is made of a dozen roundings, each by 2^-24 of at most six times the largest number: less than 2^-18 in
+  // all.
   constexpr double kRounding = 0x1p-18;
   return {side * (found.above + kRounding * largest), side * (found.below + kRounding * largest)};
 }

@@ -48,7 +48,7 @@ class GradientBound {
   /// By how much the distance grows at least from the pairs' first (second) corners to corner k, or from there to them,
   /// for a side of 1.
   alignas(64) std::array<Lanes, 8> from_low_, from_high_;
-  double most_growth_ = 0.0;  ///< the largest of these numbers
+  double most_growth_ = 0.0;  ///< the largest of their absolute values
 };
 
 }  // namespace sdf_ccd

@@ -25,6 +25,16 @@ using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
 
 using DoublesInMemory = double __attribute__((vector_size(kWidth * sizeof(double)), aligned(8), may_alias));
 
+/// In single precision.
+constexpr int kFloatWidth = 8;
+using Floats = float __attribute__((vector_size(kFloatWidth * sizeof(float))));
+
+using FloatsInMemory = float __attribute__((vector_size(kFloatWidth * sizeof(float)), aligned(4), may_alias));
+
+SDF_CCD_INLINE Floats load(const float* from) {
+  return *reinterpret_cast<const FloatsInMemory*>(from);
+}
+
 SDF_CCD_INLINE Doubles load(const double* from) {
   return *reinterpret_cast<const DoublesInMemory*>(from);
 }

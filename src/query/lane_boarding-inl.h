@@ -116,22 +116,22 @@ struct HWY_ALIGN_MAX Boarding {
     const auto zero = hn::Zero(single), one = hn::Set(single, 1.0F);
     for (int i = 0; i < count; i += lanes()) {
       Ways<Single> ways;
-      auto inside = hn::Eq(one, one), surely_near = inside;
+      auto inside = hn::Eq(one, one), surely_near = inside;  // not where a number is none: no comparison holds of it
       for (int k = 0; k < 3; ++k) {
         ways.at[k] = hn::LoadU(single, o[k] + i);
         ways.way[k] = hn::LoadU(single, d[k] + i);
-        const auto end = hn::Add(ways.at[k], ways.way[k]);
-        const auto low = hn::Min(ways.at[k], end), high = hn::Max(ways.at[k], end);
-        // Of a number and none, Min() and Max() give either, as the processor likes.
-        surely_near = hn::And(surely_near, hn::Eq(end, end));
         const auto size = hn::Set(single, static_cast<float>(g.top_size[k] * LaneBox::kUnits));
-        inside = hn::And(inside, hn::And(hn::Ge(low, zero), hn::Le(high, size)));
-        surely_near = hn::And(surely_near, hn::And(hn::Ge(low, hn::Neg(reach)), hn::Le(high, reach)));
+        const hn::Vec<Single> ends[] = {ways.at[k], hn::Add(ways.at[k], ways.way[k])};
+        for (const auto& place : ends) {
+          inside = hn::And(inside, hn::And(hn::Ge(place, zero), hn::Le(place, size)));
+          surely_near = hn::And(surely_near, hn::Le(hn::Abs(place), reach));
+        }
       }
-      inside = hn::And(inside, surely_near);
-      put(zero, t0 + i);
-      put(one, t1 + i);
-      if (hn::AllTrue(single, inside)) continue;
+      if (hn::AllTrue(single, inside)) {
+        put(zero, t0 + i);
+        put(one, t1 + i);
+        continue;
+      }
       store<Single>(clip(single, g, inside, ways), ways, i);
       if (hn::AllTrue(single, surely_near)) continue;
       for (int j = i; j < std::min(i + lanes(), count); ++j) clipFar(g, segments[j], j);
