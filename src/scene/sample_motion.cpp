@@ -1,17 +1,21 @@
 #include "sdf_ccd/scene/sample_motion.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 namespace {
 
-constexpr double kHalfSpaceRadius = 10.0;  // [m]
+constexpr double kHalfSpaceRadius = 10.0;         // [m]
+constexpr double kRemainder = 0.00801875373874;  // √3/216: max |s (s − ½) (s − 1)| / 6 on [0, 1]
 
 class Sampler {
  public:
-  Sampler(const PosesAt& poses_at, const std::vector<BoundingBall>& balls, const MotionSampling& sampling,
+  Sampler(const MotionSource& source, const std::vector<BoundingBall>& balls, const MotionSampling& sampling,
           CycleMotion& motion)
-      : poses_at_(poses_at), balls_(balls), sampling_(sampling), motion_(motion) {
+      : source_(source), balls_(balls), sampling_(sampling), motion_(motion) {
     motion_.missing.resize(balls.size());
     motion_.X_WB.resize(balls.size());
     for (auto& poses : motion_.X_WB) poses.clear();
@@ -19,19 +23,21 @@ class Sampler {
     motion_.motion_error.assign(balls.size(), 0.0);
   }
 
-  /// Adds the samples after `start`, up to and with `end`. Samples are kept in order, so the first half goes first.
+  /// Adds the samples after the last one, up to and with `end`. Samples are kept in order, so the first half goes first.
   void addUpTo(double end, const std::vector<Isometry3d>& X_end, int halvings_left) {
-    const double middle = 0.5 * (motion_.times.back() + end);
+    const double start = motion_.times.back(), middle = 0.5 * (start + end);
     std::vector<Isometry3d> X_middle;
-    poses_at_(middle, X_middle);
+    source_.poses_at(middle, X_middle);
+    jerk_.assign(balls_.size(), std::numeric_limits<double>::infinity());
+    source_.jerk_bounds(start, end, jerk_);
     deviation_.assign(balls_.size(), 0.0);
     double worst = 0.0;
     for (std::size_t body = 0; body < balls_.size(); ++body) {
       if (!motion_.missing[body].empty()) continue;
-      deviation_[body] = deviation(motion_.X_WB[body].back(), X_middle[body], X_end[body], balls_[body]);
+      deviation_[body] = deviation(body, X_middle[body], X_end[body]);
       worst = std::max(worst, deviation_[body]);
     }
-    if (worst > sampling_.tolerance && halvings_left > 0) {
+    if (worst > sampling_.tolerance && halvings_left > 0 && start < middle && middle < end) {
       addUpTo(middle, X_middle, halvings_left - 1);
       addUpTo(end, X_end, halvings_left - 1);
       return;
@@ -48,32 +54,36 @@ class Sampler {
   }
 
  private:
-  static double deviation(const Isometry3d& X_start, const Isometry3d& X_middle, const Isometry3d& X_end,
-                          const BoundingBall& ball) {
-    if (X_start.matrix() == X_end.matrix() && X_start.matrix() == X_middle.matrix()) return 0.0;
-    const Isometry3d X_screw = ScrewMotion(X_start, X_end).pose(0.5);
-    return ScrewMotion(X_middle, X_screw).maxTravel(ball);
+  /// Between the last sample and the next one.
+  double deviation(std::size_t body, const Isometry3d& X_middle, const Isometry3d& X_end) const {
+    const Isometry3d& X_start = motion_.X_WB[body].back();
+    const bool rests = X_start.matrix() == X_end.matrix() && X_start.matrix() == X_middle.matrix();
+    if (rests && jerk_[body] == 0.0) return 0.0;
+    const ScrewMotion screw(X_start, X_end);
+    return maxDisplacement(X_middle, screw.pose(0.5), balls_[body]) +
+           kRemainder * (jerk_[body] + screw.maxJerk(balls_[body]));
   }
 
-  const PosesAt& poses_at_;
+  const MotionSource& source_;
   const std::vector<BoundingBall>& balls_;
   const MotionSampling& sampling_;
   CycleMotion& motion_;
+  std::vector<double> jerk_;
   std::vector<double> deviation_;
 };
 
 }  // namespace
 
-void sampleMotion(const std::vector<double>& knots, const PosesAt& poses_at, const std::vector<BoundingBall>& balls,
-                  const MotionSampling& sampling, CycleMotion& motion) {
-  Sampler sampler(poses_at, balls, sampling, motion);
+void sampleMotion(const std::vector<double>& waypoints, const MotionSource& source,
+                  const std::vector<BoundingBall>& balls, const MotionSampling& sampling, CycleMotion& motion) {
+  Sampler sampler(source, balls, sampling, motion);
   std::vector<Isometry3d> X_WB;
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    poses_at(knots[i], X_WB);
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    source.poses_at(waypoints[i], X_WB);
     if (i == 0) {
-      sampler.add(knots[i], X_WB);
+      sampler.add(waypoints[i], X_WB);
     } else {
-      sampler.addUpTo(knots[i], X_WB, sampling.max_halvings);
+      sampler.addUpTo(waypoints[i], X_WB, sampling.max_halvings);
     }
   }
 }

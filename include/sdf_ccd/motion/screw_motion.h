@@ -14,8 +14,9 @@ struct BoundingBall {
 
 /// Motion of frame P relative to frame F with a constant twist, from one pose to the next, over s in [0, 1].
 ///
-/// Of all interpolations it is the one that is exact for a single revolute or prismatic joint between the bodies,
-/// and the same whichever body is taken to rest. A point of P runs on an arc: p_F(s) = X_FP(0) exp(s ξ) p_P.
+/// It is exact for a single revolute or prismatic joint between the frames, and the same whichever is taken to rest. A
+/// point of P runs on an arc: p_F(s) = X_FP(0) exp(s ξ) p_P. Of the rotations from one pose to the other it is the
+/// shortest: poses do not tell revolutions.
 class ScrewMotion {
  public:
   /// @throws std::invalid_argument if a pose is not finite or its rotation is not orthonormal to 1e-6.
@@ -33,12 +34,18 @@ class ScrewMotion {
   /// Rotation over the whole motion [rad], in [0, π].
   double angle() const { return omega_.norm(); }
 
+  /// The same at all s: along the axis, of the angle's length, in frame F's axes [rad].
+  Vector3d angularVelocity() const { return start_.linear() * omega_; }
+
   /// No point of the ball moves farther than this [m].
   double maxTravel(const BoundingBall& ball) const;
 
   /// No point of the ball is accelerated more than this, per unit of s squared [m]. Along a constant twist the
   /// acceleration |ω × (ω × p + v)| is the same at all times.
   double maxAcceleration(const BoundingBall& ball) const;
+
+  /// The same of the third derivative: |ω × (ω × (ω × p + v))|.
+  double maxJerk(const BoundingBall& ball) const { return angle() * maxAcceleration(ball); }
 
  private:
   Isometry3d start_, end_;
