@@ -19,7 +19,8 @@ void ChainDerivatives::slideBy(double reach, const DerivativeBounds& slide) {
   third_ += slide.third;
 }
 
-/// With R = exp(q [a]): R' = q' [a] R, R'' = (q'' [a] + q'² [a]²) R, R''' = (q''' [a] + 3 q' q'' [a]² + q'³ [a]³) R, and
+/// With R = exp(q [a]): R' = q' [a] R, R'' = (q'' [a] + q'² [a]²) R, R''' = (q''' [a] + 3 q' q'' [a]² + q'³ [a]³) R,
+/// and
 /// |[a]| = 1; then Leibniz' rule for R x.
 void ChainDerivatives::turnBy(const DerivativeBounds& angle) {
   const double q1 = angle.first;

@@ -46,8 +46,7 @@ RelativeMotionBounds relativeMotionBounds(const WorldTwist& F, const WorldTwist&
   const double together = u.norm() + turn * (P.radius + 0.25 * speed);
   const double apart = speed + F_at_P.norm() + turn_F * (P.radius + 0.25 * speed);
   bounds.travel = std::min(together, apart);
-  bounds.acceleration =
-      F.omega.cross(u).norm() + turn_F * turn * (P.radius + 0.5 * speed) + bendBound(omega, P);
+  bounds.acceleration = F.omega.cross(u).norm() + turn_F * turn * (P.radius + 0.5 * speed) + bendBound(omega, P);
   return bounds;
 }
 

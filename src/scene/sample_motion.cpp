@@ -8,8 +8,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kHalfSpaceRadius = 10.0;         // [m]
-constexpr double kRemainder = 0.00801875373874;  // √3/216: max |s (s − ½) (s − 1)| / 6 on [0, 1]
+constexpr double kHalfSpaceRadius = 10.0;       // [m]
+constexpr double kRemainder = 0.0080187537388;  // √3/216: max |s (s − ½) (s − 1)| / 6 on [0, 1]
 
 class Sampler {
  public:
@@ -23,7 +23,8 @@ class Sampler {
     motion_.motion_error.assign(balls.size(), 0.0);
   }
 
-  /// Adds the samples after the last one, up to and with `end`. Samples are kept in order, so the first half goes first.
+  /// Adds the samples after the last one, up to and with `end`. Samples are kept in order, so the first half goes
+  /// first.
   void addUpTo(double end, const std::vector<Isometry3d>& X_end, int halvings_left) {
     const double start = motion_.times.back(), middle = 0.5 * (start + end);
     std::vector<Isometry3d> X_middle;

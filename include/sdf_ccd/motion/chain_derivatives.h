@@ -13,8 +13,8 @@ struct DerivativeBounds {
 };
 
 /// Bounds how the points of a body can move while the frames that carry it turn and slide, from rates and reaches alone
-/// (Schwarzer, Saha, Latombe 2005; here up to third derivatives): joints of a robot along a trajectory, or the frames of
-/// tf2, which turns (slerp) and slides each of them evenly between two transforms.
+/// (Schwarzer, Saha, Latombe 2005; here up to third derivatives): joints of a robot along a trajectory, or the frames
+/// of tf2, which turns (slerp) and slides each of them evenly between two transforms.
 ///
 /// Begin with the body's ball and add the frames from the body up to the one that points are seen from.
 class ChainDerivatives {

@@ -12,7 +12,7 @@ struct Chord {
   double t_end;    ///< [s]
   Isometry3d X_FP_start;
   Isometry3d X_FP_end;
-  int knot;        ///< which interval between recorded poses it is a piece of
+  int knot;  ///< which interval between recorded poses it is a piece of
 };
 
 /// A relative motion as chords.
@@ -23,7 +23,7 @@ struct ChordPath {
 
 /// Recorded poses of P in F at increasing times.
 struct RelativePath {
-  std::vector<double> times;      ///< [s]
+  std::vector<double> times;  ///< [s]
   std::vector<Isometry3d> X_FP;
 };
 
