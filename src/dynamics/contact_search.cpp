@@ -6,14 +6,6 @@
 namespace sdf_ccd {
 namespace {
 
-/// X_FP; the origins are subtracted first.
-Isometry3d relativePose(const Isometry3d& X_OF, const Isometry3d& X_OP) {
-  Isometry3d X_FP = Isometry3d::Identity();
-  X_FP.linear() = X_OF.linear().transpose() * X_OP.linear();
-  X_FP.translation() = X_OF.linear().transpose() * (X_OP.translation() - X_OF.translation());
-  return X_FP;
-}
-
 /// Distance of the origin from a segment [m].
 double distanceOfOrigin(const Vector3d& start, const Vector3d& end) {
   const Vector3d d = end - start;

@@ -8,16 +8,45 @@
 #include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
+namespace {
+
+void validate(const ChordOptions& options) {
+  if (options.tolerance > 0.0 && options.max_chords >= 1) return;
+  throw std::invalid_argument("chord options: tolerance " + numberText(options.tolerance) + ", max_chords " +
+                              std::to_string(options.max_chords));
+}
+
+/// Times of an interval between two recorded poses.
+struct Span {
+  double t_start, t_end;
+  int knot;
+};
+
+/// @param poseAt  X_FP at s from 0 to 1.
+template <typename PoseAt>
+void addChords(const Span& span, double acceleration, const PoseAt& poseAt, const ChordOptions& options,
+               ChordPath& path) {
+  const double wanted = std::ceil(std::sqrt(acceleration / (8.0 * options.tolerance)));
+  const int n = wanted < options.max_chords ? std::max(1, static_cast<int>(wanted)) : options.max_chords;
+  path.error = std::max(path.error, acceleration / (8.0 * n * n));
+  const double length = span.t_end - span.t_start;
+  for (int i = 0; i < n; ++i) {
+    const double s0 = double(i) / n, s1 = double(i + 1) / n;
+    const bool first = i == 0, last = i + 1 == n;
+    const Isometry3d X_start = first ? poseAt(0.0) : path.chords.back().X_FP_end;
+    path.chords.push_back({span.t_start + s0 * length, last ? span.t_end : span.t_start + s1 * length, X_start,
+                           poseAt(last ? 1.0 : s1), span.knot});
+  }
+}
+
+}  // namespace
 
 void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const ChordOptions& options, ChordPath& path) {
   if (motion.times.size() < 2 || motion.times.size() != motion.X_FP.size()) {
     throw std::invalid_argument("relative path: " + std::to_string(motion.times.size()) + " times and " +
                                 std::to_string(motion.X_FP.size()) + " poses");
   }
-  if (!(options.tolerance > 0.0) || options.max_chords < 1) {
-    throw std::invalid_argument("chord options: tolerance " + numberText(options.tolerance) + ", max_chords " +
-                                std::to_string(options.max_chords));
-  }
+  validate(options);
   path.chords.clear();
   path.error = 0.0;
   for (std::size_t k = 0; k + 1 < motion.times.size(); ++k) {
@@ -27,17 +56,14 @@ void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const C
                                   " do not increase");
     }
     const ScrewMotion screw(motion.X_FP[k], motion.X_FP[k + 1]);
-    const double acceleration = screw.maxAcceleration(ball);
-    const double wanted = std::ceil(std::sqrt(acceleration / (8.0 * options.tolerance)));
-    const int n = static_cast<int>(std::clamp(wanted, 1.0, double(options.max_chords)));
-    path.error = std::max(path.error, acceleration / (8.0 * n * n));
-    for (int i = 0; i < n; ++i) {
-      const double s0 = double(i) / n, s1 = double(i + 1) / n;
-      path.chords.push_back({t0 + s0 * (t1 - t0), i + 1 == n ? t1 : t0 + s1 * (t1 - t0),
-                             i == 0 ? screw.start() : path.chords.back().X_FP_end, screw.pose(s1),
-                             static_cast<int>(k)});
-    }
+    const auto poseAt = [&](double s) { return screw.pose(s); };
+    addChords(Span{t0, t1, static_cast<int>(k)}, screw.maxAcceleration(ball), poseAt, options, path);
   }
+}
+
+void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int knot, ChordPath& path) {
+  const auto poseAt = [&](double s) { return relativePose(motion.X_WF.pose(s), motion.X_WP.pose(s)); };
+  addChords(Span{motion.t_start, motion.t_end, knot}, motion.acceleration, poseAt, options, path);
 }
 
 }  // namespace sdf_ccd

@@ -57,6 +57,9 @@ Isometry3d exponential(const Vector3d& omega, const Vector3d& velocity) {
 ScrewMotion::ScrewMotion(const Isometry3d& X_FP_start, const Isometry3d& X_FP_end)
     : start_(X_FP_start), end_(X_FP_end) {
   requirePose(start_);
+  omega_.setZero();
+  velocity_.setZero();
+  if (start_.matrix() == end_.matrix()) return;  // exactly at rest
   requirePose(end_);
   const Isometry3d X = start_.inverse() * end_;
   omega_ = rotationLog(X.linear());

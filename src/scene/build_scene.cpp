@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -9,8 +10,10 @@
 #include "mesh_pool.h"
 #include "pair_bound.h"
 #include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/scene/sample_motion.h"
 #include "sdf_ccd/scene/scene.h"
 #include "sdf_ccd/shell/contact_gap.h"
+#include "sdf_ccd/shell/witness_points.h"
 
 namespace sdf_ccd {
 namespace {
@@ -96,6 +99,21 @@ class BodyBuilder {
     return unionShell(shells);
   }
 
+  /// Of the voxels among the geometry.
+  PointShell makeWitnesses() const {
+    PointShell all;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      if (!meshes_[i] || !meshes_[i]->voxels) continue;
+      const PointShell part = witnessPoints(meshes_[i]->mesh);
+      all.covering_radius = part.covering_radius;
+      all.areas.insert(all.areas.end(), part.areas.begin(), part.areas.end());
+      const Isometry3d& X_BG = description_.geometry[i].X_BG;
+      for (const Vector3d& p_G : part.points) all.points.push_back(X_BG * p_G);
+      for (const Vector3d& normal_G : part.normals) all.normals.push_back(X_BG.linear() * normal_G);
+    }
+    return all;
+  }
+
  private:
   PointShell makeShell(const Primitive& primitive, bool edges_only) {
     ShellOptions options = options_.shell;
@@ -131,15 +149,26 @@ class BodyBuilder {
 
 /// What the plan has for one body.
 struct Needs {
-  bool field, shell, edges_only;
+  bool field, shell, edges_only, witnesses;
 };
+
+/// The shell's points span the surface's hull, where that is not curved; to nowhere on it is it farther from one of
+/// them than the covering radius (of edges alone, which have none, the corners span it).
+BoundingBall surfaceBall(const Body& body) {
+  if (body.shell.size() == 0) return motionBall(body);
+  BoundingBall ball = boundingBall(body.shell);
+  if (std::isfinite(body.shell.covering_radius)) ball.radius += body.shell.covering_radius;
+  return ball;
+}
 
 void build(const Needs& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
   if (needs.field) body.parts = builder.makeParts(progress);
+  if (needs.witnesses) body.witnesses = builder.makeWitnesses();
+  if (needs.witnesses) body.witness_tree = buildSphereTree(body.witnesses);
+  if (needs.shell) body.shell = builder.makeShell(body.parts, needs.edges_only);
+  body.ball = surfaceBall(body);
   if (!needs.shell) return;
-  body.shell = builder.makeShell(body.parts, needs.edges_only);
   body.tree = buildSphereTree(body.shell);
-  body.ball = boundingBall(body.shell);
   report.shell_points = body.shell.size();
   report.shell_bytes =
       body.shell.size() * (2 * sizeof(Vector3d) + sizeof(double)) + body.tree.nodes.size() * sizeof(SphereTree::Node);
@@ -189,15 +218,15 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
       if (progress) progress(described.name, (double(i) + share) / double(count));
     };
     report_progress(0.0);
-    if (body.failure.empty() && (plan.needs_field[i] || plan.needs_shell[i])) {
+    if (body.failure.empty() && (plan.needs_field[i] || plan.needs_shell[i] || plan.needs_witnesses[i])) {
       try {
-        build({plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i]},
+        build({plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], plan.needs_witnesses[i]},
               BodyBuilder(described, options, pool, report), report_progress, body, report);
       } catch (const std::exception& error) {
         body.failure = error.what();
         body.parts.clear();
-        body.shell = {};
-        body.tree = {};
+        body.shell = body.witnesses = {};
+        body.tree = body.witness_tree = {};
       }
     }
     if (!body.failure.empty()) report.field = "failed";

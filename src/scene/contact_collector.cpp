@@ -41,19 +41,18 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
 
 void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
                            const ContactOptions& options, bool with_impulse) {
-  const Body& shell = role.shell();
   bool have_poses = false;
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
     const BodyPart& part = role.field().parts[p];
     const ChordPath& path = role.partPath(part);
-    shellIntervals(part.field, shell.shell, shell.tree, path, {}, query_);
+    shellIntervals(part.field, role.shell(), role.tree(), path, {}, query_);
     if (!query_.touches()) continue;
     listHits(query_, hits_);
     if (!have_poses) setFieldPoses(role);
     have_poses = true;
     X_CG_.clear();
     for (const Isometry3d& X_CF : X_CF_) X_CG_.push_back(X_CF * part.X_BG);
-    const ContactInput input{part.field, shell.shell, path, X_CG_, siblings[p]};
+    const ContactInput input{part.field, role.shell(), path, X_CG_, siblings[p]};
     integrateContact(input, hits_, options, with_impulse, impulse_);
     impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
 
@@ -67,7 +66,8 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
       const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
       intervals_.push_back(times);
       if (depth.siblings) continue;
-      Found found{shell_is_a ? 0 : 1, hit.point, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
+      Found found{
+          shell_is_a ? 0 : 1, hit.point, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
       found.contact.p_W = depth.p_C + p_WC_;
       // Out of the field's body: that is B if the shell is A's.
       found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;

@@ -81,6 +81,7 @@ struct Monitor::Impl {
   MonitorOptions options;
   std::vector<ContactCollector::Siblings> siblings;
   std::vector<PairChecker> checkers;
+  std::unique_ptr<SweptBodies> bodies;
   CycleResult result;
 
   void summarise() {
@@ -105,6 +106,8 @@ struct Monitor::Impl {
       result.error = pair.error;
       result.error_bound = pair.error.total();
     }
+    // Of the time that delayed pairs have not been checked over nothing is known.
+    if (result.delayed > 0 && result.verdict == Verdict::kClear) result.verdict = Verdict::kNotChecked;
   }
 };
 
@@ -118,6 +121,7 @@ Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& optio
   impl_->scene = std::move(scene);
   impl_->options = options;
   impl_->siblings = siblingsOf(*impl_->scene);
+  impl_->bodies = std::make_unique<SweptBodies>(*impl_->scene);
   for (const PlannedPair& pair : impl_->scene->pairs) {
     impl_->checkers.emplace_back(*impl_->scene, pair, impl_->siblings, impl_->options);
     PairResult result;
@@ -132,13 +136,13 @@ Monitor::~Monitor() = default;
 const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   validate(motion, *impl_->scene);
-  // A pair has its own memory and state, so its result is the same whichever thread it meets.
   const KnotSpan whole{0, motion.times.size() - 1};
-  tbb::parallel_for(std::size_t{0}, impl_->checkers.size(), [&](std::size_t i) {
-    PairResult& result = impl_->result.pairs[i];
-    result.span = motion.spans.empty() ? whole : motion.spans[i];
-    impl_->checkers[i].run(motion, request, result);
-  });
+  std::vector<PairResult>& pairs = impl_->result.pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].span = motion.spans.empty() ? whole : motion.spans[i];
+  impl_->bodies->take(motion, pairs);
+  // A pair has its own memory and state, so its result is the same whichever thread it meets.
+  tbb::parallel_for(std::size_t{0}, impl_->checkers.size(),
+                    [&](std::size_t i) { impl_->checkers[i].run(motion, *impl_->bodies, request, pairs[i]); });
   impl_->summarise();
   impl_->result.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return impl_->result;

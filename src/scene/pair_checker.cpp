@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "pair_bound.h"
@@ -15,17 +14,6 @@ constexpr double kRootTolerance = 1e-9;  // of the path, as segmentIntervals() g
 void setNotChecked(const std::string& reason, PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason = reason;
-}
-
-/// Throws if a body is so far away that its coordinates are too coarse.
-void requireNear(const Body& body, const std::vector<Isometry3d>& X_WB, const KnotSpan& span) {
-  for (std::size_t k = span.first; k <= span.last; ++k) {
-    const double distance = X_WB[k].translation().lpNorm<Eigen::Infinity>();
-    if (distance <= kFarthestPose) continue;
-    char text[64];
-    std::snprintf(text, sizeof(text), " is %.3g m from the origin, more than %.0g m", distance, kFarthestPose);
-    throw std::runtime_error(body.name + text);
-  }
 }
 
 void requireFinite(const ErrorBound& error) {
@@ -52,29 +40,36 @@ void clear(PairResult& result) {
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
                          const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)
     : scene_(scene), pair_(pair), siblings_(siblings), options_(options) {
-  const auto addRole = [&](int shell, int field, bool edges_only) {
-    if (scene.bodies[shell].shell.size() > 0 && !scene.bodies[field].parts.empty())
-      roles_.emplace_back(scene, shell, field, !edges_only);
+  const auto addRole = [&](int shell, int field, ShellPurpose purpose) {
+    PairRole role(scene, shell, field, purpose);
+    if (role.shell().size() > 0 && !scene.bodies[field].parts.empty()) roles_.push_back(role);
   };
-  if (pair.a_shell_b_field) addRole(pair.body_a, pair.body_b, pair.a_edges_only);
-  if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a, pair.b_edges_only);
+  const auto purpose = [](bool edges_only) { return edges_only ? ShellPurpose::kEdges : ShellPurpose::kSurface; };
+  if (pair.a_shell_b_field) addRole(pair.body_a, pair.body_b, purpose(pair.a_edges_only));
+  if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a, purpose(pair.b_edges_only));
+  if (pair.a_witnesses_b_field) addRole(pair.body_a, pair.body_b, ShellPurpose::kWitnesses);
+  if (pair.b_witnesses_a_field) addRole(pair.body_b, pair.body_a, ShellPurpose::kWitnesses);
   bound_ = pairBound(scene, pair);
 }
 
-void PairChecker::run(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
+void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                      PairResult& result) {
   clear(result);
   if (result.span.empty()) return setNotChecked("its transforms have not come yet", result);
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const std::string& failure = scene_.bodies[body].failure;
     const bool lost = !motion.missing.empty() && !motion.missing[body].empty();
-    if (failure.empty() && !lost) continue;
+    const std::string& why = !failure.empty() ? failure : lost ? motion.missing[body] : bodies.problem(body);
+    if (why.empty()) continue;
     forget();
-    return setNotChecked(failure.empty() ? motion.missing[body] : failure, result);
+    return setNotChecked(why, result);
   }
-  if (roles_.size() != static_cast<std::size_t>(pair_.a_shell_b_field + pair_.b_shell_a_field) || roles_.empty())
+  const int wanted =
+      pair_.a_shell_b_field + pair_.b_shell_a_field + pair_.a_witnesses_b_field + pair_.b_witnesses_a_field;
+  if (roles_.size() != static_cast<std::size_t>(wanted) || roles_.empty())
     return setNotChecked("its fields and shells were not built", result);
   try {
-    check(motion, request, result);
+    check(motion, bodies, request, result);
   } catch (const std::exception& error) {
     forget();
     clear(result);
@@ -82,25 +77,35 @@ void PairChecker::run(const CycleMotion& motion, const CycleRequest& request, Pa
   }
 }
 
-void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
-  for (const int body : {pair_.body_a, pair_.body_b}) requireNear(scene_.bodies[body], motion.X_WB[body], result.span);
-  double motion_error = 0.0;
-  if (!motion.motion_error.empty())
-    motion_error = motion.motion_error[pair_.body_a] + motion.motion_error[pair_.body_b];
-  result.error = bound_;
-  double travel = std::numeric_limits<double>::infinity(), jump = travel;
+/// Takes the motion, and what it may have used up of the clearance.
+void PairChecker::setMotion(const SweptBodies& bodies, const KnotSpan& span) {
+  travel_ = std::numeric_limits<double>::infinity();
+  double pose_error = 0.0;
   for (PairRole& role : roles_) {
-    role.setMotion(motion, result.span);
-    travel = std::min(travel, role.travel());
-    jump = std::min(jump, role.jump());
+    role.setMotion(bodies, span);
+    travel_ = std::min(travel_, role.travel());
+    pose_error = std::max(pose_error, role.poseError());
   }
-  result.error.chord = motion_error;
-  result.error.root = kRootTolerance * travel;
+  motion_error_ += pose_error;
+  const PairRole& first = roles_.front();
+  const bool continues = clearance_ == kUnknown || X_FP_last_.matrix() == first.start().matrix();
+  clearance_ -= travel_ + (continues ? 0.0 : first.jumpFrom(X_FP_last_));
+  X_FP_last_ = first.end();
+}
+
+void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                        PairResult& result) {
+  motion_error_ = 0.0;
+  if (!motion.motion_error.empty())
+    motion_error_ = motion.motion_error[pair_.body_a] + motion.motion_error[pair_.body_b];
+  setMotion(bodies, result.span);
+  result.error = bound_;
+  result.error.chord = motion_error_;
+  result.error.root = kRootTolerance * travel_;
   requireFinite(result.error);
 
   // Farther than this, a test could not find anything: what it finds is off by field and chord error at most.
   const double margin = result.error.total() + result.error.field + 2.0 * options_.chords.tolerance;
-  clearance_ -= jump + travel;
   if (clearance_ > margin) {
     result.verdict = Verdict::kClear;
     result.skipped = true;
@@ -109,7 +114,7 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
   }
   if (clearFromAfar(margin, result)) return;
 
-  cutRoles(motion_error, result);
+  cutRoles(result);
   requireFinite(result.error);
   const double near = result.error.total();
   if (std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
@@ -128,8 +133,8 @@ void PairChecker::check(const CycleMotion& motion, const CycleRequest& request, 
 /// Whether one role's ball alone shows that the bodies stay apart.
 bool PairChecker::clearFromAfar(double margin, PairResult& result) {
   for (const PairRole& role : roles_) {
-    if (role.ballClearanceAtStart() - role.travel() <= margin) continue;
-    clearance_ = role.ballClearanceAtEnd();
+    if (!(role.ballClearance(role.start()) - role.travel() > margin)) continue;
+    clearance_ = role.ballClearance(role.end());
     result.verdict = Verdict::kClear;
     result.clearance = clearance_;
     return true;
@@ -137,10 +142,10 @@ bool PairChecker::clearFromAfar(double margin, PairResult& result) {
   return false;
 }
 
-void PairChecker::cutRoles(double motion_error, PairResult& result) {
+void PairChecker::cutRoles(PairResult& result) {
   for (PairRole& role : roles_) {
     role.cut(options_.chords);
-    result.error.chord = std::max(result.error.chord, role.path().error + motion_error);
+    result.error.chord = std::max(result.error.chord, role.path().error + motion_error_);
   }
 }
 

@@ -16,20 +16,19 @@ class PairChecker {
 
   /// Checks the pair over `result.span`, and keeps what it knows if that is empty. Never throws for a motion that
   /// cannot be followed: the pair is NOT_CHECKED then.
-  void run(const CycleMotion& motion, const CycleRequest& request, PairResult& result);
+  /// @param bodies  have taken the motion.
+  void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
 
   /// Forgets how far apart the bodies were.
-  void forget() {
-    clearance_ = kUnknown;
-    for (PairRole& role : roles_) role.forget();
-  }
+  void forget() { clearance_ = kUnknown; }
 
  private:
   static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
-  void check(const CycleMotion& motion, const CycleRequest& request, PairResult& result);
+  void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
+  void setMotion(const SweptBodies& bodies, const KnotSpan& span);
   bool clearFromAfar(double margin, PairResult& result);
-  void cutRoles(double motion_error, PairResult& result);
+  void cutRoles(PairResult& result);
   void findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result);
 
   const Scene& scene_;
@@ -39,6 +38,9 @@ class PairChecker {
   std::vector<PairRole> roles_;  // one or two
   ErrorBound bound_;             // of field and gap
   double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
+  Isometry3d X_FP_last_;         // of the first role, at the last cycle's end; valid if the clearance is known
+  double travel_ = 0.0;          // no point of either body goes farther against the other in this cycle [m]
+  double motion_error_ = 0.0;    // of the modelled motion, and of computing with its poses [m]
   ContactCollector collector_;
 };
 

@@ -7,29 +7,42 @@
 
 namespace sdf_ccd {
 
-PairRole::PairRole(const Scene& scene, int shell_body, int field_body, bool bears_force)
-    : shell_(&scene.bodies[shell_body]),
-      field_(&scene.bodies[field_body]),
-      shell_body_(shell_body),
-      field_body_(field_body),
-      bears_force_(bears_force) {}
+PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurpose purpose)
+    : shell_body_(&scene.bodies[shell_body]),
+      field_body_(&scene.bodies[field_body]),
+      shell_(purpose == ShellPurpose::kWitnesses ? &shell_body_->witnesses : &shell_body_->shell),
+      tree_(purpose == ShellPurpose::kWitnesses ? &shell_body_->witness_tree : &shell_body_->tree),
+      body_(shell_body),
+      field_(field_body),
+      purpose_(purpose) {}
 
-void PairRole::setMotion(const CycleMotion& motion, const KnotSpan& span) {
-  const bool first = motion_.X_FP.empty();
-  const Isometry3d last = first ? Isometry3d::Identity() : motion_.X_FP.back();
-  motion_.times.assign(motion.times.begin() + span.first, motion.times.begin() + span.last + 1);
-  motion_.X_FP.resize(motion_.times.size());
-  for (std::size_t k = 0; k < motion_.times.size(); ++k) {
-    const std::size_t knot = span.first + k;
-    motion_.X_FP[k] = relativePose(motion.X_WB[field_body_][knot], motion.X_WB[shell_body_][knot]);
-  }
-  const auto between = [&](const Isometry3d& from, const Isometry3d& to) {
-    if (!first && from.matrix() == to.matrix()) return 0.0;  // most pairs of a standing robot; seen before, so valid
-    return ScrewMotion(from, to).maxTravel(shell_->ball);
-  };
-  jump_ = first ? 0.0 : between(last, motion_.X_FP.front());
+void PairRole::setMotion(const SweptBodies& bodies, const KnotSpan& span) {
+  bodies_ = &bodies;
+  span_ = span;
+  X_FP_start_ = relativePose(bodies.screw(field_, span.first).start(), bodies.screw(body_, span.first).start());
+  X_FP_end_ = relativePose(bodies.screw(field_, span.last - 1).end(), bodies.screw(body_, span.last - 1).end());
+  accelerations_.clear();
   travel_ = 0.0;
-  for (std::size_t k = 0; k + 1 < motion_.X_FP.size(); ++k) travel_ += between(motion_.X_FP[k], motion_.X_FP[k + 1]);
+  for (std::size_t k = span.first; k < span.last; ++k) {
+    const RelativeMotionBounds bounds = relativeMotionBounds(bodies.twist(field_, k), bodies.twist(body_, k));
+    accelerations_.push_back(bounds.acceleration);
+    travel_ += bounds.travel;
+  }
+  const BoundingBall& ball = shell_body_->ball;
+  pose_error_ = bodies.poseError(body_, ball.center.norm() + ball.radius) +
+                bodies.poseError(field_, (X_FP_start_ * ball.center).norm() + ball.radius + travel_);
+}
+
+void PairRole::cut(const ChordOptions& options) {
+  path_.chords.clear();
+  path_.error = 0.0;
+  const std::vector<double>& times = bodies_->times();
+  for (std::size_t i = 0; i < accelerations_.size(); ++i) {
+    const std::size_t k = span_.first + i;
+    const TwoBodyMotion motion{times[k], times[k + 1], bodies_->screw(field_, k), bodies_->screw(body_, k),
+                               accelerations_[i]};
+    addChords(motion, options, static_cast<int>(i), path_);
+  }
 }
 
 const ChordPath& PairRole::partPath(const BodyPart& part) {
@@ -44,29 +57,29 @@ const ChordPath& PairRole::partPath(const BodyPart& part) {
 
 double PairRole::ballClearance(const Isometry3d& X_FP) const {
   double nearest = std::numeric_limits<double>::infinity();
-  const Vector3d center_F = X_FP * shell_->ball.center;
-  for (const BodyPart& part : field_->parts)
+  const Vector3d center_F = X_FP * shell_body_->ball.center;
+  for (const BodyPart& part : field_body_->parts)
     nearest = std::min(nearest, part.field.lowerBound(part.X_BG.inverse() * center_F));
-  return nearest - shell_->ball.radius - shell_->shell.covering_radius;
+  return nearest - shell_body_->ball.radius;
 }
 
 double PairRole::pointClearanceAtEnd(double slack) const {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const BodyPart& part : field_->parts) {
-    const Isometry3d X_GP = part.X_BG.inverse() * motion_.X_FP.back();
-    nearest = std::min(nearest, clearance(part.field, shell_->tree, shell_->shell, X_GP, slack));
+  for (const BodyPart& part : field_body_->parts) {
+    const Isometry3d X_GP = part.X_BG.inverse() * X_FP_end_;
+    nearest = std::min(nearest, clearance(part.field, *tree_, *shell_, X_GP, slack));
   }
   return nearest;
 }
 
 bool PairRole::mayComeNearer(double distance) {
-  for (const BodyPart& part : field_->parts) {
+  for (const BodyPart& part : field_body_->parts) {
     const ChordPath& path = partPath(part);
     if (distance > part.field.band()) {
-      if (mayApproach(part.field, shell_->shell, shell_->tree, path, distance)) return true;
+      if (mayApproach(part.field, *shell_, *tree_, path, distance)) return true;
       continue;
     }
-    shellIntervals(part.field, shell_->shell, shell_->tree, path, {distance, true}, query_);
+    shellIntervals(part.field, *shell_, *tree_, path, {distance, true}, query_);
     if (query_.touches()) return true;
   }
   return false;

@@ -4,47 +4,53 @@
 
 #include "sdf_ccd/motion/chords.h"
 #include "sdf_ccd/scene/monitor.h"
+#include "swept_bodies.h"
 
 namespace sdf_ccd {
 
-/// X_FP from two poses in the world; the origins are subtracted first, so that nothing is lost far from the world's.
-inline Isometry3d relativePose(const Isometry3d& X_WF, const Isometry3d& X_WP) {
-  Isometry3d X_FP = Isometry3d::Identity();
-  X_FP.linear() = X_WF.linear().transpose() * X_WP.linear();
-  X_FP.translation() = X_WF.linear().transpose() * (X_WP.translation() - X_WF.translation());
-  return X_FP;
-}
+/// What a shell's points stand for in a role.
+enum class ShellPurpose {
+  kSurface,    ///< where the surface touches, and how hard
+  kEdges,      ///< where it touches; another role's impulse stands for the pair
+  kWitnesses,  ///< whether a component of the surface lies wholly inside (design §3.15)
+};
 
 /// One way to test a pair: the shell of one body (frame P) against the field of the other (frame F).
 class PairRole {
  public:
-  /// @param bears_force  false: it shows where the shell touches, another role's impulse stands for the pair.
-  PairRole(const Scene& scene, int shell_body, int field_body, bool bears_force);
+  PairRole(const Scene& scene, int shell_body, int field_body, ShellPurpose purpose);
 
-  const Body& shell() const { return *shell_; }
-  const Body& field() const { return *field_; }
-  int fieldBody() const { return field_body_; }
-  bool bearsForce() const { return bears_force_; }
+  const PointShell& shell() const { return *shell_; }
+  const SphereTree& tree() const { return *tree_; }
+  const Body& field() const { return *field_body_; }
+  int fieldBody() const { return field_; }
+  bool bearsForce() const { return purpose_ == ShellPurpose::kSurface; }
 
-  /// Takes the relative motion over a part of a cycle. Distances may have shrunk by travel() within it and by jump()
-  /// between the last one's end and its start.
-  void setMotion(const CycleMotion& motion, const KnotSpan& span);
-  /// Takes the next motion's start as unrelated to this one's end.
-  void forget() { motion_.X_FP.clear(); }
+  /// Takes the relative motion over a part of a cycle, of bodies that can be followed.
+  void setMotion(const SweptBodies& bodies, const KnotSpan& span);
+
+  /// No point of the shell's body goes farther than this in the field's frame, as setMotion() has it [m].
   double travel() const { return travel_; }
-  double jump() const { return jump_; }
+
+  /// What computing with the poses adds to the error of the distance [m].
+  double poseError() const { return pose_error_; }
+
+  /// At both ends of the motion.
+  const Isometry3d& start() const { return X_FP_start_; }
+  const Isometry3d& end() const { return X_FP_end_; }
+
+  /// No point of the shell's body is farther from where it was at another pose than this, at the motion's start [m].
+  double jumpFrom(const Isometry3d& X_FP) const { return maxDisplacement(X_FP, X_FP_start_, shell_body_->ball); }
 
   /// Cuts the motion into chords, for path() and partPath().
-  void cut(const ChordOptions& options) { cutIntoChords(motion_, shell_->ball, options, path_); }
+  void cut(const ChordOptions& options);
   const ChordPath& path() const { return path_; }
 
   /// The same path seen from a part's frame G. The reference is good until the next call.
   const ChordPath& partPath(const BodyPart& part);
 
-  /// Lower bound of the distance of the bodies' surfaces [m], from the shell's ball and covering radius alone, at both
-  /// ends.
-  double ballClearanceAtStart() const { return ballClearance(motion_.X_FP.front()); }
-  double ballClearanceAtEnd() const { return ballClearance(motion_.X_FP.back()); }
+  /// Lower bound of the distance of the bodies' surfaces [m], from the shell's body's ball alone.
+  double ballClearance(const Isometry3d& X_FP) const;
 
   /// Lower bound of the distance of the shell's points from the field's surfaces [m] at the end, within `slack` [m] of
   /// what the fields know.
@@ -54,16 +60,19 @@ class PairRole {
   bool mayComeNearer(double distance);
 
  private:
-  double ballClearance(const Isometry3d& X_FP) const;
-
-  const Body* shell_;
-  const Body* field_;
-  int shell_body_;
-  int field_body_;
-  bool bears_force_;
-  RelativePath motion_;
+  const Body* shell_body_;
+  const Body* field_body_;
+  const PointShell* shell_;
+  const SphereTree* tree_;
+  int body_;
+  int field_;
+  ShellPurpose purpose_;
+  const SweptBodies* bodies_ = nullptr;
+  KnotSpan span_;
+  std::vector<double> accelerations_;  ///< per interval of the span
+  Isometry3d X_FP_start_, X_FP_end_;
   double travel_ = 0.0;
-  double jump_ = 0.0;
+  double pose_error_ = 0.0;
   ChordPath path_;
   ChordPath part_path_;
   ShellQueryResult query_;

@@ -1,5 +1,6 @@
 #include "sdf_ccd/scene/scene_plan.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <set>
@@ -55,6 +56,12 @@ bool isLarge(const BodyDescription& body, const PlanOptions& options) {
   return surfaceArea(*primitive) / (options.shell_spacing * options.shell_spacing) > options.large_shell_points;
 }
 
+/// Whether it has voxels among its geometry: they have no shell, but may lie inside another body, in many pieces.
+bool hasVoxels(const BodyDescription& body) {
+  return std::any_of(body.geometry.begin(), body.geometry.end(),
+                     [](const GeometryDescription& geometry) { return geometry.watertight_voxels; });
+}
+
 bool isBox(const BodyDescription& body) {
   const auto* primitive = std::get_if<Primitive>(&body.geometry.front().shape);
   return primitive && std::holds_alternative<Box>(*primitive);
@@ -96,6 +103,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
   ScenePlan plan;
   plan.needs_field.assign(count, false);
   plan.needs_shell.assign(count, false);
+  plan.needs_witnesses.assign(count, false);
   std::vector<bool> needs_faces(count, false);
   std::vector<bool> has_pair(count, false), is_large(count, false);
   std::vector<Extent> extents(count);
@@ -124,7 +132,10 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);
       const bool b_edges = !b_faces && b_can && options.edge_gap > 0.0 && isBox(b);
       const bool a_shell = a_faces || a_edges, b_shell = b_faces || b_edges;
-      plan.pairs.push_back({i, k, a_shell, b_shell, a_edges, b_edges});
+      const bool a_witnesses = b_shell && hasVoxels(a), b_witnesses = a_shell && hasVoxels(b);
+      plan.pairs.push_back({i, k, a_shell, b_shell, a_edges, b_edges, a_witnesses, b_witnesses});
+      if (a_witnesses) plan.needs_witnesses[i] = plan.needs_field[k] = true;
+      if (b_witnesses) plan.needs_witnesses[k] = plan.needs_field[i] = true;
       if (a_faces) needs_faces[i] = true;
       if (b_faces) needs_faces[k] = true;
       has_pair[i] = has_pair[k] = true;

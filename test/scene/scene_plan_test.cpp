@@ -55,10 +55,20 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   EXPECT_TRUE(plan.pairs[1].a_shell_b_field);
   EXPECT_FALSE(plan.pairs[1].b_shell_a_field);
   EXPECT_EQ(plan.needs_shell, (std::vector<bool>{false, true, false}));
-  EXPECT_EQ(plan.needs_field, (std::vector<bool>{true, false, true}));
-  EXPECT_EQ(reasonOf(plan, "field of arm"), "only ever a shell");
+  // Voxels may lie wholly inside the arm: its field shows that of their witnesses.
+  EXPECT_TRUE(plan.pairs[0].a_witnesses_b_field);
+  EXPECT_FALSE(plan.pairs[0].b_witnesses_a_field);
+  EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(plan.needs_field, (std::vector<bool>{true, true, true}));
   EXPECT_EQ(reasonOf(plan, "pair map - ground"), "neither can be covered with points");
   EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
+}
+
+TEST(ScenePlan, ABodyThatOnlyMeetsHalfSpacesIsOnlyAShell) {
+  const ScenePlan plan = planScene({{body("arm", kBall), body("ground", ground())}, {}});
+  EXPECT_EQ(plan.needs_field, (std::vector<bool>{false, true}));
+  EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{false, false}));
+  EXPECT_EQ(reasonOf(plan, "field of arm"), "only ever a shell");
 }
 
 TEST(ScenePlan, UnusedBodiesAreNotBuilt) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sdf_ccd/motion/screw_motion.h"
+#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 
@@ -32,10 +32,24 @@ struct ChordOptions {
   int max_chords = 1000;    ///< per recorded interval; what tolerance is left then is in ChordPath::error
 };
 
-/// Cuts the constant-twist motion between recorded poses into chords: n = ⌈√(a / 8 tol)⌉ per interval, where a
-/// bounds the points' acceleration (an arc of radius r through θ deviates by rθ²/8 from its chord).
-/// Reuses the memory of `path`.
+/// Cuts a relative motion with a constant twist between recorded poses (one of the bodies rests, or one joint lies
+/// between them) into chords: n = ⌈√(a / 8 tol)⌉ per interval, where a bounds the points' acceleration (an arc of
+/// radius r through θ deviates by rθ²/8 from its chord). Reuses the memory of `path`.
 /// @throws std::invalid_argument unless there are two poses or more, at increasing finite times.
 void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const ChordOptions& options, ChordPath& path);
+
+/// Two bodies between two recorded times. Each moves with a constant twist in the world.
+struct TwoBodyMotion {
+  double t_start;  ///< [s]
+  double t_end;    ///< [s]
+  const ScrewMotion& X_WF;
+  const ScrewMotion& X_WP;
+  double acceleration;  ///< of P's points in F: RelativeMotionBounds
+};
+
+/// Adds the chords of one interval to the path, whose last chord ends where this begins, and its error. Chords end at
+/// the true relative poses X_WF(s)⁻¹ X_WP(s): design §3.12.
+/// @param knot  Chord::knot of the chords added.
+void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int knot, ChordPath& path);
 
 }  // namespace sdf_ccd

@@ -22,7 +22,8 @@ struct KnotSpan {
 /// bound does not hold, and much farther they overflow.
 constexpr double kFarthestPose = 1e8;
 
-/// Where the bodies were during a cycle (t₀, t₁].
+/// Where the bodies were during a cycle (t₀, t₁]. Between two times each body moves with a constant twist in the world,
+/// the shorter way round: turns of half a revolution and more between two times need times in between.
 struct CycleMotion {
   std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
   std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
@@ -72,8 +73,8 @@ struct PairResult {
 
 struct CycleResult {
   std::vector<PairResult> pairs;           ///< in the order of Scene::pairs
-  Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs not delayed: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
-                                           ///< NOT_CHECKED if there are none
+  Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
+                                           ///< NOT_CHECKED if there are none, or some are delayed and the others CLEAR
   double error_bound = 0.0;                ///< largest of the pairs checked [m]
   ErrorBound error;                        ///< of that pair, by source
   int checked = 0;
@@ -100,8 +101,8 @@ struct MonitorOptions {
 /// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
 /// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
 ///
-/// Limit: a body without a shell (half-space, voxel map) that lies wholly inside the other from the start, without
-/// touching its surface, is not seen.
+/// A body that lies wholly inside another touches no surface: points of its shell show that, or, of a voxel map, one
+/// point of each of its components. Such a contact of a voxel map has a depth, but bears no force.
 ///
 /// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
 /// the arena (it makes its scratch memory once). Pairs run in parallel on the caller's TBB arena; results do not depend

@@ -33,7 +33,9 @@ struct Body {
   std::vector<BodyPart> parts;  ///< empty if no pair needs its field
   PointShell shell;             ///< frame B; empty if no pair needs it. Points deep inside a sibling part are left out
   SphereTree tree;
-  BoundingBall ball;  ///< holds the shell's points
+  PointShell witnesses;  ///< frame B; a point of each component of a voxel map's surface, if a pair needs them
+  SphereTree witness_tree;
+  BoundingBall ball;  ///< holds the body's surface, frame B; of a half-space, what lies within 10 m of B's origin
 };
 
 /// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing, or edge_gap if there is

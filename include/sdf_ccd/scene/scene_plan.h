@@ -15,6 +15,9 @@ struct PlannedPair {
   bool b_shell_a_field;
   bool a_edges_only = false;  ///< A's shell shows where its edges touch, and bears no force: B's does
   bool b_edges_only = false;
+  bool a_witnesses_b_field = false;  ///< A has no shell: a point of each of its components shows whether that lies
+                                     ///< wholly inside B (design §3.15)
+  bool b_witnesses_a_field = false;
 };
 
 struct LeftOut {
@@ -25,9 +28,10 @@ struct LeftOut {
 /// What a scene needs, decided before anything is built (design §4).
 struct ScenePlan {
   std::vector<PlannedPair> pairs;
-  std::vector<bool> needs_field;  ///< per body
-  std::vector<bool> needs_shell;  ///< per body
-  std::vector<bool> edges_only;   ///< per body: of its shell no pair needs more
+  std::vector<bool> needs_field;      ///< per body
+  std::vector<bool> needs_shell;      ///< per body
+  std::vector<bool> edges_only;       ///< per body: of its shell no pair needs more
+  std::vector<bool> needs_witnesses;  ///< per body
   std::vector<LeftOut> left_out;
 };
 
@@ -37,6 +41,8 @@ struct PlanOptions {
   double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled apart
 };
 
+/// A voxel map has witnesses instead of a shell, for bodies with a shell, whose fields then are needed.
+///
 /// Leaves out pairs that are disabled, both of the world, in the same frame, or of a body without geometry; fields
 /// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (they cannot
 /// be covered with points), and pairs of two such bodies. A body that is one large primitive (a table, a wall) is only

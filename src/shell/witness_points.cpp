@@ -1,0 +1,36 @@
+#include "sdf_ccd/shell/witness_points.h"
+
+#include <algorithm>
+
+#include "../geometry/mesh_edges.h"
+
+namespace sdf_ccd {
+
+PointShell witnessPoints(const TriangleMesh& mesh) {
+  validate(mesh);
+  TriangleSets components(mesh.triangles.size());
+  std::vector<std::int32_t> first_of_vertex(mesh.vertices.size(), -1);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto triangle = static_cast<std::int32_t>(i);
+    for (const int vertex : {mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2]}) {
+      std::int32_t& first = first_of_vertex[vertex];
+      if (first < 0) first = triangle;
+      components.join(first, triangle);
+    }
+  }
+  PointShell witnesses;
+  witnesses.covering_radius = std::numeric_limits<double>::infinity();
+  std::vector<char> seen(mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    char& component_seen = seen[components.find(static_cast<std::int32_t>(i))];
+    if (component_seen != 0) continue;
+    component_seen = 1;
+    witnesses.points.push_back(mesh.vertices[mesh.triangles[i][0]]);
+    const Vector3d normal = areaNormal(mesh, static_cast<int>(i));
+    witnesses.normals.push_back(normal.squaredNorm() > 0.0 ? Vector3d(normal.normalized()) : Vector3d::UnitZ());
+    witnesses.areas.push_back(0.0);
+  }
+  return witnesses;
+}
+
+}  // namespace sdf_ccd
