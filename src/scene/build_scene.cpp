@@ -166,6 +166,7 @@ void build(const Needs& needs, BodyBuilder&& builder, const Progress& progress, 
   if (needs.witnesses) body.witnesses = builder.makeWitnesses();
   if (needs.witnesses) body.witness_tree = buildSphereTree(body.witnesses);
   if (needs.shell) body.shell = builder.makeShell(body.parts, needs.edges_only);
+  report.witnesses = body.witnesses.size();
   body.ball = surfaceBall(body);
   if (!needs.shell) return;
   body.tree = buildSphereTree(body.shell);

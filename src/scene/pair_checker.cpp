@@ -86,7 +86,7 @@ void PairChecker::setMotion(const SweptBodies& bodies, const KnotSpan& span) {
     travel_ = std::min(travel_, role.travel());
     pose_error = std::max(pose_error, role.poseError());
   }
-  motion_error_ += pose_error;
+  motion_error_ = pose_error;
   const PairRole& first = roles_.front();
   const bool continues = clearance_ == kUnknown || X_FP_last_.matrix() == first.start().matrix();
   clearance_ -= travel_ + (continues ? 0.0 : first.jumpFrom(X_FP_last_));
@@ -95,10 +95,13 @@ void PairChecker::setMotion(const SweptBodies& bodies, const KnotSpan& span) {
 
 void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
                         PairResult& result) {
-  motion_error_ = 0.0;
-  if (!motion.motion_error.empty())
-    motion_error_ = motion.motion_error[pair_.body_a] + motion.motion_error[pair_.body_b];
   setMotion(bodies, result.span);
+  if (!motion.motion_error.empty()) {
+    const double error_a = motion.motion_error[pair_.body_a], error_b = motion.motion_error[pair_.body_b];
+    const PairRole& role = roles_.front();
+    const double scale = role.fieldErrorScale();
+    motion_error_ += role.fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
+  }
   result.error = bound_;
   result.error.chord = motion_error_;
   result.error.root = kRootTolerance * travel_;

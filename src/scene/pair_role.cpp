@@ -29,8 +29,18 @@ void PairRole::setMotion(const SweptBodies& bodies, const KnotSpan& span) {
     travel_ += bounds.travel;
   }
   const BoundingBall& ball = shell_body_->ball;
-  pose_error_ = bodies.poseError(body_, ball.center.norm() + ball.radius) +
-                bodies.poseError(field_, (X_FP_start_ * ball.center).norm() + ball.radius + travel_);
+  pose_error_ = bodies.poseError(body_, ball.center.norm() + ball.radius) + bodies.poseError(field_, reach());
+}
+
+double PairRole::reach() const {
+  const BoundingBall& ball = shell_body_->ball;
+  return (X_FP_start_ * ball.center).norm() + ball.radius + travel_;
+}
+
+double PairRole::fieldErrorScale() const {
+  const auto bounded = [](const BodyPart& part) { return part.field.surfaceBox().sizes().allFinite(); };
+  if (std::all_of(field_body_->parts.begin(), field_body_->parts.end(), bounded)) return 1.0;
+  return std::max(1.0, reach() / kHalfSpaceRadius);
 }
 
 void PairRole::cut(const ChordOptions& options) {

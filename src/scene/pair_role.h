@@ -35,6 +35,10 @@ class PairRole {
   /// What computing with the poses adds to the error of the distance [m].
   double poseError() const { return pose_error_; }
 
+  /// How many times the motion error of the field's body's ball its surface strays where the shell is: more than one of
+  /// a half-space, whose ball does not hold all of it. Bounds of motion grow no faster than the distance.
+  double fieldErrorScale() const;
+
   /// At both ends of the motion.
   const Isometry3d& start() const { return X_FP_start_; }
   const Isometry3d& end() const { return X_FP_end_; }
@@ -60,6 +64,9 @@ class PairRole {
   bool mayComeNearer(double distance);
 
  private:
+  /// No point of the shell's body is farther from the field's body's origin [m].
+  double reach() const;
+
   const Body* shell_body_;
   const Body* field_body_;
   const PointShell* shell_;

@@ -88,8 +88,9 @@ std::string planTable(const Scene& scene) {
     cells += report.cells;
     points += report.shell_points;
     const bool has_shell = report.shell_points > 0, has_bound = report.bound.total() > 0.0;
+    const std::string none = report.witnesses > 0 ? std::to_string(report.witnesses) + " witnesses" : "left out";
     rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), number(mb, 1),
-                    number(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : "left out",
+                    number(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : none,
                     has_shell ? number(1e3 * report.gap, 2) : "",
                     has_bound ? number(1e3 * report.bound.total(), 2) : "", std::to_string(report.pairs)});
   }

@@ -8,7 +8,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kHalfSpaceRadius = 10.0;       // [m]
 constexpr double kRemainder = 0.0080187537388;  // √3/216: max |s (s − ½) (s − 1)| / 6 on [0, 1]
 
 class Sampler {

@@ -116,6 +116,16 @@ TEST(TwoBodiesMove, RotationsThatAreNoneToRoundingAndFarCoordinatesStandInTheBou
   EXPECT_GT(chordError(translation(far) * X_a, translation(far) * X_b), 1e-8);
 }
 
+TEST(TwoBodiesMove, AHalfSpaceStraysMoreFarFromItsOrigin) {
+  const auto scene = build({body("ground", ground()), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
+  for (const double distance : {1.0, 5.0, 100.0}) {
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation({distance, 0.0, 0.15}))});
+    motion.motion_error = {1e-3, 0.0};
+    Monitor monitor(scene, {});
+    EXPECT_NEAR(monitor.run(motion, {}).pairs[0].error.chord, std::max(1e-3, 1e-4 * distance), 1e-4) << distance;
+  }
+}
+
 /// A robot's own voxels in a depth camera's map: they touch no surface of the link that they lie in.
 TEST(WhollyInside, AVoxelInTheMiddleOfALinkIsAContact) {
   for (const int voxels : {1, 2, 5}) {

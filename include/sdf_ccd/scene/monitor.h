@@ -29,7 +29,7 @@ struct CycleMotion {
   std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
   std::vector<std::string> missing;           ///< per body: why its poses are not known; empty if they are, or all are
   std::vector<double>
-      motion_error;  ///< per body: distance of the true motion from X_WB's [m]; may be empty or infinite
+      motion_error;  ///< per body: distance of the true motion of its ball from X_WB's [m]; may be empty or infinite
 
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
   /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs may be anything.

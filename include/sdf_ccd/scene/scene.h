@@ -23,6 +23,9 @@ struct BodyPart {
   DistanceField field;
 };
 
+/// Of a half-space, what lies within this of its body's origin is taken for its ball [m].
+constexpr double kHalfSpaceRadius = 10.0;
+
 /// A body that is ready to be checked.
 struct Body {
   std::string name;
@@ -35,7 +38,7 @@ struct Body {
   SphereTree tree;
   PointShell witnesses;  ///< frame B; a point of each component of a voxel map's surface, if a pair needs them
   SphereTree witness_tree;
-  BoundingBall ball;  ///< holds the body's surface, frame B; of a half-space, what lies within 10 m of B's origin
+  BoundingBall ball;  ///< holds the body's surface, frame B; see kHalfSpaceRadius
 };
 
 /// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing, or edge_gap if there is
@@ -62,7 +65,8 @@ struct BodyReport {
   double field_error = 0.0;     ///< [m]
   std::size_t shell_points = 0;
   std::size_t shell_bytes = 0;
-  double gap = 0.0;  ///< between its shell's points, against a body with a like shell [m]
+  std::size_t witnesses = 0;  ///< Body::witnesses
+  double gap = 0.0;           ///< between its shell's points, against a body with a like shell [m]
   std::size_t pairs = 0;
   ErrorBound bound;  ///< the largest of its pairs; chord: what the options allow for
   std::vector<std::string> warnings;
