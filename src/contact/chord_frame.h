@@ -1,32 +1,24 @@
 #pragma once
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include <optional>
+
 #include "sdf_ccd/motion/chords.h"
 
 namespace sdf_ccd {
 
-/// The field's frame F in the unaccelerated frame C along one chord: it turns at a constant rate (slerp) while its
-/// origin runs straight. s in [0, 1].
+/// The field's frame F in the unaccelerated frame C along one chord: it moves with a constant twist. s in [0, 1].
 class ChordFrame {
  public:
-  ChordFrame() = default;
-  ChordFrame(const Isometry3d& X_CF_start, const Isometry3d& X_CF_end)
-      : R_start_(X_CF_start.linear()),
-        origin_(X_CF_start.translation()),
-        step_(X_CF_end.translation() - X_CF_start.translation()),
-        turn_(Matrix3d(X_CF_start.linear().transpose() * X_CF_end.linear())) {}
-
-  Matrix3d rotation(double s) const {
-    if (turn_.angle() == 0.0) return R_start_;  // a body of the world: no sine for every node
-    return R_start_ * Eigen::AngleAxisd(s * turn_.angle(), turn_.axis()).toRotationMatrix();
+  ChordFrame() : X_CF_(Isometry3d::Identity()) {}
+  ChordFrame(const Isometry3d& X_CF_start, const Isometry3d& X_CF_end) : X_CF_(X_CF_start) {
+    if (X_CF_start.matrix() != X_CF_end.matrix()) motion_.emplace(X_CF_start, X_CF_end);
   }
-  Vector3d origin(double s) const { return origin_ + s * step_; }
+
+  Isometry3d pose(double s) const { return motion_ ? motion_->pose(s) : X_CF_; }
 
  private:
-  Matrix3d R_start_ = Matrix3d::Identity();
-  Vector3d origin_ = Vector3d::Zero();
-  Vector3d step_ = Vector3d::Zero();
-  Eigen::AngleAxisd turn_ = Eigen::AngleAxisd::Identity();  // F's axes at the start to those at the end
+  Isometry3d X_CF_;
+  std::optional<ScrewMotion> motion_;  // none for a body of the world, at rest: no sine for every node
 };
 
 /// A shell point along one chord, frame F (paper Eq. 1).

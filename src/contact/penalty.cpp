@@ -150,9 +150,9 @@ class Integrator {
     if (!with_impulse_) return;
     Vector3d F_F = -stiffness_ * std::min(value, 0.0) * N_F;  // Eq. 3, N as in design §3.6
     if (damping_ != 0.0) F_F -= damping_ * point.velocity();  // Eq. 10 with the sign that opposes the motion
-    const Matrix3d R_CF = frame_.rotation(node.s);
-    const Vector3d impulse = node.weight * point.duration * (R_CF * F_F);  // Eq. 4
-    const Vector3d r_C = frame_.origin(node.s) + R_CF * point.position(node.s);
+    const Isometry3d X_CF = frame_.pose(node.s);
+    const Vector3d impulse = node.weight * point.duration * (X_CF.linear() * F_F);  // Eq. 4
+    const Vector3d r_C = X_CF * point.position(node.s);
     result_.on_shell_body += {impulse, r_C.cross(impulse)};  // Eq. 5, 11
   }
 
@@ -162,13 +162,13 @@ class Integrator {
     if (depth.siblings) return depth;
     const double s = deepest_.s();
     const Vector3d p_F = point.position(s);
-    const Matrix3d R_CF = frame_.rotation(s);
+    const Isometry3d X_CF = frame_.pose(s);
     depth.depth = std::max(-deepest_.value(), 0.0);
     depth.time = chord.t_start + s * point.duration;
-    depth.p_C = frame_.origin(s) + R_CF * p_F;
+    depth.p_C = X_CF * p_F;
     const FieldSample sample = input_.field.sample(p_F);
     depth.error = sample.error;
-    depth.normal_C = R_CF * fieldNormal(point, s, sample.gradient);
+    depth.normal_C = X_CF.linear() * fieldNormal(point, s, sample.gradient);
     return depth;
   }
 

@@ -100,6 +100,26 @@ TEST(TwoBodiesMove, BodiesOnOneMovingBaseAreSkippedAsIfTheyStood) {
   }
 }
 
+/// Both on one turning base, so that they move against each other by little: their contact goes round with them.
+TEST(TwoBodiesMove, AContactIsWhereTheBodiesAreInTheWorld) {
+  const auto scene =
+      build({body("plate", Primitive(Box{{0.2, 0.2, 0.02}})), body("ball", Primitive(Sphere{0.1}))}, fine(0.01));
+  const auto base = [](double s) { return pose(Vector3d::Zero(), 2.0 * s, Vector3d::UnitZ()); };
+  const auto ball = [&](double s) { return Isometry3d(base(s) * translation({1.0, 0.0, 0.11})); };
+  const auto plate = [&](double s) { return Isometry3d(base(s) * translation({1.0, 0.0, 0.0})); };
+  Monitor monitor(scene, {});
+  const PairResult& pair = monitor.run(bothMove(plate(0.0), plate(1.0), ball(0.0), ball(1.0)), {true, 10}).pairs[0];
+  ASSERT_EQ(pair.verdict, Verdict::kContact);
+  for (const ContactPoint& point : pair.points) {
+    const Vector3d p_base = base(point.time / 0.1).inverse() * point.p_W;
+    EXPECT_LT((p_base - Vector3d(1.0, 0.0, p_base.z())).norm(), 0.05);
+    EXPECT_NEAR(p_base.z(), 0.015, 0.006);
+  }
+  // The force on the ball is upwards all the time, but for the unevenness of the points.
+  // round.
+  EXPECT_LT(pair.on_b_W.force.head<2>().norm(), 1e-2 * pair.on_b_W.force.norm());
+}
+
 TEST(TwoBodiesMove, RotationsThatAreNoneToRoundingAndFarCoordinatesStandInTheBound) {
   const auto scene = build({body("a", Primitive(Sphere{0.1})), body("b", Primitive(Sphere{0.1}))}, fine(0.02));
   const auto chordError = [&](const Isometry3d& X_a, const Isometry3d& X_b) {
