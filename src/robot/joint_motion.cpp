@@ -27,6 +27,21 @@ Isometry3d jointMotion(const urdf::Joint& joint, double position) {
   return X;
 }
 
+double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC) {
+  if (joint.type == urdf::Joint::PRISMATIC) return X_JC.translation().dot(unitAxis(joint));
+  if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::CONTINUOUS) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  constexpr double kRevolution = 6.283185307179586;
+  const Quaterniond q(X_JC.linear());
+  const double angle = std::remainder(2.0 * std::atan2(q.vec().dot(unitAxis(joint)), q.w()), kRevolution);
+  if (joint.type == urdf::Joint::CONTINUOUS || !joint.limits) return angle;
+  for (const double other : {angle, angle + kRevolution, angle - kRevolution}) {
+    if (joint.limits->lower <= other && other <= joint.limits->upper) return other;
+  }
+  return angle;
+}
+
 Range positionRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
   Range range(-kInfinity, kInfinity);
   if (joint.type != urdf::Joint::CONTINUOUS && joint.limits) {

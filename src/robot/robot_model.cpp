@@ -41,6 +41,10 @@ const urdf::Joint& RobotModel::jointAbove(int link) const {
   return *urdf_->links_.at(links_[link])->parent_joint;
 }
 
+const urdf::Joint& RobotModel::leader(const urdf::Joint& joint) const {
+  return joint.mimic ? leader(*urdf_->joints_.at(joint.mimic->joint_name)) : joint;
+}
+
 double RobotModel::position(const urdf::Joint& joint, const JointPositions& positions) const {
   if (joint.mimic) {
     const urdf::Joint& leader = *urdf_->joints_.at(joint.mimic->joint_name);
@@ -52,7 +56,11 @@ double RobotModel::position(const urdf::Joint& joint, const JointPositions& posi
   return limited ? std::max(joint.limits->lower, std::min(0.0, joint.limits->upper)) : 0.0;
 }
 
-void RobotModel::requireKnown(const JointPositions& positions) const {
+void RobotModel::requireKnown(const JointPositions& positions, const JointPoses& poses) const {
+  for (const auto& [name, pose] : poses) {
+    if (!urdf_->joints_.count(name)) throw std::invalid_argument("robot " + urdf_->name_ + " has no joint " + name);
+    if (!pose.matrix().allFinite()) throw std::invalid_argument("joint " + name + ": its pose is not finite");
+  }
   for (const auto& [name, value] : positions) {
     if (!urdf_->joints_.count(name)) throw std::invalid_argument("robot " + urdf_->name_ + " has no joint " + name);
     if (!std::isfinite(value)) {
@@ -61,27 +69,16 @@ void RobotModel::requireKnown(const JointPositions& positions) const {
   }
 }
 
-std::vector<Isometry3d> RobotModel::forwardKinematics(const JointPositions& positions) const {
-  requireKnown(positions);
+std::vector<Isometry3d> RobotModel::forwardKinematics(const JointPositions& positions, const JointPoses& poses) const {
+  requireKnown(positions, poses);
   std::vector<Isometry3d> X_RL(links_.size(), Isometry3d::Identity());
   for (std::size_t i = 1; i < links_.size(); ++i) {
     const urdf::Joint& joint = jointAbove(static_cast<int>(i));
+    const auto pose = poses.find(joint.name);
     X_RL[i] = X_RL[parent_[i]] * toEigen(joint.parent_to_joint_origin_transform) *
-              jointMotion(joint, position(joint, positions));
+              (pose != poses.end() ? pose->second : jointMotion(joint, position(joint, positions)));
   }
   return X_RL;
-}
-
-double RobotModel::turn(const JointPositions& from, const JointPositions& to) const {
-  requireKnown(from);
-  requireKnown(to);
-  std::vector<double> turns(links_.size(), 0.0);
-  for (std::size_t i = 1; i < links_.size(); ++i) {
-    const urdf::Joint& joint = jointAbove(static_cast<int>(i));
-    const bool turning = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
-    turns[i] = turns[parent_[i]] + (turning ? std::abs(position(joint, to) - position(joint, from)) : 0.0);
-  }
-  return *std::max_element(turns.begin(), turns.end());
 }
 
 std::vector<std::pair<int, bool>> RobotModel::path(int from, int to) const {

@@ -70,6 +70,8 @@ Srdf readSrdf(const std::string& xml) {
       srdf.disabled_by_default.push_back(attribute(*element, "link"));
     } else if (name == "enable_collisions") {
       srdf.enabled.emplace_back(attribute(*element, "link1"), attribute(*element, "link2"));
+    } else if (name == "virtual_joint") {
+      srdf.virtual_joints[attribute(*element, "name")] = attribute(*element, "child_link");
     } else if (name == "group_state") {
       const char* group = element->Attribute("group");
       const std::string state = attribute(*element, "name");

@@ -83,6 +83,10 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   DescribedScene described;
   described.robot = robot;
   described.root_frame = prefix + robot->root();
+  described.tf_prefix = prefix;
+  for (const auto& [name, child] : srdf.virtual_joints) {
+    if (child == robot->root()) described.base_joint = name;
+  }
   described.fixed_frame = parameters.fixed_frame.empty() ? described.root_frame : parameters.fixed_frame;
   described.scene = describeRobot(*robot, srdf, loader, parameters.robot, described.warnings);
 

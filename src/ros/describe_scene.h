@@ -15,6 +15,8 @@ struct DescribedScene {
   std::shared_ptr<const RobotModel> robot;
   SceneDescription scene;
   std::string root_frame;   ///< the tf frame of the robot's root link
+  std::string tf_prefix;    ///< of all links' frames: empty, or ending in a slash
+  std::string base_joint;   ///< the SRDF's virtual joint of the root link; empty if there is none
   std::string fixed_frame;  ///< without leading slash
   std::vector<std::string> warnings;
 };

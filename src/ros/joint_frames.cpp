@@ -39,10 +39,6 @@ tf2_msgs::TFMessage JointFrames::fixed(const ros::Time& stamp,
   return message;
 }
 
-const urdf::Joint& JointFrames::leaderOf(const urdf::Joint& joint) const {
-  return joint.mimic ? leaderOf(*robot_->urdf().getJoint(joint.mimic->joint_name)) : joint;
-}
-
 tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, const ros::Time& stamp) const {
   JointPositions positions;
   for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
@@ -54,7 +50,7 @@ tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, co
     const urdf::Joint& joint = *link.joint;
     const bool moves = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
                        joint.type == urdf::Joint::PRISMATIC;
-    if (moves && positions.count(leaderOf(joint).name) > 0) message.transforms.push_back(transform(link, X_RL, stamp));
+    if (moves && positions.count(robot_->leader(joint).name) > 0) message.transforms.push_back(transform(link, X_RL, stamp));
   }
   return message;
 }

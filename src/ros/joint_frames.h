@@ -35,7 +35,6 @@ class JointFrames {
     std::size_t index, parent;  // among the robot's links
   };
 
-  const urdf::Joint& leaderOf(const urdf::Joint& joint) const;  // itself if it mimics none
   geometry_msgs::TransformStamped transform(const Link& link, const std::vector<Isometry3d>& X_RL,
                                             const ros::Time& stamp) const;
 

@@ -1,32 +1,27 @@
 #include "ros/planned_motion.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "ros/conversions.h"
+#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 namespace {
-
-using Trajectory = trajectory_msgs::JointTrajectory;
-
-constexpr double kTurn = 1.0;                  // most that a link turns between two knots [rad]
-constexpr std::size_t kMostAddedKnots = 2000;  // about 300 revolutions
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
 }
 
-/// Times from the first point on.
+/// Times [s] since `start`.
 template <class Point>
-std::vector<double> timesOf(const std::vector<Point>& points, const std::string& name) {
+std::vector<double> timesOf(const std::vector<Point>& points, const ros::Duration& start, const std::string& name) {
   if (points.size() < 2) refuse(name + " has " + std::to_string(points.size()) + " points, two or more are needed");
   std::vector<double> times;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    times.push_back((points[i].time_from_start - points.front().time_from_start).toSec());
+    times.push_back((points[i].time_from_start - start).toSec());
     if (i > 0 && times[i] <= times[i - 1]) {
       refuse(name + ": time_from_start of point " + std::to_string(i) + " does not increase");
     }
@@ -34,121 +29,233 @@ std::vector<double> timesOf(const std::vector<Point>& points, const std::string&
   return times;
 }
 
-int indexOf(const std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+Isometry3d checkedIsometry(const geometry_msgs::Transform& transform) {
+  geometry_msgs::Pose pose;
+  pose.position.x = transform.translation.x;
+  pose.position.y = transform.translation.y;
+  pose.position.z = transform.translation.z;
+  pose.orientation = transform.rotation;
+  return toIsometry(pose);
 }
 
-JointPositions namedPositions(const std::vector<std::string>& names, const std::vector<double>& positions,
-                              const std::string& what) {
-  if (names.size() != positions.size()) {
-    refuse(what + " has " + std::to_string(positions.size()) + " positions for " + std::to_string(names.size()) +
-           " joints");
+void requireSize(std::size_t given, std::size_t wanted, const std::string& what) {
+  if (given == wanted) return;
+  refuse(what + " has " + std::to_string(given) + " positions for " + std::to_string(wanted) + " joints");
+}
+
+void requireNamedOnce(const QueryMotion::Request& request) {
+  std::set<std::string> names;
+  for (const auto* list :
+       {&request.trajectory.joint_names, &request.other_joints, &request.multi_dof_trajectory.joint_names}) {
+    for (const std::string& name : *list) {
+      if (!names.insert(name).second) refuse("joint " + name + " is named twice");
+    }
   }
-  JointPositions result;
-  for (std::size_t i = 0; i < names.size(); ++i) result[names[i]] = positions[i];
+}
+
+RobotTrajectory toRobotTrajectory(const trajectory_msgs::JointTrajectory& trajectory, const ros::Duration& start) {
+  RobotTrajectory result;
+  result.times = timesOf(trajectory.points, start, "the trajectory");
+  for (std::size_t i = 0; i < result.times.size(); ++i) {
+    const std::vector<double>& positions = trajectory.points[i].positions;
+    requireSize(positions.size(), trajectory.joint_names.size(), "point " + std::to_string(i) + " of the trajectory");
+    RobotState state;
+    for (std::size_t k = 0; k < positions.size(); ++k) state.positions[trajectory.joint_names[k]] = positions[k];
+    result.states.push_back(state);
+  }
   return result;
 }
 
-/// The times, and so many between them that no link turns by more than kTurn from one to the next: two links then turn
-/// by less than half a revolution against each other, and their poses alone tell which way.
-std::vector<double> knotsOf(const std::vector<double>& times, const std::vector<JointPositions>& waypoints,
-                            const RobotModel& robot) {
-  std::vector<double> knots = {times.front()};
-  std::size_t added = 0;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    const double turn = robot.turn(waypoints[i - 1], waypoints[i]);
-    const double pieces = std::max(1.0, std::ceil(turn / kTurn));
-    if (!(pieces - 1.0 <= static_cast<double>(kMostAddedKnots - added))) {
-      char text[160];
-      std::snprintf(text, sizeof(text),
-                    "the trajectory turns a link by %.3g rad up to point %zu: more than %zu rad "
-                    "beside one per point are not checked",
-                    turn, i, kMostAddedKnots);
-      refuse(text);
+/// The root, whose joint may be named after it or as in the SRDF, stands in the message's frame; all others in their
+/// joint's frame.
+RobotTrajectory toRobotTrajectory(const trajectory_msgs::MultiDOFJointTrajectory& trajectory,
+                                  const ros::Duration& start, const PlannedScene& planned) {
+  RobotTrajectory result;
+  result.times = timesOf(trajectory.points, start, "the multi_dof_trajectory");
+  for (std::size_t i = 0; i < result.times.size(); ++i) {
+    const std::string what = "point " + std::to_string(i) + " of the multi_dof_trajectory";
+    const auto& transforms = trajectory.points[i].transforms;
+    requireSize(transforms.size(), trajectory.joint_names.size(), what);
+    RobotState state;
+    state.X_WR = planned.now.X_WR;
+    for (std::size_t k = 0; k < transforms.size(); ++k) {
+      const std::string& name = trajectory.joint_names[k];
+      const Isometry3d X = checkedIsometry(transforms[k]);
+      if (name == planned.base_joint || name == planned.robot.root()) {
+        state.X_WR = planned.now.X_WM * X;
+      } else {
+        state.poses[name] = X;
+      }
     }
-    added += static_cast<std::size_t>(pieces) - 1;
-    for (double piece = 1.0; piece < pieces; ++piece) {
-      knots.push_back(times[i - 1] + piece / pieces * (times[i] - times[i - 1]));
-    }
-    knots.push_back(times[i]);
+    result.states.push_back(state);
   }
-  return knots;
+  return result;
 }
 
-CycleMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned,
-                            const std::vector<double>& times) {
-  const Trajectory& trajectory = request.trajectory;
-  const JointPositions others = namedPositions(request.other_joints, request.other_positions, "other_positions");
-  std::vector<JointPositions> waypoints;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    JointPositions positions = namedPositions(trajectory.joint_names, trajectory.points[i].positions,
-                                              "point " + std::to_string(i) + " of the trajectory");
-    positions.insert(others.begin(), others.end());
-    waypoints.push_back(positions);
-  }
+bool movesRoot(const QueryMotion::Request& request, const PlannedScene& planned) {
+  const auto& names = request.multi_dof_trajectory.joint_names;
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return name == planned.base_joint || name == planned.robot.root();
+  });
+}
 
-  CycleMotion motion;
-  motion.missing = planned.now.missing;
-  std::vector<int> link_of_body;
+/// What the request says of joints, at all its times.
+RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
+  requireNamedOnce(request);
+  const auto& joints = request.trajectory.points;
+  const auto& multi_dof = request.multi_dof_trajectory.points;
+  const ros::Duration start = joints.empty() ? multi_dof.front().time_from_start : joints.front().time_from_start;
+  RobotTrajectory named;
+  if (!joints.empty()) {
+    named = toRobotTrajectory(request.trajectory, start);
+    for (RobotState& state : named.states) state.X_WR = planned.now.X_WR;
+  }
+  if (!multi_dof.empty()) {
+    const RobotTrajectory poses = toRobotTrajectory(request.multi_dof_trajectory, start, planned);
+    named = joints.empty() ? poses : merged(named, poses);
+  }
+  requireSize(request.other_positions.size(), request.other_joints.size(), "other_positions");
+  for (RobotState& state : named.states) {
+    for (std::size_t k = 0; k < request.other_joints.size(); ++k) {
+      state.positions[request.other_joints[k]] = request.other_positions[k];
+    }
+  }
+  return named;
+}
+
+std::string notesOf(const PlannedJoints& plan) {
+  std::string notes;
+  if (!plan.assumed.empty()) {
+    notes = std::to_string(plan.assumed.size()) + " joints that are not named are where tf has them now";
+  }
+  for (const std::string& beyond : plan.beyond_limits) notes += (notes.empty() ? "" : "; ") + ("now " + beyond);
+  return notes;
+}
+
+PlannedMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
+  const CurrentPoses& now = planned.now;
+  const PlannedJoints plan = completePlan(planned.robot, namedTrajectory(request, planned), now.joints,
+                                          {static_cast<bool>(request.allow_beyond_limits)});
+  PlannedMotion result;
+  result.samples = plan.trajectory.times;
+  result.assumed = plan.assumed;
+  result.notes = notesOf(plan);
+  result.motion.missing = now.missing;
+  const std::string& root_missing = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
+  std::vector<CarriedBody> bodies;
   std::vector<BoundingBall> balls;
   for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
-    const Body& description = planned.scene.bodies[body];
-    link_of_body.push_back(description.is_world ? -1 : indexOf(planned.robot.links(), description.name));
-    balls.push_back(motionBall(description));
-    if (link_of_body.back() >= 0) motion.missing[body] = planned.now.root_missing;
+    const Carrier& carrier = now.carriers[body];
+    const bool is_carried = carrier.link >= 0;
+    balls.push_back(motionBall(planned.scene.bodies[body]));
+    bodies.push_back({carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], balls.back()});
+    if (is_carried) result.motion.missing[body] = root_missing.empty() ? plan.missing[carrier.link] : root_missing;
   }
-  const PosesAt poses_at = [&](double time, std::vector<Isometry3d>& X_WB) {
-    const std::size_t end = std::clamp<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin(),
-                                                    1, times.size() - 1);
-    const double s = (time - times[end - 1]) / (times[end] - times[end - 1]);
-    JointPositions positions = waypoints[end - 1];
-    for (auto& [joint, position] : positions) position += s * (waypoints[end].at(joint) - position);
-    const std::vector<Isometry3d> X_RL = planned.robot.forwardKinematics(positions);
-    X_WB = planned.now.X_WB;
-    for (std::size_t body = 0; body < X_WB.size(); ++body) {
-      if (link_of_body[body] < 0) continue;
-      X_WB[body] = planned.now.X_WR * X_RL[link_of_body[body]] * planned.scene.bodies[body].X_frame_B;
-    }
-  };
-  sampleMotion(knotsOf(times, waypoints, planned.robot), poses_at, balls, planned.sampling, motion);
-  return motion;
+  TrajectoryMotion motion(planned.robot, plan.trajectory, bodies);
+  sampleMotion(motion.knots(), motion.source(), balls, planned.sampling, result.motion);
+  return result;
 }
 
-CycleMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedScene& planned,
-                           const std::vector<double>& times) {
-  CycleMotion motion;
-  motion.times = times;
-  motion.missing = planned.now.missing;
-  for (const Isometry3d& X_WB : planned.now.X_WB) motion.X_WB.emplace_back(times.size(), X_WB);
-  for (const std::string& link : request.links) {
-    if (indexOf(planned.robot.links(), link) < 0) refuse("the robot has no link " + link);
-  }
-  for (std::size_t i = 0; i < times.size(); ++i) {
+/// Per link that is named: its poses.
+std::vector<std::vector<Isometry3d>> linkPoses(const QueryMotion::Request& request) {
+  std::vector<std::vector<Isometry3d>> X_WL(request.links.size());
+  for (std::size_t i = 0; i < request.poses.size(); ++i) {
     const std::vector<geometry_msgs::Pose>& poses = request.poses[i].poses;
     if (poses.size() != request.links.size()) {
       refuse("poses " + std::to_string(i) + " has " + std::to_string(poses.size()) + " for " +
              std::to_string(request.links.size()) + " links");
     }
-    for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
-      const Body& description = planned.scene.bodies[body];
-      const int link = description.is_world ? -1 : indexOf(request.links, description.name);
-      if (link < 0) continue;
-      motion.X_WB[body][i] = toIsometry(poses[link]) * description.X_frame_B;
-      motion.missing[body].clear();
+    for (std::size_t link = 0; link < poses.size(); ++link) {
+      X_WL[link].push_back(toIsometry(poses[link]));
+      if (i > 0 && ScrewMotion(X_WL[link][i - 1], X_WL[link][i]).angle() >= kAmbiguousTurn) {
+        refuse("link " + request.links[link] + " turns by half a revolution up to poses " + std::to_string(i) +
+               ": they do not tell which way, one between them would");
+      }
     }
   }
-  return motion;
+  return X_WL;
+}
+
+PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedScene& planned) {
+  const CurrentPoses& now = planned.now;
+  PlannedMotion result;
+  result.samples = timesOf(request.poses, request.poses.front().time_from_start, "poses");
+  CycleMotion& motion = result.motion;
+  motion.times = result.samples;
+  motion.missing = now.missing;
+  for (const Isometry3d& X_WB : now.X_WB) motion.X_WB.emplace_back(motion.times.size(), X_WB);
+  const std::vector<std::string>& links = planned.robot.links();
+  std::set<std::string> named;
+  for (const std::string& link : request.links) {
+    if (std::find(links.begin(), links.end(), link) == links.end()) refuse("the robot has no link " + link);
+    if (!named.insert(link).second) refuse("link " + link + " is named twice");
+  }
+  const std::vector<std::vector<Isometry3d>> X_WL = linkPoses(request);
+  for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
+    const Carrier& carrier = now.carriers[body];
+    if (carrier.link < 0) continue;
+    const auto link = std::find(request.links.begin(), request.links.end(), links[carrier.link]);
+    if (link == request.links.end()) continue;
+    const std::vector<Isometry3d>& poses = X_WL[link - request.links.begin()];
+    for (std::size_t i = 0; i < poses.size(); ++i) motion.X_WB[body][i] = poses[i] * carrier.X_LB;
+    motion.missing[body].clear();
+  }
+  return result;
+}
+
+/// Where a frame is in one above it, at the last time at which the way from the fixed frame is known.
+/// @return why that is not known; empty if it is.
+std::string poseAbove(const TfHistory& history, const std::string& above, const std::string& frame, Isometry3d& X_AF) {
+  X_AF.setIdentity();
+  if (above == frame) return {};
+  const TfHistory::Span span = history.span(frame);
+  if (!span.problem.empty()) return span.problem;
+  const ros::Time time = span.is_static ? ros::Time() : span.last;
+  Isometry3d X_WA, X_WF;
+  std::string problem;
+  if (!history.lookup(above, time, X_WA, problem) || !history.lookup(frame, time, X_WF, problem)) return problem;
+  X_AF = relativePose(X_WA, X_WF);
+  return {};
 }
 
 }  // namespace
 
-CycleMotion toCycleMotion(const QueryMotion::Request& request, const PlannedScene& planned,
-                          std::vector<double>& samples) {
-  const bool trajectory = !request.trajectory.points.empty();
-  if (trajectory == !request.poses.empty()) refuse("give either a trajectory or poses of links");
-  samples = trajectory ? timesOf(request.trajectory.points, "the trajectory") : timesOf(request.poses, "poses");
-  return trajectory ? alongTrajectory(request, planned, samples) : alongLinkPoses(request, planned, samples);
+CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const Scene& scene) {
+  const RobotModel& robot = frames.robot;
+  CurrentPoses now;
+  history.lookup(frames(0), ros::Time(), now.X_WR, now.root_missing);
+  std::map<std::string, int> links;
+  for (int link = 0; link < static_cast<int>(robot.links().size()); ++link) {
+    links[frames(link)] = link;
+    if (link == 0) continue;
+    const std::string& joint = robot.jointAbove(link).name;
+    Isometry3d X_PL;
+    const std::string problem = poseAbove(history, frames(robot.parent(link)), frames(link), X_PL);
+    if (problem.empty()) {
+      now.joints.X_PL[joint] = X_PL;
+    } else {
+      now.joints.missing[joint] = problem;
+    }
+  }
+  for (const Body& body : scene.bodies) {
+    Carrier carrier;
+    std::vector<std::string> above = history.framesAbove(body.frame);
+    above.insert(above.begin(), body.frame);
+    const auto frame =
+        std::find_if(above.begin(), above.end(), [&](const auto& name) { return links.count(name) > 0; });
+    Isometry3d X_LF = Isometry3d::Identity();
+    if (frame != above.end() && poseAbove(history, *frame, body.frame, X_LF).empty()) {
+      carrier = {links.at(*frame), X_LF * body.X_frame_B};
+    }
+    now.carriers.push_back(carrier);
+  }
+  return now;
+}
+
+PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& planned) {
+  const bool has_joints = !request.trajectory.points.empty() || !request.multi_dof_trajectory.points.empty();
+  if (has_joints == !request.poses.empty()) refuse("give either a trajectory or poses of links");
+  return has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned);
 }
 
 }  // namespace sdf_ccd

@@ -3,31 +3,61 @@
 #include <string>
 #include <vector>
 
-#include "ros/tf_tracker.h"
+#include "ros/tf_history.h"
 #include "sdf_ccd/QueryMotion.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot/planned_joints.h"
 
 namespace sdf_ccd {
 
-/// Where things are that a planned motion does not move.
+/// The link that a body's frame hangs on.
+struct Carrier {
+  int link = -1;                             ///< by its index in RobotModel::links(); −1: none
+  Isometry3d X_LB = Isometry3d::Identity();  ///< the body's frame in the link's
+};
+
+/// Where things are now, for all that a planned motion does not say.
 struct CurrentPoses {
   Isometry3d X_WR = Isometry3d::Identity();  ///< of the robot's root link
   std::string root_missing;                  ///< why that is not known; empty if it is
-  std::vector<Isometry3d> X_WB;              ///< per body
-  std::vector<std::string> missing;          ///< per body: why that is not known
+  CurrentJoints joints;
+  std::vector<Isometry3d> X_WB;      ///< per body
+  std::vector<std::string> missing;  ///< per body: why that is not known
+  std::vector<Carrier> carriers;     ///< per body
+
+  Isometry3d X_WM = Isometry3d::Identity();  ///< of the frame that the plan's root poses are given in
+  std::string plan_frame_missing;
 };
 
 /// What a planned motion moves.
 struct PlannedScene {
   const Scene& scene;
   const RobotModel& robot;
+  std::string base_joint;  ///< the SRDF's virtual joint of the root link; may be empty
   CurrentPoses now;
   MotionSampling sampling;
 };
 
-/// The motion of all bodies along the request's joint trajectory or link poses.
-/// @param samples  set to the times of the request's points, from the first.
+struct PlannedMotion {
+  CycleMotion motion;
+  std::vector<double> samples;  ///< times of the request's points [s], from the first
+  std::vector<AssumedJoint> assumed;
+  std::string notes;  ///< what a user should know of the assumptions; may be empty
+};
+
+/// The robot's frames in tf: its links, with tf's prefix.
+struct RobotFrames {
+  const RobotModel& robot;
+  std::string prefix;
+
+  std::string operator()(int link) const { return prefix + robot.links()[link]; }
+};
+
+/// From the newest transform of each frame, whatever its age. Bodies' own poses are left to the caller.
+CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const Scene& scene);
+
+/// The motion of all bodies along the request's joint trajectory or link poses. A body whose frame is not a link's but
+/// hangs below one moves with it.
 /// @throws std::invalid_argument, saying what is wrong with the request.
-CycleMotion toCycleMotion(const QueryMotion::Request& request, const PlannedScene& scene, std::vector<double>& samples);
+PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& scene);
 
 }  // namespace sdf_ccd

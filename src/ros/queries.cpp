@@ -18,7 +18,8 @@ Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& descr
                  const MonitorParameters& parameters, const TfHistory& history, const TfTracker& tracker)
     : scene_(scene),
       robot_(described.robot),
-      root_frame_(described.root_frame),
+      tf_prefix_(described.tf_prefix),
+      base_joint_(described.base_joint),
       sampling_(parameters.tf.sampling),
       max_points_(parameters.max_points),
       history_(history),
@@ -28,20 +29,24 @@ Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& descr
 void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
   response.verdict = QueryMotion::Response::NOT_CHECKED;
   try {
-    CurrentPoses now;
-    history_.lookup(root_frame_, ros::Time(), now.X_WR, now.root_missing);
+    CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, *scene_);
     tracker_.posesAt(ros::Time(), now.X_WB, now.missing);
-    std::vector<double> samples;
-    const CycleMotion motion = toCycleMotion(request, {*scene_, *robot_, now, sampling_}, samples);
+    const std::string frame = withoutLeadingSlash(request.multi_dof_trajectory.header.frame_id);
+    history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
+    const PlannedMotion planned = toPlannedMotion(request, {*scene_, *robot_, base_joint_, now, sampling_});
     monitor_.reset();
     CycleRequest wanted;
     wanted.max_points = max_points_;
-    const CycleResult& result = monitor_.run(motion, wanted);
+    const CycleResult& result = monitor_.run(planned.motion, wanted);
     response.success = true;
-    if (result.pairs.empty()) response.message = "no pairs: there is nothing to check";
+    response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
+    for (const AssumedJoint& joint : planned.assumed) {
+      response.assumed_joints.push_back(joint.name);
+      response.assumed_positions.push_back(joint.position);
+    }
     response.verdict = static_cast<std::uint8_t>(result.verdict);
     response.error_bound = result.error_bound;
-    response.pairs = toPairContacts(result, {*scene_, motion, samples, ros::Time()});
+    response.pairs = toPairContacts(result, {*scene_, planned.motion, planned.samples, ros::Time()});
     response.checked = result.checked + result.skipped;
     response.not_checked = result.not_checked;
   } catch (const std::exception& error) {

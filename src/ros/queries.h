@@ -23,7 +23,7 @@ class Queries {
  private:
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const RobotModel> robot_;
-  std::string root_frame_;
+  std::string tf_prefix_, base_joint_;
   MotionSampling sampling_;
   int max_points_;
   const TfHistory& history_;

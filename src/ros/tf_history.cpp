@@ -104,6 +104,13 @@ std::vector<const TfHistory::Edge*> TfHistory::edgesUpwards(const std::string& f
   return edges;
 }
 
+std::vector<std::string> TfHistory::framesAbove(const std::string& frame) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::string> above;
+  for (const Edge* edge : edgesUpwards(frame)) above.push_back(edge->parent);
+  return above;
+}
+
 std::string TfHistory::rootOf(const std::string& frame) const {
   const std::vector<const Edge*> edges = edgesUpwards(frame);
   return edges.empty() ? frame : edges.back()->parent;

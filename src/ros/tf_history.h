@@ -62,6 +62,9 @@ class TfHistory {
   bool lookup(const std::string& target, const std::string& frame, const ros::Time& time, Isometry3d& X_TF,
               std::string& problem) const;
 
+  /// The frames above a frame, the nearest first.
+  std::vector<std::string> framesAbove(const std::string& frame) const;
+
   /// Transforms that came behind newer ones of the same frame: cycles may have used an interpolation in their place.
   long outOfOrder() const;
 

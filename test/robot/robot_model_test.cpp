@@ -90,15 +90,6 @@ TEST(RobotModel, RefusesUnknownJointsAndPositionsThatAreNotFinite) {
   EXPECT_THROW(robot.forwardKinematics({{"elbow", std::nan("")}}), std::invalid_argument);
 }
 
-TEST(RobotModel, TurnsAddUpAlongTheChain) {
-  const RobotModel robot(kArm);
-  EXPECT_EQ(robot.turn({}, {}), 0.0);
-  EXPECT_NEAR(robot.turn({{"shoulder", 1.0}, {"elbow", 1.0}}, {{"shoulder", -1.5}, {"elbow", 2.0}}), 3.5, 1e-12);
-  EXPECT_NEAR(robot.turn({{"shoulder", 1.0}}, {{"spin", 8.0 * kPi}}), 8.0 * kPi, 1e-12);  // another branch
-  EXPECT_EQ(robot.turn({{"slide", 0.0}}, {{"slide", 0.1}}), 0.0);
-  EXPECT_THROW(robot.turn({}, {{"knee", 0.0}}), std::invalid_argument);
-}
-
 TEST(RobotModel, LinksAreInDepthFirstOrder) {
   const RobotModel robot(kArm);
   EXPECT_EQ(robot.root(), "base");

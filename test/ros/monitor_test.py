@@ -238,6 +238,26 @@ class MonitorTest(unittest.TestCase):
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.verdict, answer.CONTACT)
 
+    def test_query_motion_starts_from_the_current_state(self):
+        for _ in range(3):
+            self.send(0.0, PLATE)  # the other ball is in the plate
+        answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'other', 'plate'})
+        self.assertEqual(answer.assumed_joints, ['other_slide'])
+        self.assertAlmostEqual(answer.assumed_positions[0], PLATE, delta=1e-9)
+        self.assertIn('1 joints', answer.message)
+        request = trajectory('slide', [0.0, 0.3])
+        request.other_joints, request.other_positions = ['other_slide'], [0.0]
+        answer = self.query_motion(request)
+        self.assertEqual(answer.verdict, answer.CLEAR)
+        self.assertEqual(answer.assumed_joints, [])
+        request = trajectory('slide', [0.0, 2.5])
+        answer = self.query_motion(request)
+        self.assertFalse(answer.success)
+        self.assertIn('joint slide: position 2.5 is beyond its limits [-2, 2]', answer.message)
+
     def test_query_points(self):
         answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(0.5, 0.25, 0.0)])
         self.assertTrue(answer.success, answer.message)

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "ros/conversions.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -26,6 +30,7 @@ class PlannedMotionTest : public ::testing::Test {
     now_.X_WR = Eigen::Translation3d(2.0, 0.0, 0.0);
     now_.X_WB = {Isometry3d::Identity(), Isometry3d(Eigen::Translation3d(0.0, 5.0, 0.0))};
     now_.missing = {"no transform", ""};
+    now_.carriers = {{1, Isometry3d::Identity()}, {}};
   }
 
   static QueryMotion::Request swing(std::vector<double> positions) {
@@ -41,7 +46,9 @@ class PlannedMotionTest : public ::testing::Test {
   }
 
   CycleMotion motion(const QueryMotion::Request& request) {
-    return toCycleMotion(request, {scene_, robot_, now_, MotionSampling()}, samples_);
+    planned_ = toPlannedMotion(request, {scene_, robot_, "virtual", now_, MotionSampling()});
+    samples_ = planned_.samples;
+    return planned_.motion;
   }
 
   std::string refusal(const QueryMotion::Request& request) {
@@ -56,19 +63,26 @@ class PlannedMotionTest : public ::testing::Test {
   RobotModel robot_{kUrdf};
   Scene scene_;
   CurrentPoses now_;
+  PlannedMotion planned_;
   std::vector<double> samples_;
 };
 
 TEST_F(PlannedMotionTest, TrajectoryMovesLinksWhereverTfHasThem) {
   const CycleMotion result = motion(swing({0.0, M_PI_2, 0.0}));
   EXPECT_EQ(samples_, (std::vector<double>{0.0, 1.0, 2.0}));
-  EXPECT_EQ(result.times, (std::vector<double>{0.0, 0.5, 1.0, 1.5, 2.0}));  // so that no link turns by more than 1 rad
+  const std::size_t middle = std::find(result.times.begin(), result.times.end(), 1.0) - result.times.begin();
+  ASSERT_LT(middle, result.times.size());
   EXPECT_EQ(result.missing[0], "");
-  EXPECT_LT((result.X_WB[0][2] * Vector3d(0.0, 0.0, -1.0) - Vector3d(1.0, 0.0, 1.0)).norm(), 1e-12);
-  EXPECT_EQ(result.X_WB[1][2].translation(), Vector3d(0.0, 5.0, 0.0));
+  EXPECT_LT((result.X_WB[0][middle] * Vector3d(0.0, 0.0, -1.0) - Vector3d(1.0, 0.0, 1.0)).norm(), 1e-12);
+  EXPECT_EQ(result.X_WB[1][middle].translation(), Vector3d(0.0, 5.0, 0.0));
 }
 
 TEST_F(PlannedMotionTest, WholeRevolutionsAreNotTakenForRest) {
+  const auto swing = [](const std::vector<double>& positions) {
+    QueryMotion::Request request = PlannedMotionTest::swing(positions);
+    request.allow_beyond_limits = true;
+    return request;
+  };
   for (const int revolutions : {1, 2, 4, 64}) {
     const CycleMotion result = motion(swing({0.5, 0.5 + revolutions * 2.0 * M_PI}));
     EXPECT_EQ(samples_, (std::vector<double>{0.0, 1.0}));
@@ -108,6 +122,86 @@ TEST_F(PlannedMotionTest, LinkPosesAreTakenAsTheyAre) {
   EXPECT_EQ(refusal(request), "the robot has no link tail");
 }
 
+/// Two links given as turned by +2 and −2 rad about one axis turn by 4 rad against each other, each its own way.
+TEST_F(PlannedMotionTest, EachLinkFollowsItsOwnShortestWay) {
+  QueryMotion::Request request;
+  request.links = {"rod", "base"};
+  request.poses.resize(2);
+  for (int i = 0; i < 2; ++i) {
+    request.poses[i].time_from_start = ros::Duration(i);
+    for (const double angle : {2.0, -2.0}) {
+      request.poses[i].poses.push_back(toPose(Isometry3d(Eigen::AngleAxisd(i * angle, Vector3d::UnitZ()))));
+    }
+  }
+  Body base = scene_.bodies[0];
+  base.name = base.frame = "base";
+  scene_.bodies.push_back(base);
+  now_.X_WB.push_back(Isometry3d::Identity());
+  now_.missing.push_back("");
+  now_.carriers.push_back({0, Isometry3d::Identity()});
+  const CycleMotion result = motion(request);
+  EXPECT_NEAR(ScrewMotion(result.X_WB[0][0], result.X_WB[0][1]).angularVelocity().z(), 2.0, 1e-12);
+  EXPECT_NEAR(ScrewMotion(result.X_WB[2][0], result.X_WB[2][1]).angularVelocity().z(), -2.0, 1e-12);
+  for (const double angle : {M_PI, M_PI - 5e-7, -M_PI}) {
+    request.poses[1].poses[0] = toPose(Isometry3d(Eigen::AngleAxisd(angle, Vector3d::UnitZ())));
+    EXPECT_EQ(refusal(request),
+              "link rod turns by half a revolution up to poses 1: they do not tell which way, one between them would");
+  }
+  request.poses[1].poses[0] = toPose(Isometry3d(Eigen::AngleAxisd(M_PI - 1e-5, Vector3d::UnitZ())));
+  EXPECT_EQ(refusal(request), "not refused");
+}
+
+TEST_F(PlannedMotionTest, JointsThatAreNotNamedAreWhereTfHasThem) {
+  QueryMotion::Request request = swing({0.0, 1.0});
+  request.trajectory.joint_names.clear();
+  for (auto& point : request.trajectory.points) point.positions.clear();
+  Isometry3d X_PL(Eigen::Translation3d(0.0, 0.0, 1.0) * Eigen::AngleAxisd(M_PI_2, Vector3d::UnitY()));
+  now_.joints.X_PL["swing"] = X_PL;
+  const CycleMotion result = motion(request);
+  EXPECT_TRUE(result.X_WB[0][1].isApprox(now_.X_WR * X_PL, 1e-12));
+  ASSERT_EQ(planned_.assumed.size(), 1u);
+  EXPECT_EQ(planned_.assumed[0].name, "swing");
+  EXPECT_NEAR(planned_.assumed[0].position, M_PI_2, 1e-12);
+  EXPECT_EQ(planned_.notes, "1 joints that are not named are where tf has them now");
+  now_.joints.X_PL.clear();
+  now_.joints.missing["swing"] = "no transform";
+  EXPECT_EQ(motion(request).missing[0], "joint swing is not named, and where it is now is not known: no transform");
+}
+
+TEST_F(PlannedMotionTest, ObjectsInALinksFrameMoveWithIt) {
+  now_.carriers[1] = {1, Isometry3d(Eigen::Translation3d(0.0, 0.0, -1.0))};
+  EXPECT_LT((motion(swing({0.0, M_PI_2})).X_WB[1].back().translation() - Vector3d(1.0, 0.0, 1.0)).norm(), 1e-12);
+}
+
+TEST_F(PlannedMotionTest, TheRootMovesByAMultiDofTrajectory) {
+  for (const std::string name : {"virtual", "base"}) {
+    QueryMotion::Request request = swing({0.0, 1.0, 2.0});
+    request.multi_dof_trajectory.joint_names = {name};
+    request.multi_dof_trajectory.points.resize(2);
+    for (int i = 0; i < 2; ++i) {
+      auto& point = request.multi_dof_trajectory.points[i];
+      point.time_from_start = ros::Duration(1.0 + 2.0 * i);
+      point.transforms.resize(1);
+      point.transforms[0].translation.x = 4.0 * i;
+      point.transforms[0].rotation.w = 1.0;
+    }
+    now_.X_WM = Eigen::Translation3d(0.0, 7.0, 0.0);
+    now_.root_missing = "not known, and not needed";
+    const CycleMotion result = motion(request);
+    EXPECT_EQ(samples_, (std::vector<double>{0.0, 1.0, 2.0}));
+    EXPECT_EQ(result.missing[0], "");
+    const auto middle = std::find(result.times.begin(), result.times.end(), 1.0) - result.times.begin();
+    EXPECT_LT((result.X_WB[0][middle].translation() - Vector3d(2.0, 7.0, 1.0)).norm(), 1e-12);
+    now_.plan_frame_missing = "no map";
+    EXPECT_EQ(motion(request).missing[0], "no map");
+    now_.plan_frame_missing = "";
+    request.multi_dof_trajectory.points[1].time_from_start = ros::Duration(4.0);
+    EXPECT_EQ(refusal(request), "two trajectories do not begin and end at the same times");
+    request.multi_dof_trajectory.points[1].transforms[0].rotation.w = 0.0;
+    EXPECT_EQ(refusal(request), "orientation is not a quaternion");
+  }
+}
+
 TEST_F(PlannedMotionTest, BadRequestsAreRefusedWithTheReason) {
   EXPECT_EQ(refusal(QueryMotion::Request()), "give either a trajectory or poses of links");
   EXPECT_EQ(refusal(swing({0.0})), "the trajectory has 1 points, two or more are needed");
@@ -117,6 +211,14 @@ TEST_F(PlannedMotionTest, BadRequestsAreRefusedWithTheReason) {
   request = swing({0.0, 1.0});
   request.trajectory.points[1].positions.clear();
   EXPECT_EQ(refusal(request), "point 1 of the trajectory has 0 positions for 1 joints");
+  request = swing({0.0, 1.0});
+  request.other_joints = {"swing"};
+  request.other_positions = {0.0};
+  EXPECT_EQ(refusal(request), "joint swing is named twice");
+  EXPECT_EQ(refusal(swing({0.0, 3.5})), "joint swing: position 3.5 is beyond its limits [-3, 3] (waypoint 1)");
+  request = swing({0.0, 3.5});
+  request.allow_beyond_limits = true;
+  EXPECT_EQ(refusal(request), "not refused");
   request = swing({0.0, 1.0});
   request.trajectory.joint_names = {"swong"};
   EXPECT_NE(refusal(request).find("swong"), std::string::npos);

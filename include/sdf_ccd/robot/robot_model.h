@@ -14,6 +14,9 @@ namespace sdf_ccd {
 
 using JointPositions = std::map<std::string, double>;  ///< by joint name [rad or m]
 
+/// By joint name: pose of the joint's child link in the joint's frame (the one that its <origin> gives).
+using JointPoses = std::map<std::string, Isometry3d>;
+
 /// The tree of links and joints of a URDF.
 class RobotModel {
  public:
@@ -28,20 +31,28 @@ class RobotModel {
   /// Links in depth-first order, the root first.
   const std::vector<std::string>& links() const { return links_; }
 
+  /// Of a link, by its index in links(): that of its parent, −1 for the root; and the joint between them, which all
+  /// links but the root have.
+  int parent(int link) const { return parent_[link]; }
+  const urdf::Joint& jointAbove(int link) const;
+
+  /// The joint that a mimic joint follows in the end; any other joint itself.
+  const urdf::Joint& leader(const urdf::Joint& joint) const;
+
   /// Links whose collision elements urdf() does not hold, as the parser could not read all of them; reasons by link.
   const std::map<std::string, std::string>& unread() const { return unread_; }
 
   /// Pose of every link in the root's frame, in the order of links().
   ///
-  /// Joints that are not named are at zero (or at the nearest limit), planar and floating ones always. Mimic joints
-  /// follow their leader, also if they are named. A named position is taken as it is, also beyond the joint's limits.
-  /// @throws std::invalid_argument for a joint that does not exist or a position that is not finite.
-  std::vector<Isometry3d> forwardKinematics(const JointPositions& positions) const;
+  /// Joints that are named nowhere are at zero (or at the nearest limit), planar and floating ones at identity. Mimic
+  /// joints follow their leader, also if they are named. A named position is taken as it is, also beyond the joint's
+  /// limits, in units of the axis' direction, however long the axis is.
+  /// @param poses  joints that stand here, of whatever type; for these, positions do not count.
+  /// @throws std::invalid_argument for a joint that does not exist, or a position or pose that is not finite.
+  std::vector<Isometry3d> forwardKinematics(const JointPositions& positions, const JointPoses& poses = {}) const;
 
-  /// The most that any link turns against the root while the joints move evenly from one position to the other [rad]:
-  /// the joints' turns added up along its chain. A pose tells a turn only up to whole revolutions; this does not.
-  /// @throws std::invalid_argument as forwardKinematics() does.
-  double turn(const JointPositions& from, const JointPositions& to) const;
+  /// Where a joint is when its positions are these: its own or its leader's, else zero or the nearest limit.
+  double position(const urdf::Joint& joint, const JointPositions& positions) const;
 
   /// True if only fixed joints lie between the links.
   bool rigidlyJoined(const std::string& link_a, const std::string& link_b) const;
@@ -73,9 +84,7 @@ class RobotModel {
   std::vector<int> parent_;           ///< per link: its parent's index; -1 for the root
 
   int indexOf(const std::string& link) const;
-  const urdf::Joint& jointAbove(int link) const;
-  void requireKnown(const JointPositions& positions) const;
-  double position(const urdf::Joint& joint, const JointPositions& positions) const;
+  void requireKnown(const JointPositions& positions, const JointPoses& poses) const;
   std::vector<std::pair<int, bool>> path(int from, int to) const;  ///< (link below the joint, whether it goes down)
   int movableJointsBetween(const std::string& link_a, const std::string& link_b) const;
 };

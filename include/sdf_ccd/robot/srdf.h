@@ -12,13 +12,15 @@ namespace sdf_ccd {
 
 /// What is used of an SRDF file. Names are not compared with any robot here.
 struct Srdf {
-  std::vector<DisabledPair> disabled;            ///< reason: "SRDF: " and the file's
-  std::map<std::string, JointPositions> states;  ///< "group/state"; "state" where the file names no group
-  std::vector<std::string> disabled_by_default;  ///< links that are checked against those of `enabled` alone
+  std::vector<DisabledPair> disabled;                 ///< reason: "SRDF: " and the file's
+  std::map<std::string, JointPositions> states;       ///< "group/state"; "state" where the file names no group
+  std::vector<std::string> disabled_by_default;       ///< links that are checked against those of `enabled` alone
+  std::map<std::string, std::string> virtual_joints;  ///< child link by name; parent frame and type are not used
   std::vector<std::pair<std::string, std::string>> enabled;  ///< overrides disabled_by_default, and adjacency
 };
 
-/// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions` and `group_state`. As in MoveIt, a
+/// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions`, `group_state` and
+/// `virtual_joint`. As in MoveIt, a
 /// pair that is both disabled and enabled is disabled. Joints with several values in a state (planar, floating) are
 /// left out of it.
 /// @param source  where the text is from, for errors; may be empty.

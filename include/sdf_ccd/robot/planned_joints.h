@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/robot/trajectory_motion.h"
+
+namespace sdf_ccd {
+
+/// What is known of a robot now.
+struct CurrentJoints {
+  std::map<std::string, Isometry3d> X_PL;      ///< by joint: its child link in its parent link's frame
+  std::map<std::string, std::string> missing;  ///< by joint: why that is not known
+};
+
+/// A joint that a plan does not name, and where it is taken to be.
+struct AssumedJoint {
+  std::string name;
+  double position;  ///< [rad or m]; NaN for planar and floating joints: their pose has no one number
+};
+
+/// A plan in which every joint has its place.
+struct PlannedJoints {
+  RobotTrajectory trajectory;
+  std::vector<AssumedJoint> assumed;       ///< in the order of RobotModel::links()
+  std::vector<std::string> beyond_limits;  ///< what an assumed position exceeds, in words
+  std::vector<std::string> missing;        ///< per link: why its place in the root's frame is not known; empty if it is
+};
+
+struct PlanRules {
+  bool allow_beyond_limits = false;  ///< take positions as they are
+};
+
+/// Completes a plan: joints that it does not name, and whose leader it does not name, rest where they are now, with the
+/// very pose of their link (a position follows from it, not the other way round). If that is not known, fixed joints
+/// are where the URDF has them; of others all links below are missing.
+///
+/// Refused are, by std::invalid_argument with joint, value and limit:
+/// - a joint that does not exist, a position or pose that is not finite, or planar and floating joints with a position
+///   and others with a pose; a planar joint's pose outside its plane (by 1e-6);
+/// - a fixed joint that is to be elsewhere than at 0, a mimic joint elsewhere than its leader has it (both by 1e-6),
+/// and
+///   one whose leader is not named;
+/// - revolute and prismatic joints, those that mimic one too, beyond their limits (by 1e-6, which covers what is
+/// rounded
+///   to single precision), unless PlanRules allow it. Limits that are given the wrong way round count as if they were
+///   given the right way. Positions that are assumed are never refused, but said.
+PlannedJoints completePlan(const RobotModel& robot, const RobotTrajectory& named, const CurrentJoints& now,
+                           const PlanRules& rules);
+
+}  // namespace sdf_ccd

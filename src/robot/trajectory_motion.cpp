@@ -1,0 +1,246 @@
+#include "sdf_ccd/robot/trajectory_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "joint_motion.h"
+#include "sdf_ccd/motion/chain_derivatives.h"
+#include "urdf_geometry.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTurn = 1.0;                  // at most that a link turns between two knots [rad]
+constexpr std::size_t kMostAddedKnots = 2000;  // about 300 revolutions
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument(what);
+}
+
+double angleBetween(const Isometry3d& X_a, const Isometry3d& X_b) {
+  return Quaterniond(X_a.linear()).angularDistance(Quaterniond(X_b.linear()));
+}
+
+Isometry3d between(const Isometry3d& X_start, const Isometry3d& X_end, double s) {
+  if (s == 0.0 || X_start.matrix() == X_end.matrix()) return X_start;
+  if (s == 1.0) return X_end;
+  Isometry3d X(Quaterniond(X_start.linear()).slerp(s, Quaterniond(X_end.linear())).normalized());
+  X.translation() = (1.0 - s) * X_start.translation() + s * X_end.translation();
+  return X;
+}
+
+template <class Map>
+bool sameKeys(const Map& a, const Map& b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) { return x.first == y.first; });
+}
+
+void requireTold(const std::string& what, const Isometry3d& X_start, const Isometry3d& X_end, std::size_t waypoint) {
+  if (!X_start.matrix().allFinite() || !X_end.matrix().allFinite()) refuse(what + ": a pose is not finite");
+  if (angleBetween(X_start, X_end) < kAmbiguousTurn) return;
+  refuse(what + " turns by half a revolution up to waypoint " + std::to_string(waypoint) +
+         ": its poses do not tell which way, one between them would");
+}
+
+/// The last waypoint of those that the time lies between.
+std::size_t segmentAt(const std::vector<double>& times, double time) {
+  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  return std::clamp<std::size_t>(next - times.begin(), 1, times.size() - 1);
+}
+
+/// The points of a body, carried by one frame after the other.
+class CarriedPoints {
+ public:
+  explicit CarriedPoints(const CarriedBody& body) : ball_(body.ball_B), X_(body.X_LB) {}
+
+  void carry(const Isometry3d& X) { X_ = X * X_; }
+
+  /// x ↦ t(s) + R(s) x, t from X_start's to t_end.
+  void move(const Isometry3d& X_start, const Vector3d& t_end, double angle, double share) {
+    const DerivativeBounds slide = {share * (t_end - X_start.translation()).norm()};
+    if (angle == 0.0) {
+      carry(Isometry3d(X_start.linear()));
+      begin();
+      const Vector3d& p = X_.translation();
+      chain_->addFrame(std::max((p + X_start.translation()).norm(), (p + t_end).norm()), {}, slide);
+    } else {
+      begin();
+      chain_->addFrame(X_.translation().norm(), {}, {});
+      chain_->addFrame(std::max(X_start.translation().norm(), t_end.norm()), {share * angle}, slide);
+    }
+    X_.setIdentity();
+  }
+
+  double jerk() const { return chain_ ? chain_->jerk() : 0.0; }
+
+ private:
+  /// What has carried the points rigidly so far has moved their ball exactly.
+  void begin() {
+    if (chain_) return;
+    chain_.emplace(BoundingBall{X_ * ball_.center, ball_.radius});
+    X_.setIdentity();
+  }
+
+  BoundingBall ball_;
+  Isometry3d X_;  // what carries the points, or the last frame that moves, since then
+  std::optional<ChainDerivatives> chain_;
+};
+
+}  // namespace
+
+RobotState stateAt(const RobotTrajectory& trajectory, double time) {
+  const std::vector<double>& times = trajectory.times;
+  const std::size_t end = segmentAt(times, time);
+  const double s = (time - times[end - 1]) / (times[end] - times[end - 1]);
+  const RobotState &from = trajectory.states[end - 1], &to = trajectory.states[end];
+  if (s == 1.0) return to;
+  RobotState state = from;
+  state.X_WR = between(from.X_WR, to.X_WR, s);
+  for (auto& [joint, position] : state.positions) position += s * (to.positions.at(joint) - position);
+  for (auto& [joint, pose] : state.poses) pose = between(pose, to.poses.at(joint), s);
+  return state;
+}
+
+RobotTrajectory merged(const RobotTrajectory& joints, const RobotTrajectory& joints_and_root) {
+  const std::vector<double>&a = joints.times, &b = joints_and_root.times;
+  if (a.front() != b.front() || a.back() != b.back()) refuse("two trajectories do not begin and end at the same times");
+  RobotTrajectory both;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both.times));
+  for (const double time : both.times) {
+    RobotState state = stateAt(joints_and_root, time);
+    const RobotState other = stateAt(joints, time);
+    state.positions.insert(other.positions.begin(), other.positions.end());
+    state.poses.insert(other.poses.begin(), other.poses.end());
+    both.states.push_back(state);
+  }
+  return both;
+}
+
+TrajectoryMotion::TrajectoryMotion(const RobotModel& robot, const RobotTrajectory& trajectory,
+                                   const std::vector<CarriedBody>& bodies)
+    : robot_(robot), trajectory_(trajectory), bodies_(bodies) {
+  const std::vector<RobotState>& states = trajectory_.states;
+  if (states.size() < 2 || states.size() != trajectory_.times.size())
+    refuse("a trajectory needs two waypoints or more");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    robot_.forwardKinematics(states[i].positions, states[i].poses);  // refuses what it cannot take
+    if (i == 0) continue;
+    if (!(trajectory_.times[i] > trajectory_.times[i - 1])) {
+      refuse("the time of waypoint " + std::to_string(i) + " does not increase");
+    }
+    if (!sameKeys(states[i].positions, states[0].positions) || !sameKeys(states[i].poses, states[0].poses)) {
+      refuse("waypoint " + std::to_string(i) + " does not name the joints of the first one");
+    }
+    requireTold("the robot's root", states[i - 1].X_WR, states[i].X_WR, i);
+    for (const auto& [joint, pose] : states[i].poses) {
+      requireTold("joint " + joint, states[i - 1].poses.at(joint), pose, i);
+    }
+  }
+}
+
+std::vector<double> TrajectoryMotion::knots() const {
+  const std::vector<double>& times = trajectory_.times;
+  std::vector<double> knots = {times.front()};
+  std::size_t added = 0;
+  std::vector<FrameMove> moves;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    moveAlong(i, moves);
+    double turn = 0.0;  // of any link: its chain's turns added up
+    std::vector<double> turns(moves.size());
+    for (std::size_t link = 0; link < moves.size(); ++link) {
+      turns[link] = moves[link].angle + (link > 0 ? turns[robot_.parent(static_cast<int>(link))] : 0.0);
+      turn = std::max(turn, turns[link]);
+    }
+    const double pieces = std::max(1.0, std::ceil(turn / kTurn));
+    if (!(pieces - 1.0 <= static_cast<double>(kMostAddedKnots - added))) {
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "the trajectory turns a link by %.3g rad up to point %zu: more than %zu rad "
+                    "beside one per point are not checked",
+                    turn, i, kMostAddedKnots);
+      refuse(text);
+    }
+    added += static_cast<std::size_t>(pieces) - 1;
+    for (double piece = 1.0; piece < pieces; ++piece) {
+      knots.push_back(times[i - 1] + piece / pieces * (times[i] - times[i - 1]));
+    }
+    knots.push_back(times[i]);
+  }
+  return knots;
+}
+
+MotionSource TrajectoryMotion::source() {
+  return {[this](double time, std::vector<Isometry3d>& X_WB) { posesAt(time, X_WB); },
+          [this](double start, double end, std::vector<double>& jerk) { jerkBounds(start, end, jerk); }};
+}
+
+void TrajectoryMotion::posesAt(double time, std::vector<Isometry3d>& X_WB) const {
+  const RobotState state = stateAt(trajectory_, time);
+  const std::vector<Isometry3d> X_RL = robot_.forwardKinematics(state.positions, state.poses);
+  X_WB.resize(bodies_.size());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const CarriedBody& carried = bodies_[body];
+    X_WB[body] = carried.link < 0 ? carried.X_LB : state.X_WR * X_RL[carried.link] * carried.X_LB;
+  }
+}
+
+void TrajectoryMotion::moveAlong(std::size_t segment, std::vector<FrameMove>& moves) const {
+  const RobotState &from = trajectory_.states[segment - 1], &to = trajectory_.states[segment];
+  const auto alongPoses = [](const Isometry3d& X_start, const Isometry3d& X_end) {
+    const bool turns = X_start.linear() != X_end.linear();
+    return FrameMove{X_start, X_end.translation(), turns ? angleBetween(X_start, X_end) : 0.0};
+  };
+  moves.assign(robot_.links().size(), FrameMove());
+  moves[0] = alongPoses(from.X_WR, to.X_WR);
+  for (std::size_t link = 1; link < moves.size(); ++link) {
+    const urdf::Joint& joint = robot_.jointAbove(static_cast<int>(link));
+    const auto pose = from.poses.find(joint.name);
+    if (pose != from.poses.end()) {
+      moves[link] = alongPoses(pose->second, to.poses.at(joint.name));
+      continue;
+    }
+    const double start = robot_.position(joint, from.positions), end = robot_.position(joint, to.positions);
+    const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+    moves[link] = {jointMotion(joint, start), jointMotion(joint, end).translation(),
+                   turns ? std::abs(end - start) : 0.0};
+  }
+}
+
+void TrajectoryMotion::jerkBounds(double start, double end, std::vector<double>& jerk) {
+  const std::vector<double>& times = trajectory_.times;
+  const std::size_t segment = segmentAt(times, start);
+  if (!(times[segment - 1] <= start && end <= times[segment])) {
+    jerk.assign(bodies_.size(), kInfinity);
+    return;
+  }
+  if (segment != segment_) {
+    moveAlong(segment, moves_);
+    segment_ = segment;
+  }
+  const double share = (end - start) / (times[segment] - times[segment - 1]);
+  jerk.resize(bodies_.size());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) jerk[body] = this->jerk(bodies_[body], share);
+}
+
+double TrajectoryMotion::jerk(const CarriedBody& body, double share) const {
+  if (body.link < 0) return 0.0;
+  CarriedPoints points(body);
+  for (int link = body.link; link >= 0; link = robot_.parent(link)) {
+    const FrameMove& move = moves_[link];
+    if (move.rests()) {
+      points.carry(move.X_start);
+    } else {
+      points.move(move.X_start, move.t_end, move.angle, share);
+    }
+    if (link > 0) points.carry(toEigen(robot_.jointAbove(link).parent_to_joint_origin_transform));
+  }
+  return points.jerk();
+}
+
+}  // namespace sdf_ccd
