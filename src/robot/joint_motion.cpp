@@ -42,13 +42,16 @@ double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC) {
   return angle;
 }
 
-Range positionRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
+Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
+  constexpr double kShare = 0.1, kLeast = 0.01;  // of the range, and [m]
   Range range(-kInfinity, kInfinity);
-  if (joint.type != urdf::Joint::CONTINUOUS && joint.limits) {
-    range = std::minmax({joint.limits->lower, joint.limits->upper});
+  if (joint.type != urdf::Joint::CONTINUOUS && joint.limits && joint.limits->lower != joint.limits->upper) {
+    const auto [lower, upper] = std::minmax(joint.limits->lower, joint.limits->upper);
+    const double margin = std::max(kLeast, kShare * (upper - lower));
+    range = {lower - margin, upper + margin};
   }
   if (joint.mimic) {
-    const Range leader = positionRange(model, *model.joints_.at(joint.mimic->joint_name));
+    const Range leader = reachRange(model, *model.joints_.at(joint.mimic->joint_name));
     const double factor = joint.mimic->multiplier;
     const auto follow = [&](double q) { return (factor == 0.0 ? 0.0 : factor * q) + joint.mimic->offset; };
     range = std::minmax({range.first, range.second, follow(leader.first), follow(leader.second)});

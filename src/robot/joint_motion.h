@@ -12,14 +12,15 @@ namespace sdf_ccd {
 /// Pose of a joint's child link in the joint's frame, at a position [rad or m]. Planar and floating: identity.
 Isometry3d jointMotion(const urdf::Joint& joint, double position);
 
-/// The position at which jointMotion() comes nearest to a pose [rad or m]; of a revolute joint the one within its
-/// limits, where there is one, else within (−π, π]: a pose does not tell whole revolutions. NaN for joints of other
-/// degrees of freedom than one.
+/// RobotModel::positionAt(), of the child link's pose in the joint's frame.
 double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC);
 
-/// Least and greatest position [rad or m]. A mimic joint has its leader's range carried over as well as its own.
 using Range = std::pair<double, double>;
-Range positionRange(const urdf::ModelInterface& model, const urdf::Joint& joint);
+
+/// Positions that reach bounds allow for [m]: a prismatic joint's limits, either way round, and beyond each a margin of
+/// a tenth of the range, at least 1 cm, as real joints overshoot and URDFs are wrong. Two equal limits are none: so a
+/// URDF reads that gives none. A mimic joint has its leader's range carried over as well as its own.
+Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint);
 
 /// Bounds the distance between the two ends of a chain of joints, over all joint positions.
 ///

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "joint_motion.h"
 #include "sdf_ccd/geometry/number_text.h"
 #include "urdf_geometry.h"
 
@@ -122,7 +121,7 @@ class Planner {
     const Isometry3d X_JC = toEigen(joint.parent_to_joint_origin_transform).inverse() * now->second;
     for (RobotState& state : plan_.trajectory.states) state.poses[joint.name] = X_JC;
     if (is_fixed) return;
-    const double position = jointPosition(joint, X_JC);
+    const double position = robot_.positionAt(joint, now->second);
     plan_.assumed.push_back({joint.name, position});
     const std::string exceeded = exceeds(joint, position);
     if (!exceeded.empty()) plan_.beyond_limits.push_back("joint " + joint.name + ": " + exceeded);

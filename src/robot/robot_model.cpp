@@ -125,11 +125,26 @@ RobotModel::Reach RobotModel::reach(const std::string& link_a, const Vector3d& p
     const urdf::Joint& joint = jointAbove(link);
     const Isometry3d X_PJ = toEigen(joint.parent_to_joint_origin_transform);
     if (down) chain.addFixed(X_PJ);
-    chain.addJoint(joint, positionRange(*urdf_, joint), down);
+    chain.addJoint(joint, reachRange(*urdf_, joint), down);
     if (!down) chain.addFixed(X_PJ.inverse());
   }
   const auto [nearest, farthest] = chain.distanceTo(p_B);
   return {nearest, farthest};
+}
+
+std::vector<RobotModel::Slide> RobotModel::slidesBetween(const std::string& link_a, const std::string& link_b) const {
+  std::vector<Slide> slides;
+  for (const auto& step : path(indexOf(link_a), indexOf(link_b))) {
+    const urdf::Joint& joint = jointAbove(step.first);
+    if (joint.type != urdf::Joint::PRISMATIC) continue;
+    const auto [low, high] = reachRange(*urdf_, joint);
+    slides.push_back({joint.name, low, high});
+  }
+  return slides;
+}
+
+double RobotModel::positionAt(const urdf::Joint& joint, const Isometry3d& X_PL) const {
+  return jointPosition(joint, toEigen(joint.parent_to_joint_origin_transform).inverse() * X_PL);
 }
 
 }  // namespace sdf_ccd

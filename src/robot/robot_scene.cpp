@@ -6,6 +6,7 @@
 
 #include "geometry_extent.h"
 #include "link_geometry.h"
+#include "sdf_ccd/robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -38,7 +39,7 @@ class PairFilter {
     }
     if (ball_a && ball_b) {
       const auto reach = robot_.reach(a.name, ball_a->center, b.name, ball_b->center);
-      if (reach.nearest > ball_a->radius + ball_b->radius) return "out of reach";
+      if (reach.nearest > ball_a->radius + ball_b->radius) return kOutOfReach;
     }
     return {};
   }
@@ -137,7 +138,7 @@ void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
       if (robot.rigidlyJoined(robot.root(), body.name)) {
         reason = "rigidly joined";
       } else if (outOfReach(robot, object, *X_RB, body.name, extentBall(body.geometry))) {
-        reason = "out of reach";
+        reason = kOutOfReach;
       }
       if (!reason.empty()) scene.disabled.push_back({body.name, object.name, reason});
     }

@@ -102,7 +102,7 @@ void CollisionMonitor::setUp() {
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   world_publisher_.publish(toWorldMarkers(described_.scene));
   buildFields();
-  loop_ = std::make_unique<MonitorLoop>(scene_, described_.fixed_frame, parameters_);
+  loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, parameters_.markers);
   listen();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());

@@ -102,6 +102,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     described.scene.bodies.push_back(toBody(parameters.octomap, frameOf(parameters.octomap.frame)));
   }
   disableUnreachable(*robot, described.scene);
+  described.unreachable = unreachablePairs(*robot, described.scene);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
   }

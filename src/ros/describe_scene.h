@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ros/parameters.h"
+#include "sdf_ccd/robot/unreachable_pairs.h"
 #include "sdf_ccd/scene/scene_cost.h"
 
 namespace sdf_ccd {
@@ -14,10 +15,11 @@ namespace sdf_ccd {
 struct DescribedScene {
   std::shared_ptr<const RobotModel> robot;
   SceneDescription scene;
-  std::string root_frame;   ///< the tf frame of the robot's root link
-  std::string tf_prefix;    ///< of all links' frames: empty, or ending in a slash
-  std::string base_joint;   ///< the SRDF's virtual joint of the root link; empty if there is none
-  std::string fixed_frame;  ///< without leading slash
+  std::string root_frame;                    ///< the tf frame of the robot's root link
+  std::string tf_prefix;                     ///< of all links' frames: empty, or ending in a slash
+  std::string base_joint;                    ///< the SRDF's virtual joint of the root link; empty if there is none
+  std::string fixed_frame;                   ///< without leading slash
+  std::vector<UnreachablePair> unreachable;  ///< left out, as long as joints keep to their limits
   std::vector<std::string> warnings;
 };
 

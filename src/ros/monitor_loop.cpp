@@ -2,16 +2,24 @@
 
 namespace sdf_ccd {
 
-MonitorLoop::MonitorLoop(std::shared_ptr<const Scene> scene, const std::string& fixed_frame,
+MonitorLoop::MonitorLoop(std::shared_ptr<const Scene> scene, const DescribedScene& described,
                          const MonitorParameters& parameters)
-    : history_(fixed_frame),
+    : history_(described.fixed_frame),
       tracker_(history_, trackedBodies(*scene), scene->pairs, parameters.tf),
-      monitor_(scene, parameters.monitor) {}
+      monitor_(scene, parameters.monitor),
+      reach_guard_(described) {}
 
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
   const TfTracker::Step step = tracker_.next(now, cycle_);
   if (step == TfTracker::Step::kJump) monitor_.reset();
-  if (step == TfTracker::Step::kCycle) result_ = &monitor_.run(cycle_.motion, request);
+  if (step != TfTracker::Step::kCycle) return step;
+  result_ = &monitor_.run(cycle_.motion, request);
+  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_);
+  if (!unchecked.empty()) {
+    guarded_ = *result_;
+    addUnchecked(unchecked, guarded_);
+    result_ = &guarded_;
+  }
   return step;
 }
 

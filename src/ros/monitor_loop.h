@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "ros/parameters.h"
+#include "ros/reach_guard.h"
 
 namespace sdf_ccd {
 
@@ -11,8 +12,7 @@ namespace sdf_ccd {
 /// Transforms go to history(), from any thread; the rest belongs to one.
 class MonitorLoop {
  public:
-  /// @param fixed_frame  without leading slash.
-  MonitorLoop(std::shared_ptr<const Scene> scene, const std::string& fixed_frame, const MonitorParameters& parameters);
+  MonitorLoop(std::shared_ptr<const Scene> scene, const DescribedScene& described, const MonitorParameters& parameters);
 
   TfHistory& history() { return history_; }
   const TfTracker& tracker() const { return tracker_; }
@@ -35,6 +35,8 @@ class MonitorLoop {
   TfTracker tracker_;
   Monitor monitor_;
   TrackedCycle cycle_;
+  ReachGuard reach_guard_;
+  CycleResult guarded_;  // with pairs that should not have been left out
   const CycleResult* result_ = nullptr;
 };
 

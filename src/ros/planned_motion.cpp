@@ -140,6 +140,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
   result.samples = plan.trajectory.times;
   result.assumed = plan.assumed;
   result.notes = notesOf(plan);
+  result.unchecked = reachableAlong(planned.robot, plan, planned.unreachable);
   result.motion.missing = now.missing;
   const std::string& root_missing = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
   std::vector<CarriedBody> bodies;
@@ -191,6 +192,7 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
     if (!named.insert(link).second) refuse("link " + link + " is named twice");
   }
   const std::vector<std::vector<Isometry3d>> X_WL = linkPoses(request);
+  std::vector<bool> is_moved(motion.X_WB.size(), false);
   for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
     const Carrier& carrier = now.carriers[body];
     if (carrier.link < 0) continue;
@@ -199,7 +201,9 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
     const std::vector<Isometry3d>& poses = X_WL[link - request.links.begin()];
     for (std::size_t i = 0; i < poses.size(); ++i) motion.X_WB[body][i] = poses[i] * carrier.X_LB;
     motion.missing[body].clear();
+    is_moved[body] = true;
   }
+  result.unchecked = reachableAlong(motion, is_moved, planned.unreachable);
   return result;
 }
 

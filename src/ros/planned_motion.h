@@ -5,7 +5,7 @@
 
 #include "ros/tf_history.h"
 #include "sdf_ccd/QueryMotion.h"
-#include "sdf_ccd/robot/planned_joints.h"
+#include "sdf_ccd/robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 
@@ -33,13 +33,15 @@ struct PlannedScene {
   const Scene& scene;
   const RobotModel& robot;
   std::string base_joint;  ///< the SRDF's virtual joint of the root link; may be empty
+  const std::vector<UnreachablePair>& unreachable;
   CurrentPoses now;
   MotionSampling sampling;
 };
 
 struct PlannedMotion {
   CycleMotion motion;
-  std::vector<double> samples;  ///< times of the request's points [s], from the first
+  std::vector<double> samples;           ///< times of the request's points [s], from the first
+  std::vector<UncheckedPair> unchecked;  ///< left out of the scene, though this motion may bring them together
   std::vector<AssumedJoint> assumed;
   std::string notes;  ///< what a user should know of the assumptions; may be empty
 };

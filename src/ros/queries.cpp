@@ -20,6 +20,7 @@ Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& descr
       robot_(described.robot),
       tf_prefix_(described.tf_prefix),
       base_joint_(described.base_joint),
+      unreachable_(described.unreachable),
       sampling_(parameters.tf.sampling),
       max_points_(parameters.max_points),
       history_(history),
@@ -33,13 +34,15 @@ void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response&
     tracker_.posesAt(ros::Time(), now.X_WB, now.missing);
     const std::string frame = withoutLeadingSlash(request.multi_dof_trajectory.header.frame_id);
     history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
-    const PlannedMotion planned = toPlannedMotion(request, {*scene_, *robot_, base_joint_, now, sampling_});
+    const PlannedMotion planned =
+        toPlannedMotion(request, {*scene_, *robot_, base_joint_, unreachable_, now, sampling_});
     monitor_.reset();
     CycleRequest wanted;
     wanted.max_points = max_points_;
-    const CycleResult& result = monitor_.run(planned.motion, wanted);
+    CycleResult result = monitor_.run(planned.motion, wanted);
     response.success = true;
     response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
+    addUnchecked(planned.unchecked, result);
     for (const AssumedJoint& joint : planned.assumed) {
       response.assumed_joints.push_back(joint.name);
       response.assumed_positions.push_back(joint.position);

@@ -24,6 +24,7 @@ class Queries {
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const RobotModel> robot_;
   std::string tf_prefix_, base_joint_;
+  std::vector<UnreachablePair> unreachable_;
   MotionSampling sampling_;
   int max_points_;
   const TfHistory& history_;

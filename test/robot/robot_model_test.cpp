@@ -121,7 +121,36 @@ TEST(RobotModel, ReachIsExactOverOneJoint) {
   EXPECT_NEAR(turned.farthest, std::hypot(2.5, 1.2), 1e-14);
   const auto slid = robot.reach("fore", Vector3d(0.28, 0.1, 0), "tip", Vector3d::Zero());
   EXPECT_NEAR(slid.nearest, 0.1, 1e-14);
-  EXPECT_NEAR(slid.farthest, std::hypot(0.12, 0.1), 1e-14);
+  EXPECT_NEAR(slid.farthest, std::hypot(0.12 + 0.015, 0.1), 1e-14);  // with a tenth of the range beyond its limits
+}
+
+std::string slider(const std::string& rest) {
+  return twoLinks("<joint name='j' type='prismatic'><parent link='a'/><child link='b'/>" + rest + "</joint>");
+}
+std::string limits(const std::string& lower, const std::string& upper) {
+  return "<limit lower='" + lower + "' upper='" + upper + "' effort='1' velocity='1'/>";
+}
+
+TEST(RobotModel, ReachHasAMarginBeyondLimits) {
+  const auto farthest = [](const std::string& rest) { return RobotModel(slider(rest)).reach("a", "b").farthest; };
+  EXPECT_NEAR(farthest("<axis xyz='1 0 0'/>" + limits("0", "2")), 2.2, 1e-14);
+  EXPECT_NEAR(farthest("<axis xyz='0 3 4'/>" + limits("0", "2")), 2.2, 1e-14);  // an axis of length 5
+  EXPECT_NEAR(farthest("<axis xyz='1 0 0'/>" + limits("2", "0")), 2.2, 1e-14);
+  EXPECT_NEAR(farthest("<axis xyz='1 0 0'/>" + limits("0", "0.04")), 0.05, 1e-14);
+  EXPECT_TRUE(std::isinf(farthest("<axis xyz='1 0 0'/><limit effort='1' velocity='1'/>")));
+  EXPECT_TRUE(std::isinf(farthest("<axis xyz='1 0 0'/>" + limits("-1e308", "1e308"))));
+}
+
+TEST(RobotModel, PositionAtAPose) {
+  const RobotModel robot(kArm);
+  const JointPositions positions = {{"shoulder", 2.9}, {"elbow", 1.3}, {"slide", 0.07}, {"spin", -3.0}};
+  const auto X = robot.forwardKinematics(positions);
+  for (std::size_t link = 1; link < X.size(); ++link) {
+    const urdf::Joint& joint = robot.jointAbove(link);
+    if (joint.type == urdf::Joint::FIXED) continue;
+    EXPECT_NEAR(robot.positionAt(joint, X[robot.parent(link)].inverse() * X[link]), robot.position(joint, positions),
+                1e-12);
+  }
 }
 
 TEST(RobotModel, ReachOfUnlimitedJointsIsInfinite) {
@@ -135,12 +164,14 @@ TEST(RobotModel, ReachOfUnlimitedJointsIsInfinite) {
   }
 }
 
-/// All joint positions: those of revolute joints anything, of prismatic ones within their limits.
+/// All joint positions: those of revolute joints anything, of prismatic ones within their limits and the margin.
 JointPositions randomPositions(const RobotModel& robot, test::Random& random) {
   JointPositions positions;
   for (const auto& [name, joint] : robot.urdf().joints_) {
     if (joint->type == urdf::Joint::PRISMATIC) {
-      positions[name] = test::uniform(random, joint->limits->lower, joint->limits->upper);
+      const double lower = joint->limits->lower, upper = joint->limits->upper;
+      const double margin = std::max(0.01, 0.1 * (upper - lower));
+      positions[name] = test::uniform(random, lower - margin, upper + margin);
     } else if (joint->type != urdf::Joint::FIXED) {
       positions[name] = test::uniform(random, -kPi, kPi);
     }

@@ -46,7 +46,7 @@ class PlannedMotionTest : public ::testing::Test {
   }
 
   CycleMotion motion(const QueryMotion::Request& request) {
-    planned_ = toPlannedMotion(request, {scene_, robot_, "virtual", now_, MotionSampling()});
+    planned_ = toPlannedMotion(request, {scene_, robot_, "virtual", unreachable_, now_, MotionSampling()});
     samples_ = planned_.samples;
     return planned_.motion;
   }
@@ -63,6 +63,7 @@ class PlannedMotionTest : public ::testing::Test {
   RobotModel robot_{kUrdf};
   Scene scene_;
   CurrentPoses now_;
+  std::vector<UnreachablePair> unreachable_;
   PlannedMotion planned_;
   std::vector<double> samples_;
 };

@@ -66,7 +66,10 @@ class RobotModel {
     double farthest;  ///< infinite for floating, planar or unlimited prismatic joints
   };
 
-  /// Every revolute joint may turn all the way round: real ones overshoot their limits. Prismatic joints keep theirs.
+  /// Every revolute joint may turn all the way round: real ones overshoot their limits. Prismatic joints may exceed
+  /// theirs by a tenth of the range, and by 1 cm at least (slidesBetween()); beyond that nothing holds, and who leaves
+  /// pairs out for it must see to it. Limits count either way round; two equal ones are taken for none. An axis' length
+  /// does not matter. That the links are joined as the URDF says is taken for granted.
   /// Exact if at most one joint between the links moves; with more, the triangle inequality over the distances
   /// between their axes.
   /// @throws std::invalid_argument for a link that does not exist.
@@ -74,6 +77,19 @@ class RobotModel {
 
   /// The same between a point of link A and one of link B, each in its link's frame [m].
   Reach reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b, const Vector3d& p_B) const;
+
+  /// A prismatic joint, and the positions that reach() allows for [m].
+  struct Slide {
+    std::string joint;
+    double low;
+    double high;
+  };
+  std::vector<Slide> slidesBetween(const std::string& link_a, const std::string& link_b) const;
+
+  /// The position at which a joint comes nearest to having its child link there in its parent link's frame [rad or m];
+  /// of a revolute joint the one within its limits, where there is one, else within (−π, π]: a pose does not tell whole
+  /// revolutions. NaN for joints of other degrees of freedom than one.
+  double positionAt(const urdf::Joint& joint, const Isometry3d& X_PL) const;
 
  private:
   std::shared_ptr<urdf::ModelInterface> urdf_;

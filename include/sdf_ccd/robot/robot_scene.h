@@ -20,7 +20,8 @@ struct RobotSceneOptions {
 /// A bad or missing mesh, or a collision element that cannot be read, costs that link alone: BodyDescription::failure
 /// says "link forearm: package://…: no such package", and its geometry is empty. Left out are, in this order, pairs
 /// that are rigidly joined, disabled by the SRDF, adjacent (unless asked for, or enabled by the SRDF by name), and out
-/// of reach of each other for every joint position by RobotModel::reach() between balls around their geometry.
+/// of reach of each other for every joint position by RobotModel::reach() between balls around their geometry. What
+/// that rests on must be watched: unreachablePairs().
 /// @param warnings  what else a user should know, a line each: files found under another spelling, an SRDF that names
 /// links the robot has not. Failures are not repeated here.
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,

@@ -169,7 +169,7 @@ void run(const Arguments& arguments) {
     std::cerr << "sdf_ccd: warning: " << over << std::endl;
     warnings.push_back(over);
   }
-  MonitorLoop loop(scene, described.fixed_frame, parameters);
+  MonitorLoop loop(scene, described, parameters);
   const double took = check(motion, parameters, described, loop, files);
   const CycleStatistics& statistics = files.report.statistics();
   requireChecked(statistics, arguments.bag);

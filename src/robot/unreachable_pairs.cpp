@@ -1,0 +1,111 @@
+#include "sdf_ccd/robot/unreachable_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geometry_extent.h"
+#include "sdf_ccd/geometry/number_text.h"
+#include "urdf_geometry.h"
+
+namespace sdf_ccd {
+
+const char* const kOutOfReach = "out of reach";
+
+namespace {
+
+BoundingBall ballOf(const BodyDescription& body) {
+  const ExtentBall ball = extentBall(body.geometry);
+  return {ball.center, ball.radius};
+}
+
+/// Empty if all is as it was taken to be.
+std::string beyond(const RobotModel& robot, const RobotState& state, const RobotModel::Slide& slide) {
+  const urdf::Joint& joint = *robot.urdf().getJoint(slide.joint);
+  const auto pose = state.poses.find(slide.joint);
+  const Isometry3d X_PJ = toEigen(joint.parent_to_joint_origin_transform);
+  const double position =
+      pose == state.poses.end() ? robot.position(joint, state.positions) : robot.positionAt(joint, X_PJ * pose->second);
+  return beyondReach(slide, position);
+}
+
+/// The least distance of two points that move along their screws, from their places at both ends.
+double leastDistance(const ScrewMotion& X_WA, const Vector3d& p_A, const ScrewMotion& X_WB, const Vector3d& p_B) {
+  const double start = (X_WA.start() * p_A - X_WB.start() * p_B).norm();
+  const double end = (X_WA.end() * p_A - X_WB.end() * p_B).norm();
+  return 0.5 * (start + end - X_WA.maxTravel({p_A, 0.0}) - X_WB.maxTravel({p_B, 0.0}));
+}
+
+}  // namespace
+
+std::string beyondReach(const RobotModel::Slide& slide, double position) {
+  if (slide.low <= position && position <= slide.high) return {};
+  return std::string(kOutOfReach) + " only while joint " + slide.joint + " is within [" + numberText(slide.low) + ", " +
+         numberText(slide.high) + "], it is at " + numberText(position);
+}
+
+std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene) {
+  std::map<std::string, int> index;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) index[scene.bodies[i].name] = static_cast<int>(i);
+  const auto linkOf = [&](int body) { return scene.bodies[body].is_world ? robot.root() : scene.bodies[body].name; };
+  std::vector<UnreachablePair> pairs;
+  for (const DisabledPair& disabled : scene.disabled) {
+    if (disabled.reason != kOutOfReach) continue;
+    UnreachablePair pair;
+    pair.body_a = index.at(disabled.body_a);
+    pair.body_b = index.at(disabled.body_b);
+    pair.ball_a = ballOf(scene.bodies[pair.body_a]);
+    pair.ball_b = ballOf(scene.bodies[pair.body_b]);
+    pair.slides = robot.slidesBetween(linkOf(pair.body_a), linkOf(pair.body_b));
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+std::vector<UncheckedPair> reachableAlong(const RobotModel& robot, const PlannedJoints& plan,
+                                          const std::vector<UnreachablePair>& pairs) {
+  std::vector<UncheckedPair> unchecked;
+  for (const UnreachablePair& pair : pairs) {
+    std::string reason;
+    for (const RobotModel::Slide& slide : pair.slides) {
+      for (const RobotState& state : plan.trajectory.states) {
+        if (reason.empty()) reason = beyond(robot, state, slide);
+      }
+    }
+    if (!reason.empty()) unchecked.push_back({pair.body_a, pair.body_b, reason});
+  }
+  return unchecked;
+}
+
+std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::vector<bool>& is_moved,
+                                          const std::vector<UnreachablePair>& pairs) {
+  std::vector<UncheckedPair> unchecked;
+  for (const UnreachablePair& pair : pairs) {
+    const int a = pair.body_a, b = pair.body_b;
+    if (!is_moved[a] && !is_moved[b]) continue;
+    bool may_meet = !motion.missing[a].empty() || !motion.missing[b].empty();
+    for (std::size_t i = 1; i < motion.times.size() && !may_meet; ++i) {
+      const ScrewMotion X_WA(motion.X_WB[a][i - 1], motion.X_WB[a][i]), X_WB(motion.X_WB[b][i - 1], motion.X_WB[b][i]);
+      may_meet = !(leastDistance(X_WA, pair.ball_a.center, X_WB, pair.ball_b.center) >
+                   pair.ball_a.radius + pair.ball_b.radius);
+    }
+    if (may_meet) unchecked.push_back({a, b, std::string(kOutOfReach) + " by the robot's joints, not by these poses"});
+  }
+  return unchecked;
+}
+
+void addUnchecked(const std::vector<UncheckedPair>& pairs, CycleResult& result) {
+  for (const UncheckedPair& pair : pairs) {
+    PairResult unchecked;
+    unchecked.body_a = pair.body_a;
+    unchecked.body_b = pair.body_b;
+    unchecked.reason = pair.reason;
+    unchecked.span = {0, 1};
+    unchecked.clearance = -1.0;
+    result.pairs.push_back(unchecked);
+    ++result.not_checked;
+  }
+  if (!pairs.empty() && result.verdict == Verdict::kClear) result.verdict = Verdict::kNotChecked;
+}
+
+}  // namespace sdf_ccd

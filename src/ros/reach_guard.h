@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/describe_scene.h"
+#include "ros/tf_tracker.h"
+
+namespace sdf_ccd {
+
+/// Watches what pairs that were left out as out of reach rest on: that prismatic joints keep to their limits, by and
+/// large (RobotModel::reach()).
+class ReachGuard {
+ public:
+  explicit ReachGuard(const DescribedScene& described);
+
+  /// The pairs that this does not hold for at some recorded time of the cycle, or whose joints tf does not have.
+  std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle) const;
+
+ private:
+  struct Joint {
+    RobotModel::Slide slide;
+    const urdf::Joint* joint;
+    std::string parent, child;  // frames
+  };
+
+  std::string problem(const Joint& joint, const TfHistory& history, const TrackedCycle& cycle) const;
+
+  std::shared_ptr<const RobotModel> robot_;
+  std::vector<Joint> joints_;
+  std::vector<UncheckedPair> pairs_;               // each with no reason yet
+  std::vector<std::vector<std::size_t>> rest_on_;  // per pair: joints
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,97 @@
+#include "sdf_ccd/robot/unreachable_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Two balls of 0.1 m at both ends of a rail of 3 m, one of which slides by 1 m.
+const char* const kRail = R"(<robot name='r'>
+  <link name='base'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
+  <link name='arm'/>
+  <link name='ball'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
+  <joint name='slide' type='prismatic'><parent link='base'/><child link='arm'/><origin xyz='3 0 0'/>
+    <axis xyz='2 0 0'/><limit lower='-1' upper='0' effort='1' velocity='1'/></joint>
+  <joint name='turn' type='continuous'><parent link='arm'/><child link='ball'/><axis xyz='0 0 1'/></joint>
+</robot>)";
+
+class UnreachablePairsTest : public ::testing::Test {
+ protected:
+  UnreachablePairsTest() : robot_(kRail) {
+    std::vector<std::string> warnings;
+    scene_ = describeRobot(robot_, {}, {}, {}, warnings);
+    pairs_ = unreachablePairs(robot_, scene_);
+  }
+
+  std::vector<UncheckedPair> along(double from, double to) const {
+    const RobotTrajectory named = {{0.0, 1.0}, {{{}, {{"slide", from}}, {}}, {{}, {{"slide", to}}, {}}}};
+    return reachableAlong(robot_, completePlan(robot_, named, {}, {true}), pairs_);
+  }
+
+  RobotModel robot_;
+  SceneDescription scene_;
+  std::vector<UnreachablePair> pairs_;
+};
+
+TEST_F(UnreachablePairsTest, RestOnTheLimitsOfPrismaticJoints) {
+  ASSERT_EQ(pairs_.size(), 1u);
+  EXPECT_EQ(scene_.bodies[pairs_[0].body_a].name, "base");
+  EXPECT_EQ(scene_.bodies[pairs_[0].body_b].name, "ball");
+  EXPECT_NEAR(pairs_[0].ball_b.radius, std::sqrt(0.03), 1e-12);  // of its box
+  ASSERT_EQ(pairs_[0].slides.size(), 1u);
+  EXPECT_EQ(pairs_[0].slides[0].joint, "slide");
+  EXPECT_NEAR(pairs_[0].slides[0].low, -1.1, 1e-12);
+  EXPECT_NEAR(pairs_[0].slides[0].high, 0.1, 1e-12);
+}
+
+TEST_F(UnreachablePairsTest, AreUncheckedWhereAJointGoesBeyond) {
+  EXPECT_TRUE(along(-1.09, 0.09).empty());
+  ASSERT_EQ(along(-3.0, 0.0).size(), 1u);  // through the other ball
+  EXPECT_EQ(along(-3.0, 0.0)[0].reason, "out of reach only while joint slide is within [-1.1, 0.1], it is at -3");
+  EXPECT_EQ(along(0.0, 0.2).size(), 1u);
+  CurrentJoints now;  // where the joint is assumed to be
+  const RobotTrajectory named = {{0.0, 1.0}, std::vector<RobotState>(2)};
+  now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(2.0, 0.0, 0.0));
+  EXPECT_TRUE(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).empty());
+  now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.0));
+  EXPECT_EQ(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).size(), 1u);
+}
+
+TEST_F(UnreachablePairsTest, AreUncheckedWherePosesMayBringThemTogether) {
+  CycleMotion motion;
+  motion.times = {0.0, 1.0};
+  motion.missing.resize(2);
+  const auto may = [&](double from, double to) {
+    motion.X_WB = {{Isometry3d::Identity(), Isometry3d::Identity()},
+                   {Isometry3d(Eigen::Translation3d(from, 0, 0)), Isometry3d(Eigen::Translation3d(to, 0, 0))}};
+    return !reachableAlong(motion, {false, true}, pairs_).empty();
+  };
+  EXPECT_FALSE(may(3.0, 2.0));
+  EXPECT_FALSE(may(1.0, 0.35));
+  EXPECT_TRUE(may(1.0, 0.34));
+  EXPECT_TRUE(may(3.0, -3.0));
+  motion.missing[0] = "no transform";
+  EXPECT_TRUE(may(3.0, 2.0));
+  EXPECT_TRUE(reachableAlong(motion, {false, false}, pairs_).empty());
+}
+
+TEST_F(UnreachablePairsTest, WhatIsUncheckedIsNotClear) {
+  CycleResult result;
+  result.verdict = Verdict::kClear;
+  addUnchecked({}, result);
+  EXPECT_EQ(result.verdict, Verdict::kClear);
+  addUnchecked({{0, 1, "why"}}, result);
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_EQ(result.not_checked, 1);
+  ASSERT_EQ(result.pairs.size(), 1u);
+  EXPECT_EQ(result.pairs[0].verdict, Verdict::kNotChecked);
+  EXPECT_EQ(result.pairs[0].reason, "why");
+  result.verdict = Verdict::kContact;
+  addUnchecked({{0, 1, "why"}}, result);
+  EXPECT_EQ(result.verdict, Verdict::kContact);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
