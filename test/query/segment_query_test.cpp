@@ -6,6 +6,7 @@
 #include "oracle/sampled_function.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/query/segment_batch.h"
 
 namespace sdf_ccd {
 namespace {
@@ -77,6 +78,101 @@ TEST(SegmentQuery, ReversedInTimeGivesTheMirroredIntervals) {
       EXPECT_NEAR(forward[k].enter, 1.0 - back[back.size() - 1 - k].exit, 1e-9);
       EXPECT_NEAR(forward[k].exit, 1.0 - back[back.size() - 1 - k].enter, 1e-9);
     }
+  }
+}
+
+using Vector3r = Eigen::Matrix<long double, 3, 1>;
+
+/// How far a root is from where φ changes its sign on the segment, in long double [m]; negative where φ does so at a
+/// slope of less than a third, or more than once.
+double rootError(const DistanceField& field, const Segment& segment, double t) {
+  const Vector3r start = segment.start.cast<long double>(), path = segment.end.cast<long double>() - start;
+  const long double length = path.norm();
+  const auto value = [&](long double metres) {
+    const Vector3r p = start + (t + metres / length) * path;
+    return field.sample(p.cast<double>()).value;
+  };
+  for (long double step = 1e-16L; step < 0.03L; step *= 2) {
+    long double low = -step, high = step;
+    if ((value(low) > 0) == (value(high) > 0)) continue;
+    // At most 1: where cells of different size meet, the interpolant may jump.
+    const double slope = std::min(1.0, std::abs(value(1e-6L) - value(-1e-6L)) / 2e-6);
+    if (slope < 0.33) return -1.0;
+    for (int k = 0; k < 60; ++k) {
+      const long double middle = 0.5L * (low + high);
+      ((value(middle) > 0) == (value(low) > 0) ? low : high) = middle;
+    }
+    return static_cast<double>(std::abs(low)) * slope;
+  }
+  return -1.0;
+}
+
+/// Segments of one length through the middle of things, which they leave somewhere on their way.
+std::vector<Segment> longSegments(double length, int count) {
+  Random random(15);
+  std::vector<Segment> segments;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d way = length * test::direction(random);
+    const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.2), Vector3d::Constant(0.2)});
+    const double before = i % 4 ? test::uniform(random, 0, 1) : i % 8 ? 1e-6 : 1.0 - 1e-6;
+    segments.push_back({p - before * way, p + (1.0 - before) * way});
+    if (!isWithinReach(segments.back())) segments.pop_back();
+  }
+  return segments;
+}
+
+std::vector<DistanceField> fieldsOfAllKinds() {
+  FieldOptions even, adaptive;
+  even.cells = 32;
+  adaptive.max_error = 1e-3;
+  const TriangleMesh torus = test::torusMesh(0.2, 0.08, 32, 16);
+  return {DistanceField{Primitive(Sphere{0.3})}, DistanceField{Primitive(Box{{0.1, 0.3, 0.2}})},
+          DistanceField{Primitive(Cylinder{0.2, 0.3})}, buildField(torus, even), buildField(torus, adaptive)};
+}
+
+/// The documented accuracy in metres holds, and is no more than needed.
+TEST(SegmentQuery, RootsAreRightToAFewSpacingsOfDoublesAtTheirCoordinates) {
+  for (const DistanceField& field : fieldsOfAllKinds()) {
+    double most = 0.0;
+    int roots = 0;
+    for (const double length : {1.0, 1e4, 1e8, 1e12}) {
+      for (const Segment& s : longSegments(length, 1000)) {
+        const double coordinate = std::max({s.start.lpNorm<Eigen::Infinity>(), s.end.lpNorm<Eigen::Infinity>(), 0.5});
+        for (const Interval& interval : segmentIntervals(field, s)) {
+          for (const double t : {interval.enter, interval.exit}) {
+            const double error = t > 0.0 && t < 1.0 ? rootError(field, s, t) : -1.0;
+            if (error < 0.0) continue;
+            const double spacings = error / (0x1p-52 * coordinate);
+            ASSERT_LE(spacings, 16.0) << "of " << length << " m, at " << t;
+            most = std::max(most, spacings);
+            ++roots;
+          }
+        }
+      }
+    }
+    EXPECT_GT(roots, 2000);
+    EXPECT_GT(most, 1.0);
+  }
+}
+
+TEST(SegmentBatch, HitsAreRightToAMillionthOfTheGridAndToWhatFloatsTellOfThePath) {
+  for (const DistanceField& field : fieldsOfAllKinds()) {
+    double most = 0.0;
+    for (const double length : {0.5, 1e2, 1e4}) {
+      const std::vector<Segment> segments = longSegments(length, 2000);
+      BatchResult result;
+      segmentIntervals(field, segments.data(), segments.size(), {}, result);
+      ASSERT_GT(result.hits.size(), 500u);
+      for (const SegmentHit& hit : result.hits) {
+        for (const double t : {hit.enter, hit.exit}) {
+          const double error = t > 0.0 && t < 1.0 ? rootError(field, segments[hit.segment], t) : -1.0;
+          if (error < 0.0) continue;
+          ASSERT_LE(error, 1e-6 * 0.6 + 6e-8 * length) << "of " << length << " m, at " << t;
+          if (length > 1.0) most = std::max(most, error / length);
+        }
+      }
+    }
+    EXPECT_GT(most, 2e-8);
   }
 }
 
