@@ -23,6 +23,9 @@ BoundingBall ballOf(const BodyDescription& body) {
 std::string beyond(const RobotModel& robot, const RobotState& state, const RobotModel::Slide& slide) {
   const urdf::Joint& joint = *robot.urdf().getJoint(slide.joint);
   const auto pose = state.poses.find(slide.joint);
+  if (pose == state.poses.end() && !state.positions.count(robot.leader(joint).name)) {
+    return std::string(kOutOfReach) + " by joint " + slide.joint + ", which is not known";
+  }
   const Isometry3d X_PJ = toEigen(joint.parent_to_joint_origin_transform);
   const double position =
       pose == state.poses.end() ? robot.position(joint, state.positions) : robot.positionAt(joint, X_PJ * pose->second);

@@ -53,6 +53,7 @@ TEST_F(UnreachablePairsTest, AreUncheckedWhereAJointGoesBeyond) {
   EXPECT_EQ(along(0.0, 0.2).size(), 1u);
   CurrentJoints now;  // where the joint is assumed to be
   const RobotTrajectory named = {{0.0, 1.0}, std::vector<RobotState>(2)};
+  EXPECT_EQ(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).size(), 1u);  // it is not known
   now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(2.0, 0.0, 0.0));
   EXPECT_TRUE(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).empty());
   now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.0));

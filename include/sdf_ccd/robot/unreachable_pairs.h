@@ -30,8 +30,8 @@ struct UncheckedPair {
   std::string reason;
 };
 
-/// The pairs whose prismatic joints do not stay within what they rest on. Between two waypoints positions lie between
-/// those at both.
+/// The pairs whose prismatic joints do not stay within what they rest on, or are not known. Between two waypoints
+/// positions lie between those at both.
 std::vector<UncheckedPair> reachableAlong(const RobotModel& robot, const PlannedJoints& plan,
                                           const std::vector<UnreachablePair>& pairs);
 
