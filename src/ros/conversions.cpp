@@ -30,12 +30,6 @@ bool holdsAny(const Interval& interval, const std::vector<double>& samples) {
 
 }  // namespace
 
-Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
-  const auto& q = transform.rotation;
-  const auto& p = transform.translation;
-  return Eigen::Translation3d(p.x, p.y, p.z) * Quaterniond(q.w, q.x, q.y, q.z).normalized();
-}
-
 Isometry3d toIsometry(const geometry_msgs::Pose& pose) {
   const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
   const Vector3d p = toEigen(pose.position);

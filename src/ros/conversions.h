@@ -16,8 +16,6 @@
 
 namespace sdf_ccd {
 
-Isometry3d toIsometry(const geometry_msgs::Transform& transform);  ///< the quaternion need not be normalised
-
 /// @throws std::invalid_argument if a number is not finite or the quaternion is zero.
 Isometry3d toIsometry(const geometry_msgs::Pose& pose);
 

@@ -28,15 +28,15 @@ std_msgs::ColorRGBA contactColor(bool seen_at_samples) {
   return seen_at_samples ? color(1.0f, 0.6f, 0.0f, 1.0f) : color(1.0f, 0.0f, 0.1f, 1.0f);
 }
 
-/// Where the body's point that is at p_W at the time of its deepest contact was at every time of the cycle.
-std::vector<Vector3d> pathOf(int body, const ContactPoint& point, const CycleMotion& motion) {
-  std::size_t next = 1;
-  while (next + 1 < motion.times.size() && motion.times[next] < point.time) ++next;
-  const double span = motion.times[next] - motion.times[next - 1];
+/// Where the body's point that is at p_W at the time of its deepest contact was at every time of the span.
+std::vector<Vector3d> pathOf(int body, const ContactPoint& point, const CycleMotion& motion, const KnotSpan& span) {
+  std::size_t next = span.first + 1;
+  while (next < span.last && motion.times[next] < point.time) ++next;
+  const double length = motion.times[next] - motion.times[next - 1];
   const ScrewMotion screw(motion.X_WB[body][next - 1], motion.X_WB[body][next]);
-  const Vector3d p_B = screw.pose((point.time - motion.times[next - 1]) / span).inverse() * point.p_W;
+  const Vector3d p_B = screw.pose((point.time - motion.times[next - 1]) / length).inverse() * point.p_W;
   std::vector<Vector3d> path;
-  for (const Isometry3d& X_WB : motion.X_WB[body]) path.push_back(X_WB * p_B);
+  for (std::size_t k = span.first; k <= span.last; ++k) path.push_back(motion.X_WB[body][k] * p_B);
   return path;
 }
 
@@ -112,7 +112,7 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
     normals.points.push_back(toPoint(point.p_W));
     normals.points.push_back(toPoint(point.p_W + 0.02 * options_.scale * point.normal_W));
     for (const int body : {pair.body_a, pair.body_b}) {
-      if (!cycle.scene.bodies[body].is_world) addPath(pathOf(body, point, cycle.motion), swept);
+      if (!cycle.scene.bodies[body].is_world) addPath(pathOf(body, point, cycle.motion, pair.span), swept);
     }
   }
   // From the surface's deepest point out to where it would be free, and far enough to be seen.

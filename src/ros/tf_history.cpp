@@ -1,24 +1,38 @@
 #include "ros/tf_history.h"
 
 #include <algorithm>
-#include <limits>
+#include <cstdio>
 #include <utility>
-
-#include <tf2/exceptions.h>
-
-#include "ros/conversions.h"
 
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kKeep(10.0);        // as long as the buffer keeps transforms
+const ros::Duration kKeep(10.0);        // as long as tf2's buffer keeps transforms
 const ros::Duration kJumpBack(1.0);     // publishers may disagree, and a wall clock be set back, by less
 const ros::Duration kSimJumpBack(0.1);  // two threads may see a simulated clock this much apart
+constexpr std::size_t kGoesOn = 2;  // so many transforms far behind the newest, one after the other, are no late ones
+constexpr std::uint32_t kLastSecond = 1u << 31;  // differences of later stamps are no ros::Duration
 
-bool equal(const geometry_msgs::Transform& a, const geometry_msgs::Transform& b) {
-  return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
-         a.translation.z == b.translation.z && a.rotation.x == b.rotation.x && a.rotation.y == b.rotation.y &&
-         a.rotation.z == b.rotation.z && a.rotation.w == b.rotation.w;
+ros::Time before(const ros::Time& time, const ros::Duration& duration) {
+  return time.toNSec() > static_cast<std::uint64_t>(duration.toNSec()) ? time - duration : ros::Time();
+}
+
+bool isEarlier(const TfPose& a, const TfPose& b) {
+  return a.stamp < b.stamp;
+}
+
+/// The last record that is not after the time; the first if all are.
+std::deque<TfPose>::const_iterator lastUpTo(const std::deque<TfPose>& records, const ros::Time& time) {
+  TfPose pose;
+  pose.stamp = time;
+  const auto next = std::upper_bound(records.begin(), records.end(), pose, isEarlier);
+  return next == records.begin() ? next : std::prev(next);
+}
+
+std::string secondsText(const ros::Time& time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%u.%03u s", time.sec, time.nsec / 1000000);
+  return text;
 }
 
 }  // namespace
@@ -28,11 +42,11 @@ std::string withoutLeadingSlash(const std::string& frame) {
   return start == std::string::npos ? std::string() : frame.substr(start);
 }
 
-TfHistory::TfHistory(const std::string& fixed_frame) : fixed_frame_(withoutLeadingSlash(fixed_frame)), buffer_(kKeep) {}
+TfHistory::TfHistory(const std::string& fixed_frame) : fixed_frame_(withoutLeadingSlash(fixed_frame)) {}
 
 void TfHistory::watchClock(const ros::Time& now) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (now + (ros::Time::isSimTime() ? kSimJumpBack : kJumpBack) < clock_) clear();
+  if (now < before(clock_, ros::Time::isSimTime() ? kSimJumpBack : kJumpBack)) clear();
   clock_ = now;
 }
 
@@ -43,41 +57,103 @@ void TfHistory::add(const tf2_msgs::TFMessage& message, bool is_static) {
 
 void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, bool is_static) {
   const std::string child = withoutLeadingSlash(transform.child_frame_id);
-  const auto known = edges_.find(child);
-  if (!is_static && known != edges_.end() && !known->second.records.empty()) {
-    const std::deque<Record>& records = known->second.records;
-    if (transform.header.stamp + kJumpBack < records.back().stamp) {
-      clear();
-    } else if (std::any_of(records.rbegin(), records.rend(),
-                           [&](const Record& r) { return r.stamp == transform.header.stamp; })) {
-      return;  // tf2 ignores a repeated time too, but with a warning each
-    }
-  }
-  if (!buffer_.setTransform(transform, "sdf_ccd", is_static)) return;  // tf2 has said why
-  Edge& edge = edges_[child];
   const std::string parent = withoutLeadingSlash(transform.header.frame_id);
-  if (edge.parent != parent || edge.is_static != is_static) edge = Edge{parent, is_static, {}, {}};
-  if (!is_static) record(edge, transform);
+  const ros::Time& stamp = transform.header.stamp;
+  if (child.empty() || parent.empty() || child == parent || (!is_static && stamp.sec >= kLastSecond)) {
+    ++refused_;
+    return;
+  }
+  const TfPose pose = toTfPose(stamp, transform.transform);
+  const auto [found, is_new] = edges_.try_emplace(child);
+  Edge& edge = found->second;
+  const bool is_same_kind = edge.is_static == is_static, is_same_parent = edge.parent == parent;
+  if (!is_new && is_same_kind && is_same_parent) {
+    if (!is_static) return record(child, edge, pose);
+    if (isSamePlace(edge.records.back(), pose)) return;
+  } else if (!is_new && is_same_kind && !is_static && stamp < edge.records.front().stamp && !hasGoneBack(edge, pose)) {
+    return recordBefore(child, edge, pose, is_same_parent);
+  }
+  const char* change = is_new          ? "has come"
+                       : !is_same_kind ? (is_static ? "has become static" : "is no longer static")
+                                       : (is_static ? "has another static transform" : "has another parent");
+  const ros::Time last = is_new || edge.is_static ? ros::Time() : edge.records.back().stamp;
+  beginAnew(edge, {pose}, change);
+  edge.parent = parent;
+  edge.is_static = is_static;
+  edge.dropped_until = last;
+  // Cycles may have gone beyond the stamp already, by what the frame was before.
+  if (!is_new && !is_static) noteLate(edge, {child, stamp, ros::TIME_MAX});
 }
 
-void TfHistory::record(Edge& edge, const geometry_msgs::TransformStamped& transform) {
-  const ros::Time stamp = transform.header.stamp;
-  std::deque<Record>& records = edge.records;
-  if (records.empty() || stamp > records.back().stamp) {
-    records.push_back({stamp, records.empty() || !equal(edge.newest, transform.transform)});
-    edge.newest = transform.transform;
-    while (stamp > records.front().stamp + kKeep) records.pop_front();
+void TfHistory::beginAnew(Edge& edge, const std::deque<TfPose>& records, const char* change) {
+  edge.records = records;
+  edge.dropped_until = ros::Time();
+  edge.is_cut = false;
+  edge.behind.clear();
+  edge.version = ++versions_;
+  edge.change = change;
+}
+
+void TfHistory::record(const std::string& child, Edge& edge, const TfPose& pose) {
+  std::deque<TfPose>& records = edge.records;
+  if (pose.stamp > records.back().stamp) {
+    edge.behind.clear();
+    records.push_back(pose);
+    for (; records.front().stamp < before(pose.stamp, kKeep); records.pop_front()) {
+      edge.dropped_until = records.front().stamp;
+      edge.is_cut = true;
+    }
+  } else if (hasGoneBack(edge, pose)) {
+    beginAnew(edge, std::deque<TfPose>(edge.behind), "has stamps that went back");
+  } else if (pose.stamp < records.front().stamp) {
+    recordBefore(child, edge, pose, true);
   } else {
-    ++out_of_order_;
-    const auto next = std::upper_bound(records.begin(), records.end(), stamp,
-                                       [](const ros::Time& t, const Record& r) { return t < r.stamp; });
-    next->differs = true;
-    records.insert(next, {stamp, true});
+    recordBehind(child, edge, pose);
+  }
+}
+
+/// Whether the stamps go on far behind the newest.
+bool TfHistory::hasGoneBack(Edge& edge, const TfPose& pose) {
+  if (pose.stamp >= before(edge.records.back().stamp, kJumpBack)) return false;
+  if (!edge.behind.empty() && pose.stamp == edge.behind.back().stamp) return false;
+  if (!edge.behind.empty() && pose.stamp < edge.behind.back().stamp) edge.behind.clear();
+  edge.behind.push_back(pose);
+  return edge.behind.size() >= kGoesOn;
+}
+
+void TfHistory::recordBehind(const std::string& child, Edge& edge, const TfPose& pose) {
+  const auto next = std::lower_bound(edge.records.begin(), edge.records.end(), pose, isEarlier);
+  if (next->stamp == pose.stamp) return;  // tf2 ignores a repeated time too
+  ++out_of_order_;
+  const TfPose& last = *std::prev(next);
+  const bool rests = isSamePlace(last, pose) && isSamePlace(pose, *next);
+  if (!rests) noteLate(edge, {child, last.stamp, next->stamp});
+  edge.records.insert(next, pose);
+}
+
+/// Of a time before all that is known.
+void TfHistory::recordBefore(const std::string& child, Edge& edge, const TfPose& pose, bool is_same_parent) {
+  ++out_of_order_;
+  const ros::Time first = edge.records.front().stamp;
+  if (pose.stamp <= edge.dropped_until) {
+    noteLate(edge, {child, before(pose.stamp, kKeep), edge.dropped_until});
+  } else if (edge.is_cut) {
+    noteLate(edge, {child, edge.dropped_until, first});
+  } else if (is_same_parent && pose.stamp >= before(edge.records.back().stamp, kKeep)) {
+    edge.records.push_front(pose);  // nothing was known there
+  }
+}
+
+void TfHistory::noteLate(Edge& edge, const LateTransforms& late) {
+  if (edge.late.empty()) {
+    edge.late = {late};
+  } else {
+    edge.late[0].since = std::min(edge.late[0].since, late.since);
+    edge.late[0].until = std::max(edge.late[0].until, late.until);
   }
 }
 
 void TfHistory::clear() {
-  buffer_.clear();  // keeps static transforms
   for (auto edge = edges_.begin(); edge != edges_.end();) {
     edge = edge->second.is_static ? std::next(edge) : edges_.erase(edge);
   }
@@ -94,11 +170,16 @@ long TfHistory::outOfOrder() const {
   return out_of_order_;
 }
 
-std::vector<const TfHistory::Edge*> TfHistory::edgesUpwards(const std::string& frame) const {
-  std::vector<const Edge*> edges;
+long TfHistory::refused() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return refused_;
+}
+
+TfHistory::Way TfHistory::edgesUpwards(const std::string& frame) const {
+  Way edges;
   auto edge = edges_.find(frame);
-  while (edge != edges_.end() && edges.size() < edges_.size()) {  // a loop would be longer
-    edges.push_back(&edge->second);
+  while (edge != edges_.end() && edges.size() <= edges_.size()) {  // a loop is longer
+    edges.push_back(&*edge);
     edge = edges_.find(edge->second.parent);
   }
   return edges;
@@ -107,27 +188,29 @@ std::vector<const TfHistory::Edge*> TfHistory::edgesUpwards(const std::string& f
 std::vector<std::string> TfHistory::framesAbove(const std::string& frame) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<std::string> above;
-  for (const Edge* edge : edgesUpwards(frame)) above.push_back(edge->parent);
+  for (const auto* edge : edgesUpwards(frame)) above.push_back(edge->second.parent);
   return above;
 }
 
-std::string TfHistory::rootOf(const std::string& frame) const {
-  const std::vector<const Edge*> edges = edgesUpwards(frame);
-  return edges.empty() ? frame : edges.back()->parent;
-}
-
-bool TfHistory::chain(const std::string& frame, std::vector<const Edge*>& edges, std::string& problem) const {
-  edges = edgesUpwards(frame);
-  std::vector<const Edge*> fixed = edgesUpwards(fixed_frame_);
-  if (rootOf(frame) != rootOf(fixed_frame_)) {
+bool TfHistory::way(const std::string& frame, Way& up, Way& down, std::string& problem) const {
+  up = edgesUpwards(frame);
+  down = edgesUpwards(fixed_frame_);
+  const auto rootOf = [](const std::string& from, const Way& edges) {
+    return edges.empty() ? from : edges.back()->second.parent;
+  };
+  if (up.size() > edges_.size() || down.size() > edges_.size()) {
+    problem = "the transforms above " + frame + " or " + fixed_frame_ + " are a loop";
+    return false;
+  }
+  if (rootOf(frame, up) != rootOf(fixed_frame_, down)) {
     problem = "no transform from " + frame + " to " + fixed_frame_;
     return false;
   }
-  while (!edges.empty() && !fixed.empty() && edges.back() == fixed.back()) {
-    edges.pop_back();
-    fixed.pop_back();
+  while (!up.empty() && !down.empty() && up.back() == down.back()) {
+    up.pop_back();
+    down.pop_back();
   }
-  edges.insert(edges.end(), fixed.begin(), fixed.end());
+  std::reverse(down.begin(), down.end());
   return true;
 }
 
@@ -136,22 +219,30 @@ TfHistory::Span TfHistory::span(const std::string& frame) const {
   return lockedSpan(frame);
 }
 
-std::vector<TfHistory::Span> TfHistory::spans(const std::vector<std::string>& frames) const {
+std::vector<TfHistory::Span> TfHistory::takeNews(const std::vector<std::string>& frames) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<Span> spans;
   for (const std::string& frame : frames) spans.push_back(lockedSpan(frame));
+  for (auto& [child, edge] : edges_) edge.late.clear();
   return spans;
 }
 
 TfHistory::Span TfHistory::lockedSpan(const std::string& frame) const {
   Span span;
-  std::vector<const Edge*> edges;
-  if (!chain(frame, edges, span.problem)) return span;
+  Way up, down;
+  if (!way(frame, up, down, span.problem)) return span;
+  up.insert(up.end(), down.begin(), down.end());
   span.is_static = true;
-  for (const Edge* edge : edges) {
-    if (edge->is_static) continue;
-    const ros::Time first = edge->records.front().stamp;
-    const ros::Time last = edge->records.back().stamp;
+  for (const auto* named : up) {
+    const Edge& edge = named->second;
+    if (edge.version > span.version) {
+      span.version = edge.version;
+      span.change = named->first + " " + edge.change;
+    }
+    span.late.insert(span.late.end(), edge.late.begin(), edge.late.end());
+    if (edge.is_static) continue;
+    const ros::Time first = edge.records.front().stamp;
+    const ros::Time last = edge.records.back().stamp;
     span.first = span.is_static ? first : std::max(span.first, first);
     span.last = span.is_static ? last : std::min(span.last, last);
     span.is_static = false;
@@ -159,53 +250,86 @@ TfHistory::Span TfHistory::lockedSpan(const std::string& frame) const {
   return span;
 }
 
-void TfHistory::recordedTimes(const std::string& frame, const ros::Time& start, const ros::Time& end,
-                              std::vector<ros::Time>& times) const {
+void TfHistory::copy(const std::vector<std::string>& frames, const std::vector<TimePart>& parts,
+                     const ros::Time& origin, TfWindow& window) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<const Edge*> edges;
-  std::string problem;
-  if (!chain(frame, edges, problem)) return;
-  for (const Edge* edge : edges) {
-    const std::deque<Record>& records = edge->records;
-    for (std::size_t i = records.size(); i-- > 0 && records[i].stamp > start;) {
-      const bool moves = records[i].differs || (i + 1 < records.size() && records[i + 1].differs);
-      if (moves && records[i].stamp < end) times.push_back(records[i].stamp);
+  struct Copied {
+    std::size_t index;
+    TimePart part;
+  };
+  std::unordered_map<Edges::const_pointer, Copied> copied;
+  window.origin_ = origin;
+  window.frames_.assign(frames.size(), {});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    TfWindow::Frame& frame = window.frames_[i];
+    const TimePart& part = parts[i];
+    frame.from = (part.from - origin).toSec();
+    frame.until = (part.until - origin).toSec();
+    Way up, down;
+    if (!way(frames[i], up, down, frame.problem)) continue;
+    const std::size_t ups = up.size();
+    up.insert(up.end(), down.begin(), down.end());
+    for (std::size_t k = 0; k < up.size(); ++k) {
+      Copied& edge = copied.try_emplace(up[k], Copied{copied.size(), part}).first->second;
+      edge.part = {std::min(edge.part.from, part.from), std::max(edge.part.until, part.until)};
+      frame.way.push_back({edge.index, k < ups});
+      describe(*up[k], part, frame);
     }
+  }
+  window.edges_.resize(copied.size());
+  for (const auto& [named, edge] : copied) copyEdge(named->second, edge.part, origin, window.edges_[edge.index]);
+}
+
+/// What is not known of an edge over the part, told of a frame that it is on the way of.
+void TfHistory::describe(Edges::const_reference named, const TimePart& part, TfWindow::Frame& frame) {
+  const std::deque<TfPose>& records = named.second.records;
+  frame.version = std::max(frame.version, named.second.version);
+  if (!named.second.is_static && (part.from < records.front().stamp || records.back().stamp < part.until)) {
+    frame.problem = named.first + " is not known all the time";
+  }
+  for (auto record = lastUpTo(records, part.from); record != records.end(); ++record) {
+    if (record->problem) frame.problem = named.first + " " + record->problem;
+    if (named.second.is_static || record->stamp >= part.until) break;
+    if (std::next(record) == records.end()) break;
+    frame.longest_gap = std::max(frame.longest_gap, (std::next(record)->stamp - record->stamp).toSec());
   }
 }
 
-double TfHistory::longestGap(const std::string& frame, const ros::Time& start, const ros::Time& end) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<const Edge*> edges;
-  std::string problem;
-  if (!chain(frame, edges, problem)) return std::numeric_limits<double>::infinity();
-  double longest = 0.0;
-  for (const Edge* edge : edges) {
-    const std::deque<Record>& records = edge->records;
-    for (std::size_t i = records.size(); i-- > 1 && records[i].stamp > start;) {
-      if (records[i - 1].stamp < end) longest = std::max(longest, (records[i].stamp - records[i - 1].stamp).toSec());
+void TfHistory::copyEdge(const Edge& edge, const TimePart& part, const ros::Time& origin, TfWindow::Edge& copy) {
+  copy.times.clear();
+  copy.poses.clear();
+  copy.pose_time = std::numeric_limits<double>::quiet_NaN();
+  const std::deque<TfPose>& records = edge.records;
+  const auto first = edge.is_static ? std::prev(records.end()) : lastUpTo(records, part.from);
+  for (auto record = first; record != records.end(); ++record) {
+    const bool is_last = std::next(record) == records.end() || record->stamp >= part.until;
+    const bool rests = record != first && !is_last && isSamePlace(*std::prev(record), *record) &&
+                       isSamePlace(*record, *std::next(record));
+    if (!rests) {
+      copy.times.push_back(edge.is_static ? 0.0 : (record->stamp - origin).toSec());
+      copy.poses.push_back(*record);
     }
+    if (is_last) break;
   }
-  return longest;
 }
 
 bool TfHistory::lookup(const std::string& frame, const ros::Time& time, Isometry3d& X_WF, std::string& problem) const {
-  return lookup(fixed_frame_, frame, time, X_WF, problem);
-}
-
-bool TfHistory::lookup(const std::string& target, const std::string& frame, const ros::Time& time, Isometry3d& X_TF,
-                       std::string& problem) const {
-  if (target == frame) {  // also for a frame that tf2 has not heard of
-    X_TF.setIdentity();
-    return true;
-  }
-  try {
-    X_TF = toIsometry(buffer_.lookupTransform(target, frame, time).transform);
-    return true;
-  } catch (const tf2::TransformException& error) {
-    problem = error.what();
+  X_WF.setIdentity();
+  if (frame == fixed_frame_) return true;  // also if no transform names it
+  const Span known = span(frame);
+  problem = known.problem;
+  if (!problem.empty()) return false;
+  const ros::Time at = time.isZero() || known.is_static ? known.last : time;
+  if (!known.is_static && (at < known.first || at > known.last)) {
+    problem = frame + " is known from " + secondsText(known.first) + " to " + secondsText(known.last) + ", not at " +
+              secondsText(at);
     return false;
   }
+  TfWindow window;
+  copy({frame}, {{at, at}}, at, window);
+  problem = window.problem(0);
+  if (problem.empty()) X_WF = window.pose(0, 0.0);
+  return problem.empty();
 }
 
 }  // namespace sdf_ccd

@@ -28,9 +28,14 @@ struct TrackedCycle {
   ros::Time start;
   ros::Time end;
   ros::Time complete_until;     ///< up to here all pairs have been dealt with; `end` if none is delayed
+  ros::Time delayed_since;      ///< from here on some pair waits for its transforms; 0 if none is delayed
   ros::Time origin;             ///< the motion's time 0: start, or earlier if pairs that were delayed are caught up on
   CycleMotion motion;           ///< in the fixed frame
   std::vector<double> samples;  ///< [s] from origin: the recorded transforms, and the ends of all pairs' spans
+
+  /// Transforms that came behind newer ones, where cycles had used an interpolation already, one a frame. The pairs
+  /// that this concerns are dealt with again in this cycle, from there on.
+  std::vector<LateTransforms> late;
 };
 
 /// Turns recorded transforms into cycles (design §5). Every pair is checked as far as both its frames are known, from
@@ -38,6 +43,10 @@ struct TrackedCycle {
 /// own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked. It lags behind
 /// the newest transform of all or, where time is not simulated, behind the wall clock. Poses are taken at every
 /// recorded transform and, between them, as tf2 interpolates.
+///
+/// A frame that changes otherwise than by moving (from static to moving, to another parent) was somewhere unknown
+/// meanwhile: its bodies are missing for the cycle that sees it. Where transforms come late behind newer ones, the
+/// frame's pairs go back to there, if that is not longer ago than max_cycle; else its bodies are missing since then.
 class TfTracker {
  public:
   /// @param pairs  of bodies, by index.
@@ -61,18 +70,22 @@ class TfTracker {
   void posesAt(const ros::Time& time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) const;
 
  private:
-  struct PairTimes {
-    ros::Time from, until;
-  };
-
   void look(const ros::Time& now, std::vector<std::string>& missing);
+  bool hasChanged(std::size_t body) const;
+  void goBackToLate();
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
   ros::Time foremostEnd(const std::vector<std::string>& missing) const;
   void advancePairs(TrackedCycle& cycle);
-  void findGaps(const TrackedCycle& cycle, std::vector<std::string>& missing) const;
-  std::vector<double> recordedSamples(const TrackedCycle& cycle) const;
+  void follow(TrackedCycle& cycle);
+  std::vector<TimePart> windowsOf(const TrackedCycle& cycle) const;
+  void findNeeded(const TimePart& part, const TrackedCycle& cycle);
+  void copyMotion(const TrackedCycle& cycle, std::vector<std::string>& missing);
+  std::vector<double> sampleTimes(const TimePart& part, const TrackedCycle& cycle) const;
+  void sample(const TimePart& part, TrackedCycle& cycle);
+  void setMissing(const std::string& why, TrackedCycle& cycle);
+  void posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing);
+  void boundJerks(double start, double end, std::vector<double>& jerk) const;
   void setSpans(TrackedCycle& cycle) const;
-  bool poseAt(std::size_t body, const ros::Time& time, Isometry3d& X_WB, std::string& problem) const;
 
   TfHistory& history_;
   std::vector<TrackedBody> bodies_;
@@ -80,15 +93,29 @@ class TfTracker {
   std::vector<BoundingBall> balls_;
   std::vector<PlannedPair> pairs_;
   TfTrackerOptions options_;
-  ros::Time last_end_;            // of the last cycle; 0 before the first
-  ros::Time waits_since_;         // on the ROS clock; 0 before the first step
-  std::vector<PairTimes> times_;  // of the cycle, per pair; the next one goes on from `until`
+  ros::Time begin_;              // of the first cycle
+  ros::Time last_end_;           // of the last cycle; 0 before the first
+  ros::Time waits_since_;        // on the ROS clock; 0 before the first step
+  std::vector<TimePart> times_;  // of the cycle, per pair; the next one goes on from `until`
+  std::vector<char> is_known_;   // per pair: both bodies are
 
   // What look() sees: per body, and the newest time of all that is not in the future.
   std::vector<TfHistory::Span> spans_;
   std::vector<ros::Time> ends_;
   ros::Time reference_;
-  std::vector<ros::Time> needed_from_;  // per body, by those of its pairs that advance; the cycle's end if none does
+
+  // Since the last cycle.
+  std::vector<long> versions_;         // per body, of its way; 0 if it was not known
+  std::vector<ros::Time> changed_;     // per body: its way was another up to here, or farther
+  std::vector<LateTransforms> late_;   // what contradicts cycles
+  std::vector<std::string> too_late_;  // per body: why that cannot be checked again; empty if it can
+
+  // Of one part of the cycle: what the pairs in it need of each body's motion, and that motion.
+  std::vector<TimePart> needed_;
+  TfWindow window_;
+  CycleMotion sampled_;
+  std::vector<double> pose_times_;  // per body, of its last pose
+  std::vector<Isometry3d> poses_;
 };
 
 }  // namespace sdf_ccd

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "ros/conversions.h"
+#include "ros/tf_pose.h"
 
 namespace sdf_ccd {
 namespace {
@@ -49,7 +49,7 @@ TEST(JointFrames, ChainsAreTheForwardKinematics) {
   Isometry3d X_AD = Isometry3d::Identity();
   for (const auto& transform : message.transforms) {
     EXPECT_EQ(transform.header.stamp, ros::Time(5.0));
-    X_AD = X_AD * toIsometry(transform.transform);
+    X_AD = X_AD * toTfPose({}, transform.transform).isometry();
   }
   const std::vector<Isometry3d> X_AL = robot->forwardKinematics(positions);
   const auto d = std::find(robot->links().begin(), robot->links().end(), "d") - robot->links().begin();

@@ -1,0 +1,224 @@
+#include "ros/tf_history.h"
+
+#include <gtest/gtest.h>
+#include <tf2/buffer_core.h>
+
+#include <limits>
+#include <random>
+
+#include "ros/tf_messages.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::message;
+using test::stampedTransform;
+
+constexpr const char* kFrames[] = {"base", "left", "left_hand", "right", "right_hand", "tool"};
+constexpr const char* kParents[] = {"world", "base", "left", "base", "right", "right_hand"};
+
+std::string problemOf(const TfHistory& history, const std::string& frame, double time) {
+  Isometry3d X_WF;
+  std::string problem;
+  history.lookup(frame, ros::Time(time), X_WF, problem);
+  return problem;
+}
+
+double xOf(const TfHistory& history, const std::string& frame, double time) {
+  Isometry3d X_WF;
+  std::string problem;
+  EXPECT_TRUE(history.lookup(frame, ros::Time(time), X_WF, problem)) << problem;
+  return X_WF.translation().x();
+}
+
+std::vector<double> recordedTimes(const TfHistory& history, const std::string& frame, double from, double until) {
+  TfWindow window;
+  history.copy({frame}, {{ros::Time(from), ros::Time(until)}}, ros::Time(from), window);
+  std::vector<double> times;
+  window.addRecordedTimes(0, times);
+  return times;
+}
+
+TEST(TfHistory, InterpolatesAsTf2Does) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int history_number = 0; history_number < 40; ++history_number) {
+    TfHistory history("left_hand");
+    tf2::BufferCore buffer;
+    const double step = history_number % 2 == 0 ? 1.0 : 0.05;  // large turns, and small ones
+    for (int frame = 0; frame < 6; ++frame) {
+      Quaterniond rotation = Quaterniond::UnitRandom();
+      double time = 100.0;
+      while (time < 102.0) {
+        const Quaterniond turn(1.0, step * normal(random), step * normal(random), step * normal(random));
+        rotation = (rotation * turn).normalized();
+        if (uniform(random) < 0.5) rotation.coeffs() *= -1.0;  // the same rotation
+        const Vector3d translation(normal(random), normal(random), normal(random));
+        const auto sent = stampedTransform(kParents[frame], kFrames[frame], ros::Time(time), rotation, translation);
+        history.add(message({sent}), false);
+        buffer.setTransform(sent, "test");
+        time += 0.3 * uniform(random);
+      }
+    }
+    for (int sample = 0; sample < 50; ++sample) {
+      const ros::Time time(100.3 + 1.3 * uniform(random));
+      for (const char* frame : kFrames) {
+        Isometry3d X_WF;
+        std::string problem;
+        ASSERT_TRUE(history.lookup(frame, time, X_WF, problem)) << problem;
+        const auto expected = buffer.lookupTransform("left_hand", frame, time).transform;
+        EXPECT_LT((X_WF.matrix() - toTfPose({}, expected).isometry().matrix()).cwiseAbs().maxCoeff(), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(TfHistory, LatestIsTheNewestThatAllEdgesKnow) {
+  TfHistory history("world");
+  history.add(message({stampedTransform("world", "base", 10.0, 0.0), stampedTransform("world", "base", 11.0, 1.0),
+                       stampedTransform("base", "left", 10.0, 0.0), stampedTransform("base", "left", 10.5, 0.0)}),
+              false);
+  EXPECT_NEAR(xOf(history, "left", 0.0), 0.5, 1e-12);
+  EXPECT_NEAR(xOf(history, "base", 0.0), 1.0, 1e-12);
+}
+
+TEST(TfHistory, CountsTransformsOutOfOrderAndIgnoresRepeatedOnes) {
+  TfHistory history("world");
+  history.add(message({stampedTransform("world", "hand", 1.0, 0.0), stampedTransform("world", "hand", 1.2, 0.0),
+                       stampedTransform("world", "hand", 1.2, 5.0), stampedTransform("world", "hand", 1.1, 0.1)}),
+              false);
+  EXPECT_EQ(history.outOfOrder(), 1);
+  ASSERT_EQ(recordedTimes(history, "hand", 1.0, 1.2).size(), 1u);
+  EXPECT_NEAR(recordedTimes(history, "hand", 1.0, 1.2)[0], 0.1, 1e-12);
+  EXPECT_NEAR(xOf(history, "hand", 1.2), 0.0, 1e-12);
+}
+
+TEST(TfHistory, TellsOnceWhatCameBehindNewerTransforms) {
+  TfHistory history("world");
+  for (const double stamp : {1.0, 1.1, 1.2, 1.3}) {
+    history.add(
+        message({stampedTransform("world", "base", stamp, 0.0), stampedTransform("base", "hand", stamp, stamp)}),
+        false);
+  }
+  history.add(message({stampedTransform("base", "hand", 1.15, 7.0)}), false);
+  history.add(message({stampedTransform("world", "base", 1.25, 0.0)}), false);  // it rests: nothing is wrong
+  const std::vector<TfHistory::Span> spans = history.takeNews({"base", "hand"});
+  EXPECT_TRUE(spans[0].late.empty());
+  ASSERT_EQ(spans[1].late.size(), 1u);
+  EXPECT_EQ(spans[1].late[0].frame, "hand");
+  EXPECT_EQ(spans[1].late[0].since, ros::Time(1.1));
+  EXPECT_EQ(spans[1].late[0].until, ros::Time(1.2));
+  EXPECT_TRUE(history.takeNews({"hand"})[0].late.empty());
+  EXPECT_NEAR(xOf(history, "hand", 1.15), 7.0, 1e-12);
+}
+
+TEST(TfHistory, GoesUpAndDownTheTree) {
+  TfHistory history("left");
+  history.add(message({stampedTransform("base", "left", 1.0, 1.0), stampedTransform("base", "right", 1.0, -2.0),
+                       stampedTransform("map", "base", 5.0, 0.0)}),
+              false);
+  const TfHistory::Span span = history.span("right");
+  EXPECT_EQ(span.problem, "");
+  EXPECT_EQ(span.last, ros::Time(1.0));  // map → base does not lie on the way
+  EXPECT_NEAR(xOf(history, "right", 1.0), -3.0, 1e-9);
+  EXPECT_NE(problemOf(history, "right", 2.0), "");
+  EXPECT_NE(problemOf(history, "nowhere", 1.0), "");
+}
+
+TEST(TfHistory, ALoopIsNoWay) {
+  TfHistory history("world");
+  history.add(message({stampedTransform("a", "b", 1.0, 0.0), stampedTransform("b", "c", 1.0, 0.0),
+                       stampedTransform("c", "a", 1.0, 0.0)}),
+              false);
+  EXPECT_NE(problemOf(history, "a", 1.0), "");
+}
+
+TEST(TfHistory, AFrameMayBecomeMovingOrStaticOrHaveAnotherParent) {
+  TfHistory history("world");
+  history.add(message({stampedTransform("world", "hand", 0.0, 1.0)}), true);
+  EXPECT_TRUE(history.span("hand").is_static);
+  long version = history.span("hand").version;
+  const auto expectChange = [&](const std::string& change) {
+    EXPECT_NE(history.span("hand").version, version);
+    EXPECT_EQ(history.span("hand").change, change);
+    version = history.span("hand").version;
+  };
+  history.add(message({stampedTransform("world", "hand", 0.0, 1.0)}), true);
+  EXPECT_EQ(history.span("hand").version, version);
+
+  history.add(message({stampedTransform("world", "hand", 10.0, 2.0)}), false);
+  history.add(message({stampedTransform("world", "hand", 10.1, 3.0)}), false);
+  expectChange("hand is no longer static");
+  EXPECT_NEAR(xOf(history, "hand", 10.05), 2.5, 1e-9);
+  EXPECT_EQ(history.span("hand").first, ros::Time(10.0));
+
+  history.add(message({stampedTransform("world", "table", 0.0, 4.0)}), true);
+  history.add(message({stampedTransform("table", "hand", 10.2, 1.0)}), false);
+  history.add(message({stampedTransform("table", "hand", 10.3, 1.0)}), false);
+  expectChange("hand has another parent");
+  EXPECT_NEAR(xOf(history, "hand", 10.25), 5.0, 1e-9);
+  EXPECT_NE(problemOf(history, "hand", 10.05), "");
+  history.add(message({stampedTransform("world", "hand", 10.15, 0.0)}), false);  // of before
+  EXPECT_EQ(history.span("hand").version, version);
+  EXPECT_NEAR(xOf(history, "hand", 10.25), 5.0, 1e-9);
+
+  history.add(message({stampedTransform("world", "hand", 0.0, 6.0)}), true);
+  expectChange("hand has become static");
+  EXPECT_NEAR(xOf(history, "hand", 10.25), 6.0, 1e-9);
+  history.add(message({stampedTransform("world", "hand", 0.0, 7.0)}), true);
+  expectChange("hand has another static transform");
+}
+
+TEST(TfHistory, StampsThatGoOnFarBehindBeginAnewAndASingleOneIsLate) {
+  TfHistory history("world");
+  for (const double stamp : {100.0, 100.1, 50.0, 100.2, 50.1, 100.3}) {
+    history.add(message({stampedTransform("world", "hand", stamp, stamp)}), false);
+  }
+  EXPECT_EQ(history.span("hand").last, ros::Time(100.3));
+  EXPECT_EQ(history.span("hand").first, ros::Time(100.0));
+  for (const double stamp : {50.2, 50.3})
+    history.add(message({stampedTransform("world", "hand", stamp, stamp)}), false);
+  EXPECT_EQ(history.span("hand").last, ros::Time(50.3));
+  EXPECT_EQ(history.span("hand").first, ros::Time(50.2));
+  EXPECT_EQ(history.span("hand").change, "hand has stamps that went back");
+}
+
+TEST(TfHistory, WhatIsNoRigidMotionIsAProblemWhereItWas) {
+  const auto withRotation = [](double stamp, double w) {
+    geometry_msgs::TransformStamped sent = stampedTransform("world", "hand", stamp, 1.0);
+    sent.transform.rotation.w = w;
+    return sent;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  TfHistory history("world");
+  history.add(message({withRotation(1.0, 1.004), withRotation(1.1, 1.0), withRotation(1.2, 1.02),
+                       withRotation(1.3, 1.0), withRotation(1.4, nan), withRotation(1.5, 0.0), withRotation(1.6, 1.0),
+                       stampedTransform("world", "hand", 1.7, nan), withRotation(1.8, 1.0),
+                       stampedTransform("world", "hand", 1.9, 2e8)}),
+              false);
+  EXPECT_EQ(problemOf(history, "hand", 1.0), "");
+  EXPECT_NEAR(xOf(history, "hand", 1.05), 1.0, 1e-15);
+  EXPECT_EQ(problemOf(history, "hand", 1.1), "");
+  for (const double time : {1.15, 1.2, 1.25, 1.45, 1.55})
+    EXPECT_EQ(problemOf(history, "hand", time).empty(), false) << time;
+  EXPECT_EQ(problemOf(history, "hand", 1.2), "hand has a rotation that is no unit quaternion");
+  EXPECT_EQ(problemOf(history, "hand", 1.4), "hand has a transform that is not finite");
+  EXPECT_EQ(problemOf(history, "hand", 1.7), "hand has a transform that is not finite");
+  EXPECT_EQ(problemOf(history, "hand", 1.9), "hand is more than 1e+08 m from its parent");
+  EXPECT_EQ(problemOf(history, "hand", 1.6), "");
+}
+
+TEST(TfHistory, StampsBeyondAllClocksAndEmptyNamesAreRefused) {
+  TfHistory history("world");
+  geometry_msgs::TransformStamped far = stampedTransform("world", "hand", 1.0, 0.0);
+  far.header.stamp = ros::TIME_MAX;
+  history.add(message({far, stampedTransform("", "hand", 1.0, 0.0), stampedTransform("world", "", 1.0, 0.0),
+                       stampedTransform("hand", "hand", 1.0, 0.0)}),
+              false);
+  EXPECT_EQ(history.refused(), 4);
+  EXPECT_NE(history.span("hand").problem, "");
+}
+
+}  // namespace
+}  // namespace sdf_ccd
