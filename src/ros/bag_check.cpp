@@ -13,11 +13,15 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
               BagObserver& observer) {
   const ros::Duration period(std::clamp(1.0 / parameters.rate, kShortestPeriod, kLongestPeriod));
   const CycleRequest request{true, parameters.max_points};
+  TfTracker::Step last = TfTracker::Step::kWaiting;
   const auto stepAt = [&](const ros::Time& now) {
     ros::Time::setNow(now);
     const TfTracker::Step step = loop.step(now, request);
+    const bool stalls = step == TfTracker::Step::kStalled && last != TfTracker::Step::kStalled;
     if (step == TfTracker::Step::kCycle) observer.onCycle(now);
-    if (step == TfTracker::Step::kJump) observer.onJump(now);
+    if (step == TfTracker::Step::kJump) observer.onUnchecked("time has jumped back", now);
+    if (stalls) observer.onUnchecked("no new transforms", now);
+    last = step;
     return step;
   };
   ros::Time now = motion.begin();

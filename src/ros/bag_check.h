@@ -16,8 +16,9 @@ class BagObserver {
   /// The loop has a new cycle.
   virtual void onCycle(const ros::Time& now) = 0;
 
-  /// Time has jumped back: what was found before is about another time.
-  virtual void onJump(const ros::Time& now) = 0;
+  /// Nothing is checked after the last cycle. Time has jumped back, so that what was found before is about another
+  /// time, or no transforms have come for max_latency; told when it begins.
+  virtual void onUnchecked(const std::string& reason, const ros::Time& now) = 0;
 };
 
 /// Runs the monitor's loop over what a bag recorded, as fast as it goes. The ROS clock is the bag's, as with

@@ -61,7 +61,9 @@ void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
   if (!markers.markers.empty()) bag_.write(kMonitor + "markers", now, markers);
 }
 
-void CheckedBag::addJump(const ros::Time& now) {
+void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {
+  bag_.write(kMonitor + "contacts", now, toUncheckedContacts(loop_, reason));
+  writeLatched(kMonitor + "state", now, toUncheckedState(loop_.fixedFrame(), reason, now));
   bag_.write(kMonitor + "markers", now, drawer_.clear());
 }
 

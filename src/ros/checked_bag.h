@@ -15,8 +15,8 @@ namespace sdf_ccd {
 ///
 /// /tf, /tf_static  tf2_msgs/TFMessage  as they were followed
 /// Below /collision_monitor/, as the nodelet publishes them:
-///   contacts         sdf_ccd/ContactArray            every cycle
-///   state            sdf_ccd/MonitorState            every cycle
+///   contacts         sdf_ccd/ContactArray            every cycle, and when there begin to be none
+///   state            sdf_ccd/MonitorState            the same
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle in which the link is in contact
 ///   markers          visualization_msgs/MarkerArray  contacts to look at
 ///   plan, world      once
@@ -35,8 +35,8 @@ class CheckedBag {
   /// The loop's last cycle.
   void addCycle(const ContactArray& contacts, const ros::Time& now);
 
-  /// Deletes all markers.
-  void addJump(const ros::Time& now);
+  /// Nothing is checked after the last cycle: no markers, and messages that say so.
+  void addUnchecked(const std::string& reason, const ros::Time& now);
 
  private:
   template <class Message>

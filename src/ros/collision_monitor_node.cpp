@@ -1,11 +1,29 @@
 // The node: loads the nodelet, so that both are the same code.
 
+#include <csignal>
+
 #include <nodelet/loader.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+namespace {
+
+constexpr double kPeriod = 0.05;  // [s]
+
+volatile std::sig_atomic_t is_asked_to_end = 0;
+
+void askToEnd(int) {
+  is_asked_to_end = 1;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "collision_monitor");
+  // roscpp would close the connections first: the nodelet says that it ends.
+  ros::init(argc, argv, "collision_monitor", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, askToEnd);
+  std::signal(SIGTERM, askToEnd);
   nodelet::Loader loader;
   if (!loader.load(ros::this_node::getName(), "sdf_ccd/CollisionMonitor", ros::names::getRemappings(), {})) return 1;
-  ros::spin();
+  while (ros::ok() && !is_asked_to_end) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPeriod));
 }

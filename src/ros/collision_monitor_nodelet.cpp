@@ -17,6 +17,8 @@ namespace {
 constexpr double kIdlePeriod = 1.0;     // [s]
 constexpr double kLogPeriod = 3.0;      // of building's progress [s]
 constexpr double kLongestPeriod = 1e6;  // longer ones overflow clocks [s]
+constexpr double kLateShown = 3.0;      // a contradiction by late transforms, in the diagnostics [s]
+constexpr double kSending = 0.1;        // until the last messages have left [s]
 
 /// Thrown out of building when the nodelet is unloaded meanwhile.
 struct Stopped {};
@@ -30,6 +32,10 @@ CollisionMonitor::~CollisionMonitor() {
   }
   stop_asked_.notify_all();
   if (thread_.joinable()) thread_.join();
+  if (ros::ok()) {
+    publishUnchecked("the monitor has ended");
+    ros::WallDuration(kSending).sleep();
+  }
   if (service_spinner_) service_spinner_->stop();
   if (tf_spinner_) tf_spinner_->stop();
 }
@@ -106,8 +112,8 @@ void CollisionMonitor::setUp() {
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, parameters_.markers);
   listen();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
-  forget();
   health_.building.clear();
+  forget("waiting for transforms");
   const std::lock_guard<std::mutex> lock(ready_mutex_);
   ready_ = true;
 }
@@ -172,27 +178,29 @@ void CollisionMonitor::listen() {
 void CollisionMonitor::cycle() {
   if (reset_asked_.exchange(false)) {
     loop_->reset();
-    forget();
+    forget("reset");
   }
   switch (loop_->step(ros::Time::now(), outputs_->request(parameters_.max_points))) {
     case TfTracker::Step::kWaiting:
-      diagnostics_->update(health_);
-      return;
+      if (!isSilent()) return diagnostics_->update(health_);
+      [[fallthrough]];
     case TfTracker::Step::kStalled:
       health_.stalled = true;
       health_.rate = 0.0;
-      idle("no new transforms");
-      return;
+      return idle("no new transforms");
     case TfTracker::Step::kJump:
       NODELET_WARN("Time has jumped back: starting anew");
-      forget();
-      diagnostics_->update(health_, true);
-      return;
+      return forget("time has jumped back");
     case TfTracker::Step::kCycle:
       break;
   }
   outputs_->publish();
   publishState();
+}
+
+/// A simulated clock that stands still does not tell that nothing comes.
+bool CollisionMonitor::isSilent() const {
+  return (ros::WallTime::now() - last_step_).toSec() > parameters_.tf.max_latency;
 }
 
 void CollisionMonitor::publishState() {
@@ -201,7 +209,8 @@ void CollisionMonitor::publishState() {
     const double rate = 1.0 / std::max(1e-6, (now - last_cycle_).toSec());
     health_.rate = health_.rate > 0.0 ? 0.9 * health_.rate + 0.1 * rate : rate;
   }
-  last_cycle_ = now;
+  last_cycle_ = last_step_ = now;
+  last_idle_ = ros::WallTime();
   const MonitorState state = toMonitorState(*loop_, ros::Time::now());
   health_.stalled = false;
   health_.latency = state.latency;
@@ -209,9 +218,25 @@ void CollisionMonitor::publishState() {
   health_.error = loop_->result().error;
   health_.missing = missingBodies(*loop_);
   health_.pairs_delayed = loop_->result().delayed;
+  health_.contradicted = contradicted();
   health_.out_of_order = loop_->history().outOfOrder();
+  health_.refused = loop_->history().refused();
   state_publisher_.publish(state);
   diagnostics_->update(health_);
+}
+
+/// What late transforms have contradicted in the last seconds; said in the log when it begins.
+std::string CollisionMonitor::contradicted() {
+  const ros::WallTime now = ros::WallTime::now();
+  const std::vector<LateTransforms>& late = loop_->cycle().late;
+  if (!late.empty()) {
+    last_late_ = now;
+    late_ = late.front().frame + (late.size() > 1 ? " and others" : "") +
+            " came late behind newer ones: what was said of the time since then is checked again";
+    NODELET_WARN_THROTTLE(10.0, "Transforms of %s", late_.c_str());
+  }
+  const bool is_old = last_late_.isZero() || (now - last_late_).toSec() > kLateShown;
+  return is_old ? "" : late_;
 }
 
 void CollisionMonitor::idle(const std::string& reason) {
@@ -222,20 +247,22 @@ void CollisionMonitor::idle(const std::string& reason) {
   if (!loop_ && health_.failure.empty()) health_.building = reason;
   const ros::WallTime now = ros::WallTime::now();
   if (!last_idle_.isZero() && (now - last_idle_).toSec() < kIdlePeriod) return;
-  last_idle_ = now;
-  MonitorState state;
-  state.header.stamp = ros::Time::now();
-  state.header.frame_id = described_.fixed_frame;
-  state.verdict = MonitorState::NOT_CHECKED;
-  state.reason = reason;
-  state_publisher_.publish(state);
+  publishUnchecked(reason);
   diagnostics_->update(health_, true);
 }
 
-void CollisionMonitor::forget() {
-  outputs_->clear();
+void CollisionMonitor::publishUnchecked(const std::string& reason) {
+  last_idle_ = ros::WallTime::now();
+  state_publisher_.publish(toUncheckedState(described_.fixed_frame, reason, ros::Time::now()));
+  if (outputs_) outputs_->publishUnchecked(reason);
+}
+
+void CollisionMonitor::forget(const std::string& reason) {
   health_.missing.clear();
   last_cycle_ = ros::WallTime();
+  last_step_ = ros::WallTime::now();
+  publishUnchecked(reason);
+  diagnostics_->update(health_, true);
 }
 
 bool CollisionMonitor::isReady(std::string& why_not) {

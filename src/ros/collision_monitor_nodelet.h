@@ -28,7 +28,8 @@ namespace sdf_ccd {
 ///   /tf, /tf_static  tf2_msgs/TFMessage
 ///
 /// Publishes, below the node's name, besides what Outputs and Diagnostics do:
-///   state  sdf_ccd/MonitorState  every cycle, and once a second while there is none; latched
+///   state  sdf_ccd/MonitorState  every cycle, and, as NOT_CHECKED, once a second while there is none and on unloading;
+///                                latched
 ///   plan   std_msgs/String       what is checked against what, and what is left out and why; latched
 ///   world  visualization_msgs/MarkerArray  the world's objects as they are checked; latched
 ///
@@ -54,9 +55,12 @@ class CollisionMonitor : public nodelet::Nodelet {
   void logNowAndThen(const std::string& progress);
   void listen();
   void cycle();
+  bool isSilent() const;
   void idle(const std::string& reason);
-  void forget();
+  void publishUnchecked(const std::string& reason);
+  void forget(const std::string& reason);
   void publishState();
+  std::string contradicted();
 
   bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
   bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
@@ -74,8 +78,11 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::unique_ptr<Diagnostics> diagnostics_;
   MonitorHealth health_;
   ros::WallTime last_cycle_;  // when it was published
-  ros::WallTime last_idle_;
-  ros::WallTime last_log_;  // of the progress of building
+  ros::WallTime last_step_;   // of the loop that found anything
+  ros::WallTime last_idle_;   // when it was said that nothing is checked; 0 after a cycle
+  ros::WallTime last_late_;   // when transforms contradicted a cycle
+  std::string late_;          // what was said of that
+  ros::WallTime last_log_;    // of the progress of building
 
   ros::Publisher state_publisher_;
   ros::Publisher plan_publisher_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 
 namespace sdf_ccd {
 
@@ -14,6 +15,31 @@ void setErrorBound(const CycleResult& result, Message& message) {
   message.error_chord = result.error.chord;
   message.error_root = result.error.root;
   message.error_gap = result.error.gap;
+}
+
+template <typename Message>
+void setDelays(const TrackedCycle& cycle, Message& message) {
+  message.delayed_since = cycle.delayed_since;
+  for (const LateTransforms& late : cycle.late) {
+    const bool is_first = message.contradicted_since.isZero() || late.since < message.contradicted_since;
+    if (is_first) message.contradicted_since = late.since;
+    message.late_frames.push_back(late.frame);
+  }
+}
+
+/// Why a cycle as a whole is not checked; empty if it is.
+std::string reasonOf(const CycleResult& result, const TrackedCycle& cycle) {
+  if (result.verdict != Verdict::kNotChecked) return "";
+  if (result.pairs.empty()) return "no pairs: there is nothing to check";
+  std::string reason;
+  if (result.not_checked > 0) reason = std::to_string(result.not_checked) + " pairs could not be checked";
+  if (result.delayed > 0) {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.3f s", (cycle.end - cycle.delayed_since).toSec());
+    reason += (reason.empty() ? "" : ", ") + std::to_string(result.delayed) + " pairs wait for transforms, up to " +
+              seconds + " already";
+  }
+  return reason;
 }
 
 }  // namespace
@@ -32,7 +58,9 @@ ContactArray toContactArray(const MonitorLoop& loop) {
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
   message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.reason = reasonOf(result, cycle);
   setErrorBound(result, message);
+  setDelays(cycle, message);
   message.pairs = toPairContacts(result, contextOf(loop));
   message.checked = result.checked;
   message.skipped = result.skipped;
@@ -51,19 +79,35 @@ MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
   message.missing = missingBodies(loop);
   const std::vector<std::string> failed = failedBodies(loop.scene());
   message.missing.insert(message.missing.end(), failed.begin(), failed.end());
-  if (result.verdict == Verdict::kNotChecked) {
-    message.reason = result.pairs.empty() ? "no pairs: there is nothing to check"
-                                          : std::to_string(result.not_checked) + " pairs could not be checked";
-  }
+  message.reason = reasonOf(result, cycle);
   message.cycle_start = cycle.start;
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
   message.latency = (now - cycle.end).toSec();
   setErrorBound(result, message);
+  setDelays(cycle, message);
   message.pairs_checked = result.checked;
   message.pairs_skipped = result.skipped;
   message.pairs_not_checked = result.not_checked;
   message.pairs_delayed = result.delayed;
+  return message;
+}
+
+ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason) {
+  ContactArray message;
+  message.header.frame_id = loop.fixedFrame();
+  message.header.stamp = message.cycle_start = message.complete_until = loop.cycle().end;
+  message.verdict = ContactArray::NOT_CHECKED;
+  message.reason = reason;
+  return message;
+}
+
+MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now) {
+  MonitorState message;
+  message.header.stamp = now;
+  message.header.frame_id = fixed_frame;
+  message.verdict = MonitorState::NOT_CHECKED;
+  message.reason = reason;
   return message;
 }
 

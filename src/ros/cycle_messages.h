@@ -21,6 +21,10 @@ ContactArray toContactArray(const MonitorLoop& loop);
 /// @param now  when it is sent, for its latency.
 MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);
 
+/// The messages that nothing is checked after the loop's last cycle.
+ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason);
+MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now);
+
 /// Sum of the contact wrenches on a body, in its frame, about its origin [N, N·m].
 geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body);
 

@@ -52,14 +52,21 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
 }
 
 void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
-  if (health_.missing.empty()) {
-    status.summary(DiagnosticStatus::OK, "all known");
-  } else {
+  if (health_.stalled) {
+    status.summary(DiagnosticStatus::ERROR, "none come");
+  } else if (!health_.missing.empty()) {
     status.summaryf(DiagnosticStatus::ERROR, "%zu bodies not known", health_.missing.size());
+  } else if (!health_.contradicted.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.contradicted);
+  } else if (health_.pairs_delayed > 0) {
+    status.summaryf(DiagnosticStatus::WARN, "%d pairs wait for them", health_.pairs_delayed);
+  } else {
+    status.summary(DiagnosticStatus::OK, "all known");
   }
   addLines("missing", health_.missing, status);
   status.add("pairs delayed", health_.pairs_delayed);
   status.add("out of order", health_.out_of_order);
+  status.add("refused", health_.refused);
 }
 
 void Diagnostics::bodies(DiagnosticStatusWrapper& status) const {

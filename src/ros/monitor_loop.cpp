@@ -13,7 +13,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
   const TfTracker::Step step = tracker_.next(now, cycle_);
   if (step == TfTracker::Step::kJump) monitor_.reset();
   if (step != TfTracker::Step::kCycle) return step;
-  result_ = &monitor_.run(cycle_.motion, request);
+  run(request);
   const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_);
   if (!unchecked.empty()) {
     guarded_ = *result_;
@@ -21,6 +21,17 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
     result_ = &guarded_;
   }
   return step;
+}
+
+void MonitorLoop::run(const CycleRequest& request) {
+  try {
+    result_ = &monitor_.run(cycle_.motion, request);
+  } catch (const std::exception& error) {
+    monitor_.reset();
+    cycle_.motion.missing.assign(scene().bodies.size(), error.what());
+    cycle_.motion.motion_error.clear();
+    result_ = &monitor_.run(cycle_.motion, request);
+  }
 }
 
 void MonitorLoop::reset() {

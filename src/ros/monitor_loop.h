@@ -22,6 +22,7 @@ class MonitorLoop {
   /// Checks what has become known. After kCycle, cycle() and result() are those of the new cycle; kJump forgets all
   /// clearances.
   /// @param now  the ROS clock, 0 if it does not run yet.
+  /// If a check fails, its cycle has been checked nowhere.
   TfTracker::Step step(const ros::Time& now, const CycleRequest& request);
 
   /// Forgets everything but the transforms; the next cycle begins with the next of them.
@@ -31,6 +32,8 @@ class MonitorLoop {
   const CycleResult& result() const { return *result_; }
 
  private:
+  void run(const CycleRequest& request);
+
   TfHistory history_;
   TfTracker tracker_;
   Monitor monitor_;

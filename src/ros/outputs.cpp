@@ -44,7 +44,8 @@ void Outputs::publishWrenches() const {
   }
 }
 
-void Outputs::clear() {
+void Outputs::publishUnchecked(const std::string& reason) {
+  if (contacts_.getNumSubscribers() > 0) contacts_.publish(toUncheckedContacts(loop_, reason));
   markers_.publish(drawer_.clear());
 }
 

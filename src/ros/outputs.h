@@ -13,7 +13,7 @@ namespace sdf_ccd {
 /// Publishes what a cycle found.
 ///
 /// Publishes, below the node's name:
-///   contacts         sdf_ccd/ContactArray            every cycle
+///   contacts         sdf_ccd/ContactArray            every cycle, and once a second while there is none
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
 ///                                                    link's frame, about its origin [N, N·m]
 ///   markers          visualization_msgs/MarkerArray  contacts to look at
@@ -28,8 +28,8 @@ class Outputs {
   /// Of the loop's last cycle.
   void publish();
 
-  /// Deletes all markers.
-  void clear();
+  /// Nothing is checked after the last cycle, for this reason: a message without pairs, and no markers.
+  void publishUnchecked(const std::string& reason);
 
  private:
   struct LinkWrench {

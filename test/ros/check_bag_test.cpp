@@ -67,15 +67,45 @@ class CheckBag : public test::ToolTest {
     writeJointStates();
   }
 
-  /// Joint states of the sweep, stamped 5 ms before they are recorded.
-  /// @param later  adds them again to the bag, recorded so much later [s].
-  void writeJointStates(double later = 0.0) {
+  struct Pose {
+    double shoulder, elbow, wrist;
+  };
+
+  /// With the hand pointing down at kReach.
+  static Pose downwards() {
     constexpr double kUpperArm = 0.4, kForearm = 0.35, kHand = 0.212, kShoulderHeight = 0.35;
     const double h = kTipHeight + kHand - kShoulderHeight, d = std::hypot(kReach, h);
     const double lift = std::acos((kUpperArm * kUpperArm + d * d - kForearm * kForearm) / (2.0 * kUpperArm * d));
     const double shoulder = -(std::atan2(h, kReach) + lift);
     const double elbow =
         M_PI - std::acos((kUpperArm * kUpperArm + kForearm * kForearm - d * d) / (2.0 * kUpperArm * kForearm));
+    return {shoulder, elbow, M_PI_2 - shoulder - elbow};
+  }
+
+  /// Eight seconds with the finger in the plate, as held.bag.
+  /// @param is_silent  of the elbow, by the time [s]; all say nothing between `from` and `until`.
+  void writeHeldContact(const std::function<bool(double)>& is_silent, double from = 9.0, double until = 9.0) {
+    rosbag::Bag bag(path("held.bag").string(), rosbag::bagmode::Write);
+    const Pose pose = downwards();
+    for (int i = 0; i < 240; ++i) {
+      const double time = kPeriod * i;
+      if (time > from && time < until) continue;
+      sensor_msgs::JointState state;
+      state.header.stamp = ros::Time(kBegin + time);
+      state.name = {"yaw", "shoulder", "wrist", "roll"};
+      state.position = {std::asin(kPlateY / kReach) + 0.002 * std::sin(i), pose.shoulder, pose.wrist, 0.0};
+      if (!is_silent(time)) {
+        state.name.push_back("elbow");
+        state.position.push_back(pose.elbow);
+      }
+      bag.write("joint_states", state.header.stamp + ros::Duration(0.005), state);
+    }
+  }
+
+  /// Joint states of the sweep, stamped 5 ms before they are recorded.
+  /// @param later  adds them again to the bag, recorded so much later [s].
+  void writeJointStates(double later = 0.0) {
+    const Pose pose = downwards();
     std::vector<double> yaws(kBefore - 1, kFirstYaw);
     for (double yaw = kFirstYaw; yaw < kLastYaw; yaw += kYawStep) yaws.push_back(yaw);
     yaws.insert(yaws.end(), kAfter, yaws.back());
@@ -84,7 +114,7 @@ class CheckBag : public test::ToolTest {
       sensor_msgs::JointState state;
       state.header.stamp = ros::Time(kBegin + kPeriod * double(i));
       state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
-      state.position = {yaws[i], shoulder, elbow, M_PI_2 - shoulder - elbow, 0.0, 1.0};
+      state.position = {yaws[i], pose.shoulder, pose.elbow, pose.wrist, 0.0, 1.0};
       bag.write("joint_states", state.header.stamp + ros::Duration(0.005 + later), state);
     }
   }
@@ -228,6 +258,78 @@ TEST_F(CheckBag, TimeThatJumpsBackBeginsAnew) {
         markers && !markers->markers.empty() && markers->markers[0].action == visualization_msgs::Marker::DELETEALL;
   }
   EXPECT_TRUE(has_cleared);
+}
+
+TEST_F(CheckBag, AJointThatIsSilentInContactIsNeverClear) {
+  // The finger stands in the plate all the time; the elbow says nothing from 3 s to 6 s.
+  writeHeldContact([](double time) { return time >= 3.0 && time < 6.0; });
+  ASSERT_EQ(run(check("held.bag", "made")).exit_code, kDone);
+  std::map<std::string, int> verdicts;
+  int delayed = 0;
+  for (Row cycle : table("made/cycles.csv")) {
+    ++verdicts[cycle["verdict"]];
+    delayed += std::stoi(cycle["delayed"]) > 0;
+    if (std::stoi(cycle["delayed"]) > 0) {
+      EXPECT_NE(cycle["reason"].find("pairs wait for transforms"), std::string::npos) << cycle["reason"];
+    }
+  }
+  EXPECT_EQ(verdicts["CLEAR"], 0);
+  EXPECT_GT(verdicts["CONTACT"], 130);
+  EXPECT_GT(verdicts["NOT_CHECKED"], 80);
+  EXPECT_GT(delayed, 10);
+}
+
+TEST_F(CheckBag, SilenceOfAllIsSaidInTheBagAndNoCycle) {
+  writeHeldContact([](double) { return false; }, 4.0, 6.0);
+  const ToolRun result = run(check("held.bag", "made"));
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  const std::vector<Row> cycles = table("made/cycles.csv");
+  int silent = 0, not_checked = 0;
+  rosbag::Bag bag(path("made/checked.bag").string());
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto state = message.instantiate<MonitorState>()) {
+      not_checked += state->verdict == MonitorState::NOT_CHECKED && state->reason == "no new transforms";
+    }
+    const auto contacts = message.instantiate<ContactArray>();
+    if (!contacts || contacts->cycle_start != contacts->header.stamp) continue;
+    ++silent;
+    EXPECT_EQ(contacts->verdict, ContactArray::NOT_CHECKED);
+    EXPECT_EQ(contacts->reason, "no new transforms");
+    EXPECT_TRUE(contacts->pairs.empty());
+    EXPECT_NEAR(contacts->header.stamp.toSec(), kBegin + 4.0, 2.0 * kPeriod);
+    EXPECT_GT(message.getTime().toSec(), kBegin + 4.5);
+    EXPECT_LT(message.getTime().toSec(), kBegin + 4.6);
+  }
+  EXPECT_EQ(silent, 1);
+  EXPECT_EQ(not_checked, 1);
+  // The cycle that ends the silence tells of it.
+  EXPECT_EQ(std::count_if(cycles.begin(), cycles.end(), [](Row cycle) { return cycle["verdict"] == "NOT_CHECKED"; }),
+            1);
+}
+
+TEST_F(CheckBag, TransformsThatComeLateAreNamed) {
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  {
+    rosbag::Bag bag(path("made/checked.bag").string(), rosbag::bagmode::Append);
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    geometry_msgs::TransformStamped& transform = message.transforms[0];
+    transform.header.frame_id = "base";
+    transform.child_frame_id = "turret";
+    transform.header.stamp = ros::Time(kBegin + 10.5 * kPeriod);
+    transform.transform.rotation.z = 1.0;  // far from where it was
+    bag.write("/tf", ros::Time(kBegin + 13.2 * kPeriod), message);
+  }
+  const ToolRun result = run(check("made/checked.bag", "again"));
+  EXPECT_NE(result.out.find("late transforms  in 1 cycles"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("frames: turret"), std::string::npos) << result.out;
+  int contradicting = 0;
+  for (Row cycle : table("again/cycles.csv")) {
+    if (cycle["contradicted_since"] == "0.000000000") continue;
+    ++contradicting;
+    EXPECT_NEAR(std::stod(cycle["contradicted_since"]), kBegin + 10.0 * kPeriod, 1e-6);
+  }
+  EXPECT_EQ(contradicting, 1);
 }
 
 TEST_F(CheckBag, StartAndDurationChooseAPart) {

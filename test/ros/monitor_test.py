@@ -9,6 +9,7 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point, Pose, TransformStamped, WrenchStamped
 from std_msgs.msg import Header, String
 from std_srvs.srv import Empty
@@ -82,7 +83,7 @@ class MonitorTest(unittest.TestCase):
         cls.stamp = rospy.Time.now()
         assert Recorder('/collision_monitor/plan', String).find(lambda m: 'plate' in m.data, 60.0), 'no plan'
         end = time.monotonic() + 30.0
-        while cls.contacts.find(lambda m: not m.not_checked, 0.0) is None:
+        while cls.contacts.find(lambda m: m.verdict == ContactArray.CLEAR, 0.0) is None:
             assert time.monotonic() < end, 'no complete cycle'
             cls.send(0.0)
 
@@ -211,7 +212,73 @@ class MonitorTest(unittest.TestCase):
         self.contacts.clear()
         for _ in range(12):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.NOT_CHECKED))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.NOT_CHECKED and m.pairs))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+
+    def test_silence_is_not_checked(self):
+        for _ in range(10):
+            self.send(0.6)
+        self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.ADD for x in m.markers), 5.0)
+                             or self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR, 5.0))
+        for recorder in (self.contacts, self.markers, self.states):
+            recorder.clear()
+        state = self.states.find(lambda m: m.reason == 'no new transforms')
+        self.assertIsNotNone(state)
+        self.assertEqual(state.verdict, MonitorState.NOT_CHECKED)
+        contacts = self.contacts.find(lambda m: m.reason == 'no new transforms')
+        self.assertIsNotNone(contacts)
+        self.assertEqual(contacts.verdict, ContactArray.NOT_CHECKED)
+        self.assertEqual(len(contacts.pairs), 0)
+        self.assertEqual(contacts.cycle_start, contacts.header.stamp)
+        self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
+        diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'transforms') == DiagnosticStatus.ERROR))
+        for _ in range(10):
+            self.send(0.0)
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+
+    @staticmethod
+    def level_of(diagnostics, task):
+        for status in diagnostics.status:
+            if 'collision_monitor' in status.name and status.name.endswith(task):
+                return status.level
+        return None
+
+    def test_late_transforms_contradict(self):
+        for _ in range(5):
+            self.send(0.0)
+        last = self.stamp
+        self.send(0.0)
+        self.assertIsNotNone(self.contacts.find(lambda m: m.complete_until >= self.stamp))
+        diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        middle = last + (self.stamp - last) * 0.5
+        self.send_at(middle, 0.6, None)  # it was behind the plate meanwhile
+        self.send(0.0)
+        message = self.contacts.find(lambda m: not m.contradicted_since.is_zero())
+        self.assertIsNotNone(message)
+        self.assertEqual(message.contradicted_since, last)
+        self.assertEqual(list(message.late_frames), ['ball'])
+        pair = pair_of(message, 'ball', 'plate')
+        self.assertEqual(pair.verdict, PairContact.CONTACT)
+        self.assertEqual(pair.checked_from, last)
+        self.assertIsNotNone(self.states.find(lambda m: m.contradicted_since == last))
+        for _ in range(60):
+            self.send(0.0)
+        self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'transforms') == DiagnosticStatus.WARN))
+
+    def test_old_stamp_of_one_frame_clears_nothing(self):
+        for i in range(30):
+            self.send(0.0)
+            if i > 5:
+                self.send_at(self.stamp - rospy.Duration(1.5), None, 0.001 * i)
+        with self.markers.condition:
+            self.assertFalse(any(x.action == Marker.DELETEALL for m in self.markers.messages for x in m.markers))
+        self.assertIsNotNone(self.contacts.find(lambda m: 'other' in m.late_frames))
+        self.assertIsNone(self.states.find(lambda m: 'jumped' in m.reason, 0.0))
+        for _ in range(20):  # that ends, and so does what it costs
+            self.send(0.0)
+        self.contacts.clear()
+        self.send(0.0)
         self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
 
     def test_query_motion(self):
@@ -326,12 +393,14 @@ class MonitorTest(unittest.TestCase):
         self.assertIsNotNone(states.find(lambda m: m.header.frame_id == 'base'))
 
     def test_ends_at_once_however_seldom_it_cycles(self):
+        states = Recorder('/slow_monitor/state', MonitorState)
         process = subprocess.Popen(['rosrun', 'sdf_ccd', 'collision_monitor', '__name:=slow_monitor', '_rate:=0.001'])
         try:
             self.assertIsNotNone(Recorder('/slow_monitor/plan', String).find(lambda m: True))
             time.sleep(0.5)  # the first cycle begins at once
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.wait(10.0), 0)
+            self.assertIsNotNone(states.find(lambda m: m.reason == 'the monitor has ended'))
         finally:
             process.kill()
 

@@ -87,7 +87,7 @@ class Recorder : public BagObserver {
     bag_.addCycle(contacts, now);
     report_.add(contacts);
   }
-  void onJump(const ros::Time& now) override { bag_.addJump(now); }
+  void onUnchecked(const std::string& reason, const ros::Time& now) override { bag_.addUnchecked(reason, now); }
 
  private:
   ProgressBar bar_{"cycles"};

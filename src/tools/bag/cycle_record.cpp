@@ -9,7 +9,9 @@ CycleRecord toRecord(const ContactArray& message) {
   record.start = message.cycle_start;
   record.end = message.header.stamp;
   record.complete_until = message.complete_until;
+  record.contradicted_since = message.contradicted_since;
   record.verdict = static_cast<Verdict>(message.verdict);
+  record.reason = message.reason;
   record.error_bound = message.error_bound;
   record.run_time = message.run_time;
   record.checked = message.checked;
@@ -35,8 +37,7 @@ std::string timeText(const ros::Time& time) {
 
 std::string cycleColumns() {
   return "t0,t1,complete_until,verdict,error_bound,run_time,checked,skipped,not_checked,delayed,contact,uncertain,"
-         "depth,"
-         "body_a,body_b\n";
+         "depth,body_a,body_b,contradicted_since,reason\n";
 }
 
 std::string toRow(const CycleRecord& r) {
@@ -44,7 +45,8 @@ std::string toRow(const CycleRecord& r) {
   std::snprintf(numbers, sizeof numbers, ",%.6g,%.6g,%u,%u,%u,%u,%u,%u,%.6g,", r.error_bound, r.run_time, r.checked,
                 r.skipped, r.not_checked, r.delayed, r.in_contact, r.uncertain, r.depth);
   return timeText(r.start) + "," + timeText(r.end) + "," + timeText(r.complete_until) + "," + toString(r.verdict) +
-         numbers + csvText(r.body_a) + "," + csvText(r.body_b) + "\n";
+         numbers + csvText(r.body_a) + "," + csvText(r.body_b) + "," + timeText(r.contradicted_since) + "," +
+         csvText(r.reason) + "\n";
 }
 
 std::string csvText(const std::string& text) {

@@ -10,6 +10,7 @@ namespace sdf_ccd::tools {
 /// What a table and a plot tell of one cycle.
 struct CycleRecord {
   ros::Time start, end, complete_until;
+  ros::Time contradicted_since;  ///< by late transforms; 0 if nothing is
   Verdict verdict = Verdict::kNotChecked;
   double error_bound = 0.0;  ///< [m]
   double run_time = 0.0;     ///< [s]
@@ -17,6 +18,7 @@ struct CycleRecord {
   unsigned in_contact = 0, uncertain = 0;  ///< of those checked
   double depth = 0.0;                      ///< of the deepest point [m]; 0 if nothing touches
   std::string body_a, body_b;              ///< whose it is
+  std::string reason;                      ///< why the cycle as a whole is NOT_CHECKED
 
   bool hasBound() const { return checked + skipped > 0; }
 };

@@ -39,6 +39,7 @@ std::string list(const std::string& heading, const std::vector<std::string>& ite
 
 void CycleStatistics::add(const ContactArray& message) {
   cycles_.push_back(toRecord(message));
+  late_frames_.insert(message.late_frames.begin(), message.late_frames.end());
   joiner_.add(message);
   for (const PairContact& pair : message.pairs) {
     PairCount& count = pairs_[nameOf(pair.body_a, pair.body_b)];
@@ -58,7 +59,8 @@ std::vector<std::string> CycleStatistics::neverChecked() const {
 }
 
 std::string CycleStatistics::summary(const ros::Time& begin) const {
-  std::string text = verdictLine() + timeLine(begin) + contactLines(begin) + uncertainLines() + notCheckedLines();
+  std::string text = verdictLine() + timeLine(begin) + contactLines(begin) + uncertainLines() + notCheckedLines() +
+                     contradictedLine(begin);
   for (const std::string& line : runTimesAndBounds()) text += line + "\n";
   return text;
 }
@@ -125,6 +127,17 @@ std::string CycleStatistics::notCheckedLines() const {
                     " cycles: " + reason);
   }
   return list("not checked      " + std::to_string(pairs) + " pairs, in some cycle", items);
+}
+
+/// Empty if no transforms came late behind newer ones.
+std::string CycleStatistics::contradictedLine(const ros::Time& begin) const {
+  const auto isContradicting = [](const CycleRecord& cycle) { return !cycle.contradicted_since.isZero(); };
+  const auto first = std::find_if(cycles_.begin(), cycles_.end(), isContradicting);
+  if (first == cycles_.end()) return "";
+  const auto count = std::count_if(first, cycles_.end(), isContradicting);
+  return "late transforms  in " + std::to_string(count) + " cycles, the first at " + secondsSince(begin, first->end) +
+         ": what earlier ones said does not hold from contradicted_since on, see cycles.csv; the first of " +
+         std::to_string(late_frames_.size()) + " frames: " + *late_frames_.begin() + "\n";
 }
 
 std::vector<std::string> CycleStatistics::runTimesAndBounds() const {

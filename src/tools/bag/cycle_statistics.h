@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,12 @@ class CycleStatistics {
   std::string contactLines(const ros::Time& begin) const;
   std::string uncertainLines() const;
   std::string notCheckedLines() const;
+  std::string contradictedLine(const ros::Time& begin) const;
 
   std::vector<CycleRecord> cycles_;
   ContactJoiner joiner_;
   std::map<std::string, PairCount> pairs_;  // by "body - body"
+  std::set<std::string> late_frames_;
 };
 
 }  // namespace sdf_ccd::tools

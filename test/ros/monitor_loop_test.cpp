@@ -1,0 +1,290 @@
+// Cycles of a whole monitor, from transforms to messages.
+
+#include "ros/monitor_loop.h"
+
+#include <gtest/gtest.h>
+
+#include "ros/cycle_messages.h"
+#include "ros/tf_messages.h"
+#include "scene/scene_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::message;
+using test::stampedTransform;
+using Step = TfTracker::Step;
+
+constexpr double kPeriod = 0.033;                  // [s]
+constexpr double kRadius = 0.05, kPlate = 0.5;     // of hand and foot, x of the plate [m]
+constexpr double kPlateHalf = 0.005, kHigh = 2.0;  // the foot's x, away from all [m]
+
+std::shared_ptr<const Scene> scene() {
+  static const auto built = test::build({test::body("hand", Sphere{kRadius}), test::body("foot", Sphere{kRadius}),
+                                         [] {
+                                           BodyDescription plate =
+                                               test::body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true);
+                                           plate.geometry[0].X_BG.translation().x() = kPlate;
+                                           return plate;
+                                         }()},
+                                        test::fine(0.005));
+  return built;
+}
+
+/// Whether a message says that there was no contact at a time.
+bool saysClearAt(const ContactArray& contacts, double time) {
+  return contacts.verdict == ContactArray::CLEAR && contacts.cycle_start.toSec() <= time &&
+         time <= contacts.complete_until.toSec();
+}
+
+class MonitorLoopTest : public ::testing::Test {
+ protected:
+  MonitorLoopTest() { begin(); }
+
+  void begin(double max_latency = 0.5) {
+    MonitorParameters parameters;
+    parameters.monitor = test::soft();
+    parameters.tf.max_latency = max_latency;
+    loop_ = std::make_unique<MonitorLoop>(scene(), "world", parameters);
+    said_.clear();
+  }
+
+  void send(const geometry_msgs::TransformStamped& sent, bool is_static = false) {
+    loop_->history().add(message({sent}), is_static);
+  }
+  void sendHand(double stamp, double x, bool is_static = false) {
+    send(stampedTransform("world", "hand", stamp, x), is_static);
+  }
+  void sendFoot(double stamp, double x = kHigh) { send(stampedTransform("world", "foot", stamp, x)); }
+
+  Step step(double now) {
+    const Step step = loop_->step(ros::Time(now), {});
+    if (step == Step::kCycle) said_.push_back(toContactArray(*loop_));
+    return step;
+  }
+
+  const ContactArray& last() const { return said_.back(); }
+  int verdicts(std::uint8_t verdict) const {
+    return static_cast<int>(
+        std::count_if(said_.begin(), said_.end(), [&](const ContactArray& said) { return said.verdict == verdict; }));
+  }
+  const PairContact* pairOf(const ContactArray& said, const std::string& a, const std::string& b) const {
+    for (const PairContact& pair : said.pairs) {
+      if (pair.body_a == a && pair.body_b == b) return &pair;
+    }
+    return nullptr;
+  }
+
+  std::unique_ptr<MonitorLoop> loop_;
+  std::vector<ContactArray> said_;
+};
+
+TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
+  sendHand(0.0, 0.0, true);
+  double crossing = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double now = 10.0 + i * kPeriod, x = i < 20 ? 0.0 : 0.2 * (i % 5);  // it passes the plate between two
+    sendFoot(now);
+    if (i >= 10) sendHand(now, x);
+    step(now);
+    if (i > 20 && i % 5 == 3) crossing = now - 0.5 * kPeriod;
+    if (crossing > 0.0 && i % 5 == 3) {
+      EXPECT_EQ(last().verdict, ContactArray::CONTACT) << i;
+    }
+  }
+  EXPECT_EQ(verdicts(ContactArray::NOT_CHECKED), 1);  // where it has changed
+  EXPECT_GE(verdicts(ContactArray::CONTACT), 8);
+  for (const ContactArray& said : said_) EXPECT_FALSE(saysClearAt(said, crossing));
+}
+
+TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
+  for (int i = 0; i < 60; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    if (i < 20) sendHand(now, 0.0);
+    if (i == 25) sendHand(now, kPlate - kRadius, true);
+    step(now);
+    if (i == 19) {
+      EXPECT_EQ(last().verdict, ContactArray::CLEAR);
+    }
+    if (i > 20 && i < 25) {
+      EXPECT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+    }
+    if (i == 25) {
+      const PairContact* pair = pairOf(last(), "hand", "plate");
+      ASSERT_NE(pair, nullptr);
+      EXPECT_EQ(pair->verdict, PairContact::NOT_CHECKED);
+      EXPECT_EQ(pair->reason, "hand has become static");
+      EXPECT_NEAR(pair->checked_from.toSec(), 10.0 + 19 * kPeriod, 1e-6);
+    }
+    if (i > 25) {
+      EXPECT_EQ(last().verdict, ContactArray::CONTACT) << i;
+    }
+  }
+}
+
+TEST_F(MonitorLoopTest, AHandThatIsHandedOverIsNotCheckedMeanwhile) {
+  send(stampedTransform("world", "table", 0.0, 1.0), true);
+  for (int i = 0; i < 30; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    if (i < 10) sendHand(now, 0.0);
+    if (i >= 11) send(stampedTransform("table", "hand", now, 0.0));  // behind the plate
+    step(now);
+    if (i >= 12) {
+      EXPECT_EQ(last().verdict, ContactArray::CLEAR) << i;
+    }
+  }
+  ASSERT_EQ(verdicts(ContactArray::NOT_CHECKED), 2);  // delayed, then changed
+  EXPECT_EQ(verdicts(ContactArray::CONTACT), 0);
+}
+
+TEST_F(MonitorLoopTest, OneFrameWithTwoClocksDoesNotSilenceTheOthers) {
+  int jumps = 0, foot_contacts = 0;
+  for (int i = 0; i < 90; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendHand(now, 0.0);
+    sendHand(now - 1.5, 0.0001 * i);  // another publisher, whose clock is late
+    sendFoot(now, i < 60 ? kHigh : kPlate);
+    jumps += step(now) == Step::kJump;
+    if (i > 65) foot_contacts += pairOf(last(), "foot", "plate") != nullptr;
+    if (i > 65) {
+      EXPECT_FALSE(last().contradicted_since.isZero());
+      EXPECT_EQ(last().late_frames, std::vector<std::string>{"hand"});
+      EXPECT_EQ(pairOf(last(), "hand", "plate")->verdict, PairContact::NOT_CHECKED);  // 1.5 s are too long ago
+    }
+  }
+  EXPECT_EQ(jumps, 0);
+  EXPECT_EQ(foot_contacts, 24);
+}
+
+TEST_F(MonitorLoopTest, ALateTransformIsToldAndItsTimeCheckedAgain) {
+  for (int i = 0; i < 6; ++i) {
+    const double now = 10.0 + 0.1 * i;
+    sendHand(now, 0.0);
+    sendFoot(now);
+    step(now);
+    if (i > 0) {
+      EXPECT_EQ(last().verdict, ContactArray::CLEAR);
+      EXPECT_TRUE(last().contradicted_since.isZero());
+    }
+  }
+  sendHand(10.25, 0.6);  // between 10.2 and 10.3 it went through the plate and back
+  sendHand(10.6, 0.0);
+  sendFoot(10.6);
+  ASSERT_EQ(step(10.6), Step::kCycle);
+  EXPECT_EQ(last().contradicted_since, ros::Time(10.2));
+  EXPECT_EQ(last().late_frames, std::vector<std::string>{"hand"});
+  EXPECT_EQ(last().verdict, ContactArray::CONTACT);
+  const PairContact* pair = pairOf(last(), "hand", "plate");
+  ASSERT_NE(pair, nullptr);
+  EXPECT_NEAR(pair->checked_from.toSec(), 10.2, 1e-6);
+  EXPECT_EQ(pair->intervals.size(), 2u);
+  EXPECT_EQ(last().complete_until, ros::Time(10.6));
+  const MonitorState state = toMonitorState(*loop_, ros::Time(10.6));
+  EXPECT_EQ(state.contradicted_since, ros::Time(10.2));
+  sendHand(10.7, 0.0);
+  sendFoot(10.7);
+  ASSERT_EQ(step(10.7), Step::kCycle);
+  EXPECT_TRUE(last().contradicted_since.isZero());
+  EXPECT_EQ(last().verdict, ContactArray::CLEAR);
+}
+
+TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
+  for (int i = 0; i < 30; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    if (i < 10 || i >= 20) sendHand(now, 0.0);
+    if (step(now) != Step::kCycle) continue;
+    const bool is_delayed = i >= 10 && i < 20;
+    EXPECT_EQ(last().verdict, is_delayed ? ContactArray::NOT_CHECKED : ContactArray::CLEAR) << i;
+    EXPECT_EQ(last().delayed, is_delayed ? 2u : 0u);
+    EXPECT_NEAR(last().delayed_since.toSec(), is_delayed ? 10.0 + 9 * kPeriod : 0.0, 1e-6);
+    EXPECT_EQ(last().reason.find("2 pairs wait for transforms") != std::string::npos, is_delayed) << last().reason;
+    EXPECT_EQ(toMonitorState(*loop_, ros::Time(now)).reason, last().reason);
+  }
+}
+
+TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
+  Scene broken = *scene();
+  broken.bodies[0].X_frame_B.linear() *= 1.1;  // no rotation
+  MonitorParameters parameters;
+  parameters.monitor = test::soft();
+  loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), "world", parameters);
+  ros::Time end;
+  for (int i = 0; i < 10; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendHand(now, 0.1 * i);
+    sendFoot(now);
+    ASSERT_EQ(step(now), i == 0 ? Step::kWaiting : Step::kCycle);
+    if (i == 0) continue;
+    EXPECT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+    EXPECT_EQ(last().not_checked, 3u);
+    if (!end.isZero()) {
+      EXPECT_EQ(last().cycle_start, end);
+    }
+    end = last().header.stamp;
+    ASSERT_EQ(last().pairs.size(), 3u);
+    EXPECT_NE(last().pairs[0].reason.find("orthonormal"), std::string::npos) << last().pairs[0].reason;
+    EXPECT_EQ(last().pairs[0].checked_until, end);
+  }
+}
+
+TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
+  // The foot turns and drives on a curve that wants samples of its own; the hand, far away, is always 0.4 s late.
+  std::size_t most_times = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    send(stampedTransform("world", "cart", now, kHigh + 0.5 * i * kPeriod));
+    geometry_msgs::TransformStamped foot = stampedTransform("cart", "foot", now, 0.3, 6.0 * i * kPeriod);
+    send(foot);
+    if (i >= 12) sendHand(now - 12 * kPeriod, 0.0);
+    if (step(now) == Step::kCycle && i > 30) most_times = std::max(most_times, loop_->cycle().motion.times.size());
+  }
+  EXPECT_EQ(verdicts(ContactArray::CONTACT), 0);
+  // Of 13 periods one is sampled for the foot and the plate; the foot and the hand need another, 12 periods ago.
+  EXPECT_LT(most_times, 20u);
+}
+
+TEST_F(MonitorLoopTest, StampsFarAheadStopNothing) {
+  for (int i = 0; i < 20; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    geometry_msgs::TransformStamped far = stampedTransform("world", "hand", now, 0.0);
+    far.header.stamp = i % 2 == 0 ? ros::TIME_MAX : ros::Time(1u << 31, 0);
+    send(far);
+    if (i < 10) sendHand(now, 0.0);
+    step(now);
+  }
+  EXPECT_EQ(verdicts(ContactArray::CLEAR), 9);
+  EXPECT_EQ(verdicts(ContactArray::NOT_CHECKED), 10);
+}
+
+TEST(MonitorLoop, TwoArmsThatMeetBetweenTheirTransformsAreNotClear) {
+  // Two arms of 0.8 m on one base turn at 2 rad/s each; only in the middle between two transforms their tips meet.
+  constexpr double kArm = 0.8, kTip = 0.02, kDepth = 0.003, kRate = 2.0, kStep = 0.1;
+  const auto tip = [](const std::string& name) {
+    BodyDescription body = test::body(name, Sphere{kTip});
+    body.geometry[0].X_BG.translation().x() = kArm;
+    return body;
+  };
+  MonitorParameters parameters;
+  parameters.monitor = test::soft();
+  MonitorLoop loop(test::build({tip("left"), tip("right")}, test::fine(0.001)), "world", parameters);
+  loop.history().add(message({stampedTransform("world", "right_base", 0.0, 2.0 * (kArm + kTip) - kDepth)}), true);
+  int cycles = 0;
+  for (int i = 0; i < 2; ++i) {
+    const double now = 10.0 + kStep * i, angle = kRate * kStep * (i - 0.5);
+    loop.history().add(message({stampedTransform("world", "left", now, 0.0, angle),
+                                stampedTransform("right_base", "right", now, 0.0, M_PI - angle)}),
+                       false);
+    if (loop.step(ros::Time(now), {}) != Step::kCycle) continue;
+    ++cycles;
+    EXPECT_EQ(loop.result().verdict, Verdict::kContact) << "bound " << loop.result().error_bound;
+    EXPECT_NEAR(loop.result().pairs[0].deepest.depth, kDepth, loop.result().error_bound);
+  }
+  EXPECT_EQ(cycles, 1);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
