@@ -35,6 +35,11 @@ class TriangleTree {
   /// else is looked at; the distance found does not depend on it.
   ClosestPoint closestPointNear(const Vector3d& p, int likely) const;
 
+  /// Distance of p from one triangle of the mesh [m].
+  double distanceTo(int triangle, const Vector3d& p) const {
+    return (triangles_[places_[triangle]].closest(p) - p).norm();
+  }
+
   /// Triangles with a place nearer than `radius` to p or as near: replaces `triangles` by their indices in the mesh, in
   /// no order.
   void trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const;

@@ -1,0 +1,165 @@
+#include "rim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mesh_edges.h"
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// For every vertex of the edges, the edges that come near it.
+class EdgeSearch {
+ public:
+  EdgeSearch(const TriangleMesh& mesh, const std::vector<std::pair<std::pair<int, int>, int>>& edges) {
+    TriangleMesh segments;
+    for (const auto& [edge, n] : edges) {
+      const int first = static_cast<int>(segments.vertices.size());
+      segments.vertices.push_back(mesh.vertices[edge.first]);
+      segments.vertices.push_back(mesh.vertices[edge.second]);
+      segments.triangles.emplace_back(first, first + 1, first + 1);
+      vertices_.push_back(edge.first);
+      vertices_.push_back(edge.second);
+    }
+    std::sort(vertices_.begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    constexpr double kSmallestMesh = 1e-8;  // [m], below which a tree refuses it
+    if (boundingBox(segments).sizes().maxCoeff() > kSmallestMesh) tree_.emplace(segments);
+  }
+
+  /// In ascending order.
+  const std::vector<int>& vertices() const { return vertices_; }
+
+  void find(const Vector3d& p, double distance, std::vector<int>& found) const {
+    found.clear();
+    if (tree_) tree_->trianglesWithin(p, distance, found);
+  }
+
+ private:
+  std::vector<int> vertices_;
+  std::optional<TriangleTree> tree_;
+};
+
+}  // namespace
+
+Rim::Rim(const TriangleMesh& mesh) : mesh_(mesh) {
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    const int n = imbalance(first, last);
+    if (n != 0) edges_.emplace(Edge(first->low, first->high), -n);
+  });
+}
+
+void Rim::add(int from, int to, int n) {
+  if (from == to || n == 0) return;
+  const bool up = from < to;
+  const auto place = edges_.try_emplace(up ? Edge(from, to) : Edge(to, from), 0).first;
+  place->second += up ? n : -n;
+  if (place->second == 0) edges_.erase(place);
+}
+
+void Rim::fill(int a, int b, int c, int n) {
+  if (a == b || b == c || c == a) return;  // its boundary is nothing
+  for (int i = 0; i < std::abs(n); ++i) triangles_.push_back(n > 0 ? Vector3i(a, b, c) : Vector3i(a, c, b));
+  add(a, b, -n);
+  add(b, c, -n);
+  add(c, a, -n);
+}
+
+void Rim::join(double tolerance) {
+  if (!empty()) mergeVertices(tolerance);
+  if (!empty()) splitEdges(tolerance);
+}
+
+void Rim::mergeVertices(double tolerance) {
+  const std::vector<std::pair<Edge, int>> before = edges();
+  const EdgeSearch search(mesh_, before);
+  std::map<int, int> target;  // those that stay are targets of themselves, and farther than the tolerance apart
+  std::vector<int> near;
+  bool any = false;
+  for (const int vertex : search.vertices()) {
+    const Vector3d& p = mesh_.vertices[vertex];
+    search.find(p, tolerance, near);
+    int nearest = vertex;
+    double least = tolerance;
+    for (const int i : near) {
+      for (const int other : {before[i].first.first, before[i].first.second}) {
+        const auto known = target.find(other);
+        const double distance = (mesh_.vertices[other] - p).norm();
+        if (known == target.end() || known->second != other || distance > least) continue;
+        if (distance == least && nearest != vertex && other > nearest) continue;
+        nearest = other;
+        least = distance;
+      }
+    }
+    target[vertex] = nearest;
+    any |= nearest != vertex;
+  }
+  if (!any) return;
+  for (const auto& [edge, n] : before) {
+    const auto [a, b] = edge;
+    // a→b becomes a→b', then a'→b'. What is left between old and new vertices cancels over the whole loop.
+    fill(a, b, target[b], n);
+    fill(a, target[b], target[a], n);
+  }
+}
+
+void Rim::splitEdges(double tolerance) {
+  const std::vector<std::pair<Edge, int>> before = edges();
+  const EdgeSearch search(mesh_, before);
+  std::vector<std::vector<int>> through(before.size());
+  std::vector<int> near;
+  for (const int vertex : search.vertices()) {
+    search.find(mesh_.vertices[vertex], 0.5 * tolerance, near);
+    for (const int i : near) {
+      if (vertex != before[i].first.first && vertex != before[i].first.second) through[i].push_back(vertex);
+    }
+  }
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto& [edge, n] = before[i];
+    if (through[i].empty()) continue;
+    const Vector3d &a = mesh_.vertices[edge.first], along = mesh_.vertices[edge.second] - a;
+    const auto share = [&](int vertex) { return along.dot(mesh_.vertices[vertex] - a); };
+    std::sort(through[i].begin(), through[i].end(),
+              [&](int p, int q) { return std::pair(share(p), p) < std::pair(share(q), q); });
+    int last = edge.first;
+    for (const int vertex : through[i]) {
+      fill(last, edge.second, vertex, n);  // last→end becomes last→vertex→end
+      last = vertex;
+    }
+  }
+}
+
+std::vector<std::vector<int>> Rim::takeLoops() {
+  std::map<int, std::vector<int>> next;  // per vertex, where edges run to
+  for (const auto& [edge, n] : edges_) {
+    const auto [from, to] = n > 0 ? edge : Edge(edge.second, edge.first);
+    next[from].insert(next[from].end(), std::abs(n), to);
+  }
+  edges_.clear();
+  std::vector<std::vector<int>> loops;
+  for (auto& [start, first] : next) {
+    std::vector<int> way;
+    std::map<int, std::size_t> place;  // on the way
+    int at = start;
+    while (!next[at].empty() || !way.empty()) {
+      const auto [seen, is_new] = place.try_emplace(at, way.size());
+      if (!is_new) {
+        const std::size_t begin = seen->second;
+        loops.emplace_back(way.begin() + std::ptrdiff_t(begin), way.end());
+        for (std::size_t i = begin; i < way.size(); ++i) place.erase(way[i]);
+        way.resize(begin);
+        if (way.empty() && next[at].empty()) break;
+        continue;
+      }
+      way.push_back(at);
+      const int to = next[at].back();
+      next[at].pop_back();
+      at = to;
+    }
+  }
+  return loops;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+
+#include "oracle/shapes.h"
+
+/// Meshes that are not closed.
+namespace sdf_ccd::test {
+
+/// A mesh without the triangles that the predicate names, by their three corners' mean.
+template <typename Lost>
+TriangleMesh without(TriangleMesh mesh, Lost lost) {
+  const auto is_lost = [&](const Vector3i& t) {
+    return lost((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0);
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_lost), mesh.triangles.end());
+  return mesh;
+}
+
+/// A box of this half side without its lid at the top (z).
+inline TriangleMesh binMesh(double half) {
+  return without(boxMesh(Vector3d::Constant(half)), [half](const Vector3d& p) { return p.z() > 0.99 * half; });
+}
+
+}  // namespace sdf_ccd::test
