@@ -2,10 +2,12 @@
 
 #include <stdexcept>
 
+#include "caps_file.h"
+
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 struct ShapeRecord {
   double origin[3];
@@ -22,7 +24,7 @@ static_assert(sizeof(NodeBases) == 12 && sizeof(AdaptiveNode) == 64 && sizeof(Sp
 
 }  // namespace
 
-void saveAdaptive(const AdaptiveGrid& grid, const std::string& path) {
+void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path) {
   const AdaptiveShape& shape = grid.shape();
   ShapeRecord record{};
   record.cell = shape.cell;
@@ -36,17 +38,15 @@ void saveAdaptive(const AdaptiveGrid& grid, const std::string& path) {
     record.size[k] = shape.size[k];
   }
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
-  writeCheckedFile(path, kAdaptiveFileKind, kVersion,
-                   {{&record, sizeof record},
-                    sectionOf(arrays.top),
-                    sectionOf(arrays.nodes),
-                    sectionOf(arrays.bases),
-                    sectionOf(arrays.leaves),
-                    sectionOf(arrays.splits),
-                    sectionOf(arrays.leaf_errors)});
+  std::vector<FileSection> sections = {{&record, sizeof record},    sectionOf(arrays.top),
+                                       sectionOf(arrays.nodes),     sectionOf(arrays.bases),
+                                       sectionOf(arrays.leaves),    sectionOf(arrays.splits),
+                                       sectionOf(arrays.leaf_errors)};
+  addCaps(openings, sections);
+  writeCheckedFile(path, kAdaptiveFileKind, kVersion, sections);
 }
 
-std::shared_ptr<const AdaptiveGrid> loadAdaptive(const std::string& path) {
+DistanceField loadAdaptive(const std::string& path) {
   const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kAdaptiveFileKind, kVersion);
   std::size_t records = 0;
   const auto* record = file->section<ShapeRecord>(0, records);
@@ -68,7 +68,8 @@ std::shared_ptr<const AdaptiveGrid> loadAdaptive(const std::string& path) {
   arrays.splits.data = file->section<SplitLeaves>(5, arrays.splits.size);
   arrays.leaf_errors.data = file->section<std::uint8_t>(6, arrays.leaf_errors.size);
   try {
-    return std::make_shared<const AdaptiveGrid>(shape, arrays, file);
+    return DistanceField(std::make_shared<const AdaptiveGrid>(shape, arrays, file),
+                         loadCaps(*file, 7, shape.surface_box));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }

@@ -13,6 +13,7 @@
 #include "cube_corner.h"
 #include "near_triangles.h"
 #include "progress_counter.h"
+#include "sdf_ccd/geometry/openings.h"
 
 namespace sdf_ccd {
 namespace {
@@ -161,12 +162,8 @@ double largestSample(const GridShape& shape, const std::vector<float>& corners, 
   return nearest + 2.0 * kHalfSqrt3 * GridShape::kBrick * shape.cell;
 }
 
-}  // namespace
-
-DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress) {
-  validate(mesh);
-  validate(options);
-  if (options.max_error) return DistanceField(buildAdaptive(mesh, options, progress));
+std::shared_ptr<const SparseGrid> buildUniform(const TriangleMesh& mesh, const FieldOptions& options,
+                                               const Progress& progress) {
   GridShape shape = shapeFor(mesh, options);
   const std::size_t bricks = shape.brickCount();
   const std::size_t coarse_bytes = shape.cornerCount() * sizeof(float) + bricks * sizeof(std::int32_t);
@@ -232,7 +229,39 @@ DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, 
     }
     counter.add();
   });
-  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
+  return std::make_shared<const SparseGrid>(shape, std::move(data));
+}
+
+/// The caps that matter to a field with this error bound [m]; null if none does.
+std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double error) {
+  TriangleMesh caps;
+  std::vector<double> reach;
+  for (std::size_t i = 0; i < openings.reach.size(); ++i) {
+    if (openings.reach[i] <= error) continue;
+    for (int k = 0; k < 3; ++k) caps.vertices.push_back(openings.caps.vertices[openings.caps.triangles[i][k]]);
+    const int last = static_cast<int>(caps.vertices.size());
+    caps.triangles.emplace_back(last - 3, last - 2, last - 1);
+    reach.push_back(openings.reach[i]);
+  }
+  if (reach.empty()) return nullptr;
+  return std::make_shared<const OpeningCaps>(std::move(caps), std::move(reach));
+}
+
+}  // namespace
+
+DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress) {
+  validate(mesh);
+  validate(options);
+  const Openings openings = findOpenings(mesh);
+  const TriangleMesh closed = openings.reach.empty() ? mesh : welded(merged(mesh, openings.caps));
+  if (options.max_error) {
+    std::shared_ptr<const AdaptiveGrid> grid = buildAdaptive(closed, options, progress);
+    const double error = grid->shape().error_bound;
+    return DistanceField(std::move(grid), wideCaps(openings, error));
+  }
+  std::shared_ptr<const SparseGrid> grid = buildUniform(closed, options, progress);
+  const double error = grid->errorBound();
+  return DistanceField(std::move(grid), wideCaps(openings, error));
 }
 
 }  // namespace sdf_ccd

@@ -26,13 +26,15 @@ DistanceField::DistanceField(const Primitive& primitive)
   validate(primitive);
 }
 
-DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid) {
+DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings)
+    : openings_(std::move(openings)) {
   if (!grid) throw std::invalid_argument("distance field: no grid");
   surface_box_ = grid->shape().surface_box;
   representation_ = std::move(grid);
 }
 
-DistanceField::DistanceField(std::shared_ptr<const AdaptiveGrid> grid) {
+DistanceField::DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings)
+    : openings_(std::move(openings)) {
   if (!grid) throw std::invalid_argument("distance field: no grid");
   surface_box_ = grid->shape().surface_box;
   representation_ = std::move(grid);
@@ -62,6 +64,22 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
   const Vector3d q = p_F.cwiseMax(within.min()).cwiseMin(within.max());
   const FieldSample sample = adaptive() ? sampleWithin(*adaptive(), q) : sampleWithin(*grid(), q);
   return q == p_F ? sample : outsideSample(surface_box_, p_F, q, sample);
+}
+
+FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
+  FieldSample known = sample(p_F);
+  if (!openings_) return known;
+  // The mesh is no nearer than the closed surface; and no farther, or no farther than by way of the nearest cap if that
+  // may be the nearest place.
+  const double near = std::abs(known.value) + known.error;
+  const bool by_cap = openings_->isWithin(p_F, near);
+  const double far = by_cap ? std::max(near, openings_->meshWithin(p_F)) : near;
+  if (known.value < 0.0 || (by_cap && known.value < known.error)) {
+    known.error = far + std::abs(known.value);  // either side
+  } else if (by_cap) {
+    known.error = far - known.value;
+  }
+  return known;
 }
 
 FieldValue DistanceField::interpolate(const Vector3d& p_F) const {
@@ -98,7 +116,7 @@ double DistanceField::errorBound() const {
 
 std::size_t DistanceField::bytes() const {
   if (primitive()) return sizeof(Primitive);
-  return adaptive() ? adaptive()->bytes() : grid()->bytes();
+  return (adaptive() ? adaptive()->bytes() : grid()->bytes()) + (openings_ ? openings_->bytes() : 0);
 }
 
 std::size_t DistanceField::cells() const {

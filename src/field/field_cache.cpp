@@ -10,7 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Counts what the same options have meant: a field of an earlier meaning must not be taken for one of today's.
-constexpr double kMeaning = 2;
+constexpr double kMeaning = 3;
 
 }  // namespace
 

@@ -3,13 +3,14 @@
 #include <stdexcept>
 
 #include "adaptive_file.h"
+#include "caps_file.h"
 #include "sdf_ccd/field/checked_file.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "field";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 struct ShapeRecord {
   double origin[3];
@@ -29,7 +30,7 @@ static_assert(sizeof(ShapeRecord) == 128, "the file's layout must not depend on 
 }  // namespace
 
 void saveField(const DistanceField& field, const std::string& path) {
-  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, path);
+  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, field.openings(), path);
   const SparseGrid* grid = field.grid();
   if (!grid) throw std::invalid_argument(path + ": the field of a primitive is exact and needs no file");
   const GridShape& shape = grid->shape();
@@ -47,11 +48,12 @@ void saveField(const DistanceField& field, const std::string& path) {
     record.surface_max[k] = shape.surface_box.max()[k];
     record.bricks[k] = shape.bricks[k];
   }
-  writeCheckedFile(path, kKind, kVersion,
-                   {{&record, sizeof record},
-                    sectionOf(grid->corners()),
-                    sectionOf(grid->words()),
-                    shape.step > 0.0 ? sectionOf(grid->steps()) : sectionOf(grid->samples())});
+  std::vector<FileSection> sections = {{&record, sizeof record},
+                                       sectionOf(grid->corners()),
+                                       sectionOf(grid->words()),
+                                       shape.step > 0.0 ? sectionOf(grid->steps()) : sectionOf(grid->samples())};
+  addCaps(field.openings(), sections);
+  writeCheckedFile(path, kKind, kVersion, sections);
 }
 
 bool isFieldFile(const std::string& path) {
@@ -59,7 +61,7 @@ bool isFieldFile(const std::string& path) {
 }
 
 DistanceField loadField(const std::string& path) {
-  if (isCheckedFile(path, kAdaptiveFileKind)) return DistanceField(loadAdaptive(path));
+  if (isCheckedFile(path, kAdaptiveFileKind)) return loadAdaptive(path);
   const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kKind, kVersion);
   std::size_t records = 0;
   const auto* record = file->section<ShapeRecord>(0, records);
@@ -86,7 +88,8 @@ DistanceField loadField(const std::string& path) {
     arrays.samples.data = file->section<float>(3, arrays.samples.size);
   }
   try {
-    return DistanceField(std::make_shared<const SparseGrid>(shape, arrays, record->error_bound, file));
+    return DistanceField(std::make_shared<const SparseGrid>(shape, arrays, record->error_bound, file),
+                         loadCaps(*file, 4, shape.surface_box));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }

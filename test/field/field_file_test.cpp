@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/open_shapes.h"
 #include "oracle/random.h"
-#include "oracle/shapes.h"
 #include "sdf_ccd/field/checked_file.h"
 #include "sdf_ccd/field/field_cache.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 5;  // of an even field's file
+constexpr std::uint32_t kVersion = 6;  // of an even field's file
 
 /// A directory of this test's own.
 class FieldFile : public testing::Test {
@@ -86,6 +86,59 @@ TEST_F(FieldFile, AdaptiveRoundTripIsExact) {
   expectSame(field, loaded);
   for (std::size_t i = 0; i < field.cells(); ++i) {
     ASSERT_EQ(field.adaptive()->arrays().leaf_errors[i], loaded.adaptive()->arrays().leaf_errors[i]);
+  }
+}
+
+TEST_F(FieldFile, KeepsOpenings) {
+  const TriangleMesh bin = test::binMesh(0.3);
+  for (const FieldOptions& options : {options_, adaptive()}) {
+    const DistanceField field = buildField(bin, options);
+    saveField(field, path("bin.field"));
+    const DistanceField loaded = loadField(path("bin.field"));
+    expectSame(field, loaded);
+    ASSERT_TRUE(field.openings() && loaded.openings());
+    EXPECT_EQ(loaded.openings()->mesh().vertices, field.openings()->mesh().vertices);
+    EXPECT_EQ(loaded.openings()->mesh().triangles, field.openings()->mesh().triangles);
+    EXPECT_EQ(loaded.openings()->reach(), field.openings()->reach());
+    saveField(buildField(mesh_, options), path("closed.field"));
+    EXPECT_FALSE(loadField(path("closed.field")).openings());
+  }
+}
+
+/// Files whose checksum fits.
+TEST_F(FieldFile, BadOpeningsAreRefused) {
+  for (const FieldOptions& options : {options_, adaptive()}) {
+    saveField(buildField(test::binMesh(0.3), options), path("a.field"));
+    const std::string kind = options.max_error ? "adaptive field" : "field";
+    const std::size_t first = options.max_error ? 7 : 4;  // of the three sections
+    const auto loadWith = [&](std::size_t section, auto change) {
+      const auto file = CheckedFile::open(path("a.field"), kind, kVersion);
+      std::vector<std::string> bytes(file->sectionCount());
+      std::vector<FileSection> sections;
+      for (std::size_t i = 0; i < bytes.size(); ++i) {
+        std::size_t count = 0;
+        const char* data = file->section<char>(i, count);
+        bytes[i].assign(data, count);
+        if (i == first + section) change(bytes[i]);
+        sections.push_back({bytes[i].data(), bytes[i].size()});
+      }
+      writeCheckedFile(path("b.field"), kind, kVersion, sections);
+      return loadField(path("b.field"));
+    };
+    const auto put = [](auto value) {
+      return [value](std::string& bytes) {
+        bytes.replace(0, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
+      };
+    };
+    EXPECT_TRUE(loadWith(0, put(0.3)).openings());
+    for (const double x : {0.4, -1e300, HUGE_VAL, std::nan("")}) EXPECT_THROW(loadWith(0, put(x)), std::runtime_error);
+    for (const std::int32_t i : {-1, 6, 1 << 30}) EXPECT_THROW(loadWith(1, put(i)), std::runtime_error) << i;
+    for (const double x : {-1e-9, HUGE_VAL, std::nan("")}) EXPECT_THROW(loadWith(2, put(x)), std::runtime_error) << x;
+    for (std::size_t section = 0; section < 3; ++section) {
+      for (const std::size_t size : {0, 4, 8}) {
+        EXPECT_THROW(loadWith(section, [&](std::string& bytes) { bytes.resize(size); }), std::runtime_error);
+      }
+    }
   }
 }
 

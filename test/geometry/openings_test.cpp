@@ -207,7 +207,11 @@ TEST_P(RealOpenings, AreClosed) {
 
 INSTANTIATE_TEST_SUITE_P(, RealOpenings,
                          testing::Values("meshes/stanford-bunny.obj", "meshes/teapot.obj", "meshes/dragon_vrip_res4.ply",
-                                         "meshes/homer.obj", "meshes/cgal_nasty/boeing.off"));
+                                         "robots/pr2_description/urdf/meshes/shoulder_v0/shoulder_lift.stl",
+                                         "robots/pr2_description/urdf/meshes/torso_v0/torso_lift.stl",
+                                         "robots/pr2_description/urdf/meshes/base_v0/base.stl",
+                                         "robots/pr2_description/urdf/meshes/gripper_v0/l_finger.stl",
+                                         "robots/pr2_description/urdf/meshes/head_v0/head_tilt.stl"));
 
 }  // namespace
 }  // namespace sdf_ccd

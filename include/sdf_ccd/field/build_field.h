@@ -9,9 +9,9 @@ namespace sdf_ccd {
 /// Samples the signed distance to a mesh (paper §3, Table 1): exact closest points, signs from the winding number.
 ///
 /// Uses all threads of the caller's TBB arena; the result does not depend on their number.
-/// @param mesh  frame F, oriented (see orientOutward()); where it is open the sign is the winding number's. That jumps
-/// where it is one half, away from the surface: there the bounds on errors do not hold, and queries that go different
-/// ways (one segment, a batch, a shell) may answer differently.
+/// A mesh that is not closed is closed by caps (see findOpenings()): the field is that of the closed solid, and knows
+/// where its surface is a cap (see DistanceField::openings()).
+/// @param mesh  frame F, oriented (see orientOutward()).
 /// @throws std::invalid_argument for a mesh or options that are not valid.
 /// @throws std::length_error if the field would exceed options.max_bytes.
 DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress = {});

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "sdf_ccd/field/adaptive_grid.h"
+#include "sdf_ccd/field/opening_caps.h"
 #include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/primitive.h"
 
@@ -33,13 +34,17 @@ struct DistanceBounds {
 /// of one size, or of sizes that follow the shape).
 ///
 /// A value type: copies share the samples, which never change.
+/// Of a mesh with openings the surface is that of the mesh and of caps that close it, which the field knows: near them,
+/// and inside, it tells of a solid that the mesh does not bound all around (see openings()).
 /// Sampled fields hold samples of the true distance in a band around the surface and bounds of it everywhere else,
 /// also outside their box; "no data" is never zero.
 class DistanceField {
  public:
   explicit DistanceField(const Primitive& primitive);
-  explicit DistanceField(std::shared_ptr<const SparseGrid> grid);
-  explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid);
+
+  /// @param openings  null where there are none.
+  explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
+  explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
 
   /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that of the place: of its
   /// leaf, or what the samples around it say (see src/field/sample_bracket.h).
@@ -58,6 +63,20 @@ class DistanceField {
 
   /// Bound on |interpolated − true distance| within the band [m]; 0 for primitives.
   double errorBound() const;
+
+  /// Where the surface is no surface of the mesh; null if it is all over, to the error bound: then the sign is beyond
+  /// doubt. (Caps of cracks, no place of which is farther from the mesh than errorBound(), do not count.)
+  const OpeningCaps* openings() const { return openings_.get(); }
+
+  /// Lower bound of the distance to where the surface is no surface of the mesh [m]; infinity if it is all over.
+  double openingDistance(const Vector3d& p_F) const {
+    return openings_ ? openings_->distance(p_F) : TriangleTree::kInfinity;
+  }
+
+  /// What is known of the mesh alone; without openings as sample(). Guarantee: |s − value| ≤ error for the distance s
+  /// from the mesh, positive or negative where p_F counts as inside. The value is that of sample(), so the error is
+  /// large inside, and where a cap may be the nearest surface.
+  FieldSample meshSample(const Vector3d& p_F) const;
 
   /// Encloses the surface [m]; infinite for a half-space.
   const AlignedBox3d& surfaceBox() const { return surface_box_; }
@@ -78,6 +97,7 @@ class DistanceField {
  private:
   std::variant<Primitive, std::shared_ptr<const SparseGrid>, std::shared_ptr<const AdaptiveGrid>> representation_;
   AlignedBox3d surface_box_;
+  std::shared_ptr<const OpeningCaps> openings_;
 };
 
 }  // namespace sdf_ccd

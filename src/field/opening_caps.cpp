@@ -1,0 +1,31 @@
+#include "sdf_ccd/field/opening_caps.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace sdf_ccd {
+
+OpeningCaps::OpeningCaps(TriangleMesh mesh, std::vector<double> reach)
+    : mesh_(std::move(mesh)), reach_(std::move(reach)), tree_(mesh_) {
+  if (reach_.size() != mesh_.triangles.size()) {
+    throw std::invalid_argument("caps: " + std::to_string(mesh_.triangles.size()) + " triangles, " +
+                                std::to_string(reach_.size()) + " reaches");
+  }
+  for (const double reach : reach_) {
+    if (!(reach >= 0.0) || !std::isfinite(reach)) {
+      throw std::invalid_argument("caps: a reach of " + std::to_string(reach) + " m");
+    }
+  }
+}
+
+double OpeningCaps::meshWithin(const Vector3d& p_F) const {
+  const TriangleTree::ClosestPoint nearest = tree_.closestPoint(p_F);
+  return nearest.distance + reach_[static_cast<std::size_t>(nearest.triangle)];
+}
+
+std::size_t OpeningCaps::bytes() const {
+  return mesh_.vertices.size() * sizeof(Vector3d) + mesh_.triangles.size() * (sizeof(Vector3i) + sizeof(double));
+}
+
+}  // namespace sdf_ccd
