@@ -10,10 +10,12 @@
 #include "mesh_pool.h"
 #include "pair_bound.h"
 #include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/scene/sample_motion.h"
 #include "sdf_ccd/scene/scene.h"
 #include "sdf_ccd/shell/contact_gap.h"
 #include "sdf_ccd/shell/witness_points.h"
+#include "surface_crossing.h"
 
 namespace sdf_ccd {
 namespace {
@@ -42,9 +44,6 @@ class BodyBuilder {
       meshes_.push_back(mesh ? &pool.find(geometry) : nullptr);
       const std::string name = meshes_.back() ? nameOf(*meshes_.back()) : nameOf(primitiveOf(geometry));
       report.geometry += (report.geometry.empty() ? "" : ", ") + name;
-      if (mesh && !geometry.watertight_voxels && !meshes_.back()->quality.sign_trusted)
-        report.warnings.push_back(geometry.source +
-                                  ": inside and outside are not certain: " + summary(meshes_.back()->quality));
     }
     if (description.geometry.size() > 3) report.geometry = std::to_string(description.geometry.size()) + " parts";
   }
@@ -72,6 +71,7 @@ class BodyBuilder {
       report_.cells += field.cells();
       report_.field_error = std::max(report_.field_error, field.errorBound());
       note(made.outcome);
+      noteSides(geometry, *meshes_[i]);
     }
     char text[32];
     std::snprintf(text, sizeof(text), "built %.1f s", std::chrono::duration<double>(Clock::now() - start).count());
@@ -136,6 +136,17 @@ class BodyBuilder {
     return std::get<Primitive>(geometry.shape);
   }
 
+  /// Says where inside and outside are not certain.
+  void noteSides(const GeometryDescription& geometry, const PooledMesh& mesh) {
+    if (mesh.voxels || (mesh.quality.sign_trusted && !mesh.field->openings())) return;
+    std::string text = geometry.source + ": inside and outside are not certain: " + summary(mesh.quality);
+    if (const OpeningCaps* caps = mesh.field->openings()) {
+      text += "; caps of " + numberText(surfaceArea(caps->mesh())) +
+              " m^2 close it, and CONTACT with it needs surfaces that cross";
+    }
+    report_.warnings.push_back(text);
+  }
+
   void note(const CacheOutcome& outcome) {
     if (!outcome.warning.empty()) report_.warnings.push_back(outcome.warning);
   }
@@ -146,6 +157,27 @@ class BodyBuilder {
   BodyReport& report_;
   std::vector<PooledMesh*> meshes_;  // per geometry; null for a primitive
 };
+
+/// The triangles of a body's geometry; null where it has none.
+std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool) {
+  constexpr double kFineOfSize = 1e-3;  // deviation of a primitive's triangles, over its size
+  TriangleMesh all;
+  double deviation = 0.0;
+  for (const GeometryDescription& geometry : description.geometry) {
+    TriangleMesh part;
+    if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
+      if (std::holds_alternative<HalfSpace>(*primitive)) continue;
+      const double fine = kFineOfSize * boundingBox(*primitive).sizes().minCoeff();
+      if (!std::holds_alternative<Box>(*primitive)) deviation = std::max(deviation, fine);
+      part = tessellate(*primitive, fine);
+    } else {
+      part = pool.find(geometry).mesh;
+    }
+    all = merged(std::move(all), transformed(std::move(part), geometry.X_BG));
+  }
+  if (all.triangles.empty()) return nullptr;
+  return std::make_shared<const BodySurface>(std::move(all), deviation);
+}
 
 /// What the plan has for one body.
 struct Needs {
@@ -233,6 +265,13 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     if (!body.failure.empty()) report.field = "failed";
     scene.bodies.push_back(std::move(body));
     scene.reports.push_back(std::move(report));
+  }
+  for (const PlannedPair& pair : scene.pairs) {
+    if (!hasOpenings(scene.bodies[pair.body_a]) && !hasOpenings(scene.bodies[pair.body_b])) continue;
+    for (const int i : {pair.body_a, pair.body_b}) {
+      Body& body = scene.bodies[i];
+      if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], pool);
+    }
   }
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
   setBounds(options, scene);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "surface_crossing.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -10,7 +12,10 @@ constexpr double kJoin = 1e-9;  // of the span: times that differ by rounding ar
 
 }  // namespace
 
-void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair) {
+void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, bool crosses) {
+  crosses_ = crosses;
+  path_error_ = pair.error.chord + pair.error.root;
+  certain_ = {};
   motion_ = &motion;
   span_ = pair.span;
   body_a_ = pair.body_a;
@@ -47,13 +52,15 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
     const ChordPath& path = role.partPath(part);
     shellIntervals(part.field, role.shell(), role.tree(), path, {}, query_);
     if (!query_.touches()) continue;
+    const bool certain = !part.field.openings();
+    if (!certain && !crosses_) crosses_ = passesThroughMesh(part.field, role.shell(), path, query_.hits, path_error_);
     listHits(query_, hits_);
     if (!have_poses) setFieldPoses(role);
     have_poses = true;
     X_CG_.clear();
     for (const Isometry3d& X_CF : X_CF_) X_CG_.push_back(X_CF * part.X_BG);
     const ContactInput input{part.field, role.shell(), path, X_CG_, siblings[p]};
-    integrateContact(input, hits_, options, with_impulse, impulse_);
+    integrate(input, options, with_impulse);
     impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
 
     for (std::size_t h = 0; h < hits_.size(); ++h) {
@@ -67,13 +74,42 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
       intervals_.push_back(times);
       if (depth.siblings) continue;
       Found found{
-          shell_is_a ? 0 : 1, hit.point, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
+          shell_is_a ? 0 : 1, hit.point, certain, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
       found.contact.p_W = depth.p_C + p_WC_;
       // Out of the field's body: that is B if the shell is A's.
       found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
       found_.push_back(found);
     }
   }
+}
+
+/// As integrateContact() over all hits; of a field with openings only over those that may bear a force.
+void ContactCollector::integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse) {
+  const bool open = input.field.openings() != nullptr;
+  integrateContact(input, hits_, options, with_impulse && !open, impulse_);
+  if (!open) return;
+  bearing_hits_.clear();
+  for (std::size_t h = 0; h < hits_.size(); ++h) {
+    const bool bears = bearsForce(input, h);
+    if (bears) bearing_hits_.push_back(hits_[h]);
+    // A depth to a cap, or of a place that may have come in by one, may be none.
+    if (!bears) impulse_.depths[h].error = std::max(impulse_.depths[h].error, impulse_.depths[h].depth);
+  }
+  if (!with_impulse) return;
+  integrateContact(input, bearing_hits_, options, true, bearing_impulse_);
+  impulse_.on_shell_body = bearing_impulse_.on_shell_body;
+}
+
+/// Whether the depth is surely to the mesh, and that of a contact: the surfaces cross, or it may be that they touch.
+bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) const {
+  const HitDepth& depth = impulse_.depths[hit];
+  if (depth.siblings) return false;
+  if (!crosses_ && depth.depth > depth.error + path_error_) return false;
+  const Chord& chord = input.path.chords[hits_[hit].chord];
+  const double s = (depth.time - chord.t_start) / (chord.t_end - chord.t_start);
+  const Vector3d& p_P = input.shell.points[hits_[hit].point];
+  const Vector3d p_F = (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);
+  return !input.field.openings()->isWithin(p_F, depth.depth + depth.error);
 }
 
 /// Makes one contact of what chords and parts have cut of one point's stay inside.
@@ -112,6 +148,8 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
           motion_->times[k] >= interval.enter - same && motion_->times[k] <= interval.exit + same;
 
   join();
+  for (const Found& found : found_)
+    if (found.certain && found.contact.depth > certain_.depth) certain_ = found.contact;
   const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 1)));
   std::partial_sort(found_.begin(), found_.begin() + listed, found_.end(), [](const Found& a, const Found& b) {
     return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <

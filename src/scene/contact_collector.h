@@ -15,14 +15,21 @@ class ContactCollector {
  public:
   using Siblings = std::vector<std::vector<SiblingField>>;  // per part of a body
 
-  /// @param pair  whose bodies and span of the motion it is about.
-  void begin(const CycleMotion& motion, const PairResult& pair);
+  /// @param pair     whose bodies and span of the motion it is about; its error is known.
+  /// @param crosses  whether it is known that the surfaces cross.
+  void begin(const CycleMotion& motion, const PairResult& pair, bool crosses);
 
   /// Adds the contacts of one role; its path must be cut.
   /// @param shell_is_a  the shell's body is the pair's body A.
   /// @param weight      ½ where the other role sees the same contact too (design §3.7).
   void add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings, const ContactOptions& options,
            bool with_impulse);
+
+  /// Whether it is known, from begin() or since, that the bodies' surfaces cross.
+  bool crosses() const { return crosses_; }
+
+  /// After finish(): the deepest contact in a field without openings; null if there is none.
+  const ContactPoint* deepestCertain() const { return certain_.depth > 0.0 ? &certain_ : nullptr; }
 
   /// Writes intervals, deepest point, points and wrenches.
   void finish(const CycleRequest& request, PairResult& result);
@@ -31,11 +38,14 @@ class ContactCollector {
   struct Found {
     int role;
     int point;
+    bool certain;  ///< the field has no openings
     ContactPoint contact;
   };
 
   void setFieldPoses(const PairRole& role);
   void join();
+  void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
+  bool bearsForce(const ContactInput& input, std::size_t hit) const;
 
   double duration() const { return motion_->times[span_.last] - motion_->times[span_.first]; }
 
@@ -51,6 +61,11 @@ class ContactCollector {
   ShellQueryResult query_;
   std::vector<ShellHit> hits_;
   ContactImpulse impulse_;
+  bool crosses_ = false;
+  double path_error_ = 0.0;  // [m]
+  ContactPoint certain_;
+  std::vector<ShellHit> bearing_hits_;
+  ContactImpulse bearing_impulse_;
 };
 
 }  // namespace sdf_ccd

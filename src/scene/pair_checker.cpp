@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pair_bound.h"
+#include "surface_crossing.h"
 
 namespace sdf_ccd {
 namespace {
@@ -39,7 +40,11 @@ void clear(PairResult& result) {
 
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
                          const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)
-    : scene_(scene), pair_(pair), siblings_(siblings), options_(options) {
+    : scene_(scene),
+      pair_(pair),
+      siblings_(siblings),
+      options_(options),
+      open_(hasOpenings(scene.bodies[pair.body_a]) || hasOpenings(scene.bodies[pair.body_b])) {
   const auto addRole = [&](int shell, int field, ShellPurpose purpose) {
     PairRole role(scene, shell, field, purpose);
     if (role.shell().size() > 0 && !scene.bodies[field].parts.empty()) roles_.push_back(role);
@@ -152,8 +157,29 @@ void PairChecker::cutRoles(PairResult& result) {
   }
 }
 
+/// Where the bodies' surfaces cross at one of the recorded times, the last first.
+std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& motion, const KnotSpan& span) const {
+  const bool b_has_fields = !scene_.bodies[pair_.body_b].parts.empty();
+  const int a = b_has_fields ? pair_.body_a : pair_.body_b, b = b_has_fields ? pair_.body_b : pair_.body_a;
+  constexpr std::size_t kMostTimes = 8;
+  const std::size_t stride = (span.last - span.first) / kMostTimes + 1;
+  for (std::size_t back = 0; back <= span.last - span.first; back += stride) {
+    const std::size_t knot = span.last - back;
+    const Isometry3d &X_WA = motion.X_WB[a][knot], &X_WB = motion.X_WB[b][knot];
+    const auto found = surfacesCross(scene_.bodies[a], scene_.bodies[b], relativePose(X_WB, X_WA), motion_error_);
+    if (!found) continue;
+    ContactPoint contact;
+    contact.enter = contact.exit = contact.time = motion.times[knot];
+    contact.p_W = X_WB * found->p_B;
+    contact.normal_W = (b_has_fields ? -1.0 : 1.0) * (X_WB.linear() * found->normal_B);
+    return contact;
+  }
+  return std::nullopt;
+}
+
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
-  collector_.begin(motion, result);
+  const std::optional<ContactPoint> crossing = open_ ? crossingAtATime(motion, result.span) : std::nullopt;
+  collector_.begin(motion, result, crossing.has_value());
   const auto bears = [](const PairRole& role) { return role.bearsForce(); };
   const double weight = 1.0 / double(std::count_if(roles_.begin(), roles_.end(), bears));
   for (PairRole& role : roles_) {
@@ -162,11 +188,16 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
                    request.wrenches && role.bearsForce());
   }
   collector_.finish(request, result);
+  if (crossing && result.intervals.empty()) {
+    result.intervals.push_back({crossing->time, crossing->time});
+    result.touches_at_sample = true;
+    result.deepest = *crossing;
+  }
   // What holds for the field everywhere, or for the deepest point's place alone: that is often much less.
   const ErrorBound& error = result.error;
-  const double field = std::min(error.field, result.deepest.depth_error);
-  const bool proven = !result.intervals.empty() && result.deepest.depth > field + error.chord + error.root;
-  result.verdict = proven ? Verdict::kContact : Verdict::kUncertain;
+  const ContactPoint* deepest = collector_.deepestCertain();
+  const bool deep = deepest && deepest->depth > std::min(error.field, deepest->depth_error) + error.chord + error.root;
+  result.verdict = deep || collector_.crosses() ? Verdict::kContact : Verdict::kUncertain;
 }
 
 }  // namespace sdf_ccd

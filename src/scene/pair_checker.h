@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "contact_collector.h"
@@ -29,6 +30,7 @@ class PairChecker {
   void setMotion(const SweptBodies& bodies, const KnotSpan& span);
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);
+  std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const KnotSpan& span) const;
   void findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result);
 
   const Scene& scene_;
@@ -36,6 +38,7 @@ class PairChecker {
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
   std::vector<PairRole> roles_;  // one or two
+  bool open_;                    // some field has openings
   ErrorBound bound_;             // of field and gap
   double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
   Isometry3d X_FP_last_;         // of the first role, at the last cycle's end; valid if the clearance is known

@@ -10,6 +10,7 @@
 #include "sdf_ccd/field/field_options.h"
 #include "sdf_ccd/motion/screw_motion.h"
 #include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/scene/body_surface.h"
 #include "sdf_ccd/scene/scene_description.h"
 #include "sdf_ccd/scene/scene_plan.h"
 #include "sdf_ccd/shell/sample_surface.h"
@@ -38,6 +39,7 @@ struct Body {
   SphereTree tree;
   PointShell witnesses;  ///< frame B; a point of each component of a voxel map's surface, if a pair needs them
   SphereTree witness_tree;
+  std::shared_ptr<const BodySurface> surface;  ///< where a pair has a field with openings; null for a half-space
   BoundingBall ball;  ///< holds the body's surface, frame B; see kHalfSpaceRadius
 };
 
