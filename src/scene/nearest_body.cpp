@@ -16,7 +16,7 @@ NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB,
     for (const BodyPart& part : scene.bodies[b].parts) {
       const Vector3d p_G = part.X_BG.inverse() * p_B;
       if (part.field.lowerBound(p_G) > nearest.distance) continue;
-      const FieldSample sample = part.field.sample(p_G);
+      const FieldSample sample = part.field.meshSample(p_G);
       low = std::min(low, sample.value - sample.error);
       if (sample.value >= nearest.distance) continue;
       nearest = {static_cast<int>(b), sample.value, sample.error, R_WB * (part.X_BG.linear() * sample.gradient)};

@@ -15,6 +15,7 @@
 #include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/geometry/openings.h"
 #include "sdf_ccd/shell/shell_file.h"
 #include "slice.h"
 
@@ -30,7 +31,7 @@ struct Arguments {
 
 void printField(const DistanceField& field) {
   std::cout << "field: " << describe(field) << "\nsurface within " << describe(field.surfaceBox())
-            << "\nsamples within " << describe(field.box()) << std::endl;
+            << "\nsamples within " << describe(field.box()) << "\nopenings: " << describeOpenings(field) << std::endl;
 }
 
 void printShell(const PointShell& shell) {
@@ -84,6 +85,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
   }
   const OrientedMesh oriented = orientOutward(loadMesh(file));
   printQuality(oriented.quality);
+  std::cout << "openings             " << summary(findOpenings(oriented.mesh)) << std::endl;
   if (!wants_field) return std::nullopt;
   return buildWithBar("field", oriented.mesh, arguments.resolution.fieldOptions());
 }
@@ -109,7 +111,7 @@ void addInfoCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "What a field, shell, mesh or OctoMap file holds");
   command->add_option("file", arguments->file, "File to look into")->required();
   command->add_option("--slice", arguments->slice, "Plane to draw, such as z=0.1 [m]; of a mesh a field is made first");
-  command->add_option("--out", arguments->out, "PNG file for the slice");
+  command->add_option("--out", arguments->out, "PNG file for the slice: the surface black, orange where it is a cap over an opening of the mesh");
   arguments->resolution.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }

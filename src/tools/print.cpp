@@ -1,5 +1,6 @@
 #include "print.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "sdf_ccd/field/sparse_grid.h"
@@ -49,6 +50,14 @@ std::string describe(const DistanceField& field) {
   return format("%d×%d×%d cells of %.4g m, %zu of them stored, %d bits a sample, ", cells.x(), cells.y(), cells.z(),
                 field.grid()->shape().cell, field.cells(), field.grid()->sampleBits()) +
          accuracy;
+}
+
+std::string describeOpenings(const DistanceField& field) {
+  const OpeningCaps* caps = field.openings();
+  if (!caps) return "none";
+  const double reach = *std::max_element(caps->reach().begin(), caps->reach().end());
+  return format("caps of %.3g m^2 that reach up to %.3g m from the mesh: what they bound may be inside or not",
+                surfaceArea(caps->mesh()), reach);
 }
 
 std::string describe(const PointShell& shell) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -68,6 +69,7 @@ void run(const Arguments& arguments) {
     throw std::invalid_argument("--sigma " + shortly(arguments.query.sigma) + " lies outside the field's band of " +
                                 shortly(field.band()) + " m");
   }
+  if (field.openings()) std::cerr << "warning: openings: " << describeOpenings(field) << std::endl;
   const std::vector<Intervals> intervals = intervalsOf(field, segments, arguments.query);
   out.stream() << "segment,t_enter,t_exit\n";
   char row[96];

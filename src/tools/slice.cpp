@@ -20,6 +20,8 @@ constexpr int kLegendWidth = 190;
 constexpr int kFooter = 60;
 constexpr int kFont = 3;
 
+constexpr Color kCap{255, 140, 0};  ///< where the surface closes an opening of the mesh
+
 Color mixed(const Vector3d& a, const Vector3d& b, double t) {
   const Vector3d c = a + t * (b - a);
   return {static_cast<std::uint8_t>(c.x()), static_cast<std::uint8_t>(c.y()), static_cast<std::uint8_t>(c.z())};
@@ -91,11 +93,13 @@ void drawField(Image& image, const DistanceField& field, const Raster& raster) {
       }
     }
   }
+  const OpeningCaps* caps = field.openings();
   for (int y = 0; y < raster.height; ++y) {
     for (int x = 0; x < raster.width; ++x) {
       if (!crosses(corners, stride, std::size_t(y) * stride + x, 0.0)) continue;
+      const bool is_cap = caps && caps->isWithin(raster.at(x, y), field.errorBound() + 2.0 * raster.pixel);
       for (const int dx : {0, 1}) {
-        for (const int dy : {0, 1}) image.set(kMargin + x + dx, kMargin + y + dy, Color{0, 0, 0});
+        for (const int dy : {0, 1}) image.set(kMargin + x + dx, kMargin + y + dy, is_cap ? kCap : Color{0, 0, 0});
       }
     }
   }

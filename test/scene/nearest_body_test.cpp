@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/open_shapes.h"
 #include "scene/scene_case.h"
 
 namespace sdf_ccd {
@@ -23,6 +24,22 @@ TEST(NearestBody, FindsTheNearestAndItsGradient) {
   EXPECT_EQ(other.body, 1);
   EXPECT_NEAR(other.distance, 0.1, 1e-12);
   EXPECT_EQ(nearestBody(Scene{}, {}, {0, 0, 0}).body, -1);
+}
+
+/// Half a metre wide, without a lid: nobody knows on which side its middle is.
+TEST(NearestBody, ErrorHoldsForEitherSideOfAnOpenMesh) {
+  const auto scene = build({body("ball", Primitive(Sphere{0.1})), body("bin", meshShape(binMesh(0.25)))}, fine(0.05));
+  const std::vector<Isometry3d> X_WB = {translation({9, 0, 0}), Isometry3d::Identity()};
+  const NearestBody middle = nearestBody(*scene, X_WB, {0, 0, -0.05});
+  EXPECT_EQ(middle.body, 1);
+  EXPECT_LE(middle.distance - middle.error, -0.2);
+  EXPECT_GE(middle.distance + middle.error, 0.2);
+  // Above the opening's middle the mesh is as far as its rim.
+  const Vector3d above(0, 0, 0.3);
+  const NearestBody over = nearestBody(*scene, X_WB, above);
+  EXPECT_LE(over.distance - over.error, std::hypot(0.25, 0.05));
+  EXPECT_GE(over.distance + over.error, std::hypot(0.25, 0.05));
+  EXPECT_LT(nearestBody(*scene, X_WB, {0, 0, -0.3}).error, 0.02);
 }
 
 }  // namespace

@@ -31,9 +31,10 @@ PairResult ballAndBin(const Vector3d& start, const Vector3d& end) {
 
 TEST(OpenMesh, ABallFreeInALidlessBinIsNoContact) {
   const PairResult result = ballAndBin(Vector3d::Zero(), {0, 0, 0.01});
-  std::printf("verdict %s depth %g +- %g error %g\n", toString(result.verdict), result.deepest.depth,
-              result.deepest.depth_error, result.error.total());
   EXPECT_EQ(result.verdict, Verdict::kUncertain);
+  // Its depth may be none, and it is not pushed.
+  EXPECT_GE(result.deepest.depth_error, result.deepest.depth);
+  EXPECT_EQ(result.on_a_W.force.norm(), 0.0);
 }
 
 TEST(OpenMesh, ABallBesideALidlessBinIsClear) {
@@ -52,7 +53,68 @@ TEST(OpenMesh, ABallThatGoesThroughTheWallIsAContact) {
 }
 
 TEST(OpenMesh, ABallAtRestHalfThroughTheWallIsAContact) {
-  EXPECT_EQ(ballAndBin({kHalf, 0, 0}, {kHalf, 0, 0}).verdict, Verdict::kContact);
+  const PairResult result = ballAndBin({kHalf, 0, 0}, {kHalf, 0, 0});
+  EXPECT_EQ(result.verdict, Verdict::kContact);
+  EXPECT_GT(result.on_a_W.force.x(), 0.0) << "out by the wall";
+}
+
+/// It lies at the wall, and moves to the middle: it has come out of nothing.
+TEST(OpenMesh, ABallThatLeavesTheWallFromWithinIsNoContact) {
+  for (const double gap : {-0.0005, 0.0, 0.0005, 0.002}) {
+    const double start = kHalf - kBall - gap;
+    EXPECT_EQ(ballAndBin({start, 0, 0}, {0, 0, 0}).verdict, gap < 0.0 ? Verdict::kContact : Verdict::kUncertain) << gap;
+  }
+}
+
+/// Half through the opening, where nothing is.
+TEST(OpenMesh, ABallAtRestInTheOpeningIsNoContact) {
+  EXPECT_EQ(ballAndBin({0, 0, kHalf}, {0, 0, kHalf}).verdict, Verdict::kUncertain);
+}
+
+/// A mere sheet has no inside, so nothing is ever deep in it; a rod through it crosses it all the same.
+TEST(OpenMesh, ARodThroughASheetIsAContact) {
+  TriangleMesh sheet;
+  sheet.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto scene = test::build({test::body("rod", Primitive(Box{{0.02, 0.03, 0.2}})),
+                                  test::body("sheet", test::meshShape(sheet))},
+                                 coarse());
+  Monitor monitor(scene, test::soft());
+  const auto verdictAt = [&](double z) {
+    const Isometry3d X = test::pose({0.1, 0.05, z}, 0.3, {1, 2, 3});
+    return monitor.run(test::cycle(0.1, {test::still(X), test::still(Isometry3d::Identity())}), {}).pairs.front();
+  };
+  const PairResult through = verdictAt(0.0);
+  EXPECT_EQ(through.verdict, Verdict::kContact);
+  ASSERT_FALSE(through.intervals.empty());
+  EXPECT_NEAR(through.deepest.p_W.z(), 0.0, 0.05);
+  EXPECT_EQ(verdictAt(0.3).verdict, Verdict::kClear);
+}
+
+/// What no pair with an opening needs is not built.
+TEST(OpenMesh, TrianglesAreKeptOnlyForPairsWithOpenings) {
+  const auto scene = test::build({test::body("ball", Primitive(Sphere{kBall})),
+                                  test::body("bin", test::meshShape(test::binMesh(kHalf))),
+                                  test::body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true)},
+                                 coarse());
+  EXPECT_TRUE(scene->bodies[0].surface && scene->bodies[1].surface);
+  EXPECT_EQ(scene->bodies[1].surface->mesh.triangles.size(), 10U) << "caps are no surface";
+  EXPECT_FALSE(scene->bodies[2].surface);
+  EXPECT_EQ(scene->reports[1].warnings.size(), 1U);
+  const auto closed = test::build({test::body("ball", Primitive(Sphere{kBall})),
+                                   test::body("box", test::meshShape(test::boxMesh(Vector3d::Constant(kHalf))))},
+                                  coarse());
+  for (const Body& body : closed->bodies) EXPECT_FALSE(body.surface);
+}
+
+/// The shell samples the triangles of the bin, not its cap.
+TEST(OpenMesh, ShellsHaveNoPointsOnCaps) {
+  const auto scene = test::build({test::body("ball", Primitive(Sphere{kBall})),
+                                  test::body("bin", test::meshShape(test::binMesh(kHalf)))},
+                                 coarse());
+  for (const Vector3d& p : scene->bodies[1].shell.points) {
+    EXPECT_TRUE(p.z() < kHalf - 1e-9 || p.head<2>().lpNorm<Eigen::Infinity>() > kHalf - 1e-9) << p.transpose();
+  }
 }
 
 }  // namespace

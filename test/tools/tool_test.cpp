@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "oracle/shapes.h"
+#include "oracle/open_shapes.h"
 #include "sdf_ccd/field/field_file.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "sdf_ccd/shell/shell_file.h"
@@ -79,6 +79,21 @@ TEST_F(Tool, InfoTellsWhatFilesHold) {
   EXPECT_NE(run("info made/ball.field").out.find("cells of 0.0625 m"), std::string::npos);
   EXPECT_NE(run("info made/ball.shell").out.find("points"), std::string::npos);
   EXPECT_NE(run("info ball.off").out.find("sign trusted         yes"), std::string::npos);
+}
+
+TEST_F(Tool, SaysWhereAMeshIsOpen) {
+  write("bin.off", toOff(test::binMesh(0.25)));
+  EXPECT_NE(run("info bin.off").out.find("openings             1 opening, the longest of 2 m, 0.25 m^2 of caps"),
+            std::string::npos);
+  EXPECT_NE(run("info ball.off").out.find("openings             no openings"), std::string::npos);
+  ASSERT_EQ(run("build --mesh bin.off --out made --resolution 16").exit_code, kDone);
+  ASSERT_EQ(run("build --mesh ball.off --out made --resolution 16").exit_code, kDone);
+  EXPECT_NE(run("info made/bin.field").out.find("openings: caps of 0.25 m^2"), std::string::npos);
+  EXPECT_NE(run("info made/ball.field").out.find("openings: none"), std::string::npos);
+  EXPECT_EQ(run("info made/bin.field --slice y=0.05 --out slice.png").exit_code, kDone);
+  const ToolRun query = run("query --field made/bin.field --segments in.csv --out out.csv");
+  EXPECT_EQ(query.exit_code, kDone);
+  EXPECT_NE(query.error.find("warning: openings: caps of 0.25 m^2"), std::string::npos) << query.error;
 }
 
 TEST_F(Tool, SliceIsAPicture) {

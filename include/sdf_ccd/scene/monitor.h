@@ -126,7 +126,9 @@ class Monitor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Distance from a point to the nearest body at given poses; for the point queries.
+/// Distance from a point to the nearest body at given poses; for the point queries. Of a mesh with openings the error
+/// covers that the point may be on either side, and that the nearest surface may be a cap: see
+/// DistanceField::meshSample().
 struct NearestBody {
   int body = -1;          ///< -1 if no body has a field
   double distance = 0.0;  ///< [m], negative inside
