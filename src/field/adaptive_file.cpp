@@ -38,9 +38,8 @@ void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const s
     record.size[k] = shape.size[k];
   }
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
-  std::vector<FileSection> sections = {{&record, sizeof record},    sectionOf(arrays.top),
-                                       sectionOf(arrays.nodes),     sectionOf(arrays.bases),
-                                       sectionOf(arrays.leaves),    sectionOf(arrays.splits),
+  std::vector<FileSection> sections = {{&record, sizeof record},     sectionOf(arrays.top),    sectionOf(arrays.nodes),
+                                       sectionOf(arrays.bases),      sectionOf(arrays.leaves), sectionOf(arrays.splits),
                                        sectionOf(arrays.leaf_errors)};
   addCaps(openings, sections);
   writeCheckedFile(path, kAdaptiveFileKind, kVersion, sections);

@@ -114,9 +114,8 @@ std::vector<LoopCap> capLoops(const std::vector<Vector3d>& vertices, const std::
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].size() <= kLongestLoop) order.push_back(i);
   }
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
-    return std::pair(-caps[i].area, i) < std::pair(-caps[k].area, k);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t k) { return std::pair(-caps[i].area, i) < std::pair(-caps[k].area, k); });
   order.resize(std::min(order.size(), kMostLoops));
   std::vector<char> done(loops.size(), 0);
   for (std::size_t i = 0; i < order.size(); ++i) {

@@ -73,8 +73,10 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
       const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
       intervals_.push_back(times);
       if (depth.siblings) continue;
-      Found found{
-          shell_is_a ? 0 : 1, hit.point, certain, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
+      Found found{shell_is_a ? 0 : 1,
+                  hit.point,
+                  certain,
+                  {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
       found.contact.p_W = depth.p_C + p_WC_;
       // Out of the field's body: that is B if the shell is A's.
       found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;

@@ -118,8 +118,8 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
   if (!a.surface || !b.surface) return std::nullopt;
   const AlignedBox3d box_a = boundingBox(a.surface->mesh), box_b = boundingBox(b.surface->mesh);
   // Rounding: of coordinates, and of a pose between them.
-  const double size = box_a.min().norm() + box_a.sizes().norm() + box_b.min().norm() + box_b.sizes().norm() +
-                      X_BA.translation().norm();
+  const double size =
+      box_a.min().norm() + box_a.sizes().norm() + box_b.min().norm() + box_b.sizes().norm() + X_BA.translation().norm();
   const double error = pose_error + a.surface->deviation + b.surface->deviation + 1e-12 * size;
   constexpr int kMostTests = 100000;
   int tests = 0;

@@ -111,7 +111,9 @@ void addInfoCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "What a field, shell, mesh or OctoMap file holds");
   command->add_option("file", arguments->file, "File to look into")->required();
   command->add_option("--slice", arguments->slice, "Plane to draw, such as z=0.1 [m]; of a mesh a field is made first");
-  command->add_option("--out", arguments->out, "PNG file for the slice: the surface black, orange where it is a cap over an opening of the mesh");
+  command->add_option(
+      "--out", arguments->out,
+      "PNG file for the slice: the surface black, orange where it is a cap over an opening of the mesh");
   arguments->resolution.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }

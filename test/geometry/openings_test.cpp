@@ -68,9 +68,10 @@ TEST(Openings, ALidlessBinGetsItsLid) {
 TEST(Openings, TheResultIsClosed) {
   Random random(1);
   for (int i = 0; i < 60; ++i) {
-    TriangleMesh mesh = i % 3 == 0   ? test::icosphere(1, 2)
-                        : i % 3 == 1 ? test::torusMesh(1, 0.3, 24, 12)
-                                     : merged(test::boxMesh({1, 1, 1}), test::translated(test::boxMesh({1, 1, 1}), {0, 2, 0}));
+    TriangleMesh mesh = i % 3 == 0 ? test::icosphere(1, 2)
+                        : i % 3 == 1
+                            ? test::torusMesh(1, 0.3, 24, 12)
+                            : merged(test::boxMesh({1, 1, 1}), test::translated(test::boxMesh({1, 1, 1}), {0, 2, 0}));
     const double lost = test::uniform(random, 0.0, 1.0);
     mesh = test::without(mesh, [&](const Vector3d&) { return test::uniform(random, 0, 1) < lost; });
     if (mesh.triangles.empty()) continue;
@@ -136,8 +137,9 @@ TEST(Openings, JunctionsWithoutSharedVerticesGetSlivers) {
     // A box whose lid is a fan over its own divisions of the rim.
     TriangleMesh box = test::binMesh(1.0);
     std::vector<Vector3d> rim;
-    for (const auto& [from, to] : {std::pair(Vector3d(1, 1, 1), Vector3d(-1, 1, 1)), std::pair(Vector3d(-1, 1, 1), Vector3d(-1, -1, 1)),
-                                   std::pair(Vector3d(-1, -1, 1), Vector3d(1, -1, 1)), std::pair(Vector3d(1, -1, 1), Vector3d(1, 1, 1))}) {
+    for (const auto& [from, to] :
+         {std::pair(Vector3d(1, 1, 1), Vector3d(-1, 1, 1)), std::pair(Vector3d(-1, 1, 1), Vector3d(-1, -1, 1)),
+          std::pair(Vector3d(-1, -1, 1), Vector3d(1, -1, 1)), std::pair(Vector3d(1, -1, 1), Vector3d(1, 1, 1))}) {
       for (const double share : {0.0, 0.2, 0.37, 0.9}) {
         rim.push_back(from + share * (to - from) + test::uniform(random, 0, crack) * test::direction(random));
       }
@@ -206,7 +208,8 @@ TEST_P(RealOpenings, AreClosed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RealOpenings,
-                         testing::Values("meshes/stanford-bunny.obj", "meshes/teapot.obj", "meshes/dragon_vrip_res4.ply",
+                         testing::Values("meshes/stanford-bunny.obj", "meshes/teapot.obj",
+                                         "meshes/dragon_vrip_res4.ply",
                                          "robots/pr2_description/urdf/meshes/shoulder_v0/shoulder_lift.stl",
                                          "robots/pr2_description/urdf/meshes/torso_v0/torso_lift.stl",
                                          "robots/pr2_description/urdf/meshes/base_v0/base.stl",

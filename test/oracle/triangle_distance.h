@@ -25,7 +25,8 @@ inline Real segmentDistance2(const Vector3r& a, const Vector3r& b, const Vector3
   };
   for (const Real s : {Real(0), Real(1)}) offer(s, vv > 0 ? v.dot(w + s * u) / vv : 0);
   for (const Real t : {Real(0), Real(1)}) offer(uu > 0 ? u.dot(t * v - w) / uu : 0, t);
-  if (determinant > 0) offer((uv * v.dot(w) - vv * u.dot(w)) / determinant, (uu * v.dot(w) - uv * u.dot(w)) / determinant);
+  if (determinant > 0)
+    offer((uv * v.dot(w) - vv * u.dot(w)) / determinant, (uu * v.dot(w) - uv * u.dot(w)) / determinant);
   return best;
 }
 

@@ -21,7 +21,8 @@ TriangleMesh openMesh(Random& random, double size) {
                                   : test::torusMesh(0.7 * size, 0.3 * size, 8, 6);
   const Vector3d side = test::direction(random);
   const double from = test::uniform(random, 0.0, 0.9) * size, share = random() % 2 ? 0.1 : 0.0;
-  mesh = test::without(mesh, [&](const Vector3d& p) { return p.dot(side) > from || test::uniform(random, 0, 1) < share; });
+  mesh =
+      test::without(mesh, [&](const Vector3d& p) { return p.dot(side) > from || test::uniform(random, 0, 1) < share; });
   if (random() % 3 == 0) {  // cracks along all edges
     TriangleMesh cracked;
     for (const Vector3i& t : mesh.triangles) {
@@ -50,7 +51,8 @@ Case makeCase(Random& random) {
   SceneOptions options = test::fine(0.02);
   options.field.cells.reset();
   options.field.max_error = 0.01;
-  made.scene = test::build({test::body("a", test::meshShape(made.a)), test::body("b", test::meshShape(made.b))}, options);
+  made.scene =
+      test::build({test::body("a", test::meshShape(made.a)), test::body("b", test::meshShape(made.b))}, options);
   made.a = orientOutward(made.a).mesh;
   made.b = orientOutward(made.b).mesh;
   return made;

@@ -20,9 +20,9 @@ SceneOptions coarse() {
 
 /// The ball moves in the bin's frame from `start` to `end`.
 PairResult ballAndBin(const Vector3d& start, const Vector3d& end) {
-  const auto scene = test::build({test::body("ball", Primitive(Sphere{kBall})),
-                                  test::body("bin", test::meshShape(test::binMesh(kHalf)))},
-                                 coarse());
+  const auto scene = test::build(
+      {test::body("ball", Primitive(Sphere{kBall})), test::body("bin", test::meshShape(test::binMesh(kHalf)))},
+      coarse());
   Monitor monitor(scene, test::soft());
   return monitor
       .run(test::cycle(0.1, {{translation(start), translation(end)}, test::still(Isometry3d::Identity())}), {})
@@ -76,9 +76,8 @@ TEST(OpenMesh, ARodThroughASheetIsAContact) {
   TriangleMesh sheet;
   sheet.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const auto scene = test::build({test::body("rod", Primitive(Box{{0.02, 0.03, 0.2}})),
-                                  test::body("sheet", test::meshShape(sheet))},
-                                 coarse());
+  const auto scene = test::build(
+      {test::body("rod", Primitive(Box{{0.02, 0.03, 0.2}})), test::body("sheet", test::meshShape(sheet))}, coarse());
   Monitor monitor(scene, test::soft());
   const auto verdictAt = [&](double z) {
     const Isometry3d X = test::pose({0.1, 0.05, z}, 0.3, {1, 2, 3});
@@ -93,10 +92,10 @@ TEST(OpenMesh, ARodThroughASheetIsAContact) {
 
 /// What no pair with an opening needs is not built.
 TEST(OpenMesh, TrianglesAreKeptOnlyForPairsWithOpenings) {
-  const auto scene = test::build({test::body("ball", Primitive(Sphere{kBall})),
-                                  test::body("bin", test::meshShape(test::binMesh(kHalf))),
-                                  test::body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true)},
-                                 coarse());
+  const auto scene = test::build(
+      {test::body("ball", Primitive(Sphere{kBall})), test::body("bin", test::meshShape(test::binMesh(kHalf))),
+       test::body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true)},
+      coarse());
   EXPECT_TRUE(scene->bodies[0].surface && scene->bodies[1].surface);
   EXPECT_EQ(scene->bodies[1].surface->mesh.triangles.size(), 10U) << "caps are no surface";
   EXPECT_FALSE(scene->bodies[2].surface);
@@ -109,9 +108,9 @@ TEST(OpenMesh, TrianglesAreKeptOnlyForPairsWithOpenings) {
 
 /// The shell samples the triangles of the bin, not its cap.
 TEST(OpenMesh, ShellsHaveNoPointsOnCaps) {
-  const auto scene = test::build({test::body("ball", Primitive(Sphere{kBall})),
-                                  test::body("bin", test::meshShape(test::binMesh(kHalf)))},
-                                 coarse());
+  const auto scene = test::build(
+      {test::body("ball", Primitive(Sphere{kBall})), test::body("bin", test::meshShape(test::binMesh(kHalf)))},
+      coarse());
   for (const Vector3d& p : scene->bodies[1].shell.points) {
     EXPECT_TRUE(p.z() < kHalf - 1e-9 || p.head<2>().lpNorm<Eigen::Infinity>() > kHalf - 1e-9) << p.transpose();
   }

@@ -20,9 +20,7 @@ class OpeningCaps {
   double distance(const Vector3d& p_F) const { return tree_.closestPoint(p_F).distance; }
 
   /// Whether a cap is nearer than this, or as near; cheaper where none is.
-  bool isWithin(const Vector3d& p_F, double distance) const {
-    return tree_.closestPoint(p_F, distance).triangle >= 0;
-  }
+  bool isWithin(const Vector3d& p_F, double distance) const { return tree_.closestPoint(p_F, distance).triangle >= 0; }
 
   /// The mesh that has the openings is not farther than this [m]: by way of the nearest cap.
   double meshWithin(const Vector3d& p_F) const;

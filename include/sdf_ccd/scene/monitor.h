@@ -101,6 +101,12 @@ struct MonitorOptions {
 /// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
 /// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
 ///
+/// In a field with openings a place may be inside because a cap makes it so, or have come there through an opening.
+/// What its hits alone say is UNCERTAIN, with a depth_error no less than the depth, and bears no force, unless it may
+/// be that the point just touches. CONTACT there needs that a point surely passes through the mesh, in or out, or that
+/// triangles of both bodies surely cross at a recorded time (surface_crossing.h); then depths to the mesh, not to a
+/// cap, bear force. A crossing without any hit (of a sheet, which has no inside) is a contact of no length and depth.
+///
 /// A body that lies wholly inside another touches no surface: points of its shell show that, or, of a voxel map, one
 /// point of each of its components. Such a contact of a voxel map has a depth, but bears no force.
 ///

@@ -40,7 +40,7 @@ struct Body {
   PointShell witnesses;  ///< frame B; a point of each component of a voxel map's surface, if a pair needs them
   SphereTree witness_tree;
   std::shared_ptr<const BodySurface> surface;  ///< where a pair has a field with openings; null for a half-space
-  BoundingBall ball;  ///< holds the body's surface, frame B; see kHalfSpaceRadius
+  BoundingBall ball;                           ///< holds the body's surface, frame B; see kHalfSpaceRadius
 };
 
 /// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing, or edge_gap if there is
