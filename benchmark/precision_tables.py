@@ -1,4 +1,4 @@
-"""Tables of the studies `bound` and `work-precision`."""
+"""Tables of the studies `bound`, `truth` and `work-precision`."""
 
 
 def number(value):
@@ -45,6 +45,20 @@ def reference(results):
     return ['mesh', 'largest difference of distances', 'of first hits', 'segments that one of both takes for a miss'], rows
 
 
+def truth(results):
+    """What adversaries made of the verdicts, per family."""
+    rows = []
+    for case in results.cases('truth'):
+        def get(metric):
+            return results.get('truth', case, 'sdf_ccd', metric)
+        rows.append([case, *('%d' % get(m) for m in ('cases', 'false_clear', 'false_contact', 'false_bound', 'opposite',
+                                                     'clear', 'contact')),
+                     *('%.0f %%' % (100.0 * get(m)) for m in ('uncertain_share', 'near_share')),
+                     number(get('bound_over_error') or None)])
+    return ['family', 'cases', 'false CLEAR', 'false CONTACT', 'false bound', 'opposite', 'CLEAR', 'CONTACT',
+            'UNCERTAIN', 'nearer than 3 bounds', 'bound / error, median'], rows
+
+
 def work_precision(results):
     """Error over run time: a block of rows per mesh and study."""
     rows = []
@@ -64,4 +78,4 @@ def work_precision(results):
             'missed'], rows
 
 
-TABLES = {'bound': bound, 'verdicts': verdicts, 'reference': reference, 'work_precision': work_precision}
+TABLES = {'bound': bound, 'verdicts': verdicts, 'reference': reference, 'truth': truth, 'work_precision': work_precision}

@@ -51,6 +51,7 @@ int runStudy(int argc, char** argv, const std::string& description, const StudyO
   app.add_option("--cases", options.cases, "only those (segment: A, B1, …; shell: random, small, …)")->delimiter(',');
   app.add_option("--paper", options.paper_meshes, "meshes that get the paper's dense grids too")->delimiter(',');
   app.add_option("--segments", options.segments, "per case")->check(CLI::Range(1000, 100'000'000));
+  app.add_option("--motions", options.motions, "per family (truth)")->check(CLI::Range(100L, 1'000'000'000L));
   app.add_option("--pairs", options.pairs, "pose pairs per case")->check(CLI::Range(10, 1'000'000));
   app.add_option("--plots", options.plots, "directory for plots that the study draws itself (work-precision)");
   app.add_option("--runs", options.measure.runs, "per system")->check(CLI::Range(1, 1000));

@@ -21,6 +21,7 @@ struct StudyOptions {
   std::vector<int> cells;                                     ///< uniform fields: cells along the longest side
   std::vector<std::string> errors;   ///< fields to a maximum error, in box sides; as text, it names the case
   std::size_t segments = 1'000'000;  ///< random segments per case
+  long motions = 1'000'000;          ///< per family of the study `truth`
   int pairs = 1000;                  ///< random pose pairs per case
   std::string plots;                 ///< directory for a study's own plots; none if empty
   MeasureOptions measure;

@@ -1,0 +1,74 @@
+/// Whether any adversary makes a verdict untrue: families of motions whose truth is known. Prints rows of results.csv;
+/// what failed goes to stderr.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "adversarial/family.h"
+#ifdef SDF_CCD_WITH_ROS
+#include "adversarial/ros/ros_family.h"
+#endif
+#include "results.h"
+#include "study.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+using test::Family;
+using test::Tally;
+
+constexpr long kPerSeed = 50'000;
+constexpr long kPerStream = 100;  ///< motions for one cycle of the family `ros`
+
+struct Share {
+  Family family;
+  long cases;
+};
+
+std::vector<Share> shares(long motions) {
+  std::vector<Share> all;
+  for (const Family& family : test::families()) all.push_back({family, motions});
+#ifdef SDF_CCD_WITH_ROS
+  all.push_back({{"ros", test::rosStreams, 0}, std::max(1L, motions / kPerStream)});
+#endif
+  return all;
+}
+
+void printRows(const std::string& name, const Tally& tally) {
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    print({"truth", name, "sdf_ccd", metric, value, unit, int(tally.cases)});
+  };
+  row("cases", double(tally.cases), "motions");
+  row("clear", double(tally.clear), "motions");
+  row("contact", double(tally.contact), "motions");
+  row("false_clear", double(tally.false_clear), "motions");
+  row("false_contact", double(tally.false_contact), "motions");
+  row("false_bound", double(tally.false_bound), "motions");
+  row("opposite", double(tally.opposite), "motions");
+  row("uncertain_share", tally.uncertainShare(), "1");
+  row("near_share", tally.nearShare(), "1");
+  row("bound_over_error", tally.medianBoundOverError(), "1");
+  for (const auto& [what, failure] : tally.failures)
+    std::fprintf(stderr, "truth: %s: %ld × %s, the first %s\n", name.c_str(), failure.count, what.c_str(),
+                 failure.first.c_str());
+}
+
+void study(const StudyOptions& options) {
+  for (const auto& [family, cases] : shares(options.motions)) {
+    if (!isWanted(options.cases, family.name)) continue;
+    Tally tally;
+    for (std::uint64_t seed = 1; tally.cases < cases; ++seed)
+      tally += family.run(seed, std::min(kPerSeed, cases - tally.cases));
+    printRows(family.name, tally);
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark
+
+int main(int argc, char** argv) {
+  using namespace sdf_ccd::benchmark;
+  StudyOptions full, quick;
+  quick.motions = 5'000;
+  return runStudy(argc, argv, "Whether any adversary makes a verdict untrue", full, quick, study);
+}

@@ -1,0 +1,222 @@
+#include "adversarial/drawn.h"
+
+#include <cmath>
+
+#include "oracle/shapes.h"
+
+namespace sdf_ccd::test {
+namespace {
+
+using Corners = std::vector<Vector3d>;
+
+TriangleMesh block(const Vector3d& low, const Vector3d& high) {
+  return translated(boxMesh(0.5 * (high - low)), 0.5 * (low + high));
+}
+
+TriangleMesh joined(const std::vector<TriangleMesh>& meshes) {
+  TriangleMesh all;
+  for (const TriangleMesh& mesh : meshes) {
+    const int offset = int(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const Vector3i& t : mesh.triangles) all.triangles.push_back(t + Vector3i::Constant(offset));
+  }
+  return all;
+}
+
+TriangleMesh face(const Corners& corners) {
+  TriangleMesh mesh{corners, {}};
+  for (int k = 1; k + 1 < int(corners.size()); ++k) mesh.triangles.emplace_back(0, k, k + 1);
+  return mesh;
+}
+
+Actor actor(const std::string& kind, const TriangleMesh& mesh, Pieces solid, Pieces reach = {}) {
+  return {kind,
+          {{std::make_shared<const TriangleMesh>(mesh), Isometry3d::Identity(), kind}},
+          std::move(solid),
+          std::move(reach)};
+}
+
+/// Walls of a box with outer and inner half sizes.
+Pieces walls(const Vector3d& outer, const Vector3d& inner, bool has_lid = true) {
+  Pieces pieces;
+  for (int k = 0; k < 3; ++k) {
+    for (const int side : {-1, 1}) {
+      if (k == 2 && side == 1 && !has_lid) continue;
+      Vector3d low = -outer, high = outer;
+      (side > 0 ? low : high)[k] = side * inner[k];
+      pieces.push_back(convexOf(block(low, high)));
+    }
+  }
+  return pieces;
+}
+
+/// A triangle in x and y, extruded along z.
+TriangleMesh prism(const Vector3d& a, const Vector3d& b, const Vector3d& c, double half) {
+  const Vector3d up(0, 0, half);
+  return {{a - up, b - up, c - up, a + up, b + up, c + up},
+          {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}}};
+}
+
+Actor ofFaces(const std::string& kind, const std::vector<Corners>& faces, bool from_both_sides = false) {
+  std::vector<TriangleMesh> meshes;
+  Pieces pieces;
+  for (const Corners& corners : faces) {
+    meshes.push_back(face(corners));
+    if (from_both_sides) meshes.push_back(flipped(face(corners)));
+    pieces.push_back(polygon(corners));
+  }
+  return actor(kind, welded(joined(meshes)), std::move(pieces));
+}
+
+const Vector3d kOuter(0.2, 0.15, 0.1), kInner(0.17, 0.12, 0.07);
+
+}  // namespace
+
+Actor hollowBox() {
+  return actor("hollow box", joined({boxMesh(kOuter), flipped(boxMesh(kInner))}), walls(kOuter, kInner));
+}
+
+Actor nestedBoxes() {
+  return actor("nested boxes", joined({boxMesh(kOuter), boxMesh(kInner)}), walls(kOuter, kInner),
+               {convexOf(boxMesh(kOuter))});
+}
+
+Actor invertedBox() {
+  return actor("inverted box", flipped(boxMesh(kOuter)), {convexOf(boxMesh(kOuter))});
+}
+
+Actor bowTie() {
+  const Vector3d middle(0, 0, 0);
+  const TriangleMesh large = prism(middle, {-0.3, 0.2, 0}, {-0.3, -0.2, 0}, 0.1),
+                     small = prism(middle, {0.15, -0.1, 0}, {0.15, 0.1, 0}, 0.1);
+  return actor("bow-tie", welded(joined({large, flipped(small)})), {convexOf(large), convexOf(small)});
+}
+
+Actor membrane() {
+  return ofFaces("membrane", {{{-0.2, -0.2, 0}, {0.2, -0.2, 0}, {0.2, 0.2, 0}, {-0.2, 0.2, 0}}});
+}
+
+Actor doubleMembrane() {
+  Actor both = ofFaces("double membrane", {{{-0.2, -0.2, 0}, {0.2, -0.2, 0}, {0.2, 0.2, 0}, {-0.2, 0.2, 0}}}, true);
+  return both;
+}
+
+Actor wheel() {
+  constexpr int kCorners = 24;
+  constexpr double kRadius = 0.3, kHalf = 0.05;
+  std::vector<TriangleMesh> meshes;
+  Pieces pieces;
+  Corners web;
+  const auto at = [&](int k, double z) {
+    const double angle = 2.0 * kPi * k / kCorners;
+    return Vector3d(kRadius * std::cos(angle), kRadius * std::sin(angle), z);
+  };
+  for (int k = 0; k < kCorners; ++k) {
+    const Corners rim{at(k, -kHalf), at((k + 1) % kCorners, -kHalf), at((k + 1) % kCorners, kHalf), at(k, kHalf)};
+    meshes.push_back(face(rim));
+    pieces.push_back(polygon(rim));
+    web.push_back(at(k, 0.0));
+  }
+  meshes.push_back(face(web));
+  meshes.push_back(flipped(face(web)));
+  pieces.push_back(polygon(web));
+  return actor("wheel", welded(joined(meshes)), std::move(pieces));
+}
+
+Actor openBin() {
+  const double x = 0.2, y = 0.15, z = 0.1;
+  return ofFaces("open bin", {{{-x, -y, -z}, {-x, y, -z}, {x, y, -z}, {x, -y, -z}},
+                              {{-x, -y, -z}, {x, -y, -z}, {x, -y, z}, {-x, -y, z}},
+                              {{x, -y, -z}, {x, y, -z}, {x, y, z}, {x, -y, z}},
+                              {{x, y, -z}, {-x, y, -z}, {-x, y, z}, {x, y, z}},
+                              {{-x, y, -z}, {-x, -y, -z}, {-x, -y, z}, {-x, y, z}}});
+}
+
+Actor thickBin() {
+  // The outer box and the inner one turned inside out, without their lids, and a rim between them.
+  const Vector3d inner(kInner.x(), kInner.y(), kOuter.z());
+  TriangleMesh cavity = boxMesh(inner);
+  for (Vector3d& v : cavity.vertices) v.z() = v.z() < 0 ? -kInner.z() : kOuter.z();
+  TriangleMesh mesh = joined({boxMesh(kOuter), flipped(cavity)});
+  std::vector<Vector3i> kept;
+  for (const Vector3i& t : mesh.triangles) {
+    const auto on_top = [&](int v) { return mesh.vertices[v].z() == kOuter.z(); };
+    if (!on_top(t[0]) || !on_top(t[1]) || !on_top(t[2])) kept.push_back(t);
+  }
+  mesh.triangles = kept;
+  const int ring[] = {4, 5, 7, 6};  // the top's corners, counterclockwise
+  for (int k = 0; k < 4; ++k) {
+    const int a = ring[k], b = ring[(k + 1) % 4];
+    mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 8}, {a, b + 8, a + 8}});
+  }
+  Pieces pieces = walls(kOuter, kInner, false);
+  return actor("thick bin", mesh, std::move(pieces));
+}
+
+Actor sharedEdge() {
+  const TriangleMesh a = block({-0.2, -0.2, -0.1}, {0, 0, 0.1}), b = block({0, 0, -0.1}, {0.2, 0.2, 0.1});
+  return actor("shared edge", welded(joined({a, b})), {convexOf(a), convexOf(b)});
+}
+
+Actor sharedFace() {
+  const TriangleMesh a = block({-0.2, -0.1, -0.1}, {0, 0.1, 0.1}), b = block({0, -0.1, -0.1}, {0.2, 0.1, 0.1});
+  return actor("shared face", welded(joined({a, b})), {convexOf(a), convexOf(b)});
+}
+
+Actor overlapping() {
+  const TriangleMesh a = block({-0.2, -0.1, -0.1}, {0.1, 0.1, 0.1}), b = block({-0.05, -0.05, -0.2}, {0.2, 0.05, 0.05});
+  return actor("overlapping", joined({a, b}), {convexOf(a), convexOf(b)});
+}
+
+Actor fins() {
+  std::vector<Corners> faces;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d out(0.2 * std::cos(2.0 * kPi * k / 3), 0.2 * std::sin(2.0 * kPi * k / 3), 0.0), up(0, 0, 0.15);
+    faces.push_back({-up, out - up, out + up, up});
+  }
+  return ofFaces("fins", faces);
+}
+
+Actor voxel() {
+  Actor one = convexActor("voxel", boxMesh(Vector3d::Constant(0.025)));
+  one.geometry[0].watertight_voxels = true;
+  return one;
+}
+
+Actor voxels() {
+  const double s = 0.05;
+  const TriangleMesh all[] = {block({0, 0, 0}, {s, s, s}), block({s, 0, 0}, {2 * s, s, s}),
+                              block({0, s, 0}, {s, 2 * s, s})};
+  // The boundary alone: walls between two voxels are no part of it.
+  TriangleMesh mesh = welded(joined({all[0], all[1], all[2]}));
+  std::vector<Vector3i> kept;
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d p = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    const bool inner = (p.x() == s && p.y() < s) || (p.y() == s && p.x() < s);
+    if (!inner) kept.push_back(t);
+  }
+  mesh.triangles = kept;
+  Actor body = actor("voxels", mesh, {convexOf(all[0]), convexOf(all[1]), convexOf(all[2])});
+  body.geometry[0].watertight_voxels = true;
+  return body;
+}
+
+Actor link() {
+  return convexActor("link", boxMesh({0.2, 0.1, 0.08}));
+}
+
+Actor bead() {
+  return convexActor("bead", icosphere(0.02, 0));
+}
+
+Actor rod() {
+  return boxActor({0.01, 0.01, 0.2});
+}
+
+std::vector<Actor> drawnActors() {
+  return {voxel(),      link(),       bead(),        bowTie(),      openBin(),  wheel(),          rod(),
+          voxels(),     hollowBox(),  nestedBoxes(), invertedBox(), membrane(), doubleMembrane(), thickBin(),
+          sharedEdge(), sharedFace(), overlapping(), fins()};
+}
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "adversarial/duel.h"
+
+/// Bodies as people draw them: hollow, inside out, of membranes, without a lid.
+namespace sdf_ccd::test {
+
+Actor hollowBox();    ///< with a cavity that nothing leads into
+Actor nestedBoxes();  ///< the same, but with the inner box drawn outward too: what is within may be solid
+Actor invertedBox();
+Actor bowTie();          ///< two prisms that share an edge, the small one inside out
+Actor membrane();        ///< one square, drawn from one side
+Actor doubleMembrane();  ///< drawn from both
+Actor wheel();           ///< an open rim, with a web drawn from both sides whose border lies on the rim's triangles
+Actor openBin();         ///< five walls without thickness, no lid
+Actor thickBin();        ///< a closed mesh
+Actor sharedEdge();      ///< two boxes of one mesh with an edge in common
+Actor sharedFace();      ///< two boxes of one mesh, each with a wall where they meet
+Actor overlapping();     ///< two boxes of one mesh that overlap
+Actor fins();            ///< three squares that share an edge
+Actor voxel();           ///< 5 cm; only a field
+Actor voxels();          ///< three of them, in an L
+Actor link();            ///< 40 cm, a mesh
+Actor bead();            ///< 2 cm
+Actor rod();
+
+std::vector<Actor> drawnActors();
+
+}  // namespace sdf_ccd::test

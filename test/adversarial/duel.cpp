@@ -1,0 +1,208 @@
+#include "adversarial/duel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "oracle/shapes.h"
+
+namespace sdf_ccd::test {
+namespace {
+
+constexpr Real kUnseen = 1e-9L;       ///< of both sizes: less than this the oracle does not tell
+constexpr int kSharp = 200;           ///< failures whose depth is found to a thousandth of the bound
+constexpr double kComparable = 10.0;  ///< clearances of so many bounds are from points, and compared
+
+BodyDescription described(const std::string& name, const Actor& actor) {
+  BodyDescription body;
+  body.name = body.frame = name;
+  body.geometry = actor.geometry;
+  return body;
+}
+
+std::string text(const char* format, double x, double y) {
+  char line[160];
+  std::snprintf(line, sizeof(line), format, x, y);
+  return line;
+}
+
+void addRatio(double bound, Real error, Tally& tally) {
+  if (bound > 0.0) tally.bound_over_error.push_back(float(bound / double(std::max(error, Real(1e-6 * bound)))));
+}
+
+}  // namespace
+
+double Actor::radius() const {
+  Real radius = 0;
+  for (const Convex& piece : outer())
+    for (const Vector3l& p : piece.corners) radius = std::max(radius, p.norm());
+  return double(radius);
+}
+
+Actor convexActor(const std::string& kind, const TriangleMesh& mesh, const Vector3d& offset) {
+  const TriangleMesh moved = translated(mesh, offset);
+  return {
+      kind, {{std::make_shared<const TriangleMesh>(moved), Isometry3d::Identity(), kind}}, {convexOf(moved)}, {}, true};
+}
+
+Actor boxActor(const Vector3d& half_size, const Vector3d& offset) {
+  Isometry3d X_BG = Isometry3d::Identity();
+  X_BG.translation() = offset;
+  return {
+      "box", {{Primitive(Box{half_size}), X_BG, "box"}}, {convexOf(translated(boxMesh(half_size), offset))}, {}, true};
+}
+
+Duel::Duel(Actor a, Actor b, const SceneOptions& scene, const MonitorOptions& monitor)
+    : a_(std::move(a)), b_(std::move(b)) {
+  const SceneDescription description{{described("a", a_), described("b", b_)}, {}};
+  auto built =
+      std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(scene)), scene));
+  bound_ = built->bound.total();
+  size_ = a_.radius() + b_.radius();
+  monitor_ = std::make_unique<Monitor>(std::move(built), monitor);
+}
+
+const PairResult& Duel::play(const CycleMotion& motion, Tally& tally) {
+  monitor_->reset();
+  const PairResult& result = monitor_->run(motion, {false, 0}).pairs.at(0);
+  judge(motion, result, name(), tally);
+  return result;
+}
+
+PairMotion Duel::motionOf(const CycleMotion& motion, const KnotSpan& span, bool outer) const {
+  const auto part = [&](const auto& all) { return std::vector(all.begin() + span.first, all.begin() + span.last + 1); };
+  return {outer ? a_.outer() : a_.solid, outer ? b_.outer() : b_.solid, part(motion.times), part(motion.X_WB[0]),
+          part(motion.X_WB[1])};
+}
+
+void Duel::judge(const CycleMotion& motion, const PairResult& result, const std::string& what, Tally& tally) const {
+  judge(motionOf(motion, result.span, false), motionOf(motion, result.span, true), result, what, tally);
+}
+
+void Duel::judge(const PairMotion& solid, const PairMotion& outer, const PairResult& result, const std::string& what,
+                 Tally& tally) const {
+  ++tally.cases;
+  switch (result.verdict) {
+    case Verdict::kClear:
+      ++tally.clear;
+      return judgeClear(solid, result, what, tally);
+    case Verdict::kContact:
+      ++tally.contact;
+      judgeContact(outer, result, what, tally);
+      return judgeDepth(solid, result, what, tally);
+    case Verdict::kUncertain:
+      ++tally.uncertain;
+      return judgeDepth(solid, result, what, tally);
+    case Verdict::kNotChecked:
+      ++tally.not_checked;
+  }
+}
+
+/// What long doubles, and the last bits of rotations given as doubles, leave open.
+Real Duel::rounding(const PairMotion& motion) const {
+  return kUnseen * size_ + 1e-17L * motion.poseA(0).p.norm();
+}
+
+void Duel::judgeClear(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const {
+  const Real unseen = rounding(solid);
+  LeastValue least = solid.least({0, 0, -unseen});
+  if (least.high < -unseen) {
+    if (++tally.false_clear <= kSharp) least = solid.least({1e-3L * bound_});
+    tally.deepest = std::max(tally.deepest, double(-least.high));
+    tally.fail(what + ": CLEAR", text("%.3g m deep at %.17g s", double(-least.high), double(least.at)));
+    return;
+  }
+  if (result.clearance < 0.0 || result.skipped) return;
+  const Real end = solid.end();
+  if (solid.at(end).value <= 0) return;
+  const Real truth = solid.distanceAt(end);
+  if (result.clearance > truth + unseen) {
+    ++tally.false_bound;
+    tally.fail(what + ": clearance", text("%.17g m, true %.17g m", result.clearance, double(truth)));
+  }
+  if (truth < kComparable * bound_) addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
+}
+
+void Duel::judgeContact(const PairMotion& outer, const PairResult& result, const std::string& what,
+                        Tally& tally) const {
+  if (outer.at(result.deepest.time).value <= 0) return;
+  const Real unseen = rounding(outer);
+  const LeastValue least = outer.least({0, unseen, 0});
+  if (least.low <= unseen) return;
+  ++tally.false_contact;
+  tally.fail(what + ": CONTACT", text("%.3g m deep, but %.3g m apart", result.deepest.depth, double(least.high)));
+}
+
+/// The deepest point is on one surface and `depth` inside the other.
+void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const {
+  if (result.intervals.empty() || !(result.deepest.depth > 0.0) || !a_.is_convex || !b_.is_convex) return;
+  const ContactPoint& deepest = result.deepest;
+  const Real time = deepest.time;
+  const auto in = [&](const Convex& piece, const LongPose& X) {
+    return signedDistance(piece, X.R.transpose() * (deepest.p_W.cast<Real>() - X.p));
+  };
+  const Real in_a = in(a_.solid[0], solid.poseA(time)), in_b = in(b_.solid[0], solid.poseB(time));
+  const Real depth = deepest.depth;
+  const Real error =
+      std::min(std::max(std::abs(in_a + depth), std::abs(in_b)), std::max(std::abs(in_b + depth), std::abs(in_a)));
+  // The place is off by the chord error too.
+  const Real bound = deepest.depth_error + result.error.root + 2.0 * result.error.chord;
+  addRatio(double(bound), error, tally);
+  if (error <= bound + rounding(solid)) return;
+  ++tally.false_bound;
+  tally.fail(what + ": depth", text("off by %.3g m, reported %.3g m", double(error), double(bound)));
+}
+
+LeastValue Duel::least(const CycleMotion& motion, const KnotSpan& span, const LeastOptions& options) const {
+  return motionOf(motion, span, false).least(options);
+}
+
+Vector3d Duel::aim(double wanted, CycleMotion& motion) const {
+  const KnotSpan span{0, motion.times.size() - 1};
+  return aim(
+      wanted, [&] { return motionOf(motion, span, false); }, [&](const Vector3d& by) { shiftB(by, motion); });
+}
+
+Vector3d Duel::aim(double wanted, const std::function<PairMotion()>& motion,
+                   const std::function<void(const Vector3d&)>& shift) const {
+  LeastOptions options;
+  options.max_samples = 400;
+  Vector3d axis = Vector3d::UnitX();
+  for (int i = 0; i < 4; ++i) {
+    const PairMotion pair = motion();
+    options.tolerance = i < 2 ? 0.02L * size_ : Real(0.1 * bound_);
+    const LeastValue least = pair.least(options);
+    axis = pair.at(least.at).axis_W.cast<double>();
+    const double missed = wanted - double(least.high);
+    if (i >= 2 && std::abs(missed) < 0.2 * bound_) break;
+    shift(missed * axis);
+  }
+  return axis;
+}
+
+CycleMotion pairCycle(std::vector<Isometry3d> X_WA, std::vector<Isometry3d> X_WB) {
+  CycleMotion motion;
+  for (std::size_t k = 0; k < X_WA.size(); ++k) motion.times.push_back(double(k) / double(X_WA.size() - 1));
+  motion.X_WB = {std::move(X_WA), std::move(X_WB)};
+  return motion;
+}
+
+void shiftB(const Vector3d& by, CycleMotion& motion) {
+  for (Isometry3d& X : motion.X_WB[1]) X.translation() += by;
+}
+
+Isometry3d screwed(const Isometry3d& X, const Vector3d& point, const Vector3d& rotation_vector, const Vector3d& shift) {
+  Isometry3d S = Isometry3d::Identity();
+  const double angle = rotation_vector.norm();
+  if (angle > 0.0) S.linear() = Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
+  S.translation() = point - S.linear() * point + shift;
+  Isometry3d result = S * X;
+  result.linear() = Quaterniond(result.linear()).normalized().toRotationMatrix();
+  return result;
+}
+
+double logUniform(Random& random, double low, double high) {
+  return low * std::exp(uniform(random, 0.0, std::log(high / low)));
+}
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adversarial/family.h"
+#include "oracle/pair_motion.h"
+#include "oracle/random.h"
+#include "sdf_ccd/scene/monitor.h"
+
+/// Two bodies under a monitor, and what is true of them.
+namespace sdf_ccd::test {
+
+/// A body to be checked, and its solid as convex pieces in its own frame.
+struct Actor {
+  std::string kind;
+  std::vector<GeometryDescription> geometry;
+  Pieces solid;  ///< who is there meets it, however sides are told
+  Pieces reach;  ///< who is outside of it does not meet it, however sides are told; empty: the same as `solid`
+
+  bool is_convex = false;  ///< `solid` is one convex solid: depths in it are known
+
+  const Pieces& outer() const { return reach.empty() ? solid : reach; }
+  double radius() const;  ///< of a ball about the frame's origin that holds it [m]
+};
+
+/// A mesh that is convex.
+Actor convexActor(const std::string& kind, const TriangleMesh& mesh, const Vector3d& offset = Vector3d::Zero());
+/// A box with an exact field.
+Actor boxActor(const Vector3d& half_size, const Vector3d& offset = Vector3d::Zero());
+
+class Duel {
+ public:
+  Duel(Actor a, Actor b, const SceneOptions& scene, const MonitorOptions& monitor);
+
+  const Actor& a() const { return a_; }
+  const Actor& b() const { return b_; }
+  const Scene& scene() const { return monitor_->scene(); }
+  Monitor& monitor() { return *monitor_; }
+  double bound() const { return bound_; }  ///< of a pair's verdict, as planned [m]
+  double size() const { return size_; }    ///< of both bodies [m]
+  std::string name() const { return a_.kind + " - " + b_.kind; }
+
+  /// Forgets clearances, checks the motion and judges the verdict. `motion` has two bodies.
+  const PairResult& play(const CycleMotion& motion, Tally& tally);
+
+  /// Judges what the monitor said about a motion: by the pair's span of it.
+  /// @param what  how to see it again.
+  void judge(const CycleMotion& motion, const PairResult& result, const std::string& what, Tally& tally) const;
+
+  /// The same where the bodies move otherwise than by constant twists between the motion's poses.
+  void judge(const PairMotion& solid, const PairMotion& outer, const PairResult& result, const std::string& what,
+             Tally& tally) const;
+
+  /// Least separation of the solids over the pair's span [m], as near as wanted.
+  LeastValue least(const CycleMotion& motion, const KnotSpan& span, const LeastOptions& options) const;
+
+  /// Moves body B so that the least separation is `wanted` [m], to about a tenth of the bound.
+  /// @return the direction that it was moved along, the way from A to B where they are nearest.
+  Vector3d aim(double wanted, CycleMotion& motion) const;
+  Vector3d aim(double wanted, const std::function<PairMotion()>& motion,
+               const std::function<void(const Vector3d&)>& shift) const;
+
+ private:
+  PairMotion motionOf(const CycleMotion& motion, const KnotSpan& span, bool outer) const;
+  void judgeClear(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
+  void judgeContact(const PairMotion& outer, const PairResult& result, const std::string& what, Tally& tally) const;
+  void judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
+  Real rounding(const PairMotion& motion) const;
+
+  Actor a_, b_;
+  std::unique_ptr<Monitor> monitor_;
+  double bound_ = 0.0, size_ = 0.0;
+};
+
+/// Poses of both bodies evenly over a second.
+CycleMotion pairCycle(std::vector<Isometry3d> X_WA, std::vector<Isometry3d> X_WB);
+
+/// Shifts body B of a motion of two.
+void shiftB(const Vector3d& by, CycleMotion& motion);
+
+/// A pose after `angle` about an axis of the world through a point, and `shift` along with it.
+Isometry3d screwed(const Isometry3d& X, const Vector3d& point, const Vector3d& rotation_vector, const Vector3d& shift);
+
+/// Random, evenly in the logarithm.
+double logUniform(Random& random, double low, double high);
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+
+#include "adversarial/duel.h"
+#include "oracle/shapes.h"
+
+/// Hill climbing for the deepest true overlap while the monitor says CLEAR, over runs of cycles with skips, frames that
+/// come late, jumps, partial spans, spin and approach.
+namespace sdf_ccd::test {
+namespace {
+
+constexpr int kCycles = 5;    // of a run
+constexpr int kSteps = 3;     // between given poses, of a cycle
+constexpr int kPerStep = 12;  // numbers: the twists of both bodies
+constexpr int kNumbers = 12 + kCycles * kSteps * kPerStep;
+constexpr int kPatience = 60;  // tries without gain before the search begins anew
+constexpr double kLargestAngle = 3.0;
+
+/// How a cycle's transforms arrive.
+enum class Arrival { kAll, kNone, kFirstStep, kLastSteps, kJump };
+
+/// What the search changes.
+struct Genes {
+  std::vector<double> numbers;    ///< both poses at the start, then twists
+  std::vector<Arrival> arrivals;  ///< per cycle
+
+  static Genes random(Random& random) {
+    Genes genes;
+    const double calm = logUniform(random, 0.01, 1.0);
+    for (int i = 0; i < kNumbers; ++i) genes.numbers.push_back(uniform(random, -1.0, 1.0) * (i < 12 ? 1.0 : calm));
+    for (int c = 0; c < kCycles; ++c) genes.arrivals.push_back(Arrival(random() % 8 < 4 ? 0 : 1 + random() % 4));
+    return genes;
+  }
+
+  Genes changed(Random& random, double size) const {
+    Genes genes = *this;
+    const bool all = random() % 4 == 0;
+    for (double& x : genes.numbers)
+      if (all || random() % 16 == 0) x += size * uniform(random, -1.0, 1.0);
+    for (Arrival& arrival : genes.arrivals)
+      if (random() % 20 == 0) arrival = Arrival(random() % 5);
+    return genes;
+  }
+};
+
+/// All cycles of a run, as a tracker would hand them on: what comes late is in the next cycle's span.
+std::vector<CycleMotion> cyclesOf(const Genes& genes, double reach) {
+  const double* next = genes.numbers.data();
+  const auto vector = [&](double scale) {
+    const Vector3d v(next[0], next[1], next[2]);
+    next += 3;
+    return Vector3d(scale * v);
+  };
+  const auto rotation = [&] {
+    const Vector3d v = vector(kLargestAngle / std::sqrt(3.0));
+    return v.norm() > kLargestAngle ? Vector3d(kLargestAngle * v.normalized()) : v;
+  };
+  std::vector<Isometry3d> now(2, Isometry3d::Identity());
+  for (Isometry3d& X : now) {
+    const Vector3d turn = rotation();
+    X = screwed(X, Vector3d::Zero(), turn, vector(reach));
+  }
+  std::vector<CycleMotion> cycles;
+  std::vector<std::vector<Isometry3d>> late(2);  // poses of spans that are not yet known, the first known one in front
+  for (const Arrival arrival : genes.arrivals) {
+    std::vector<std::vector<Isometry3d>> poses{{now[0]}, {now[1]}};
+    if (arrival == Arrival::kJump) late[0].clear();
+    if (!late[0].empty()) poses = late;
+    for (int step = 0; step < kSteps; ++step) {
+      for (int b = 0; b < 2; ++b) {
+        const Vector3d turn = rotation(), shift = vector(0.5 * reach);
+        // About the frame's origin, where an arm's joint is.
+        now[b] = screwed(now[b], now[b].translation(), turn, shift);
+        poses[b].push_back(now[b]);
+      }
+    }
+    CycleMotion motion = pairCycle(poses[0], poses[1]);
+    const std::size_t last = motion.times.size() - 1;
+    KnotSpan span{0, last};
+    if (arrival == Arrival::kNone) span.last = 0;
+    if (arrival == Arrival::kFirstStep) span.last = 1;
+    if (arrival == Arrival::kLastSteps) span.first = last - 1;  // as after a gap
+    motion.spans = {span};
+    for (int b = 0; b < 2; ++b) late[b].assign(poses[b].begin() + long(span.last), poses[b].end());
+    if (span.last == last) late[0].clear();
+    // A jump: the next cycle begins elsewhere.
+    if (arrival == Arrival::kJump) now[1].translation() += Vector3d(0.0, 0.0, 0.1 * reach);
+    cycles.push_back(std::move(motion));
+  }
+  return cycles;
+}
+
+class Climb {
+ public:
+  Climb(Duel& duel, Tally& tally) : duel_(duel), tally_(tally) {}
+
+  /// The deepest overlap of a run while CLEAR, or the least distance, negative [m].
+  Real value(const Genes& genes) {
+    Real deepest = -std::numeric_limits<Real>::infinity();
+    duel_.monitor().reset();
+    for (const CycleMotion& motion : cyclesOf(genes, 0.5 * duel_.size())) {
+      const PairResult& result = duel_.monitor().run(motion, {false, 0}).pairs.at(0);
+      if (result.span.empty()) continue;
+      const long before = tally_.false_clear;
+      duel_.judge(motion, result, duel_.name(), tally_);
+      if (result.verdict != Verdict::kClear) continue;
+      const LeastOptions options{0.1L * duel_.bound(), -deepest};  // farther apart than the nearest one does not matter
+      const LeastValue least = duel_.least(motion, result.span, options);
+      if (tally_.false_clear == before) {
+        ++tally_.placed;
+        tally_.near += least.high < 3.0 * duel_.bound();
+      }
+      deepest = std::max(deepest, -least.high);
+    }
+    return deepest;
+  }
+
+ private:
+  Duel& duel_;
+  Tally& tally_;
+};
+
+std::vector<Duel> duels() {
+  const Vector3d arm(0.4, 0.02, 0.02), reach(0.4, 0.0, 0.0);
+  SceneOptions scene;
+  scene.field.max_error = 1e-3;
+  scene.shell.spacing = 0.04;
+  scene.shell.edge_gap = 2e-3;
+  MonitorOptions options;
+  options.chords.tolerance = 2e-4;
+  std::vector<Duel> all;
+  all.emplace_back(boxActor(arm, reach), boxActor(arm, reach), scene, options);
+  all.emplace_back(convexActor("block", boxMesh({0.15, 0.1, 0.01})), boxActor({0.05, 0.04, 0.03}), scene, options);
+  return all;
+}
+
+}  // namespace
+
+Tally search(std::uint64_t seed, long cases) {
+  Random random(seed);
+  std::vector<Duel> all = duels();
+  Tally tally;
+  while (tally.cases < cases) {
+    Climb climb(all[random() % all.size()], tally);
+    Genes best = Genes::random(random);
+    Real highest = climb.value(best);
+    double size = 0.3;
+    for (int tries = 0; tries < kPatience && tally.cases < cases; ++tries) {
+      const Genes next = best.changed(random, size);
+      const Real value = climb.value(next);
+      if (value > highest) {
+        highest = value;
+        best = next;
+        tries = 0;
+        size = std::min(1.5 * size, 0.5);
+      } else {
+        size = std::max(0.9 * size, 1e-4);
+      }
+    }
+  }
+  return tally;
+}
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,124 @@
+#include <stdlib.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "adversarial/drawn.h"
+#include "oracle/shapes.h"
+
+/// Bodies as people draw them, in every pairing: wholly inside, through thin walls, near the surface.
+namespace sdf_ccd::test {
+namespace {
+
+constexpr long kCasesPerPair = 150;  // scenes take longer to build than that many cases to run
+constexpr std::size_t kSurePairs = 6;
+
+struct Pairing {
+  std::size_t a, b;
+};
+
+/// All pairings of `count` actors; first those that broke verdicts, then the others, shuffled.
+std::vector<Pairing> pairings(std::size_t count, Random& random) {
+  std::vector<Pairing> all{{1, 0}, {3, 2}, {4, 2}, {5, 6}, {1, 7}, {8, 0}};
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b)
+      if (a >= b && !(a == 0 && b == 0)) all.push_back({a, b});
+  std::shuffle(all.begin() + kSurePairs, all.end(), random);
+  return all;
+}
+
+/// For the fields and shells of a body that meets many others.
+class ScratchDirectory {
+ public:
+  ScratchDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "sdf_ccd_topology_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be made");
+    path_ = name;
+  }
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+Duel makeDuel(const Actor& a, const Actor& b, const std::string& cache) {
+  SceneOptions scene;
+  scene.field.max_error = 2e-3;
+  scene.shell.spacing = 0.02;
+  scene.shell.edge_gap = 4e-3;
+  scene.cache_directory = cache;
+  MonitorOptions monitor;
+  monitor.chords.tolerance = 2e-4;
+  return Duel(a, b, scene, monitor);
+}
+
+Vector3d anywhereIn(const Actor& actor, Random& random) {
+  AlignedBox3d box;
+  for (const Convex& piece : actor.solid)
+    for (const Vector3l& p : piece.corners) box.extend(p.cast<double>());
+  return uniformIn(random, box);
+}
+
+/// Both at rest or both moving a little; the middle of B somewhere within A's box.
+CycleMotion within(const Duel& duel, Random& random) {
+  Isometry3d X_WA = pose(random, 3.0, 0.5), X_WB = X_WA;
+  X_WB.translation() = X_WA * anywhereIn(duel.a(), random);
+  if (random() % 2) X_WB.linear() = pose(random, 3.0, 0.0).linear();
+  const double angle = random() % 3 == 0 ? 0.0 : 0.3, way = random() % 2 ? 0.0 : 0.12;
+  const Vector3d a = angle * direction(random), b = angle * direction(random);
+  return pairCycle({X_WA, screwed(X_WA, X_WA.translation(), a, Vector3d::Zero())},
+                   {X_WB, screwed(X_WB, X_WB.translation(), b, way * direction(random))});
+}
+
+/// Past each other, from afar or near.
+CycleMotion past(const Duel& duel, Random& random) {
+  CycleMotion motion = within(duel, random);
+  const Vector3d way = duel.size() * uniform(random, 0.1, 1.5) * direction(random);
+  motion.X_WB[1][0].translation() -= 0.5 * way;
+  motion.X_WB[1][1].translation() += 0.5 * way;
+  return motion;
+}
+
+void play(Duel& duel, long cases, Random& random, Tally& tally) {
+  for (const long end = tally.cases + cases; tally.cases < end;) {
+    CycleMotion motion = random() % 2 ? within(duel, random) : past(duel, random);
+    if (random() % 2) {
+      duel.play(motion, tally);
+      continue;
+    }
+    const Vector3d axis = duel.aim(0.0, motion);
+    for (int i = 0; i < 3 && tally.cases < end; ++i) {
+      CycleMotion shifted = motion;
+      shiftB(uniform(random, -3.0, 3.0) * duel.bound() * axis, shifted);
+      duel.play(shifted, tally);
+      if (tally.cases % 16 != 0) continue;
+      ++tally.placed;
+      const LeastOptions options{0.1L * duel.bound(), 4 * duel.bound(), -4 * duel.bound(), 500};
+      tally.near += std::abs(duel.least(shifted, {0, 1}, options).high) < 3.0 * duel.bound();
+    }
+  }
+}
+
+}  // namespace
+
+Tally topology(std::uint64_t seed, long cases) {
+  Random random(seed);
+  const std::vector<Actor> actors = drawnActors();
+  const std::vector<Pairing> all = pairings(actors.size(), random);
+  const long used = std::min(long(all.size()), std::max(1L, cases / kCasesPerPair));
+  const ScratchDirectory cache;
+  Tally tally;
+  for (long i = 0; i < used; ++i) {
+    Duel duel = makeDuel(actors[all[std::size_t(i)].a], actors[all[std::size_t(i)].b], cache.path());
+    play(duel, cases * (i + 1) / used - cases * i / used, random, tally);
+  }
+  return tally;
+}
+
+}  // namespace sdf_ccd::test

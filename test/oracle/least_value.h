@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <vector>
+
+#include "oracle/long_screw.h"
+
+/// The least value that a function takes, certified from both sides.
+namespace sdf_ccd::test {
+
+struct LeastValue {
+  Real low = 0;   ///< nowhere less
+  Real high = 0;  ///< taken at `at`
+  Real at = 0;
+};
+
+struct LeastOptions {
+  Real tolerance = 0;                                   ///< high − low aimed at
+  Real above = std::numeric_limits<Real>::infinity();   ///< stops once low exceeds this
+  Real below = -std::numeric_limits<Real>::infinity();  ///< stops once high is less than this
+  int max_samples = 20000;
+};
+
+/// Least value over [from, to] of a function that changes by no more than `rate` per unit: intervals are halved, those
+/// that may hold less first (Piyavskii 1972).
+/// @param f  Real(Real); where it understates the function that has the rate, `low` still holds.
+template <class F>
+LeastValue leastValue(const F& f, Real from, Real to, Real rate, const LeastOptions& options) {
+  struct Interval {
+    Real low, middle, half;
+    bool operator<(const Interval& other) const { return low > other.low; }
+  };
+  LeastValue least{0, std::numeric_limits<Real>::infinity(), from};
+  std::priority_queue<Interval> queue;
+  int samples = 0;
+  const auto add = [&](Real middle, Real half) {
+    const Real value = f(middle);
+    ++samples;
+    if (value < least.high) {
+      least.high = value;
+      least.at = middle;
+    }
+    queue.push({value - rate * half, middle, half});
+  };
+  for (const Real end : {from, to}) {  // the ends themselves: what only touches there is seen
+    const Real value = f(end);
+    if (value >= least.high) continue;
+    least.high = value;
+    least.at = end;
+  }
+  add((from + to) / 2, (to - from) / 2);
+  for (;;) {
+    const Interval first = queue.top();
+    least.low = std::min(first.low, least.high);
+    const bool done = least.high - least.low <= options.tolerance || least.low > options.above;
+    if (done || least.high < options.below || samples >= options.max_samples) return least;
+    queue.pop();
+    add(first.middle - first.half / 2, first.half / 2);
+    add(first.middle + first.half / 2, first.half / 2);
+  }
+}
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "oracle/convex.h"
+#include "oracle/least_value.h"
+
+/// How near two bodies come that both move: each with its own constant twist in the world between given poses, or along
+/// any path.
+namespace sdf_ccd::test {
+
+using LongPath = std::function<LongPose(Real)>;
+
+class PairMotion {
+ public:
+  /// @param times  of the poses [s], increasing.
+  PairMotion(const Pieces& a, const Pieces& b, const std::vector<double>& times, const std::vector<Isometry3d>& X_WA,
+             const std::vector<Isometry3d>& X_WB)
+      : a_(&a), b_(&b) {
+    for (std::size_t k = 0; k + 1 < times.size(); ++k)
+      addScrews(times[k], times[k + 1], LongScrew(X_WA[k], X_WA[k + 1]), LongScrew(X_WB[k], X_WB[k + 1]));
+  }
+  PairMotion(const Pieces& a, const Pieces& b) : a_(&a), b_(&b) {}
+
+  /// A step from one time to another: where the bodies are at a share s of it, and speeds that no point of theirs
+  /// exceeds, per unit of s [m].
+  void add(Real start, Real end, const LongPath& a, const LongPath& b, Real rate) {
+    steps_.push_back({start, end, a, b, rate});
+  }
+
+  Real begin() const { return steps_.front().start; }
+  Real end() const { return steps_.back().end; }
+  LongPose poseA(Real time) const { return stepAt(time).a(share(time)); }
+  LongPose poseB(Real time) const { return stepAt(time).b(share(time)); }
+  Separation at(Real time) const { return separation(*a_, poseA(time), *b_, poseB(time)); }
+  Real distanceAt(Real time) const { return surfaceDistance(*a_, poseA(time), *b_, poseB(time)); }
+
+  /// Least separation over all of the motion [m], at a time [s].
+  LeastValue least(const LeastOptions& options) const {
+    LeastValue all{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), 0};
+    for (const Step& step : steps_) {
+      const auto value = [&](Real s) { return separation(*a_, step.a(s), *b_, step.b(s)).value; };
+      const LeastValue found = leastValue(value, 0, 1, step.rate, options);
+      all.low = std::min(all.low, found.low);
+      if (found.high >= all.high) continue;
+      all.high = found.high;
+      all.at = step.start + found.at * (step.end - step.start);
+    }
+    return all;
+  }
+
+ private:
+  struct Step {
+    Real start, end;
+    LongPath a, b;
+    Real rate;
+  };
+
+  void addScrews(Real start, Real end, const LongScrew& a, const LongScrew& b) {
+    add(
+        start, end, [a](Real s) { return a.pose(s); }, [b](Real s) { return b.pose(s); },
+        fastest(*a_, a) + fastest(*b_, b));
+  }
+
+  /// The speed is convex in the place, so it is greatest at a corner.
+  static Real fastest(const Pieces& pieces, const LongScrew& screw) {
+    Real fastest = 0;
+    for (const Convex& piece : pieces)
+      for (const Vector3l& p : piece.corners) fastest = std::max(fastest, screw.speed(p));
+    return fastest;
+  }
+
+  const Step& stepAt(Real time) const {
+    for (const Step& step : steps_)
+      if (time <= step.end) return step;
+    return steps_.back();
+  }
+  Real share(Real time) const {
+    const Step& step = stepAt(time);
+    return std::min(std::max((time - step.start) / (step.end - step.start), Real(0)), Real(1));
+  }
+
+  const Pieces *a_, *b_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace sdf_ccd::test
