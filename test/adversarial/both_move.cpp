@@ -33,6 +33,9 @@ std::vector<Duel> duels() {
   all.emplace_back(convexActor("arm", boxMesh(arm), reach), boxActor(arm, reach), coarse, options);
   all.emplace_back(convexActor("tetrahedron", tetrahedron(0.1)), boxActor({0.1, 0.06, 0.03}), fine, options);
   all.emplace_back(boxActor({0.15, 0.1, 0.002}), boxActor({0.02, 0.02, 0.15}), fine, options);
+  all.emplace_back(ballActor(0.05), boxActor(arm, reach), coarse, options);
+  options.chords = {1e-6, 3};  // too few: the error that is left counts
+  all.emplace_back(boxActor(arm, reach), convexActor("tetrahedron", tetrahedron(0.1)), coarse, options);
   return all;
 }
 

@@ -15,11 +15,7 @@ TriangleMesh block(const Vector3d& low, const Vector3d& high) {
 
 TriangleMesh joined(const std::vector<TriangleMesh>& meshes) {
   TriangleMesh all;
-  for (const TriangleMesh& mesh : meshes) {
-    const int offset = int(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const Vector3i& t : mesh.triangles) all.triangles.push_back(t + Vector3i::Constant(offset));
-  }
+  for (const TriangleMesh& mesh : meshes) all = merged(std::move(all), mesh);
   return all;
 }
 
@@ -179,7 +175,7 @@ Actor fins() {
 
 Actor voxel() {
   Actor one = convexActor("voxel", boxMesh(Vector3d::Constant(0.025)));
-  one.geometry[0].watertight_voxels = true;
+  one.geometry[0].watertight_voxels = one.is_field_only = true;
   return one;
 }
 
@@ -197,8 +193,31 @@ Actor voxels() {
   }
   mesh.triangles = kept;
   Actor body = actor("voxels", mesh, {convexOf(all[0]), convexOf(all[1]), convexOf(all[2])});
-  body.geometry[0].watertight_voxels = true;
+  body.geometry[0].watertight_voxels = body.is_field_only = true;
   return body;
+}
+
+Actor clusters() {
+  const double s = 0.025;
+  const TriangleMesh a = translated(boxMesh({s, s, s}), {-0.4, 0, 0}),
+                     b = translated(boxMesh({s, s, s}), {0.4, 0.1, 0});
+  Actor body = actor("clusters", merged(a, b), {convexOf(a), convexOf(b)});
+  body.geometry[0].watertight_voxels = body.is_field_only = true;
+  return body;
+}
+
+Actor beads() {
+  const TriangleMesh a = translated(icosphere(0.02, 0), {-0.4, 0, 0}),
+                     b = translated(icosphere(0.02, 0), {0.4, 0.1, 0});
+  return actor("beads", merged(a, b), {convexOf(a), convexOf(b)});
+}
+
+Actor ground() {
+  constexpr double kFar = 10.0;  // no body gets there
+  const TriangleMesh box = block({-kFar, -kFar, -kFar}, {kFar, kFar, 0.0});
+  return {"ground",        {{Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), Isometry3d::Identity(), "ground"}},
+          {convexOf(box)}, {},
+          false,           true};
 }
 
 Actor link() {
@@ -216,7 +235,7 @@ Actor rod() {
 std::vector<Actor> drawnActors() {
   return {voxel(),      link(),       bead(),        bowTie(),      openBin(),  wheel(),          rod(),
           voxels(),     hollowBox(),  nestedBoxes(), invertedBox(), membrane(), doubleMembrane(), thickBin(),
-          sharedEdge(), sharedFace(), overlapping(), fins()};
+          sharedEdge(), sharedFace(), overlapping(), fins(),        clusters(), beads(),          ground()};
 }
 
 }  // namespace sdf_ccd::test

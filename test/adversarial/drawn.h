@@ -22,6 +22,9 @@ Actor overlapping();     ///< two boxes of one mesh that overlap
 Actor fins();            ///< three squares that share an edge
 Actor voxel();           ///< 5 cm; only a field
 Actor voxels();          ///< three of them, in an L
+Actor clusters();        ///< two voxels, far from each other; only a field
+Actor beads();           ///< two beads of one mesh, far from each other
+Actor ground();          ///< a half-space
 Actor link();            ///< 40 cm, a mesh
 Actor bead();            ///< 2 cm
 Actor rod();

@@ -52,6 +52,10 @@ Actor boxActor(const Vector3d& half_size, const Vector3d& offset) {
       "box", {{Primitive(Box{half_size}), X_BG, "box"}}, {convexOf(translated(boxMesh(half_size), offset))}, {}, true};
 }
 
+Actor ballActor(double radius) {
+  return {"ball", {{Primitive(Sphere{radius}), Isometry3d::Identity(), "ball"}}, {ball(radius)}, {}, true};
+}
+
 Duel::Duel(Actor a, Actor b, const SceneOptions& scene, const MonitorOptions& monitor)
     : a_(std::move(a)), b_(std::move(b)) {
   const SceneDescription description{{described("a", a_), described("b", b_)}, {}};

@@ -20,7 +20,8 @@ struct Actor {
   Pieces solid;  ///< who is there meets it, however sides are told
   Pieces reach;  ///< who is outside of it does not meet it, however sides are told; empty: the same as `solid`
 
-  bool is_convex = false;  ///< `solid` is one convex solid: depths in it are known
+  bool is_convex = false;      ///< `solid` is one convex solid: depths in it are known
+  bool is_field_only = false;  ///< no shell can be made of it
 
   const Pieces& outer() const { return reach.empty() ? solid : reach; }
   double radius() const;  ///< of a ball about the frame's origin that holds it [m]
@@ -30,6 +31,7 @@ struct Actor {
 Actor convexActor(const std::string& kind, const TriangleMesh& mesh, const Vector3d& offset = Vector3d::Zero());
 /// A box with an exact field.
 Actor boxActor(const Vector3d& half_size, const Vector3d& offset = Vector3d::Zero());
+Actor ballActor(double radius);
 
 class Duel {
  public:

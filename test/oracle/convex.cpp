@@ -108,6 +108,16 @@ LongPose relative(const LongPose& X_WA, const LongPose& X_WB) {
   return {X_WA.R.transpose() * X_WB.R, X_WA.R.transpose() * (X_WB.p - X_WA.p)};
 }
 
+Separation ballSeparation(const Convex& a, const LongPose& X_WA, const Convex& b, const LongPose& X_WB) {
+  const Vector3l apart = X_WB * b.center - X_WA * a.center;
+  const Vector3l axis = apart.norm() > 0 ? Vector3l(apart.normalized()) : Vector3l(Vector3l::UnitX());
+  if (a.is_ball && b.is_ball) return {apart.norm() - a.radius - b.radius, axis};
+  const Convex &round = a.is_ball ? a : b, &flat = a.is_ball ? b : a;
+  const LongPose &X_round = a.is_ball ? X_WA : X_WB, &X_flat = a.is_ball ? X_WB : X_WA;
+  const Vector3l center = X_flat.R.transpose() * (X_round * round.center - X_flat.p);
+  return {signedDistance(flat, center) - round.radius, axis};
+}
+
 }  // namespace
 
 Convex convexOf(const TriangleMesh& mesh) {
@@ -139,7 +149,17 @@ Convex polygon(const std::vector<Vector3d>& corners) {
   return convex;
 }
 
+Convex ball(double radius) {
+  Convex convex;
+  for (int k = 0; k < 8; ++k)
+    convex.corners.push_back(Real(radius) * Vector3l(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+  convex.is_ball = true;
+  convex.radius = Real(radius);
+  return convex;
+}
+
 Separation separation(const Convex& a, const LongPose& X_WA, const Convex& b, const LongPose& X_WB) {
+  if (a.is_ball || b.is_ball) return ballSeparation(a, X_WA, b, X_WB);
   const LongPose X_AB = relative(X_WA, X_WB);
   thread_local std::vector<Vector3l> corners, edges;
   corners.clear();
@@ -183,6 +203,10 @@ Real surfaceDistance(const Pieces& a, const LongPose& X_WA, const Pieces& b, con
     const Vector3l center = X_AB * piece_b.center;
     for (const Convex& piece_a : a) {
       if ((center - piece_a.center).norm() - piece_a.radius - piece_b.radius >= nearest) continue;
+      if (piece_a.is_ball || piece_b.is_ball) {
+        nearest = std::min(nearest, std::abs(separation(piece_a, X_WA, piece_b, X_WB).value));
+        continue;
+      }
       for (const Triangle3l& t : piece_b.triangles) {
         const Triangle3l moved{X_AB * t[0], X_AB * t[1], X_AB * t[2]};
         for (const Triangle3l& u : piece_a.triangles) nearest = std::min(nearest, triangleDistance(u, moved));
@@ -193,6 +217,7 @@ Real surfaceDistance(const Pieces& a, const LongPose& X_WA, const Pieces& b, con
 }
 
 Real signedDistance(const Convex& solid, const Vector3l& p) {
+  if (solid.is_ball) return (p - solid.center).norm() - solid.radius;
   Real outside = -std::numeric_limits<Real>::infinity(), nearest = -outside;
   for (const Vector3l& n : solid.normals) {
     const Range range = along(solid.corners, n);

@@ -8,12 +8,13 @@
 /// Exact separation of convex polytopes, flat polygons included, in long double.
 namespace sdf_ccd::test {
 
-/// A convex polytope by its corners, or a flat convex polygon, which is a polytope without thickness.
+/// A convex polytope by its corners; or a flat convex polygon, which is a polytope without thickness; or a ball.
 struct Convex {
   std::vector<Vector3l> corners;
   std::vector<Vector3l> normals;  ///< unit; of its faces, one of each pair of opposite ones suffices
   std::vector<Vector3l> edges;    ///< unit directions, each once
   Vector3l center = Vector3l::Zero();
+  bool is_ball = false;                            ///< all of the ball below; the corners are those of a box around it
   Real radius = 0;                                 ///< of a ball about the center that holds it
   std::vector<std::array<Vector3l, 3>> triangles;  ///< its surface
 };
@@ -23,6 +24,8 @@ Convex convexOf(const TriangleMesh& mesh);
 
 /// Flat and convex; corners in order.
 Convex polygon(const std::vector<Vector3d>& corners);
+
+Convex ball(double radius);
 
 /// A solid, or a surface, made of convex pieces that may overlap.
 using Pieces = std::vector<Convex>;
