@@ -14,7 +14,10 @@ class SignedSurface {
   /// True if the sign of the distance can change only across a triangle.
   bool closed() const { return closed_; }
 
-  bool inside(const Vector3d& p) const { return tree_.windingNumber(p) > 0.5; }
+  /// A closed mesh's solid is where the winding number is not zero, so that parts may overlap and turn either way.
+  bool inside(const Vector3d& p) const {
+    return tree_.inside(p, closed_ ? TriangleTree::Inside::kNotZero : TriangleTree::Inside::kAboveHalf);
+  }
 
   double signedDistance(const Vector3d& p) const { return nearest(p).distance; }
 

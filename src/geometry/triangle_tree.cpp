@@ -13,6 +13,9 @@ using namespace lanes;
 /// Three nodes of every quad on the way down wait on the stack; the builder keeps the depth below 96.
 constexpr int kStackSize = 3 * 96 + 1;
 
+/// Nodes nearer than this times their radius are opened whatever the bound: the remainder's is made for that.
+constexpr double kLeastAccuracy = 2.0;
+
 struct Pending {
   double bound2;              ///< its squared distance is no less
   std::int32_t first, count;  ///< as in a quad
@@ -110,9 +113,9 @@ void TriangleTree::trianglesWithin(const Vector3d& p, double radius, std::vector
   }
 }
 
-double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
+TriangleTree::BoundedNumber TriangleTree::boundedNumber(const Vector3d& p, double accuracy, double bound) const {
   const double accuracy2 = accuracy * accuracy;
-  double sum = 0;
+  BoundedNumber sum;
   std::array<std::int32_t, kStackSize> stack;
   int size = 0;
   stack[size++] = 0;
@@ -121,8 +124,12 @@ double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
     const Vector3d r = expansions_[index].center - p;
     const double distance2 = r.squaredNorm();
     if (distance2 > accuracy2 * expansions_[index].radius2) {
-      sum += evaluate(expansions_[index], r, distance2);
-      continue;
+      const BoundedNumber part = evaluate(expansions_[index], r, distance2);
+      if (part.error <= bound) {
+        sum.value += part.value;
+        sum.error += part.error;
+        continue;
+      }
     }
     const Node& node = nodes_[index];
     if (node.count == 0) {
@@ -131,10 +138,34 @@ double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      sum += solidAngleFraction(triangles_[i].a(), triangles_[i].b(), triangles_[i].c(), p);
+      sum.value += solidAngleFraction(triangles_[i].a(), triangles_[i].b(), triangles_[i].c(), p);
     }
   }
   return sum;
+}
+
+double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
+  return boundedNumber(p, accuracy, kInfinity).value;
+}
+
+bool TriangleTree::inside(const Vector3d& p, Inside rule) const {
+  constexpr double kRounding = 1e-6;
+  BoundedNumber number;
+  for (const double bound : {kInfinity, 1e-3, 3e-5, 1e-6, 0.0}) {
+    number = boundedNumber(p, kLeastAccuracy, bound);
+    const double error = number.error + kRounding;
+    if (rule == Inside::kAboveHalf) {
+      if (std::abs(number.value - 0.5) > error) break;
+      continue;
+    }
+    // A whole number within the error of the sum: zero alone, or others alone, decide. None: p is on the surface.
+    const double size = std::abs(number.value);
+    const bool may_be_zero = size <= error;
+    const bool may_be_other = std::abs(size - std::max(std::round(size), 1.0)) <= error;
+    if (may_be_zero != may_be_other) return may_be_other;
+    if (!may_be_zero) break;
+  }
+  return (rule == Inside::kNotZero ? std::abs(number.value) : number.value) > 0.5;
 }
 
 }  // namespace sdf_ccd

@@ -166,6 +166,46 @@ TEST(TriangleTree, WindingNumberTellsInsideFromOutside) {
   }
 }
 
+TEST(TriangleTree, InsideIsRightWhereManyLayersNearlyCoincide) {
+  for (const double shift : {0.0, 1e-6, 1e-3}) {
+    std::mt19937_64 random(11);
+    TriangleMesh mesh = test::boxMesh({1, 1, 1});
+    for (int i = 1; i < 600; ++i) {
+      mesh = merged(mesh, test::translated(test::boxMesh({1, 1, 1}), randomPoint(random, shift)));
+    }
+    const TriangleTree tree(mesh);
+    double worst = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3d p = randomPoint(random, 4);
+      const double outside = p.cwiseAbs().maxCoeff() - 1;
+      if (std::abs(outside) < 0.01) continue;
+      EXPECT_EQ(tree.inside(p, TriangleTree::Inside::kNotZero), outside < 0) << p.transpose();
+      EXPECT_EQ(tree.inside(p, TriangleTree::Inside::kAboveHalf), outside < 0) << p.transpose();
+      worst = std::max(worst, std::abs(tree.windingNumber(p) - (outside < 0 ? 600 : 0)));
+    }
+    EXPECT_GT(worst, 0.5);  // the number alone would not do
+  }
+}
+
+TEST(TriangleTree, InsideAgreesWithTheFullWindingNumber) {
+  // Open, inside out, and with parts that overlap: above one half, and not zero.
+  const TriangleMesh closed = merged(test::torusMesh(1, 0.3, 60, 20), test::flipped(test::icosphere(0.9, 3)));
+  TriangleMesh open = closed;
+  open.triangles.resize(open.triangles.size() * 3 / 4);
+  const TriangleTree closed_tree(closed), open_tree(open);
+  std::mt19937_64 random(12);
+  int inside = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector3d p = randomPoint(random, 1.5);
+    const double whole = bruteWinding(closed, p), part = bruteWinding(open, p);
+    EXPECT_EQ(closed_tree.inside(p, TriangleTree::Inside::kNotZero), std::abs(whole) > 0.5);
+    inside += std::abs(whole) > 0.5;
+    if (std::abs(part - 0.5) < 1e-5) continue;
+    EXPECT_EQ(open_tree.inside(p, TriangleTree::Inside::kAboveHalf), part > 0.5);
+  }
+  EXPECT_GT(inside, 300);
+}
+
 TEST(TriangleTree, PointsOnTheMeshAreNotNan) {
   const TriangleMesh mesh = test::translated(test::icosphere(0.3, 2), {1, 2, 3});
   const TriangleTree tree(mesh);
