@@ -1,7 +1,6 @@
 #include "duplicate_triangles.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include "mesh_edges.h"
@@ -11,7 +10,6 @@ namespace {
 
 struct Key {
   Vector3i corners;  // ascending
-  bool even;         // even permutation of them
   std::int32_t triangle;
 };
 
@@ -20,14 +18,8 @@ std::vector<Key> sortedKeys(const TriangleMesh& mesh) {
   keys.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Vector3i t = mesh.triangles[i];
-    bool even = true;
-    for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)}) {
-      if (t[a] > t[b]) {
-        std::swap(t[a], t[b]);
-        even = !even;
-      }
-    }
-    keys.push_back({t, even, static_cast<std::int32_t>(i)});
+    std::sort(t.data(), t.data() + 3);
+    keys.push_back({t, static_cast<std::int32_t>(i)});
   }
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
     return std::tie(a.corners[0], a.corners[1], a.corners[2], a.triangle) <
@@ -36,7 +28,7 @@ std::vector<Key> sortedKeys(const TriangleMesh& mesh) {
   return keys;
 }
 
-/// Marks the triangles of `doubled` that lie in walls between solids.
+/// Marks the triangles of `doubled` that lie in walls.
 std::vector<char> walls(const TriangleMesh& mesh, const std::vector<char>& doubled) {
   const std::vector<EdgeUse> uses = edgeUses(mesh);
   TriangleSets patches(mesh.triangles.size());
@@ -68,33 +60,42 @@ std::vector<char> walls(const TriangleMesh& mesh, const std::vector<char>& doubl
 
 }  // namespace
 
-TriangleMesh withoutDuplicates(const TriangleMesh& mesh) {
+DistinctTriangles distinctTriangles(const TriangleMesh& mesh) {
   const std::vector<Key> keys = sortedKeys(mesh);
-  std::vector<char> keep(mesh.triangles.size(), 0), faces_both_ways(mesh.triangles.size(), 0);
-  bool any_pair = false;
+  std::vector<std::int32_t> copies(mesh.triangles.size(), -1);  // of the first of equal ones
+  bool any_copy = false;
   for (std::size_t i = 0; i < keys.size();) {
     const std::size_t first = i;
-    while (i < keys.size() && keys[i].corners == keys[first].corners) {
-      if (keys[i].even != keys[first].even) faces_both_ways[keys[first].triangle] = any_pair = true;
-      ++i;
-    }
-    keep[keys[first].triangle] = 1;
+    while (i < keys.size() && keys[i].corners == keys[first].corners) ++i;
+    copies[keys[first].triangle] = static_cast<std::int32_t>(i - first - 1);
+    any_copy = any_copy || i - first > 1;
   }
-  TriangleMesh result;
-  result.vertices = mesh.vertices;
+  DistinctTriangles result;
+  result.mesh.vertices = mesh.vertices;
+  if (!any_copy) {
+    result.mesh.triangles = mesh.triangles;
+    return result;
+  }
   std::vector<char> doubled;
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (!keep[i]) continue;
-    result.triangles.push_back(mesh.triangles[i]);
-    doubled.push_back(faces_both_ways[i]);
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    if (copies[i] < 0) continue;
+    result.mesh.triangles.push_back(mesh.triangles[i]);
+    doubled.push_back(copies[i] > 0);
+    result.copies += copies[i];
+    result.copied_area += copies[i] * areaNormal(mesh, static_cast<int>(i)).norm() / 2;
   }
-  if (!any_pair) return result;
-  const std::vector<char> wall = walls(result, doubled);
+  const std::vector<char> wall = walls(result.mesh, doubled);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < wall.size(); ++i) {
-    if (!wall[i]) result.triangles[kept++] = result.triangles[i];
+    if (wall[i]) {
+      result.walls.push_back(result.mesh.triangles[i]);
+      --result.copies;
+      result.copied_area -= areaNormal(result.mesh, static_cast<int>(i)).norm() / 2;
+    } else {
+      result.mesh.triangles[kept++] = result.mesh.triangles[i];
+    }
   }
-  result.triangles.resize(kept);
+  result.mesh.triangles.resize(kept);
   return result;
 }
 

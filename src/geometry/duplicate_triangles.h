@@ -1,14 +1,24 @@
 #pragma once
 
+#include <vector>
+
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {
 
-/// A welded mesh without triangles that are there twice.
+/// The triangles of a welded mesh, each once.
+struct DistinctTriangles {
+  TriangleMesh mesh;            ///< without `walls`
+  std::vector<Vector3i> walls;  ///< corners in `mesh`, one triangle of each pair
+  int copies = 0;               ///< triangles left out because the same corners are there already, either way round
+  double copied_area = 0.0;     ///< of those [m²]
+};
+
+/// Of triangles with the same corners one is kept: a face that is drawn from both sides, or twice, is one face.
 ///
-/// Of equal triangles one is kept. So is one of two that face each other (a face drawn from both sides), unless
-/// they are a wall between two solids that share it: a patch of such pairs whose every border edge also carries
-/// other triangles. That wall is inside the union and both its sides go.
-TriangleMesh withoutDuplicates(const TriangleMesh& mesh);
+/// Walls are the exception: patches of such faces whose every border edge carries at least two other triangles. Without
+/// them the rest may be the skin of a solid and the wall between two of its parts, or a sheet across an opening; with
+/// one of their sides the rest would be open. What they are is decided when the rest is oriented (see hiddenWalls()).
+DistinctTriangles distinctTriangles(const TriangleMesh& mesh);
 
 }  // namespace sdf_ccd

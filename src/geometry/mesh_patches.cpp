@@ -101,12 +101,13 @@ std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
   const std::vector<char> closed = balanced(uses, patch_label);
 
   std::vector<Patch> patches;
-  std::vector<std::int32_t> place(label.size(), -1);
+  std::vector<std::int32_t> index_of_union(label.size(), -1), index_of_set(label.size(), -1);
   for (std::size_t i = 0; i < label.size(); ++i) {
-    std::int32_t& index = place[patch_label[i]];
+    const bool is_closed = closed[patch_label[i]] != 0;
+    std::int32_t& index = is_closed ? index_of_union[patch_label[i]] : index_of_set[label[i]];
     if (index < 0) {
       index = static_cast<std::int32_t>(patches.size());
-      patches.push_back({{}, closed[patch_label[i]] != 0});
+      patches.push_back({{}, is_closed});
     }
     patches[index].triangles.push_back(static_cast<std::int32_t>(i));
   }

@@ -15,8 +15,8 @@ struct Patch {
 
 /// Turns triangles until neighbours over two-triangle edges agree wherever that is possible; of each connected
 /// set the larger part, by area, stays as it is.
-/// @return disjoint patches that cover the mesh: sets that are closed by themselves, and of the rest, what is
-/// connected over edges of any number of triangles.
+/// @return disjoint patches that cover the mesh: sets that are closed by themselves; of the rest, what is connected
+/// over edges of any number of triangles and closed together; and every other set by itself.
 std::vector<Patch> orientConsistently(TriangleMesh& mesh);
 
 /// The patch's triangles alone.

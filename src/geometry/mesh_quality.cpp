@@ -1,62 +1,19 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 
 #include <cmath>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "closed_components.h"
 #include "duplicate_triangles.h"
+#include "hidden_walls.h"
 #include "mesh_patches.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "open_components.h"
 
 namespace sdf_ccd {
 namespace {
-
-/// A patch that may be inside out, with what is needed to find out.
-struct Part {
-  TriangleMesh mesh;
-  AlignedBox3d box;
-  double volume;
-  std::optional<TriangleTree> tree;  // built when first asked
-};
-
-bool liesInside(const Part& inner, Part& outer) {
-  if (!outer.box.contains(inner.box)) return false;
-  if (!outer.tree) outer.tree.emplace(outer.mesh);
-  constexpr std::size_t kSamples = 64;
-  const std::size_t step = std::max<std::size_t>(1, inner.mesh.vertices.size() / kSamples);
-  for (std::size_t i = 0; i < inner.mesh.vertices.size(); i += step) {
-    // The outer part may itself still be inside out.
-    if (std::abs(outer.tree->windingNumber(inner.mesh.vertices[i])) <= 0.5) return false;
-  }
-  return true;
-}
-
-bool isCavity(std::vector<Part>& parts, std::size_t index) {
-  for (std::size_t other = 0; other < parts.size(); ++other) {
-    if (other != index && liesInside(parts[index], parts[other])) return true;
-  }
-  return false;
-}
-
-/// Whether an open patch is the mesh's outer skin inside out: it reaches at least four sides of the mesh's box, and
-/// of the volumes that its triangles span with the box's centre, those of triangles that face the centre outweigh
-/// the others three to one. Smaller patches stay as they are: the wall of a hole faces the centre rightly.
-bool isInvertedSkin(const Part& part, const AlignedBox3d& box) {
-  const Vector3d margin = 0.01 * box.sizes();
-  const int sides = static_cast<int>(((part.box.min() - box.min()).array() <= margin.array()).count() +
-                                     ((box.max() - part.box.max()).array() <= margin.array()).count());
-  if (sides < 4) return false;
-  double sum = 0, absolute = 0;
-  for (std::size_t i = 0; i < part.mesh.triangles.size(); ++i) {
-    const Vector3d& corner = part.mesh.vertices[part.mesh.triangles[i][0]];
-    const double volume = (corner - box.center()).dot(areaNormal(part.mesh, static_cast<int>(i)));
-    sum += volume;
-    absolute += std::abs(volume);
-  }
-  return sum < -0.5 * absolute;
-}
 
 /// Counts what edges tell before anything is turned.
 void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
@@ -73,6 +30,59 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
   quality.components = static_cast<int>(roots.size());
 }
 
+/// The mesh moved and scaled so that it is about 1 m large and near the origin: there, tolerances hold whatever its
+/// units, and no digits are lost to its distance.
+TriangleMesh normalized(TriangleMesh mesh) {
+  const AlignedBox3d box = boundingBox(mesh);
+  int exponent = 0;
+  std::frexp(box.sizes().maxCoeff(), &exponent);
+  for (Vector3d& v : mesh.vertices) v = std::ldexp(1.0, -exponent) * (v - box.center());
+  return mesh;
+}
+
+/// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `walls`.
+void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
+  MeshQuality& quality = result.quality;
+  const std::vector<Patch> patches = orientConsistently(result.mesh);
+  TriangleMesh likeness = normalized(result.mesh);
+  bool doubtful = false;
+  const std::vector<ClosedComponent> closed = inspectClosed(likeness, patches);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    quality.inverted_components += closed[i].turn;
+    quality.negative_triangles += closed[i].negative_triangles;
+    doubtful = doubtful || closed[i].doubtful;
+    if (closed[i].turn) {
+      flip(likeness, patches[i]);
+      flip(result.mesh, patches[i]);
+    }
+  }
+  TriangleMesh hiding = likeness;
+  hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
+  const std::vector<char> from_behind = seenFromBehind(hiding, patches);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    quality.inverted_sheets += from_behind[i];
+    if (from_behind[i] != 0) {
+      flip(likeness, patches[i]);
+      flip(result.mesh, patches[i]);
+    }
+  }
+  const std::vector<char> hidden = hiddenWalls(likeness, patches, walls);
+  quality.sign_trusted = isClosed(result.mesh) && !doubtful;
+
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (hidden[i] == 0) {
+      walls[kept++] = walls[i];
+      continue;
+    }
+    const Vector3i& t = walls[i];
+    const Vector3d &a = result.mesh.vertices[t[0]], &b = result.mesh.vertices[t[1]], &c = result.mesh.vertices[t[2]];
+    quality.hidden_triangles += 2;
+    quality.hidden_area += (b - a).cross(c - a).norm();
+  }
+  walls.resize(kept);
+}
+
 }  // namespace
 
 OrientedMesh orientOutward(const TriangleMesh& mesh) {
@@ -81,30 +91,27 @@ OrientedMesh orientOutward(const TriangleMesh& mesh) {
   MeshQuality& quality = result.quality;
   const TriangleMesh weld = welded(mesh);
   if (weld.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
-  result.mesh = withoutDuplicates(weld);
   quality.degenerate_triangles = static_cast<int>(mesh.triangles.size() - weld.triangles.size());
+  DistinctTriangles distinct = distinctTriangles(weld);
+  quality.duplicate_triangles = distinct.copies;
+  quality.duplicate_area = distinct.copied_area;
+  std::vector<Vector3i>& walls = distinct.walls;
+
+  result.mesh = distinct.mesh;
+  result.mesh.triangles.insert(result.mesh.triangles.end(), walls.begin(), walls.end());
   for (std::size_t i = 0; i < result.mesh.triangles.size(); ++i) {
     quality.degenerate_triangles += areaNormal(result.mesh, static_cast<int>(i)).squaredNorm() == 0;
   }
   inspectEdges(result.mesh, quality);
-
-  const std::vector<Patch> patches = orientConsistently(result.mesh);
   quality.box = boundingBox(result.mesh);
-  quality.sign_trusted = true;
-  std::vector<Part> parts;
-  for (const Patch& patch : patches) {
-    Part part{extract(result.mesh, patch), {}, 0, std::nullopt};
-    part.box = boundingBox(part.mesh);
-    part.volume = signedVolume(part.mesh);
-    parts.push_back(std::move(part));
-    quality.sign_trusted = quality.sign_trusted && patch.closed;
+
+  result.mesh = std::move(distinct.mesh);
+  turnOutward(walls, result);
+  for (const Vector3i& wall : walls) {
+    result.mesh.triangles.push_back(wall);
+    result.mesh.triangles.emplace_back(wall[0], wall[2], wall[1]);
   }
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (patches[i].closed ? parts[i].volume < 0 && !isCavity(parts, i) : isInvertedSkin(parts[i], quality.box)) {
-      flip(result.mesh, patches[i]);
-      quality.inverted_components += patches[i].closed;
-    }
-  }
+  quality.wall_triangles = 2 * static_cast<int>(walls.size());
   quality.triangles = static_cast<int>(result.mesh.triangles.size());
   quality.volume = signedVolume(result.mesh);
   quality.area = surfaceArea(result.mesh);
@@ -116,6 +123,7 @@ std::string summary(const MeshQuality& quality) {
   text.precision(3);
   const auto count = [&](int number, const char* one, const char* many) {
     if (number > 0) text << ", " << number << " " << (number == 1 ? one : many);
+    return number > 0;
   };
   text << quality.triangles << (quality.triangles == 1 ? " triangle" : " triangles");
   if (quality.components > 1) text << ", " << quality.components << " components";
@@ -124,8 +132,34 @@ std::string summary(const MeshQuality& quality) {
   count(quality.boundary_edges, "boundary edge", "boundary edges");
   count(quality.non_manifold_edges, "non-manifold edge", "non-manifold edges");
   count(quality.misoriented_edges, "misoriented edge", "misoriented edges");
+  if (count(quality.duplicate_triangles, "duplicate triangle", "duplicate triangles")) {
+    text << " left out (" << quality.duplicate_area << " m^2)";
+  }
+  if (quality.hidden_triangles > 0) {
+    text << ", " << quality.hidden_triangles << " triangles of walls inside left out (" << quality.hidden_area
+         << " m^2)";
+  }
+  count(quality.wall_triangles, "", "triangles of walls without thickness");
   count(quality.inverted_components, "inverted component turned round", "inverted components turned round");
+  count(quality.inverted_sheets, "open part turned round", "open parts turned round");
+  count(quality.negative_triangles, "triangle inside out by self-intersection",
+        "triangles inside out by self-intersection");
   text << ", volume " << quality.volume << " m^3, sign " << (quality.sign_trusted ? "trusted" : "doubtful");
+  return text.str();
+}
+
+std::string warningOf(const MeshQuality& quality) {
+  std::ostringstream text;
+  const auto say = [&](int number, const char* one, const char* many) {
+    if (number > 0) text << (text.tellp() > 0 ? "; " : "") << number << " " << (number == 1 ? one : many);
+  };
+  if (!quality.sign_trusted) text << "inside and outside are not certain";
+  say(quality.inverted_components, "component was inside out and is turned round",
+      "components were inside out and are turned round");
+  say(quality.inverted_sheets, "open part was inside out and is turned round",
+      "open parts were inside out and are turned round");
+  say(quality.negative_triangles, "triangle of a part that crosses itself is inside out",
+      "triangles of parts that cross themselves are inside out");
   return text.str();
 }
 

@@ -15,10 +15,19 @@ struct MeshQuality {
   int non_manifold_edges = 0;    ///< used by more than two
   int misoriented_edges = 0;     ///< neighbours that disagree about the outside
   int inverted_components = 0;   ///< closed components that were inside out (turned round by orientOutward())
+  int inverted_sheets = 0;       ///< the same of parts that are not closed: their back saw the outside
+  int negative_triangles = 0;    ///< of closed components that cross themselves: inside out still, as they bound lobes
+                                 ///< whose winding number is below zero
+  int duplicate_triangles = 0;   ///< left out, as another one has the same corners
+  double duplicate_area = 0.0;   ///< of those [m²]
+  int hidden_triangles = 0;      ///< left out: both sides of walls between solids, inside them
+  double hidden_area = 0.0;      ///< of those, both sides [m²]
+  int wall_triangles = 0;        ///< kept: both sides of walls without thickness, the outside on both
   double volume = 0.0;           ///< signed, of the oriented mesh [m³]
   double area = 0.0;             ///< [m²]
   AlignedBox3d box;              ///< [m]
-  bool sign_trusted = false;     ///< closed after orientation: inside and outside are beyond doubt
+  bool sign_trusted = false;  ///< closed after orientation, and no winding numbers cancel each other where two solids
+                              ///< are: inside and outside are beyond doubt
 };
 
 struct OrientedMesh {
@@ -26,17 +35,26 @@ struct OrientedMesh {
   MeshQuality quality;
 };
 
-/// Turns triangles so that neighbours agree and every closed component encloses positive volume, except cavities:
-/// components that lie inside another one and already point inwards. Vertices at the same place are welded.
-/// Duplicate triangles are dropped, and so are walls that two solids share (a patch drawn from both sides).
+/// Turns triangles so that neighbours agree and that a place is inside the solid where the winding number is not zero.
+/// Vertices at the same place are welded.
 ///
-/// Of parts that are not closed, only an outer skin that is clearly inside out is turned: it makes up at least four
-/// sides of the mesh's box, and the volumes its triangles span with the box's centre are mostly negative, three to
-/// one. The quality report describes what was found on the way.
+/// A closed component that no other closed one holds is turned to enclose positive volume; one that lies in others
+/// stays as it is: a cavity if it faces its inside, else a solid within a solid. If all that nothing holds are inside
+/// out, so is the file, and everything is turned (cavities that come of it are kept, but the sign is not trusted).
+/// Parts that are not closed are turned if what can see them sees their back.
+///
+/// Triangles with the same corners are one, except walls drawn from both sides whose border lies on other triangles:
+/// both sides are left out if they are certainly inside a solid, and kept if not. Then they face each other, add
+/// nothing to any winding number, and distances to them are positive on both sides. The quality report describes what
+/// was found on the way.
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 OrientedMesh orientOutward(const TriangleMesh& mesh);
 
 /// One line for people: "300 triangles, closed, volume 1.2e-3 m^3, sign trusted".
 std::string summary(const MeshQuality& quality);
+
+/// What one must know before relying on the mesh's inside, in a line: that the sign is not trusted, that parts were
+/// turned. Empty if there is nothing.
+std::string warningOf(const MeshQuality& quality);
 
 }  // namespace sdf_ccd

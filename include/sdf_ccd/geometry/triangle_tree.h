@@ -44,6 +44,10 @@ class TriangleTree {
   /// no order.
   void trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const;
 
+  /// The first triangle, by its index in the mesh, that the ray from p along the unit vector `direction` meets farther
+  /// than `min_distance` from p; -1 if there is none. To rounding: a ray along an edge may meet either side or none.
+  int firstHit(const Vector3d& p, const Vector3d& direction, double min_distance) const;
+
   /// Visits triangles for which mayMatter(center, radius) [m] says that a ball that holds them may matter: balls of
   /// ever fewer triangles are asked for, at last of one.
   template <typename MayMatter, typename Visit>

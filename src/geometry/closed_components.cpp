@@ -1,0 +1,229 @@
+#include "closed_components.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include <tbb/parallel_for.h>
+
+#include "sdf_ccd/geometry/triangle_tree.h"
+#include "triangle_cut.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// A patch by itself.
+struct Component {
+  std::unique_ptr<TriangleTree> tree;  ///< none where it is open, or holds nothing
+  AlignedBox3d box;
+  bool inward = false;                   ///< most of what is seen of it from outside is its back
+  std::vector<std::int32_t> facing_out;  ///< triangles of the mesh behind which its winding number is above zero,
+  std::vector<std::int32_t> facing_in;   ///< and others
+  Vector3d witness = Vector3d::Zero();   ///< a point next to its surface
+  double own_number = 0.0;               ///< its winding number there
+};
+
+Component measure(const TriangleMesh& mesh, const Patch& patch) {
+  Component result;
+  const TriangleMesh part = extract(mesh, patch);
+  result.box = boundingBox(part);
+  if (!patch.closed) return result;
+  const double volume = signedVolume(part), size = result.box.sizes().maxCoeff();
+  result.inward = volume < 0.0;
+  if (!(std::abs(volume) > 1e-7 * size * surfaceArea(part)) || !(size > 1e-9)) return result;  // flat, or a mere point
+  result.tree = std::make_unique<TriangleTree>(part);
+
+  const std::size_t count = part.triangles.size();
+  std::vector<Vector3d> behind(count);
+  std::vector<double> numbers(count, 0.0);
+  std::vector<char> known(count, 0);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const Corners c = cornersOf(part, static_cast<int>(i));
+    const Vector3d area_normal = areaNormal(part, static_cast<int>(i));
+    const double longest = longestEdge(c);
+    if (!(area_normal.norm() > 1e-6 * longest * longest)) return;
+    behind[i] = (c[0] + c[1] + c[2]) / 3.0 - 1e-6 * area_normal / longest;
+    numbers[i] = result.tree->windingNumber(behind[i]);
+    known[i] = 1;
+  });
+
+  double area_out = 0.0, area_in = 0.0, farthest = -TriangleTree::kInfinity;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!known[i]) continue;
+    (numbers[i] > 0.5 ? result.facing_out : result.facing_in).push_back(patch.triangles[i]);
+    // Seen from where the number is zero: in front of these, behind those.
+    const long number = std::lround(numbers[i]);
+    const double area = areaNormal(part, static_cast<int>(i)).norm();
+    if (number == 1) area_out += area;
+    if (number == 0) area_in += area;
+    if (behind[i].x() > farthest) {
+      farthest = behind[i].x();
+      result.witness = behind[i];
+      result.own_number = numbers[i];
+    }
+  }
+  if (area_out != area_in) result.inward = area_in > area_out;
+  return result;
+}
+
+/// Decides on the patches of a mesh together.
+class Inspection {
+ public:
+  Inspection(const TriangleMesh& mesh, const std::vector<Patch>& patches)
+      : mesh_(mesh), patches_(patches), eps_(cutTolerance(mesh)) {
+    components_.resize(patches.size());
+    label_.assign(mesh.triangles.size(), -1);
+    tbb::parallel_for(std::size_t{0}, patches.size(),
+                      [&](std::size_t i) { components_[i] = measure(mesh, patches[i]); });
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (!components_[i].tree) continue;
+      closed_.push_back(static_cast<std::int32_t>(i));
+      for (const std::int32_t triangle : patches[i].triangles) label_[triangle] = closed_.back();
+    }
+  }
+
+  std::vector<ClosedComponent> run() {
+    std::vector<ClosedComponent> result(patches_.size());
+    const auto inward = std::count_if(closed_.begin(), closed_.end(), [&](auto i) { return components_[i].inward; });
+    if (inward == static_cast<std::ptrdiff_t>(closed_.size())) {
+      for (const std::int32_t i : closed_) result[i].turn = true;
+    } else if (inward > 0) {
+      decide(result);
+    }
+    for (const std::int32_t i : closed_) findLobes(i, result);
+    return result;
+  }
+
+ private:
+  void decide(std::vector<ClosedComponent>& result) {
+    uniteClosed();
+    const bool all_turned = isInsideOut();
+    if (all_turned) {
+      for (const std::int32_t i : closed_) result[i].turn = true;
+    }
+    std::vector<std::int32_t> inward;
+    for (const std::int32_t i : closed_) {
+      if (components_[i].inward != result[i].turn) inward.push_back(i);
+    }
+    // What holds others comes before them.
+    std::stable_sort(inward.begin(), inward.end(), [&](std::int32_t a, std::int32_t b) {
+      return components_[a].box.diagonal().squaredNorm() > components_[b].box.diagonal().squaredNorm();
+    });
+    std::vector<char> is_cavity(patches_.size(), 0);
+    for (const std::int32_t i : inward) {
+      const std::set<std::int32_t> touched = touchedBy(patches_[i].triangles);
+      long around = 0;
+      for (const std::int32_t holder : candidates(i)) {
+        if (touched.count(holder) != 0) continue;
+        const long number = std::lround(components_[holder].tree->windingNumber(components_[i].witness));
+        around += result[holder].turn ? -number : number;
+      }
+      if (around == 0) {
+        result[i].turn = !result[i].turn;
+        continue;
+      }
+      is_cavity[i] = 1;
+      result[i].doubtful = all_turned;
+      for (const std::int32_t other : touched) result[i].doubtful = result[i].doubtful || is_cavity[other] != 0;
+    }
+  }
+
+  void uniteClosed() {
+    if (tree_) return;
+    Patch all;
+    for (std::size_t i = 0; i < label_.size(); ++i) {
+      if (label_[i] >= 0) all.triangles.push_back(static_cast<std::int32_t>(i));
+    }
+    tree_ = std::make_unique<TriangleTree>(extract(mesh_, all));
+    triangles_ = std::move(all.triangles);
+  }
+
+  /// Whether all patches that lie in no other one, as far as their witnesses tell, face their insides.
+  bool isInsideOut() const {
+    bool any = false;
+    for (const std::int32_t i : closed_) {
+      const Component& component = components_[i];
+      if (std::abs(tree_->windingNumber(component.witness) - component.own_number) > 0.5) continue;
+      if (!component.inward) return false;
+      any = true;
+    }
+    return any;
+  }
+
+  /// Patches whose box holds this one's and that a ray from its witness along x may cross, in order.
+  std::set<std::int32_t> candidates(std::int32_t inner) const {
+    const Component& component = components_[inner];
+    std::set<std::int32_t> found;
+    tree_->forEachTriangle(
+        [&](const Vector3d& center, double radius) {
+          const Vector3d r = center - component.witness;
+          return r.x() >= -radius && r.y() * r.y() + r.z() * r.z() <= radius * radius * (1.0 + 1e-9);
+        },
+        [&](int triangle) {
+          const std::int32_t other = label_[triangles_[triangle]];
+          if (other != inner && components_[other].box.contains(component.box)) found.insert(other);
+        });
+    return found;
+  }
+
+  /// Other closed patches that these triangles of one cut or touch.
+  std::set<std::int32_t> touchedBy(const std::vector<std::int32_t>& triangles) const {
+    std::set<std::int32_t> found;
+    std::vector<int> near;
+    for (const std::int32_t triangle : triangles) {
+      const Corners c = cornersOf(mesh_, triangle);
+      const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
+      const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
+      tree_->trianglesWithin(center, radius + eps_, near);
+      for (const int i : near) {
+        const std::int32_t other = triangles_[i];
+        if (label_[other] == label_[triangle] || found.count(label_[other]) != 0) continue;
+        if (cut(mesh_, triangle, other, eps_)) found.insert(label_[other]);
+      }
+    }
+    return found;
+  }
+
+  void findLobes(std::int32_t i, std::vector<ClosedComponent>& result) {
+    const Component& component = components_[i];
+    const std::vector<std::int32_t>& lobe = component.inward ? component.facing_out : component.facing_in;
+    result[i].negative_triangles = static_cast<int>(lobe.size());
+    if (lobe.empty() || closed_.size() < 2) return;
+    uniteClosed();
+    result[i].doubtful = result[i].doubtful || !touchedBy(lobe).empty();
+    for (const std::int32_t other : closed_) {
+      if (result[i].doubtful) return;
+      if (other == i) continue;
+      const double number = component.tree->windingNumber(components_[other].witness);
+      result[i].doubtful = (component.inward ? -number : number) < -0.5 || holds(other, lobe);
+    }
+  }
+
+  /// Whether a triangle lies in the other patch, which none of them cuts.
+  bool holds(std::int32_t patch, const std::vector<std::int32_t>& triangles) const {
+    const Component& component = components_[patch];
+    return std::any_of(triangles.begin(), triangles.end(), [&](std::int32_t triangle) {
+      const Corners c = cornersOf(mesh_, triangle);
+      const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
+      return component.box.contains(center) && component.tree->inside(center, TriangleTree::Inside::kNotZero);
+    });
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<Patch>& patches_;
+  double eps_;                           ///< see cutTolerance()
+  std::vector<Component> components_;    ///< per patch
+  std::vector<std::int32_t> label_;      ///< of each triangle: its closed patch, or -1
+  std::vector<std::int32_t> closed_;     ///< patches
+  std::unique_ptr<TriangleTree> tree_;   ///< of all closed patches
+  std::vector<std::int32_t> triangles_;  ///< of the mesh, in the order of that tree's
+};
+
+}  // namespace
+
+std::vector<ClosedComponent> inspectClosed(const TriangleMesh& mesh, const std::vector<Patch>& patches) {
+  return Inspection(mesh, patches).run();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,108 @@
+#include "triangle_cut.h"
+
+#include <algorithm>
+
+#include "sdf_ccd/geometry/triangle.h"
+
+namespace sdf_ccd {
+namespace {
+
+double distanceToTriangle(const Corners& t, const Vector3d& p) {
+  return (closestOnTriangle(t[0], t[1], t[2], p) - p).norm();
+}
+
+/// Squared distance of two segments (Ericson 2005, §5.1.9, by the four ends and the crossing of the lines).
+double squaredDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+  double best =
+      std::min({(closestOnSegment(a, b, c) - c).squaredNorm(), (closestOnSegment(a, b, d) - d).squaredNorm(),
+                (closestOnSegment(c, d, a) - a).squaredNorm(), (closestOnSegment(c, d, b) - b).squaredNorm()});
+  const Vector3d u = b - a, v = d - c, w = a - c;
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), determinant = uu * vv - uv * uv;
+  if (determinant > 0.0) {
+    const double s = (uv * v.dot(w) - vv * u.dot(w)) / determinant, t = (uu * v.dot(w) - uv * u.dot(w)) / determinant;
+    if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) best = std::min(best, (w + s * u - t * v).squaredNorm());
+  }
+  return best;
+}
+
+/// Whether the segment meets the triangle, to a distance `eps`.
+bool meets(const Corners& t, const Vector3d& a, const Vector3d& b, double eps) {
+  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  const double at_a = normal.dot(a - t[0]), at_b = normal.dot(b - t[0]);
+  if (std::min(at_a, at_b) > eps || std::max(at_a, at_b) < -eps) return false;
+  if (distanceToTriangle(t, a) <= eps || distanceToTriangle(t, b) <= eps) return true;
+  if (at_a != at_b) {
+    const double s = std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
+    if (distanceToTriangle(t, a + s * (b - a)) <= eps) return true;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (squaredDistance(a, b, t[k], t[(k + 1) % 3]) <= eps * eps) return true;
+  }
+  return false;
+}
+
+bool onOneSide(const Corners& t, const Corners& of, double eps) {
+  const Vector3d normal = (of[1] - of[0]).cross(of[2] - of[0]).normalized();
+  double low = eps, high = -eps;
+  for (const Vector3d& corner : t) {
+    const double s = normal.dot(corner - of[0]);
+    low = std::min(low, s);
+    high = std::max(high, s);
+  }
+  return low >= eps || high <= -eps;
+}
+
+/// Whether two triangles with a common edge lie on the same side of it, nearly flat on each other.
+bool folded(const TriangleMesh& mesh, const Vector3i& i, const Vector3i& j) {
+  int apex_i = 0, apex_j = 0;
+  for (int k = 0; k < 3; ++k) {
+    if ((j.array() != i[k]).all()) apex_i = k;
+    if ((i.array() != j[k]).all()) apex_j = k;
+  }
+  const Vector3d& base = mesh.vertices[i[(apex_i + 1) % 3]];
+  const Vector3d edge = mesh.vertices[i[(apex_i + 2) % 3]] - base;
+  const auto height = [&](int apex) { return edge.cross(mesh.vertices[apex] - base).normalized(); };
+  return height(i[apex_i]).dot(height(j[apex_j])) > 0.999999;
+}
+
+}  // namespace
+
+Corners cornersOf(const TriangleMesh& mesh, int triangle) {
+  const Vector3i& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+double longestEdge(const Corners& c) {
+  return std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
+}
+
+double cutTolerance(const TriangleMesh& mesh) {
+  const AlignedBox3d box = boundingBox(mesh);
+  const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  return 1e-12 * std::max(box.sizes().maxCoeff(), 1e-6 * reach);
+}
+
+bool cut(const TriangleMesh& mesh, int first, int second, double eps) {
+  const Vector3i &i = mesh.triangles[first], &j = mesh.triangles[second];
+  const Corners a = cornersOf(mesh, first), b = cornersOf(mesh, second);
+  int shared = 0, alone_i = 0, alone_j = 0;  // corners; and, of triangles that share one, which
+  for (int k = 0; k < 3; ++k) {
+    const bool in_j = i[k] == j[0] || i[k] == j[1] || i[k] == j[2];
+    shared += in_j;
+    if (in_j) alone_i = k;
+    if (j[k] == i[0] || j[k] == i[1] || j[k] == i[2]) alone_j = k;
+  }
+  if (shared == 3) return true;
+  if (shared == 2) return folded(mesh, i, j);
+  if (shared == 1) {
+    return meets(b, a[(alone_i + 1) % 3], a[(alone_i + 2) % 3], eps) ||
+           meets(a, b[(alone_j + 1) % 3], b[(alone_j + 2) % 3], eps);
+  }
+  if (onOneSide(a, b, eps) || onOneSide(b, a, eps)) return false;
+  for (int k = 0; k < 3; ++k) {
+    if (meets(b, a[k], a[(k + 1) % 3], eps) || meets(a, b[k], b[(k + 1) % 3], eps)) return true;
+  }
+  return false;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Where the ray enters the box, or infinity if it does not before `last`.
+double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse, double last) {
+  double enter = 0.0, exit = last;
+  for (int k = 0; k < 3; ++k) {
+    const double a = (box.min()[k] - p[k]) * inverse[k], b = (box.max()[k] - p[k]) * inverse[k];
+    // A ray in the plane of a side gives NaN, with which comparisons leave both ends as they are.
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    if (low > enter) enter = low;
+    if (high < exit) exit = high;
+  }
+  return enter <= exit * (1.0 + 1e-12) ? enter : TriangleTree::kInfinity;
+}
+
+/// Distance along the ray to the triangle, infinity if it is missed (Möller & Trumbore 1997).
+double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& direction) {
+  const Vector3d ab = t.b() - t.a(), ac = t.c() - t.a(), across = direction.cross(ac);
+  const double determinant = ab.dot(across);
+  if (determinant == 0.0) return TriangleTree::kInfinity;
+  const Vector3d from = p - t.a(), along = from.cross(ab);
+  const double u = from.dot(across) / determinant, v = direction.dot(along) / determinant;
+  constexpr double kLeast = -1e-12;
+  return u >= kLeast && v >= kLeast && u + v <= 1.0 - kLeast ? ac.dot(along) / determinant : TriangleTree::kInfinity;
+}
+
+}  // namespace
+
+int TriangleTree::firstHit(const Vector3d& p, const Vector3d& direction, double min_distance) const {
+  struct Pending {
+    double enter;
+    std::int32_t node;
+  };
+  const Vector3d inverse = direction.cwiseInverse();
+  double best = kInfinity;
+  int found = -1;
+  std::array<Pending, 128> stack;  // the builder keeps the depth below 96
+  int size = 0;
+  stack[size++] = {entry(nodes_[0].box, p, inverse, best), 0};
+  while (size > 0) {
+    const Pending pending = stack[--size];
+    if (!(pending.enter < best)) continue;
+    const Node& node = nodes_[pending.node];
+    if (node.count == 0) {
+      Pending near = {entry(nodes_[node.first].box, p, inverse, best), node.first};
+      Pending far = {entry(nodes_[node.first + 1].box, p, inverse, best), node.first + 1};
+      if (far.enter < near.enter) std::swap(near, far);
+      stack[size++] = far;
+      stack[size++] = near;
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      const double distance = hit(triangles_[i], p, direction);
+      if (distance > min_distance && distance < best) {
+        best = distance;
+        found = ids_[i];
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,291 @@
+// Which way parts are turned: against solids that are known by construction.
+#include <gtest/gtest.h>
+
+#include "oracle/drawn_meshes.h"
+#include "oracle/random.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::boxMesh;
+using test::flipped;
+using test::icosphere;
+using test::translated;
+
+bool isInside(const TriangleMesh& oriented, const Vector3d& p) {
+  return TriangleTree(oriented).inside(p, TriangleTree::Inside::kNotZero);
+}
+
+TEST(MeshOrientation, AWebDrawnFromBothSidesStaysInAnOpenWheel) {
+  const OrientedMesh wheel = orientOutward(test::wheelMesh(0.3, 0.1, 48));
+  EXPECT_EQ(wheel.quality.wall_triangles, 96);
+  EXPECT_EQ(wheel.quality.hidden_triangles, 0);
+  EXPECT_EQ(wheel.quality.triangles, 4 * 48 + 96);
+  EXPECT_FALSE(wheel.quality.sign_trusted);
+  EXPECT_LT(TriangleTree(wheel.mesh).closestPoint({0.1, 0.01, 0.0}).distance, 1e-12);
+}
+
+TEST(MeshOrientation, AWallInsideASolidIsLeftOutAndSaid) {
+  for (const bool second_inverted : {false, true}) {
+    TriangleMesh second = translated(boxMesh({1, 1, 1}), {2, 0, 0});
+    if (second_inverted) second = flipped(second);
+    const MeshQuality quality = orientOutward(merged(boxMesh({1, 1, 1}), second)).quality;
+    EXPECT_EQ(quality.triangles, 20);
+    EXPECT_EQ(quality.hidden_triangles, 4);
+    EXPECT_NEAR(quality.hidden_area, 8, 1e-12);
+    EXPECT_TRUE(quality.sign_trusted);
+    EXPECT_NE(summary(quality).find("4 triangles of walls inside left out (8 m^2)"), std::string::npos)
+        << summary(quality);
+  }
+}
+
+TEST(MeshOrientation, AWallAcrossARingStaysAndTheRingIsTrusted) {
+  // A square ring of four prisms as one surface, its hole closed by a sheet from both sides on the inner edges.
+  TriangleMesh ring;
+  for (const double half : {1.0, 0.5}) {
+    for (const double z : {-0.2, 0.2}) {
+      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+        ring.vertices.emplace_back(half * x, half * y, z);
+    }
+  }
+  const auto quad = [&](int a, int b, int c, int d) {
+    ring.triangles.emplace_back(a, b, c);
+    ring.triangles.emplace_back(a, c, d);
+  };
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4;
+    quad(i, j, 4 + j, 4 + i);
+    quad(8 + j, 8 + i, 12 + i, 12 + j);
+    quad(4 + i, 4 + j, 12 + j, 12 + i);
+    quad(j, i, 8 + i, 8 + j);
+  }
+  quad(12, 13, 14, 15);
+  quad(12, 15, 14, 13);
+  for (const TriangleMesh& drawn : {ring, flipped(ring)}) {
+    const OrientedMesh result = orientOutward(drawn);
+    EXPECT_EQ(result.quality.wall_triangles, 4);
+    EXPECT_TRUE(result.quality.sign_trusted) << summary(result.quality);
+    EXPECT_TRUE(isInside(result.mesh, {0.75, 0.1, 0.1}));
+    EXPECT_FALSE(isInside(result.mesh, {0.1, 0.05, 0.1}));
+    EXPECT_LT(TriangleTree(result.mesh).closestPoint({0.1, 0.05, 0.2}).distance, 1e-12);
+  }
+}
+
+TEST(MeshOrientation, TheShelfOfAnOpenCupboardIsTurnedAndSaid) {
+  const test::Cupboard cupboard;
+  const OrientedMesh as_drawn = orientOutward(merged(cupboard.walls, cupboard.shelf));
+  EXPECT_EQ(as_drawn.quality.inverted_components, 0);
+  EXPECT_EQ(as_drawn.quality.inverted_sheets, 0);
+  const OrientedMesh turned = orientOutward(merged(cupboard.walls, flipped(cupboard.shelf)));
+  EXPECT_EQ(turned.quality.inverted_components, 1);
+  EXPECT_NEAR(turned.quality.volume, as_drawn.quality.volume, 1e-12);
+  EXPECT_FALSE(turned.quality.sign_trusted);
+  EXPECT_EQ(warningOf(turned.quality),
+            "inside and outside are not certain; 1 component was inside out and is turned round");
+}
+
+TEST(MeshOrientation, OpenPartsAreTurnedForWhatSeesThem) {
+  const test::Cupboard cupboard;
+  for (const double size : {1e-6, 1.0, 1e5}) {
+    for (const Vector3d& offset : {Vector3d(0, 0, 0), Vector3d(3, -2, 1), Vector3d(1e3, 2e3, -1e3)}) {
+      const Isometry3d X(Eigen::Translation3d(offset * size) * Eigen::AngleAxisd(offset.norm(), Vector3d(0.6, 0, 0.8)));
+      const TriangleMesh walls = transformed(scaled(cupboard.walls, Vector3d::Constant(size)), X);
+      for (const TriangleMesh& drawn : {walls, flipped(walls)}) {
+        const TriangleTree tree(orientOutward(drawn).mesh);
+        EXPECT_GT(tree.windingNumber(X * (size * Vector3d(0.1, -0.6, 0.2))), 0.5) << size << " at " << offset.x();
+        EXPECT_LT(tree.windingNumber(X * (size * Vector3d(0.1, 0.2, 0.2))), 0.5) << size << " at " << offset.x();
+      }
+    }
+  }
+}
+
+TEST(MeshOrientation, AFileInsideOutKeepsItsCavities) {
+  const TriangleMesh hollow = merged(boxMesh({1, 1, 1}), flipped(icosphere(0.5, 2)));
+  const TriangleMesh two = merged(hollow, translated(boxMesh({1, 1, 1}), {4, 0, 0}));
+  for (const TriangleMesh& mesh : {hollow, two}) {
+    const OrientedMesh result = orientOutward(flipped(mesh));
+    EXPECT_FALSE(isInside(result.mesh, {0, 0, 0}));
+    EXPECT_TRUE(isInside(result.mesh, {0.8, 0.8, 0.8}));
+    EXPECT_FALSE(result.quality.sign_trusted);  // the block alone might have been turned, and the ball be solid
+  }
+}
+
+TEST(MeshOrientation, ABallInACavityIsNoCavity) {
+  const TriangleMesh hollow = merged(boxMesh({1, 1, 1}), flipped(icosphere(0.8, 2)));
+  const TriangleMesh ball = icosphere(0.3, 2);
+  for (const TriangleMesh& inner : {ball, flipped(ball)}) {
+    const OrientedMesh result = orientOutward(merged(hollow, inner));
+    EXPECT_TRUE(isInside(result.mesh, {0, 0, 0}));
+    EXPECT_FALSE(isInside(result.mesh, {0.5, 0, 0}));
+    EXPECT_TRUE(isInside(result.mesh, {0.95, 0, 0}));
+  }
+}
+
+TEST(MeshOrientation, ACavityThatCutsOrTouchesWhatHoldsItIsFilled) {
+  const TriangleMesh block = boxMesh({1, 1, 1});
+  for (const double z : {0.5, 0.7}) {  // its top face on the block's, and outside
+    const TriangleMesh pocket = flipped(translated(boxMesh({0.5, 0.4, 0.5}), {0, 0, z}));
+    const OrientedMesh result = orientOutward(merged(block, pocket));
+    EXPECT_EQ(result.quality.inverted_components, 1);
+    EXPECT_TRUE(isInside(result.mesh, {0.1, 0.05, 0.6}));
+  }
+}
+
+TEST(MeshOrientation, LobesOfABowTieAreCountedAndDoubtedInOtherParts) {
+  const TriangleMesh tie = test::bowTie();
+  const OrientedMesh alone = orientOutward(tie);
+  EXPECT_GT(alone.quality.negative_triangles, 96);
+  EXPECT_TRUE(alone.quality.sign_trusted);
+  EXPECT_NE(warningOf(alone.quality).find("inside out"), std::string::npos);
+  const auto box_at = [&](const Vector3d& p, double half) { return translated(boxMesh(Vector3d::Constant(half)), p); };
+  EXPECT_TRUE(orientOutward(merged(tie, box_at({1, 0, 0}, 0.1))).quality.sign_trusted);
+  // In the ring, about it, across its skin, and in the rod: where winding numbers cancel nobody may trust them.
+  int doubted = 0;
+  for (const auto& [x, half] : {std::pair(0.126, 0.01), {0.126, 0.3}, {0.126, 0.04}, {0.001, 0.01}, {0.001, 0.04}}) {
+    const OrientedMesh both = orientOutward(merged(tie, box_at({x, 0.001, 0.1 * (x < 0.1)}, half)));
+    doubted += !both.quality.sign_trusted;
+    EXPECT_TRUE(!both.quality.sign_trusted || isInside(both.mesh, {x, 0.001, 0.1 * (x < 0.1)})) << x << " " << half;
+  }
+  EXPECT_GE(doubted, 2);
+}
+
+/// A box or a ball, perhaps hollow, that overlaps others as it may.
+struct Body {
+  bool ball = false;
+  Vector3d center, half;
+  double cavity = 0.0;  ///< radius; 0 for none
+
+  TriangleMesh mesh(bool inverted) const {
+    TriangleMesh skin = translated(ball ? icosphere(half.x(), 2) : boxMesh(half), center);
+    if (inverted) skin = flipped(skin);
+    return cavity > 0 ? merged(skin, flipped(translated(icosphere(cavity, 1), center))) : skin;
+  }
+
+  /// 1 inside, 0 outside, -1 too near to a faceted ball to say.
+  int side(const Vector3d& p) const {
+    const Vector3d r = p - center;
+    const auto in_ball = [&](double radius) { return r.norm() > radius ? 0 : r.norm() < 0.85 * radius ? 1 : -1; };
+    const int skin = ball ? in_ball(half.x()) : (r.cwiseAbs().array() < half.array()).all();
+    if (skin != 1 || cavity == 0.0) return skin;
+    const int hole = in_ball(cavity);
+    return hole < 0 ? -1 : 1 - hole;
+  }
+
+  /// Whether another body's skin may lie inside this one: then it could be drawn as a cavity.
+  bool mayHold(const Body& other) const {
+    return ((other.center - center).cwiseAbs().array() + other.half.array() < half.array() + 1e-9).all();
+  }
+};
+
+TEST(MeshOrientation, SoupsOfSolidsTurnedAtRandomAreTheirUnion) {
+  test::Random random(5);
+  int turned = 0, places = 0;
+  for (int soup = 0; soup < 150; ++soup) {
+    std::vector<Body> bodies;
+    const int count = 2 + static_cast<int>(random() % 5);
+    for (int i = 0; i < count; ++i) {
+      Body body;
+      body.ball = random() % 2 == 0;
+      body.center = test::uniformIn(random, {Vector3d::Constant(-1), Vector3d::Constant(1)});
+      for (int k = 0; k < 3; ++k) body.half[k] = test::uniform(random, 0.2, 0.8);
+      if (body.ball) body.half.setConstant(body.half.x());
+      if (random() % 3 == 0) body.cavity = test::uniform(random, 0.2, 0.6) * body.half.minCoeff();
+      const bool nested =
+          std::any_of(bodies.begin(), bodies.end(), [&](const Body& b) { return b.mayHold(body) || body.mayHold(b); });
+      if (!nested) bodies.push_back(body);
+    }
+    // One that is as it should be, so that the file is not inside out as a whole.
+    TriangleMesh mesh = translated(boxMesh({0.1, 0.1, 0.1}), {5, 0, 0});
+    int inverted = 0;
+    for (const Body& body : bodies) {
+      const bool invert = random() % 2 == 0;
+      inverted += invert;
+      mesh = merged(mesh, body.mesh(invert));
+    }
+    // Cavities may cut each other's: then the number is below zero there, and the sign is not trusted.
+    const OrientedMesh result = orientOutward(mesh);
+    EXPECT_EQ(result.quality.inverted_components, inverted) << "soup " << soup;
+    turned += inverted;
+    const TriangleTree tree(result.mesh);
+    for (int i = 0; i < 200; ++i) {
+      const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-1.6), Vector3d::Constant(1.6)});
+      int truth = 0;
+      for (const Body& body : bodies) {
+        const int side = body.side(p);
+        if (side != 0 && truth <= 0) truth = side;
+        if (side == 1) truth = 1;
+      }
+      if (truth < 0) continue;
+      ++places;
+      ASSERT_EQ(tree.inside(p, TriangleTree::Inside::kNotZero), truth == 1)
+          << "soup " << soup << " at " << p.transpose();
+    }
+  }
+  EXPECT_GT(turned, 200);
+  EXPECT_GT(places, 20000);
+}
+
+TEST(MeshOrientation, OpenBoxesTurnedAtRandomAreTurnedOutward) {
+  test::Random random(6);
+  for (int soup = 0; soup < 40; ++soup) {
+    TriangleMesh mesh;
+    double volume = 0.0;
+    int inverted = 0;
+    for (int i = 0; i < 12; ++i) {
+      const Vector3d low(1.2 * (i % 3), 1.2 * (i / 3 % 2), 1.2 * (i / 6));
+      TriangleMesh box = test::openBox(low, low + Vector3d(1, test::uniform(random, 0.3, 1.1), 1));
+      const Isometry3d X = test::pose(random, 3.0, 0.0);
+      const Vector3d center = boundingBox(box).center();
+      box = transformed(box, Eigen::Translation3d(1.6 * center) * X * Eigen::Translation3d(-center));
+      volume += signedVolume(box);
+      const bool invert = random() % 2 == 0;
+      inverted += invert;
+      mesh = merged(mesh, invert ? flipped(box) : box);
+    }
+    const OrientedMesh result = orientOutward(mesh);
+    EXPECT_EQ(result.quality.inverted_sheets, inverted) << "soup " << soup;
+  }
+}
+
+TEST(MeshOrientation, AnyTrianglesOnAGridAreTaken) {
+  // Duplicates, degenerate and overlapping triangles, many on an edge.
+  test::Random random(7);
+  for (int i = 0; i < 400; ++i) {
+    TriangleMesh mesh;
+    const int side = 2 + static_cast<int>(random() % 2), vertices = side * side * side;
+    const double scale = std::pow(10.0, test::uniform(random, -8, 5));
+    for (int v = 0; v < vertices; ++v) mesh.vertices.emplace_back(v % side, v / side % side, v / (side * side));
+    for (Vector3d& v : mesh.vertices) v = scale * (v + Vector3d(0, 0, 1e3 * (i % 2)));
+    const int triangles = 1 + static_cast<int>(random() % 60);
+    for (int t = 0; t < triangles; ++t) {
+      mesh.triangles.emplace_back(random() % vertices, random() % vertices, random() % vertices);
+    }
+    if (welded(mesh).triangles.empty()) continue;
+    const OrientedMesh result = orientOutward(mesh);
+    const MeshQuality& quality = result.quality;
+    EXPECT_TRUE(!quality.sign_trusted || isClosed(result.mesh));
+    EXPECT_EQ(quality.triangles + quality.duplicate_triangles + quality.hidden_triangles,
+              static_cast<int>(welded(mesh).triangles.size()));
+    EXPECT_TRUE(std::isfinite(quality.volume) && std::isfinite(quality.area));
+    // No place is lost but inside: what is left out lies on or within what is kept.
+    const TriangleTree tree(result.mesh);
+    for (const Vector3i& t : welded(mesh).triangles) {
+      const TriangleMesh weld = welded(mesh);
+      const Vector3d center = (weld.vertices[t[0]] + weld.vertices[t[1]] + weld.vertices[t[2]]) / 3.0;
+      const double distance = tree.closestPoint(center).distance;
+      EXPECT_TRUE(distance < 1e-9 * scale || tree.inside(center, TriangleTree::Inside::kNotZero)) << "mesh " << i;
+    }
+  }
+}
+
+TEST(MeshOrientation, TheAnswerIsTheSameEachTime) {
+  const test::Cupboard cupboard;
+  const TriangleMesh mesh = merged(flipped(cupboard.walls), cupboard.shelf);
+  const TriangleMesh first = orientOutward(mesh).mesh;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(orientOutward(mesh).mesh.triangles, first.triangles);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

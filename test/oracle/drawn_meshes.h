@@ -1,0 +1,94 @@
+#pragma once
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/geometry/generated_mesh.h"
+
+/// Meshes as people draw them: sheets, walls from both sides, open parts, parts inside out.
+namespace sdf_ccd::test {
+
+inline void addQuad(TriangleMesh& mesh, const std::array<Vector3d, 4>& corners) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
+  mesh.triangles.emplace_back(first, first + 2, first + 3);
+}
+
+/// An open band about z, |z| ≤ height / 2, with a disc at z = 0, its web, drawn from both sides on the band's middle.
+inline TriangleMesh wheelMesh(double radius, double height, int steps) {
+  TriangleMesh mesh;
+  for (const double z : {-0.5 * height, 0.0, 0.5 * height}) {
+    for (int i = 0; i < steps; ++i) {
+      const double angle = 2 * kPi * i / steps;
+      mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  }
+  mesh.vertices.emplace_back(0, 0, 0);
+  for (int i = 0; i < steps; ++i) {
+    const int j = (i + 1) % steps;
+    for (const int ring : {0, steps}) {
+      mesh.triangles.emplace_back(ring + i, ring + j, ring + steps + j);
+      mesh.triangles.emplace_back(ring + i, ring + steps + j, ring + steps + i);
+    }
+    mesh.triangles.emplace_back(3 * steps, steps + i, steps + j);
+    mesh.triangles.emplace_back(3 * steps, steps + j, steps + i);
+  }
+  return mesh;
+}
+
+/// Sides of a box without the one at +y, each with corners of its own, turned outward.
+inline TriangleMesh openBox(const Vector3d& low, const Vector3d& high) {
+  TriangleMesh mesh;
+  const auto at = [&](int x, int y, int z) {
+    return Vector3d(x ? high.x() : low.x(), y ? high.y() : low.y(), z ? high.z() : low.z());
+  };
+  addQuad(mesh, {at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0)});
+  addQuad(mesh, {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)});
+  addQuad(mesh, {at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)});
+  addQuad(mesh, {at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0)});
+  addQuad(mesh, {at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
+  return mesh;
+}
+
+/// A closed shelf of 1 × 1.08 × 0.061 m about the origin, free in a cupboard that is open at +y: the cupboard's outer
+/// and inner walls, the strips between them and a sheet below are parts of their own. 46 triangles.
+struct Cupboard {
+  TriangleMesh shelf, walls;
+
+  Cupboard() {
+    shelf = boxMesh({0.5, 0.54, 0.0305});
+    walls = openBox({-0.56, -0.62, -1.03}, {0.56, 0.58, 1.03});
+    TriangleMesh inner = openBox({-0.52, -0.58, -0.99}, {0.52, 0.58, 0.99});
+    for (Vector3i& t : inner.triangles) std::swap(t[1], t[2]);
+    walls = merged(walls, inner);
+    for (const double side : {-1.0, 1.0}) {
+      const double x0 = side < 0 ? -0.56 : 0.52, x1 = x0 + 0.04, y = 0.58;
+      addQuad(walls, {Vector3d(x0, y, -1.03), {x0, y, 1.03}, {x1, y, 1.03}, {x1, y, -1.03}});
+      const double z0 = side < 0 ? -1.03 : 0.99, z1 = z0 + 0.04;
+      addQuad(walls, {Vector3d(-0.52, y, z0), {-0.52, y, z1}, {0.52, y, z1}, {0.52, y, z0}});
+      addQuad(walls, {Vector3d(0.5 * side - 0.02, -0.5, -1.1),
+                      {0.5 * side + 0.02, -0.5, -1.1},
+                      {0.5 * side + 0.02, 0.5, -1.1},
+                      {0.5 * side - 0.02, 0.5, -1.1}});
+    }
+    addQuad(walls, {Vector3d(-0.5, -0.5, -1.05), {-0.5, 0.5, -1.05}, {0.5, 0.5, -1.05}, {0.5, -0.5, -1.05}});
+  }
+};
+
+/// One closed component that crosses itself, a body of revolution about z: a rod of radius 0.1 m below z = -0.05 and
+/// 0.05 m above, |z| <= 0.2, with winding number 1, and a ring of radii 0.1 to 0.15 m, |z| <= 0.05, with -1.
+inline TriangleMesh bowTie() {
+  constexpr int kSteps = 96;
+  const std::vector<std::pair<double, double>> profile = {{0, -0.2},     {0.1, -0.2},   {0.1, 0.05}, {0.15, 0.05},
+                                                          {0.15, -0.05}, {0.05, -0.05}, {0.05, 0.2}, {0, 0.2}};
+  std::vector<std::vector<Vector3d>> rings;
+  for (const auto& [r, z] : profile) {
+    std::vector<Vector3d>& ring = rings.emplace_back();
+    for (int i = 0; i < (r > 0 ? kSteps : 1); ++i) {
+      const double angle = 2 * kPi * i / kSteps;
+      ring.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+    }
+  }
+  return lofted(rings);
+}
+
+}  // namespace sdf_ccd::test
