@@ -73,6 +73,8 @@ void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response&
       response.message += "not counted: " + description.failure + "\n";
     } else if (!missing[body].empty()) {
       return refuse("body " + description.name + ": " + missing[body], response);
+    } else if (!description.parts.empty() && !description.warning.empty()) {
+      response.message += "body " + description.name + ": " + description.warning + "\n";
     }
   }
   for (const geometry_msgs::Point& point : request.points) {

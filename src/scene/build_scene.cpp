@@ -44,9 +44,15 @@ class BodyBuilder {
       meshes_.push_back(mesh ? &pool.find(geometry) : nullptr);
       const std::string name = meshes_.back() ? nameOf(*meshes_.back()) : nameOf(primitiveOf(geometry));
       report.geometry += (report.geometry.empty() ? "" : ", ") + name;
+      const std::string doubt = mesh && !geometry.watertight_voxels ? warningOf(meshes_.back()->quality) : "";
+      if (doubt.empty()) continue;
+      report.warnings.push_back(geometry.source + ": " + doubt + ": " + summary(meshes_.back()->quality));
+      warning_ += (warning_.empty() ? "" : "; ") + geometry.source + ": " + doubt;
     }
     if (description.geometry.size() > 3) report.geometry = std::to_string(description.geometry.size()) + " parts";
   }
+
+  const std::string& warning() const { return warning_; }
 
   std::vector<BodyPart> makeParts(const Progress& progress) {
     std::vector<BodyPart> parts;
@@ -71,7 +77,7 @@ class BodyBuilder {
       report_.cells += field.cells();
       report_.field_error = std::max(report_.field_error, field.errorBound());
       note(made.outcome);
-      noteSides(geometry, *meshes_[i]);
+      noteCaps(geometry, *meshes_[i]);
     }
     char text[32];
     std::snprintf(text, sizeof(text), "built %.1f s", std::chrono::duration<double>(Clock::now() - start).count());
@@ -136,15 +142,12 @@ class BodyBuilder {
     return std::get<Primitive>(geometry.shape);
   }
 
-  /// Says where inside and outside are not certain.
-  void noteSides(const GeometryDescription& geometry, const PooledMesh& mesh) {
-    if (mesh.voxels || (mesh.quality.sign_trusted && !mesh.field->openings())) return;
-    std::string text = geometry.source + ": inside and outside are not certain: " + summary(mesh.quality);
-    if (const OpeningCaps* caps = mesh.field->openings()) {
-      text += "; caps of " + numberText(surfaceArea(caps->mesh())) +
-              " m^2 close it, and CONTACT with it needs surfaces that cross";
-    }
-    report_.warnings.push_back(text);
+  /// Says what closes an open mesh.
+  void noteCaps(const GeometryDescription& geometry, const PooledMesh& mesh) {
+    const OpeningCaps* caps = mesh.field->openings();
+    if (!caps) return;
+    report_.warnings.push_back(geometry.source + ": caps of " + numberText(surfaceArea(caps->mesh())) +
+                               " m^2 close it, and CONTACT with it needs surfaces that cross");
   }
 
   void note(const CacheOutcome& outcome) {
@@ -156,6 +159,7 @@ class BodyBuilder {
   MeshPool& pool_;
   BodyReport& report_;
   std::vector<PooledMesh*> meshes_;  // per geometry; null for a primitive
+  std::string warning_;
 };
 
 /// The triangles of a body's geometry; null where it has none.
@@ -194,6 +198,7 @@ BoundingBall surfaceBall(const Body& body) {
 }
 
 void build(const Needs& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
+  body.warning = builder.warning();
   if (needs.field) body.parts = builder.makeParts(progress);
   if (needs.witnesses) body.witnesses = builder.makeWitnesses();
   if (needs.witnesses) body.witness_tree = buildSphereTree(body.witnesses);

@@ -7,7 +7,6 @@
 #include "progress_bar.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/field_file.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/shell/sample_surface.h"
 #include "sdf_ccd/shell/shell_file.h"
 
@@ -24,13 +23,20 @@ std::string time(double seconds) {
 
 }  // namespace
 
+OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& mesh) {
+  OrientedMesh oriented = orientOutward(mesh);
+  const std::string warning = warningOf(oriented.quality);
+  if (!warning.empty()) std::cerr << "sdf_ccd: " << source << ": " << warning << std::endl;
+  return oriented;
+}
+
 DistanceField buildWithBar(const std::string& title, const TriangleMesh& mesh, const FieldOptions& options) {
   ProgressBar bar(title);
   return buildField(mesh, options, [&](double share) { bar(share); });
 }
 
 FieldBuilder::Made FieldBuilder::make(const std::string& name, const TriangleMesh& mesh) const {
-  const OrientedMesh oriented = orientOutward(mesh);
+  const OrientedMesh oriented = orientWithWarning(name, mesh);
   const auto start = std::chrono::steady_clock::now();
   DistanceField field = buildWithBar("field of " + name, oriented.mesh, resolution_.fieldOptions());
   const double field_seconds = secondsSince(start);

@@ -9,10 +9,13 @@
 #include "output_file.h"
 #include "resolution_options.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd::tools {
+
+/// The mesh turned outward; what must be known of its inside is said on stderr, `source` in front.
+OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& mesh);
 
 /// The field of a mesh that is turned outward, or of voxels, with a progress bar of that title.
 DistanceField buildWithBar(const std::string& title, const TriangleMesh& mesh, const FieldOptions& options);

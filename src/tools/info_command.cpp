@@ -48,7 +48,13 @@ void printQuality(const MeshQuality& quality) {
             << "triangles            " << quality.triangles << "\n"
             << "without area         " << quality.degenerate_triangles << "\n"
             << "components           " << quality.components << "\n"
-            << "inverted components  " << quality.inverted_components << "\n"
+            << "inverted components  " << quality.inverted_components + quality.inverted_sheets << ", "
+            << quality.inverted_sheets << " of them open\n"
+            << "negative triangles   " << quality.negative_triangles << "\n"
+            << "duplicates left out  " << quality.duplicate_triangles << ", " << shortly(quality.duplicate_area)
+            << " m^2\n"
+            << "walls left out       " << quality.hidden_triangles << ", " << shortly(quality.hidden_area) << " m^2\n"
+            << "walls kept           " << quality.wall_triangles << "\n"
             << "boundary edges       " << quality.boundary_edges << "\n"
             << "non-manifold edges   " << quality.non_manifold_edges << "\n"
             << "misoriented edges    " << quality.misoriented_edges << "\n"
@@ -83,7 +89,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
     if (!wants_field) return std::nullopt;
     return buildWithBar("field", mesh, arguments.resolution.fieldOptions(voxel_size / 2.0));
   }
-  const OrientedMesh oriented = orientOutward(loadMesh(file));
+  const OrientedMesh oriented = orientWithWarning(file, loadMesh(file));
   printQuality(oriented.quality);
   std::cout << "openings             " << summary(findOpenings(oriented.mesh)) << std::endl;
   if (!wants_field) return std::nullopt;

@@ -17,7 +17,6 @@
 #include "resolution_options.h"
 #include "sdf_ccd/field/field_file.h"
 #include "sdf_ccd/geometry/mesh_file.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "segment_csv.h"
 
@@ -39,7 +38,7 @@ DistanceField fieldOf(const Arguments& arguments) {
   if (!arguments.field.empty()) return loadField(arguments.field);
   FieldOptions options = arguments.resolution.fieldOptions();
   options.band = std::max(options.band, std::abs(arguments.query.sigma));
-  return buildWithBar("field", orientOutward(loadMesh(arguments.mesh)).mesh, options);
+  return buildWithBar("field", orientWithWarning(arguments.mesh, loadMesh(arguments.mesh)).mesh, options);
 }
 
 std::vector<Intervals> intervalsOf(const DistanceField& field, const std::vector<Segment>& segments,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
 #include "sdf_ccd/field/field_file.h"
 #include "sdf_ccd/query/segment_query.h"
@@ -94,6 +95,27 @@ TEST_F(Tool, SaysWhereAMeshIsOpen) {
   const ToolRun query = run("query --field made/bin.field --segments in.csv --out out.csv");
   EXPECT_EQ(query.exit_code, kDone);
   EXPECT_NE(query.error.find("warning: openings: caps of 0.25 m^2"), std::string::npos) << query.error;
+}
+
+TEST_F(Tool, WhatIsNotCertainOfAMeshIsWarnedOf) {
+  const test::Cupboard cupboard;
+  write("cupboard.off", toOff(merged(cupboard.walls, test::flipped(cupboard.shelf))));
+  const std::string warning = ": inside and outside are not certain; 1 component was inside out and is turned round\n";
+  const ToolRun info = run("info cupboard.off");
+  EXPECT_EQ(info.exit_code, kDone);
+  EXPECT_EQ(info.error, "sdf_ccd: cupboard.off" + warning);
+  EXPECT_NE(info.out.find("inverted components  1, 0 of them open\n"), std::string::npos) << info.out;
+  write("through.csv", "0,0,-0.2,0,0,0.2\n");
+  const ToolRun query = run("query --mesh cupboard.off --segments through.csv --out out.csv --resolution 64");
+  EXPECT_EQ(query.exit_code, kDone);
+  EXPECT_EQ(query.error, "sdf_ccd: cupboard.off" + warning);
+  int segment = -1;
+  double enter = 0.0, exit = 0.0;
+  std::sscanf(readText(path("out.csv")).c_str(), "segment,t_enter,t_exit\n%d,%lf,%lf", &segment, &enter, &exit);
+  EXPECT_EQ(segment, 0);
+  EXPECT_NEAR(0.4 * (exit - enter), 0.061, 0.01);
+  EXPECT_EQ(run("build --mesh cupboard.off --out made --resolution 16").error, "sdf_ccd: cupboard" + warning);
+  EXPECT_EQ(run("info ball.off").error, "");
 }
 
 TEST_F(Tool, SliceIsAPicture) {

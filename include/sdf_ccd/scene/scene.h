@@ -34,6 +34,7 @@ struct Body {
   Isometry3d X_frame_B;
   bool is_world = false;
   std::string failure;          ///< why it cannot be checked; empty if it can
+  std::string warning;          ///< what is to be known of its meshes' inside (see warningOf()); empty if nothing
   std::vector<BodyPart> parts;  ///< empty if no pair needs its field
   PointShell shell;             ///< frame B; empty if no pair needs it. Points deep inside a sibling part are left out
   SphereTree tree;
