@@ -11,6 +11,7 @@ import re
 import sys
 
 import dynamics_tables
+import meshes_tables
 import precision_tables
 import robots_tables
 from results import Results
@@ -201,7 +202,8 @@ def scaling(results):
 TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree, 'sample_bits': sample_bits,
           'segments': segments, 'build': build, 'shells': shells, 'drops': drops, 'scaling': scaling,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
-             {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES}.items()}}
+             {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
+              **meshes_tables.TABLES}.items()}}
 
 
 def main():
