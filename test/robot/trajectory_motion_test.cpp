@@ -121,7 +121,7 @@ TEST(TrajectoryMotion, SumOfEvenTurnsMayBeSShaped) {
   Case a_case;
   a_case.trajectory = {{0.0, 1.0}, {folded(-0.12), folded(0.12)}};
   a_case.body.link = 3;
-  a_case.body.ball_B.radius = 0.1;
+  a_case.body.ball_B.radius = 1e-3;  // so that the links alone make the bound
   a_case.sampling = {1e-4, 0};
   const CycleMotion motion = sampled(robot, a_case);
   ASSERT_EQ(motion.times.size(), 2u);

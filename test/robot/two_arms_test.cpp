@@ -51,13 +51,29 @@ class TwoArmsTest : public ::testing::Test {
     return monitor_->run(cycle, {}).verdict;
   }
 
+  /// In the left arm's stand.
+  static Vector3d ballCenter(double yaw, double pitch) {
+    return {kArm * std::cos(yaw) * std::cos(pitch), kArm * std::sin(yaw) * std::cos(pitch), -kArm * std::sin(pitch)};
+  }
+
+  /// Where the right arm must stand for the ball to graze the rod's end, or nearly, some time on the way.
+  static Isometry3d standFor(test::Random& random, const JointPositions& from, const JointPositions& to,
+                             const Isometry3d& X_left) {
+    const double s = test::uniform(random, 0.1, 0.9), gap = test::uniform(random, -0.05, 0.1);
+    const auto at = [&](const char* joint) { return (1.0 - s) * from.at(joint) + s * to.at(joint); };
+    const Vector3d in_rod(2.0 * kRod.x() + kBall + gap, 0.0, 0.0);
+    Isometry3d X_right = test::pose(random, 0.3, 0.0);
+    const Vector3d in_stand = Eigen::AngleAxisd(at("right"), Vector3d::UnitZ()) * in_rod;
+    X_right.translation() = X_left * ballCenter(at("left"), at("wrist")) - X_right.linear() * in_stand;
+    return X_right;
+  }
+
   /// The least distance of ball and rod, by the joints' angles alone [m].
   static double distance(const JointPositions& from, const JointPositions& to, const Isometry3d& X_left,
                          const Isometry3d& X_right, double s) {
     const auto at = [&](const char* joint) { return (1.0 - s) * from.at(joint) + s * to.at(joint); };
     const double yaw = at("left"), pitch = at("wrist"), turn = at("right");
-    const Vector3d p(kArm * std::cos(yaw) * std::cos(pitch), kArm * std::sin(yaw) * std::cos(pitch),
-                     -kArm * std::sin(pitch));
+    const Vector3d p = ballCenter(yaw, pitch);
     const Vector3d q = X_right.inverse() * (X_left * p);
     const Vector3d in_rod(std::cos(turn) * q.x() + std::sin(turn) * q.y() - kRod.x(),
                           std::cos(turn) * q.y() - std::sin(turn) * q.x(), q.z());
@@ -83,10 +99,11 @@ TEST_F(TwoArmsTest, NoVerdictContradictsTheJointsAngles) {
       for (const auto& [joint, position] : around) positions[joint] = position + test::uniform(random, -turn, turn);
       return positions;
     };
-    const JointPositions from = angles({{"left", 0.0}, {"wrist", 0.0}, {"right", 3.0}}), to = angles(from);
+    const JointPositions from = angles({{"left", 0.0}, {"wrist", 0.0}, {"right", 3.0}});
+    JointPositions to = angles(from);
+    if (i % 3) to["wrist"] = from.at("wrist");  // each arm a screw then, exactly, but not one against the other
     const Isometry3d X_left = test::pose(random, 0.3, 0.1);
-    const Isometry3d X_right =
-        Eigen::Translation3d(test::uniform(random, 0.4, 1.2), 0.0, 0.0) * test::pose(random, 0.3, 0.1);
+    const Isometry3d X_right = standFor(random, from, to, X_left);
     RobotTrajectory trajectory = {{0.0, 1.0}, std::vector<RobotState>(2)};
     for (RobotState& state : trajectory.states) {
       state.positions = &state == &trajectory.states[0] ? from : to;
@@ -102,10 +119,10 @@ TEST_F(TwoArmsTest, NoVerdictContradictsTheJointsAngles) {
     const double step = 2.0 * kArm * 3.0 * turn / 4000.0;
     ASSERT_FALSE(result == Verdict::kContact && least > step) << i << ": they are apart by " << least;
   }
-  EXPECT_GT(meetings, 100);
-  EXPECT_GT(counts[static_cast<int>(Verdict::kClear)], 400);
-  EXPECT_GT(counts[static_cast<int>(Verdict::kContact)], 100);
-  EXPECT_LT(counts[static_cast<int>(Verdict::kUncertain)], 150);
+  EXPECT_GT(meetings, 500);
+  EXPECT_GT(counts[static_cast<int>(Verdict::kClear)], 500);
+  EXPECT_GT(counts[static_cast<int>(Verdict::kContact)], 500);
+  EXPECT_LT(counts[static_cast<int>(Verdict::kUncertain)], 300);
   EXPECT_EQ(counts[static_cast<int>(Verdict::kNotChecked)], 0);
 }
 
