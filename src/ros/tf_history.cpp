@@ -240,10 +240,9 @@ TfHistory::Span TfHistory::lockedSpan(const std::string& frame) const {
       span.change = named->first + " " + edge.change;
     }
     span.late.insert(span.late.end(), edge.late.begin(), edge.late.end());
+    span.first = std::max(span.first, edge.first());
     if (edge.is_static) continue;
-    const ros::Time first = edge.records.front().stamp;
     const ros::Time last = edge.records.back().stamp;
-    span.first = span.is_static ? first : std::max(span.first, first);
     span.last = span.is_static ? last : std::min(span.last, last);
     span.is_static = false;
   }
@@ -284,7 +283,7 @@ void TfHistory::copy(const std::vector<std::string>& frames, const std::vector<T
 void TfHistory::describe(Edges::const_reference named, const TimePart& part, TfWindow::Frame& frame) {
   const std::deque<TfPose>& records = named.second.records;
   frame.version = std::max(frame.version, named.second.version);
-  if (!named.second.is_static && (part.from < records.front().stamp || records.back().stamp < part.until)) {
+  if (part.from < named.second.first() || (!named.second.is_static && records.back().stamp < part.until)) {
     frame.problem = named.first + " is not known all the time";
   }
   for (auto record = lastUpTo(records, part.from); record != records.end(); ++record) {
@@ -319,10 +318,10 @@ bool TfHistory::lookup(const std::string& frame, const ros::Time& time, Isometry
   const Span known = span(frame);
   problem = known.problem;
   if (!problem.empty()) return false;
-  const ros::Time at = time.isZero() || known.is_static ? known.last : time;
-  if (!known.is_static && (at < known.first || at > known.last)) {
-    problem = frame + " is known from " + secondsText(known.first) + " to " + secondsText(known.last) + ", not at " +
-              secondsText(at);
+  const ros::Time at = !time.isZero() ? time : known.is_static ? known.first : known.last;
+  if (at < known.first || (!known.is_static && at > known.last)) {
+    problem = frame + " is known from " + secondsText(known.first) +
+              (known.is_static ? " on" : " to " + secondsText(known.last)) + ", not at " + secondsText(at);
     return false;
   }
   TfWindow window;

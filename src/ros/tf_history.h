@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <mutex>
 #include <string>
@@ -47,7 +48,7 @@ class TfHistory {
   struct Span {
     std::string problem;  ///< why there is no way; empty if there is one
     bool is_static = false;
-    ros::Time first, last;             ///< known from when to when; not set if static
+    ros::Time first, last;             ///< known from when to when; `last` is not set if static
     long version = 0;                  ///< another one after the way has changed otherwise than by moving
     std::string change;                ///< what has changed last
     std::vector<LateTransforms> late;  ///< on the way, since the last news
@@ -84,6 +85,9 @@ class TfHistory {
     std::deque<TfPose> behind;   // the last ones, as long as all of them are far behind the newest
     long version = 0;
     const char* change = "";
+
+    /// What the frame was before a change was known up to dropped_until, or the change was said to be earlier.
+    ros::Time first() const { return is_static ? dropped_until : std::max(records.front().stamp, dropped_until); }
     std::vector<LateTransforms> late;  // one or none
   };
   using Edges = std::unordered_map<std::string, Edge>;  // by child frame

@@ -263,12 +263,12 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
     const TfHistory::Span& span = spans_[body];
     const TimePart& needed = needed_[body];
     if (!missing[body].empty()) continue;
-    const bool is_needed = !span.is_static && needed.from < needed.until;
+    const bool is_needed = needed.from < needed.until;
     if (window_.version(body) != span.version) {
       missing[body] = "the way to " + frame + " has just changed";
-    } else if (needed.from < needed.until && needed.from < changed_[body]) {
+    } else if (is_needed && needed.from < changed_[body]) {
       missing[body] = span.change + " since then";
-    } else if (is_needed && length > ros::Duration(options_.max_cycle)) {
+    } else if (is_needed && !span.is_static && length > ros::Duration(options_.max_cycle)) {
       missing[body] = "no cycle for " + seconds(length);
     } else if (is_needed && span.first > needed.from) {
       missing[body] = frame + " is known only since " + seconds(span.first - needed.from) + " after the cycle's start";
