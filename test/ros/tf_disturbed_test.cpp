@@ -114,7 +114,7 @@ class Episode {
     for (double now = 0.0; now < kLength; now += kStep) {
       for (Publisher& publisher : publishers_) publish(publisher, now);
       if (chance(0.01)) changeHand(now);
-      if (chance(0.004)) jumpBack(now);
+      if (chance(0.004) && clock_runs_) jumpBack(now);
       if (chance(0.01)) publishers_[pick(publishers_.size())].silent_until = now + uniform(0.1, 1.5);
       deliver(now);
       step(now);
@@ -269,6 +269,7 @@ class Episode {
   }
 
   void step(double now) {
+    clock_runs_ = true;
     if (loop_->step(stampOf(now), {}) != Step::kCycle) return;
     said_.push_back(toContactArray(*loop_));
     const TrackedCycle& cycle = loop_->cycle();
@@ -345,6 +346,7 @@ class Episode {
   double rate_, delay_, late_share_, drop_share_;
   std::vector<Publisher> publishers_;  // the hand's last
   bool hand_is_static_ = false;
+  bool clock_runs_ = false;
   std::vector<Sent> sent_;  // and not come yet
   std::map<std::string, Publication> came_;
   std::vector<ContactArray> said_;
