@@ -16,8 +16,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What rounding may take from a distance, relative to the cube it is compared in.
 constexpr double kSlack = 1e-9;
 
-/// Triangles that share the closest edge or vertex tie, to rounding of their squared distances.
-constexpr double kTie = 1e-12;
+/// Triangles that share the closest edge or vertex tie, to rounding of their squared distances, which is worst of
+/// slivers. Too many ties cost little: what then does not agree about the sign is told by the centre's.
+constexpr double kTie = 1e-9;
 
 /// How far a triangle may be from the centre of a cube and still be the closest to a place in it: that place is within
 /// distance + radius of the surface, and the centre within another radius of it.

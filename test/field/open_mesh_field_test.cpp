@@ -96,7 +96,8 @@ TEST(OpenMeshField, MeshSampleHoldsOfTheTriangles) {
   }
 }
 
-/// A mesh whose panels do not quite meet is as good as closed.
+/// A mesh whose panels do not quite meet is as good as closed. (Closest points on slivers are less exact: where ties
+/// were told to 1e-12, one sample had the wrong sign, and five times the leaves were needed.)
 TEST(OpenMeshField, CracksAreNoOpenings) {
   Random random(3);
   TriangleMesh soup;
@@ -109,6 +110,7 @@ TEST(OpenMeshField, CracksAreNoOpenings) {
   for (const FieldOptions& options : bothKinds(0.01, 32)) {
     const DistanceField field = buildField(soup, options), closed = buildField(ball, options);
     EXPECT_FALSE(field.openings());
+    EXPECT_LE(field.cells(), 1.2 * closed.cells());
     for (int i = 0; i < 2000; ++i) {
       const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.4), Vector3d::Constant(0.4)});
       const FieldSample a = field.sample(p), b = closed.sample(p);
