@@ -88,7 +88,7 @@ Least leastDistance(const Case& made, const Path& path, int steps) {
 TEST(OpenMeshAttack, ContactsAreCrossingsAndWhatIsClearIsFree) {
   Random random(1);
   int count[4] = {};
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const Case made = makeCase(random);
     Monitor monitor(made.scene, {});
     for (int k = 0; k < 12; ++k) {
@@ -103,8 +103,8 @@ TEST(OpenMeshAttack, ContactsAreCrossingsAndWhatIsClearIsFree) {
       ASSERT_FALSE(verdict == Verdict::kClear && least.high < 1e-6) << "case " << i << ", path " << k;
     }
   }
-  EXPECT_GT(count[static_cast<int>(Verdict::kClear)], 20);
-  EXPECT_GT(count[static_cast<int>(Verdict::kContact)], 40);
+  EXPECT_GT(count[static_cast<int>(Verdict::kClear)], 10);
+  EXPECT_GT(count[static_cast<int>(Verdict::kContact)], 20);
 }
 
 /// Climbs: keeps a change of the path if the verdict stays and the truth moves away from it.
