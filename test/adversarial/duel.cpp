@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "oracle/shapes.h"
 
@@ -61,6 +62,7 @@ Duel::Duel(Actor a, Actor b, const SceneOptions& scene, const MonitorOptions& mo
   const SceneDescription description{{described("a", a_), described("b", b_)}, {}};
   auto built =
       std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(scene)), scene));
+  if (built->pairs.empty()) throw std::logic_error(name() + ": " + built->left_out.at(0).reason);
   bound_ = built->bound.total();
   size_ = a_.radius() + b_.radius();
   monitor_ = std::make_unique<Monitor>(std::move(built), monitor);

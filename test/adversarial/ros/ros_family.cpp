@@ -1,6 +1,7 @@
 #include "adversarial/ros/ros_family.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "adversarial/duel.h"
@@ -13,6 +14,7 @@ namespace sdf_ccd::test {
 namespace {
 
 constexpr Real kUnseen = 1e-7L;  ///< stamps are whole nanoseconds, and so are the times of poses [m]
+constexpr Real kUnknown = 1e3L;  ///< no body is farther from another: nothing is known [m]
 
 const char* toText(Trouble trouble) {
   const char* texts[] = {
@@ -82,7 +84,7 @@ void aim(const World& world, std::size_t other, double wanted, std::vector<TfEve
     }
     const ros::Time from(TfTruth::kEpoch), to(TfTruth::kEpoch + 10.0);
     const LeastValue least = truth.least(world.carried[other], world.carried[1], from, to, {2e-3L});
-    if (least.high > 1e3L) return;
+    if (least.high > kUnknown) return;
     const Vector3d axis = truth.at(world.carried[other], world.carried[1], least.at).axis_W.cast<double>();
     shiftBase((wanted - double(least.high)) * axis, events);
   }
@@ -97,10 +99,14 @@ class Play {
   }
 
   void take(const TfEvent& event) {
-    if (event.jumps_back) truth_.forgetMoving();
+    if (event.jumps_back) {
+      truths_[0].forgetMoving();
+      // Of two clocks none is known to be the right one: what one of both says need not be forgotten.
+      if (trouble_ == Trouble::kLoop) truths_[1].forgetMoving();
+    }
     tf2_msgs::TFMessage message;
     message.transforms = {event.transform};
-    truth_.add(event.transform, event.is_static);
+    for (TfTruth& truth : truths_) truth.add(event.transform, event.is_static);
     loop_.history().add(message, event.is_static);
   }
 
@@ -144,36 +150,47 @@ class Play {
     ros::Time start, end;
   };
 
+  /// The least separation as each truth has it.
+  std::array<LeastValue, 2> least(const PairResult& pair, const ros::Time& from, const ros::Time& to,
+                                  const LeastOptions& options) const {
+    const auto ask = [&](const TfTruth& truth) {
+      return truth.least(body(pair.body_a), body(pair.body_b), from, to, options);
+    };
+    const LeastValue first = ask(truths_[0]);
+    return {first, trouble_ == Trouble::kTwoClocks ? ask(truths_[1]) : first};
+  }
+
   void judge(const PairResult& pair, const ros::Time& from, const ros::Time& to) {
     if (pair.verdict == Verdict::kClear) judgeClear(pair, from, to, "");
     if (pair.verdict != Verdict::kContact) return;
-    const LeastValue least = truth_.least(body(pair.body_a), body(pair.body_b), from, to, {0, kUnseen, 0});
-    if (least.low <= kUnseen || least.low > 1e3L) return;
+    const auto found = least(pair, from, to, {0, kUnseen, 0});
+    const Real low = std::min(found[0].low, found[1].low);
+    if (low <= kUnseen || low > kUnknown) return;
     ++tally_.false_contact;
-    tally_.fail(std::string(toText(trouble_)) + ": CONTACT", std::to_string(double(least.high)) + " m apart");
-  }
-
-  void place(const PairResult& pair, const ros::Time& from, const ros::Time& to) {
-    const Real near = 3.0L * world_.scene->bound.total();
-    const LeastValue least = truth_.least(body(pair.body_a), body(pair.body_b), from, to, {near / 30, near, -near});
-    ++tally_.placed;
-    tally_.near += std::abs(least.high) < near;
+    tally_.fail(std::string(toText(trouble_)) + ": CONTACT", std::to_string(double(low)) + " m apart");
   }
 
   void judgeClear(const PairResult& pair, const ros::Time& from, const ros::Time& to, const char* how) {
     if (!(from < to)) return;
-    const LeastValue least = truth_.least(body(pair.body_a), body(pair.body_b), from, to, {0, 0, -kUnseen});
-    if (least.high >= -kUnseen) return;
+    const auto found = least(pair, from, to, {0, 0, -kUnseen});
+    const Real high = std::max(found[0].high, found[1].high);
+    if (high >= -kUnseen) return;
     ++tally_.false_clear;
-    tally_.deepest = std::max(tally_.deepest, double(-least.high));
-    tally_.fail(std::string(toText(trouble_)) + ": CLEAR" + how, std::to_string(double(-least.high)) + " m deep");
+    tally_.deepest = std::max(tally_.deepest, double(-high));
+    tally_.fail(std::string(toText(trouble_)) + ": CLEAR" + how, std::to_string(double(-high)) + " m deep");
+  }
+
+  void place(const PairResult& pair, const ros::Time& from, const ros::Time& to) {
+    const Real near = 3.0L * world_.scene->bound.total();
+    ++tally_.placed;
+    tally_.near += std::abs(least(pair, from, to, {near / 30, near, -near})[0].high) < near;
   }
 
   const TfTruth::Carried& body(int index) const { return world_.carried[std::size_t(index)]; }
 
   const World& world_;
   MonitorLoop loop_;
-  TfTruth truth_;
+  std::array<TfTruth, 2> truths_;  ///< where time jumps back, the second forgets nothing but in a loop
   Trouble trouble_;
   Tally& tally_;
   std::vector<Unseen> unseen_;
@@ -194,9 +211,10 @@ Tally rosStreams(std::uint64_t seed, long cases) {
     std::vector<TfEvent> events = randomStream(random, trouble);
     aim(world, random() % 3 == 0 ? 2 : 0, uniform(random, -3.0, 3.0) * bound, events);
     Play play(world, parameters, trouble, tally);
-    for (const TfEvent& event : events) {
-      play.take(event);
-      play.step(event.arrival);
+    const std::size_t batch = 1 + random() % 8;  // transforms that arrive between two steps
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      play.take(events[i]);
+      if (i % batch == 0) play.step(events[i].arrival);
     }
     play.finish();
   }
