@@ -63,7 +63,9 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
       result.own_number = numbers[i];
     }
   }
-  if (area_out != area_in) result.inward = area_in > area_out;
+  // Of lobes of like area the larger volume decides.
+  if (area_in > 2.0 * area_out) result.inward = true;
+  if (area_out > 2.0 * area_in) result.inward = false;
   return result;
 }
 

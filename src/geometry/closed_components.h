@@ -19,10 +19,10 @@ struct ClosedComponent {
 /// wherever a solid is.
 ///
 /// A patch's own winding number just behind its triangles says which way it faces, by the area of those that are seen
-/// from places where it is zero. Where every patch that lies in no other one is inside out the file is, and all are
-/// turned, cavities too. After that, a patch that faces its inside stays, as a cavity, only if others certainly hold
-/// it: their winding number at it is not zero, and it does not cut or touch them. Patches that are not closed have no
-/// say.
+/// from places where it is zero; where that is not clear, its volume does. Where every patch that lies in no other one
+/// is inside out the file is, and all are turned, cavities too. After that, a patch that faces its inside stays, as a
+/// cavity, only if others certainly hold it: their winding number at it is not zero, and it does not cut or touch them.
+/// Patches that are not closed have no say.
 /// @param mesh  consistently oriented, about 1 m large and near the origin.
 /// @return one per patch; as it is by default for patches that are not closed.
 std::vector<ClosedComponent> inspectClosed(const TriangleMesh& mesh, const std::vector<Patch>& patches);
