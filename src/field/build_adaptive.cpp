@@ -43,8 +43,8 @@ int childIndex(int octant, int k) {
 
 class AdaptiveBuilder {
  public:
-  AdaptiveBuilder(const TriangleMesh& mesh, const AdaptiveShape& shape, std::size_t max_bytes, const Progress& progress)
-      : surface_(mesh),
+  AdaptiveBuilder(const Solid& solid, const AdaptiveShape& shape, std::size_t max_bytes, const Progress& progress)
+      : surface_(solid),
         shape_(shape),
         error_(shape.error_bound),
         max_bytes_(max_bytes),
@@ -366,10 +366,10 @@ int topCells(double relative_error) {
 
 }  // namespace
 
-std::shared_ptr<const AdaptiveGrid> buildAdaptive(const TriangleMesh& mesh, const FieldOptions& options,
+std::shared_ptr<const AdaptiveGrid> buildAdaptive(const Solid& solid, const FieldOptions& options,
                                                   const Progress& progress) {
   AdaptiveShape shape;
-  shape.surface_box = boundingBox(mesh);
+  shape.surface_box = boundingBox(solid.boundary());
   const double longest = shape.surface_box.sizes().maxCoeff();
   shape.error_bound = *options.max_error;
   shape.cell = longest / topCells(*options.max_error / longest);
@@ -383,7 +383,7 @@ std::shared_ptr<const AdaptiveGrid> buildAdaptive(const TriangleMesh& mesh, cons
   }
   shape.size = cells.cast<int>();
   shape.origin = shape.surface_box.center() - 0.5 * shape.cell * cells;
-  return std::make_shared<const AdaptiveGrid>(AdaptiveBuilder(mesh, shape, options.max_bytes, progress).build());
+  return std::make_shared<const AdaptiveGrid>(AdaptiveBuilder(solid, shape, options.max_bytes, progress).build());
 }
 
 }  // namespace sdf_ccd

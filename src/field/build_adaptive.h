@@ -4,14 +4,14 @@
 
 #include "sdf_ccd/field/adaptive_grid.h"
 #include "sdf_ccd/field/field_options.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/geometry/solid_boundary.h"
 
 namespace sdf_ccd {
 
 /// An adaptive grid whose interpolation is proved to differ by at most options.max_error [m] from the distance, where
-/// |φ| ≤ band; for a mesh and options that are valid.
+/// |φ| ≤ band; for options that are valid.
 /// @throws std::length_error if it would exceed options.max_bytes.
-std::shared_ptr<const AdaptiveGrid> buildAdaptive(const TriangleMesh& mesh, const FieldOptions& options,
+std::shared_ptr<const AdaptiveGrid> buildAdaptive(const Solid& solid, const FieldOptions& options,
                                                   const Progress& progress);
 
 }  // namespace sdf_ccd

@@ -1,5 +1,6 @@
 #include "sdf_ccd/field/field_cache.h"
 
+#include <fstream>
 #include <optional>
 
 #include "sdf_ccd/field/content_hash.h"
@@ -12,6 +13,9 @@ namespace {
 /// Counts what the same options have meant: a field of an earlier meaning must not be taken for one of today's.
 constexpr double kMeaning = 3;
 
+/// Ends the name of the file that holds what is doubtful about a field.
+constexpr const char* kDoubt = ".doubt";
+
 }  // namespace
 
 std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options) {
@@ -20,15 +24,26 @@ std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options)
          ".field";
 }
 
-CachedField cachedField(const FileCache& cache, const TriangleMesh& mesh, const FieldOptions& options,
+CachedField cachedField(const FileCache& cache, const SolidSource& source, const FieldOptions& options,
                         const Progress& progress) {
-  validate(mesh);
+  validate(source.mesh());
   validate(options);
   std::optional<DistanceField> field;
-  const CacheOutcome outcome =
-      cache.get(fieldFileName(mesh, options), {[&](const std::string& path) { field = loadField(path); },
-                                               [&] { field = buildField(mesh, options, progress); },
-                                               [&](const std::string& path) { saveField(*field, path); }});
+  std::string doubt;
+  const auto load = [&](const std::string& path) {
+    field = loadField(path);
+    std::getline(std::ifstream(path + kDoubt), doubt);
+  };
+  const auto make = [&] {
+    field = buildField(source.solid(), options, progress);
+    doubt = warning(source.solid().report());
+  };
+  const auto save = [&](const std::string& path) {
+    if (!doubt.empty()) std::ofstream(path + kDoubt) << doubt << std::endl;
+    saveField(*field, path);
+  };
+  CacheOutcome outcome = cache.get(fieldFileName(source.mesh(), options), {load, make, save});
+  if (!doubt.empty()) outcome.warning += (outcome.warning.empty() ? "" : "; ") + doubt;
   return {std::move(*field), outcome};
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "../geometry/compiler_lanes.h"
-#include "sdf_ccd/geometry/separating_triangles.h"
 
 namespace sdf_ccd {
 namespace {
@@ -71,8 +70,9 @@ PlaceLanes::Lane distancesAtCorners(const SurfaceIndex& surface, int triangle, c
 
 }  // namespace
 
-SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) : exact_(mesh) {
-  const std::vector<std::uint8_t> separates = separatingTriangles(mesh, exact_.tree());
+SurfaceIndex::SurfaceIndex(Solid solid) : exact_(std::move(solid)) {
+  const TriangleMesh& mesh = exact_.solid().boundary();
+  const std::vector<std::uint8_t>& separates = exact_.solid().separates();
   triangles_.reserve(mesh.triangles.size());
   faces_.reserve(mesh.triangles.size());
   flat_.reserve(mesh.triangles.size());

@@ -13,10 +13,11 @@
 
 namespace sdf_ccd {
 
-/// A mesh prepared for many questions about small regions of space.
+/// The boundary of a mesh's solid, prepared for many questions about small regions of space.
 class SurfaceIndex {
  public:
-  explicit SurfaceIndex(const TriangleMesh& mesh);
+  explicit SurfaceIndex(const TriangleMesh& mesh) : SurfaceIndex(Solid(mesh)) {}
+  explicit SurfaceIndex(Solid solid);
 
   /// What a triangle says of the surface's direction.
   struct Face {

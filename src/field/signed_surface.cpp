@@ -4,16 +4,14 @@
 
 namespace sdf_ccd {
 
-SignedSurface::SignedSurface(const TriangleMesh& mesh) : tree_(mesh), closed_(isClosed(mesh)) {}
-
 SignedSurface::Nearest SignedSurface::nearest(const Vector3d& p) const {
-  const TriangleTree::ClosestPoint found = tree_.closestPoint(p);
+  const TriangleTree::ClosestPoint found = tree().closestPoint(p);
   return {inside(p) ? -found.distance : found.distance, found.triangle};
 }
 
 SignedSurface::Nearest SignedSurface::next(const Vector3d& p, const Nearest& last, double step) const {
-  const TriangleTree::ClosestPoint found = tree_.closestPointNear(p, last.triangle);
-  const bool same_side = closed_ && found.distance + std::abs(last.distance) > step * (1.0 + 1e-9);
+  const TriangleTree::ClosestPoint found = tree().closestPointNear(p, last.triangle);
+  const bool same_side = closed() && found.distance + std::abs(last.distance) > step * (1.0 + 1e-9);
   const bool is_inside = same_side ? last.distance < 0.0 : inside(p);
   return {is_inside ? -found.distance : found.distance, found.triangle};
 }

@@ -1,27 +1,29 @@
 #pragma once
 
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include <utility>
+
+#include "sdf_ccd/geometry/solid_boundary.h"
 
 namespace sdf_ccd {
 
-/// Exact signed distances to a mesh: closest points, signs from the winding number.
+/// Exact signed distances to the boundary of a mesh's solid: closest points there, signs from the winding number of all
+/// triangles.
 class SignedSurface {
  public:
-  explicit SignedSurface(const TriangleMesh& mesh);
+  explicit SignedSurface(const TriangleMesh& mesh) : SignedSurface(Solid(mesh)) {}
+  explicit SignedSurface(Solid solid) : solid_(std::move(solid)) {}
 
-  const TriangleTree& tree() const { return tree_; }
+  const Solid& solid() const { return solid_; }
+  const TriangleTree& tree() const { return solid_.tree(); }  ///< over the boundary's triangles
 
   /// True if the sign of the distance can change only across a triangle.
-  bool closed() const { return closed_; }
+  bool closed() const { return solid_.closed(); }
 
-  /// A closed mesh's solid is where the winding number is not zero, so that parts may overlap and turn either way.
-  bool inside(const Vector3d& p) const {
-    return tree_.inside(p, closed_ ? TriangleTree::Inside::kNotZero : TriangleTree::Inside::kAboveHalf);
-  }
+  bool inside(const Vector3d& p) const { return solid_.inside(p); }
 
   double signedDistance(const Vector3d& p) const { return nearest(p).distance; }
 
-  /// A signed distance, and the triangle it is to.
+  /// A signed distance, and the boundary's triangle it is to.
   struct Nearest {
     double distance;
     int triangle;
@@ -34,8 +36,7 @@ class SignedSurface {
   Nearest next(const Vector3d& p, const Nearest& last, double step) const;
 
  private:
-  TriangleTree tree_;
-  bool closed_;
+  Solid solid_;
 };
 
 }  // namespace sdf_ccd

@@ -54,7 +54,8 @@ TriangleTree::Expansion TriangleTree::expand(const Triangle* begin, const Triang
 ///
 /// The remainder: r·n/|r|³ is the derivative along n of 1/|r + d| = Σ |d|ˡ P_l(−cos γ)/ρˡ⁺¹, γ between r and d, and the
 /// gradient of the l-th term no longer than l |d|ˡ⁻¹/ρˡ⁺¹ (Bernstein's and Szegő's inequality for P_l(cos γ)). The
-/// terms from l = 4 on sum to at most |d|³ (4 − 3x)/(1 − x)²/ρ⁵ with x = |d|/ρ, and for x ≤ ½ the factor is at most 10.
+/// terms from l = 4 on sum to at most |d|³ (4 − 3x)/(1 − x)²/ρ⁵ with x = |d|/ρ, and for x ≤ ½
+/// the factor is at most 4.9 + 20.4 x².
 TriangleTree::BoundedNumber TriangleTree::evaluate(const Expansion& expansion, const Vector3d& r, double distance2) {
   constexpr double kFourPi = 12.5663706143591729539;
   const double x = r.x(), y = r.y(), z = r.z();
@@ -67,7 +68,7 @@ TriangleTree::BoundedNumber TriangleTree::evaluate(const Expansion& expansion, c
   const double inverse2 = 1 / distance2;
   const double inverse3 = inverse2 * std::sqrt(inverse2);
   return {inverse3 / kFourPi * (expansion.dipole.dot(r) + inverse2 * (-3 * first + 15 * inverse2 * second)),
-          inverse3 * inverse2 * (10 / kFourPi) * expansion.spread};
+          inverse3 * inverse2 * (4.9 + 20.4 * expansion.radius2 * inverse2) / kFourPi * expansion.spread};
 }
 
 }  // namespace sdf_ccd

@@ -29,7 +29,7 @@ std::optional<double> crossing(const Vector3d& start, const Vector3d& way, const
 }  // namespace
 
 ExactSurface::ExactSurface(const TriangleMesh& mesh)
-    : mesh_(mesh), surface_(mesh), near_(0.01 * boundingBox(mesh).diagonal().norm()) {}
+    : surface_(mesh), near_(0.01 * boundingBox(mesh).diagonal().norm()) {}
 
 std::optional<double> ExactSurface::firstHit(const Segment& segment) const {
   const Vector3d way = segment.end - segment.start;
@@ -45,9 +45,9 @@ std::optional<double> ExactSurface::firstHit(const Segment& segment) const {
     surface_.tree().trianglesWithin(segment.start + middle * way, 1.001 * (middle - at) * length, near);
     std::optional<double> first;
     for (const int i : near) {
-      const Vector3i& t = mesh_.triangles[i];
+      const Vector3i& t = mesh().triangles[i];
       const std::optional<double> hit =
-          crossing(segment.start, way, {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
+          crossing(segment.start, way, {mesh().vertices[t[0]], mesh().vertices[t[1]], mesh().vertices[t[2]]});
       if (hit && *hit >= at && *hit <= end && (!first || *hit < *first)) first = hit;
     }
     if (first || end == 1.0) return first;

@@ -11,10 +11,11 @@ namespace sdf_ccd::precision {
 /// What a mesh itself answers, in double precision: the truth that fields are held against.
 class ExactSurface {
  public:
-  /// @param mesh  oriented (see orientOutward()); must outlive this.
+  /// @param mesh  oriented (see orientOutward()).
   explicit ExactSurface(const TriangleMesh& mesh);
 
-  const TriangleMesh& mesh() const { return mesh_; }
+  /// The solid's boundary, by whose triangles what is nearest is named.
+  const TriangleMesh& mesh() const { return surface_.solid().boundary(); }
   const SignedSurface& surface() const { return surface_; }
 
   /// Signed distance [m]: closest triangle, sign from the winding number.
@@ -29,7 +30,6 @@ class ExactSurface {
   std::optional<double> firstHit(const Segment& segment) const;
 
  private:
-  const TriangleMesh& mesh_;
   SignedSurface surface_;
   double near_;  ///< half of the longest piece whose triangles are all tested [m]
 };

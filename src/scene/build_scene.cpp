@@ -78,6 +78,8 @@ class BodyBuilder {
       report_.field_error = std::max(report_.field_error, field.errorBound());
       note(made.outcome);
       noteCaps(geometry, *meshes_[i]);
+      const std::string left_out = made.now && meshes_[i]->solid ? summary(meshes_[i]->solid->report()) : "";
+      if (!left_out.empty()) report_.solid += (report_.solid.empty() ? "" : "; ") + left_out;
     }
     char text[32];
     std::snprintf(text, sizeof(text), "built %.1f s", std::chrono::duration<double>(Clock::now() - start).count());

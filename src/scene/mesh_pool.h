@@ -17,6 +17,7 @@ struct PooledMesh {
   std::optional<double> cell_size;  ///< of its field [m]; none: as the scene's options say
   MeshQuality quality;              ///< empty for voxels
   std::optional<DistanceField> field;
+  std::shared_ptr<const Solid> solid;   ///< null until it is needed
   std::optional<PointShell> shells[2];  ///< of a body of its own, and beside siblings
 };
 

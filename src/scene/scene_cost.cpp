@@ -10,14 +10,12 @@
 
 #include "mesh_pool.h"
 #include "sdf_ccd/field/field_cache.h"
-#include "sdf_ccd/geometry/separating_triangles.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {
 
-// Measured on the links of Panda, UR5 and PR2 at errors of 0.25 to 3 mm, one thread. Where a mesh cuts itself or is
-// open, its field needs finer cells and a winding number at each sample.
+// Measured on the links of Panda, UR5 and PR2 at errors of 0.25 to 3 mm, one thread. Where a mesh is open, or keeps
+// faces inside its solid, its field needs finer cells and a winding number at each sample.
 constexpr double kBytesPerCell = 0.8, kBytesPerCutCell = 2.2;           // a cell: of the surface, error²
 constexpr double kSecondsPerByte = 1.2e-6, kSecondsPerCutByte = 25e-6;  // the latter where all triangles are doubtful
 constexpr double kLeastBytes = 5e4;
@@ -38,8 +36,9 @@ double evenSamples(const TriangleMesh& mesh, double cell, double band) {
 }
 
 /// Share of the surface whose triangles do not tell the inside from the outside by themselves.
-double doubtfulShare(const TriangleMesh& mesh) {
-  const std::vector<std::uint8_t> separates = separatingTriangles(mesh, TriangleTree(mesh));
+double doubtfulShare(const Solid& solid) {
+  const TriangleMesh& mesh = solid.boundary();
+  const std::vector<std::uint8_t>& separates = solid.separates();
   double area = 0.0;
   for (std::size_t i = 0; i < separates.size(); ++i)
     if (!separates[i]) area += 0.5 * areaNormal(mesh, static_cast<int>(i)).norm();
@@ -68,7 +67,7 @@ class CostEstimate {
         if (needs_shell) addShell(*primitive, edges_only, cost);
         continue;
       }
-      const PooledMesh& mesh = pool_.find(geometry);
+      PooledMesh& mesh = pool_.find(geometry);
       const bool is_new = seen_.insert(&mesh).second;
       if (needs_field && is_new) addField(mesh, cost);
       if (needs_shell) addPoints(expectedPoints(mesh.mesh, options_.shell), cost);
@@ -80,7 +79,7 @@ class CostEstimate {
  private:
   double finest() const { return options_.shell.edge_gap > 0.0 ? options_.shell.edge_gap : options_.shell.spacing; }
 
-  void addField(const PooledMesh& mesh, BodyCost& cost) {
+  void addField(PooledMesh& mesh, BodyCost& cost) {
     const FieldOptions field = pool_.fieldOptions(mesh);
     const double cached = cachedBytes(options_, mesh.mesh, field);
     cost.in_cache = cost.in_cache && cached > 0.0;
@@ -88,8 +87,9 @@ class CostEstimate {
     if (cached > 0.0) return;
     double bytes = 0.0, one_thread = 0.0;
     if (field.max_error) {
-      const double doubtful = doubtfulShare(mesh.mesh);
-      const double cells = surfaceArea(mesh.mesh) / (*field.max_error * *field.max_error);
+      const Solid& solid = SolidSource(mesh.mesh, mesh.solid).solid();
+      const double doubtful = doubtfulShare(solid);
+      const double cells = surfaceArea(solid.boundary()) / (*field.max_error * *field.max_error);
       bytes = kLeastBytes + (doubtful > 0.0 ? kBytesPerCutCell : kBytesPerCell) * cells;
       one_thread = (kSecondsPerByte + doubtful * kSecondsPerCutByte) * bytes;
     } else {

@@ -60,7 +60,15 @@ void requireRoom(double area, const ShellOptions& options) {
 }  // namespace
 
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) {
-  return sampleSurface(mesh, options, EdgeSampling(options));
+  validate(mesh);
+  validate(options);
+  const TriangleMesh surface = welded(mesh);
+  if (surface.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
+  return sampleSurface(Solid(surface), options);
+}
+
+PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
+  return sampleSurface(solid.boundary(), options, EdgeSampling(options));
 }
 
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& asked, const EdgeSampling& sampling) {

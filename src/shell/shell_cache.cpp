@@ -4,14 +4,20 @@
 #include "sdf_ccd/shell/shell_file.h"
 
 namespace sdf_ccd {
+namespace {
 
-CachedShell cachedShell(const FileCache& cache, const TriangleMesh& mesh, const ShellOptions& options) {
+/// Counts what the same options have meant.
+constexpr double kMeaning = 2;
+
+}  // namespace
+
+CachedShell cachedShell(const FileCache& cache, const SolidSource& source, const ShellOptions& options) {
   CachedShell cached;
-  const std::string name = contentHash(mesh, {options.spacing, options.edge_gap, double(options.has_siblings),
-                                              options.vertex_spacing, double(options.seed)}) +
+  const std::string name = contentHash(source.mesh(), {options.spacing, options.edge_gap, double(options.has_siblings),
+                                                       options.vertex_spacing, double(options.seed), kMeaning}) +
                            ".shell";
   cached.outcome = cache.get(name, {[&](const std::string& path) { cached.shell = loadShell(path); },
-                                    [&] { cached.shell = sampleSurface(mesh, options); },
+                                    [&] { cached.shell = sampleSurface(source.solid(), options); },
                                     [&](const std::string& path) { saveShell(cached.shell, path); }});
   return cached;
 }

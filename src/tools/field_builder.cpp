@@ -30,20 +30,28 @@ OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& me
   return oriented;
 }
 
-DistanceField buildWithBar(const std::string& title, const TriangleMesh& mesh, const FieldOptions& options) {
+void printSolid(const SolidReport& report, const std::string& indent) {
+  const std::string found = summary(report), doubt = warning(report);
+  if (!found.empty()) std::cout << indent << found << "\n";
+  if (!doubt.empty()) std::cout << indent << "warning: " << doubt << "\n";
+}
+
+DistanceField buildWithBar(const std::string& title, const Solid& solid, const FieldOptions& options) {
   ProgressBar bar(title);
-  return buildField(mesh, options, [&](double share) { bar(share); });
+  return buildField(solid, options, [&](double share) { bar(share); });
 }
 
 FieldBuilder::Made FieldBuilder::make(const std::string& name, const TriangleMesh& mesh) const {
   const OrientedMesh oriented = orientWithWarning(name, mesh);
   const auto start = std::chrono::steady_clock::now();
-  DistanceField field = buildWithBar("field of " + name, oriented.mesh, resolution_.fieldOptions());
+  const Solid solid(oriented.mesh);
+  DistanceField field = buildWithBar("field of " + name, solid, resolution_.fieldOptions());
   const double field_seconds = secondsSince(start);
   ShellOptions options;
   options.spacing = spacing_.value_or(2.3 * field.errorBound());
-  PointShell shell = sampleSurface(oriented.mesh, options);
-  return {field, std::move(shell), summary(oriented.quality), field_seconds, secondsSince(start) - field_seconds};
+  PointShell shell = sampleSurface(solid, options);
+  return {field,          std::move(shell), summary(oriented.quality),
+          solid.report(), field_seconds,    secondsSince(start) - field_seconds};
 }
 
 void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
@@ -55,6 +63,7 @@ void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const 
   }
   const Made& made = found->second;
   std::cout << "  mesh   " << made.quality << "\n";
+  printSolid(made.solid, "  solid  ");
   writeField(name, made.field, is_new ? time(made.field_seconds) : "made above");
   writeShell(name, made.shell, is_new ? time(made.shell_seconds) : "made above");
 }
@@ -63,7 +72,7 @@ void FieldBuilder::addVoxels(const std::string& name, const TriangleMesh& mesh, 
   std::cout << "  voxels " << voxel_size << " m, " << mesh.triangles.size() << " triangles, volume "
             << signedVolume(mesh) << " m^3\n";
   const auto start = std::chrono::steady_clock::now();
-  const DistanceField field = buildWithBar("field of " + name, mesh, resolution_.fieldOptions(voxel_size / 2.0));
+  const DistanceField field = buildWithBar("field of " + name, Solid(mesh), resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
   writeField(name, field, time(secondsSince(start)));
 }

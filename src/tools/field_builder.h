@@ -10,6 +10,7 @@
 #include "resolution_options.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/geometry/solid_boundary.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd::tools {
@@ -17,8 +18,12 @@ namespace sdf_ccd::tools {
 /// The mesh turned outward; what must be known of its inside is said on stderr, `source` in front.
 OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& mesh);
 
-/// The field of a mesh that is turned outward, or of voxels, with a progress bar of that title.
-DistanceField buildWithBar(const std::string& title, const TriangleMesh& mesh, const FieldOptions& options);
+/// What was left out of a mesh's solid and what is doubtful about it, in a line each that begins with `indent`; nothing
+/// if nothing was.
+void printSolid(const SolidReport& report, const std::string& indent);
+
+/// The field of a solid with a progress bar of that title.
+DistanceField buildWithBar(const std::string& title, const Solid& solid, const FieldOptions& options);
 
 /// Makes fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {
@@ -41,6 +46,7 @@ class FieldBuilder {
     DistanceField field;
     PointShell shell;
     std::string quality;
+    SolidReport solid;
     double field_seconds;
     double shell_seconds;
   };

@@ -87,13 +87,15 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
               << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m^3\nwithin "
               << describe(boundingBox(mesh)) << std::endl;
     if (!wants_field) return std::nullopt;
-    return buildWithBar("field", mesh, arguments.resolution.fieldOptions(voxel_size / 2.0));
+    return buildWithBar("field", Solid(mesh), arguments.resolution.fieldOptions(voxel_size / 2.0));
   }
   const OrientedMesh oriented = orientWithWarning(file, loadMesh(file));
   printQuality(oriented.quality);
   std::cout << "openings             " << summary(findOpenings(oriented.mesh)) << std::endl;
+  const Solid solid(oriented.mesh);
+  printSolid(solid.report(), "solid: ");
   if (!wants_field) return std::nullopt;
-  return buildWithBar("field", oriented.mesh, arguments.resolution.fieldOptions());
+  return buildWithBar("field", solid, arguments.resolution.fieldOptions());
 }
 
 void run(const Arguments& arguments) {

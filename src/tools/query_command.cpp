@@ -38,7 +38,7 @@ DistanceField fieldOf(const Arguments& arguments) {
   if (!arguments.field.empty()) return loadField(arguments.field);
   FieldOptions options = arguments.resolution.fieldOptions();
   options.band = std::max(options.band, std::abs(arguments.query.sigma));
-  return buildWithBar("field", orientWithWarning(arguments.mesh, loadMesh(arguments.mesh)).mesh, options);
+  return buildWithBar("field", Solid(orientWithWarning(arguments.mesh, loadMesh(arguments.mesh)).mesh), options);
 }
 
 std::vector<Intervals> intervalsOf(const DistanceField& field, const std::vector<Segment>& segments,

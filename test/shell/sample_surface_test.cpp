@@ -277,5 +277,26 @@ TEST(SampleSurface, RobotMeshes) {
   }
 }
 
+TEST(SampleSurface, FacesInsideTheSolidGetNoPointsAndNoArea) {
+  // Two boxes that overlap by half, 1.5 × 0.6 × 0.6 m together: one as wide as the other, or a little wider.
+  for (const double half_width : {0.3, 0.31}) {
+    const Vector3d half_size(0.5, half_width, half_width), half_size_of_first(0.5, 0.3, 0.3), shift(0.25, 0, 0);
+    const TriangleMesh mesh = merged(test::translated(test::boxMesh(half_size_of_first), -shift),
+                                     test::translated(test::boxMesh(half_size), shift));
+    ShellOptions options;
+    options.spacing = 0.05;
+    const PointShell shell = sampleSurface(mesh, options);
+    double area = 0;
+    for (std::size_t i = 0; i < shell.size(); ++i) {
+      const Vector3d& p = shell.points[i];
+      EXPECT_GE(((p + shift).cwiseAbs() - half_size_of_first).maxCoeff(), -1e-9) << p.transpose();
+      EXPECT_GE(((p - shift).cwiseAbs() - half_size).maxCoeff(), -1e-9) << p.transpose();
+      area += shell.areas[i];
+    }
+    EXPECT_NEAR(area, 0.5 * 2.4 + 8 * half_width + 8 * half_width * half_width, 1e-9);
+    EXPECT_LE(shell.covering_radius, options.spacing);
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -12,8 +12,9 @@ struct CachedField {
   CacheOutcome outcome;
 };
 
-/// As buildField(), but from the cache where it is there: by the mesh's content (scale included) and the options.
-CachedField cachedField(const FileCache& cache, const TriangleMesh& mesh, const FieldOptions& options,
+/// As buildField(), but from the cache where it is there: by the mesh's content (scale included) and the options. The
+/// outcome's warning says where depths may be those of faces inside the solid; it is kept beside the file.
+CachedField cachedField(const FileCache& cache, const SolidSource& source, const FieldOptions& options,
                         const Progress& progress = {});
 
 /// Name of the file that cachedField() uses.

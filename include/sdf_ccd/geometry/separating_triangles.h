@@ -12,7 +12,7 @@ namespace sdf_ccd {
 /// overlaps it, and it has an area. Where only such triangles are near, the gradient of the signed distance lies in
 /// the convex cone of their normals.
 ///
-/// Cut and overlap are decided with a tolerance of 1e-12 of the mesh's size, on the cautious side.
+/// Cut and overlap are decided with a tolerance of 1e-10 of the mesh's size, on the cautious side.
 /// @param tree  over the same mesh.
 std::vector<std::uint8_t> separatingTriangles(const TriangleMesh& mesh, const TriangleTree& tree);
 

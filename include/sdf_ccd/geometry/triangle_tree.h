@@ -28,6 +28,9 @@ class TriangleTree {
     int triangle;     ///< index in the mesh
   };
 
+  /// Of the mesh, by its index there.
+  const MeasuredTriangle& triangle(int i) const { return triangles_[places_[i]]; }
+
   /// Closest point of the mesh to p, if nearer than `max_distance`; triangle is -1 (distance `max_distance`) if not.
   ClosestPoint closestPoint(const Vector3d& p, double max_distance = kInfinity) const;
 

@@ -7,6 +7,10 @@ namespace sdf_ccd {
 /// Where two surfaces touch or cross, a point of either shell is no farther than this from the other surface [m], and
 /// at a distance D of the surfaces, no farther than D more.
 ///
+/// A mesh's surface is the boundary of its solid (see Solid): faces within it have no points and need none, as nothing
+/// touches them before the boundary. Seams, where the faces of overlapping parts meet, are borders of triangles that
+/// have no neighbour over them, and so among the edges below.
+///
 /// What lies between points of faces does not count, because faces alone never touch first. Let E be the edges of a
 /// surface's flat pieces: away from E a surface is a plane nearby. Of the places where surfaces A and B meet, take an
 /// extreme point x of their convex hull. Were x neither on E_A nor on E_B, two planes would meet there, along a line

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/geometry/solid_boundary.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
@@ -19,9 +19,9 @@ struct ShellOptions {
   std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
 };
 
-/// Point shell of a mesh: its vertices (paper §5) and a Poisson-disk sampling that fills the surface between them
-/// until no gap exceeds options.spacing. Vertex normals are weighted by angle; a vertex of a sharp edge keeps its
-/// averaged normal. Areas sum to the mesh's area.
+/// Point shell of the boundary of a mesh's solid (see Solid; faces inside it get no points): its vertices (paper §5)
+/// and a Poisson-disk sampling that fills the surface between them until no gap exceeds options.spacing. Vertex normals
+/// are weighted by angle; a vertex of a sharp edge keeps its averaged normal. Areas sum to the boundary's area.
 ///
 /// Faces need no points to be touched at: two polyhedra touch each other at an edge of one. So edges, but those within
 /// flat pieces, can be sampled denser than faces (options.edge_gap), at a fraction of the points; where a
@@ -31,6 +31,7 @@ struct ShellOptions {
 /// measure too, so both sides of a thin plate get points and area. The covering radius counts all points.
 /// @throws std::invalid_argument if the mesh or the options are not valid.
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
+PointShell sampleSurface(const Solid& solid, const ShellOptions& options);
 
 /// The points on vertices and edges alone, by options.edge_gap: no point stands for an area, and the covering radius is
 /// infinite. They show where the surface touches, not how hard.

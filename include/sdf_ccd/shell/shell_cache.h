@@ -11,6 +11,6 @@ struct CachedShell {
 };
 
 /// As sampleSurface(), but from the cache where it is there: by the mesh's content and the options.
-CachedShell cachedShell(const FileCache& cache, const TriangleMesh& mesh, const ShellOptions& options);
+CachedShell cachedShell(const FileCache& cache, const SolidSource& source, const ShellOptions& options);
 
 }  // namespace sdf_ccd

@@ -1,0 +1,179 @@
+#include "sdf_ccd/geometry/solid_boundary.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <tbb/parallel_for.h>
+
+#include "sdf_ccd/geometry/separating_triangles.h"
+#include "triangle_cutter.h"
+
+namespace sdf_ccd {
+namespace {
+
+bool isKept(Sides sides) {
+  return sides != Sides::kBuried && sides != Sides::kCovered;
+}
+
+/// Collects what is kept of a mesh.
+class BoundaryWriter {
+ public:
+  BoundaryWriter(const TriangleMesh& mesh, const SurfaceTolerance& tolerance, SolidReport& report)
+      : mesh_(mesh), tolerance_(tolerance), report_(report) {
+    boundary_.vertices = mesh.vertices;
+  }
+
+  void addWhole(int triangle, Sides sides) {
+    if (!isKept(sides)) {
+      ++report_.dropped;
+      return;
+    }
+    add(mesh_.triangles[triangle], sides);
+    if (sides == Sides::kUnknown) noteDoubtful(0.5 * areaNormal(mesh_, triangle).norm());
+    report_.reversed += sides == Sides::kInward;
+  }
+
+  void addParts(int triangle, const std::vector<SurfacePart>& parts) {
+    // Cuts are of use only where they leave something out or tell the front from the back.
+    const auto has = [&](Sides sides) {
+      return std::any_of(parts.begin(), parts.end(), [&](const SurfacePart& part) { return part.sides == sides; });
+    };
+    const bool one = parts.size() == 1, clipped = has(Sides::kBuried) || has(Sides::kCovered);
+    if (one || (!clipped && !(has(Sides::kOutward) && has(Sides::kInward)))) {
+      if (one) return addWhole(triangle, parts.front().sides);
+      add(mesh_.triangles[triangle], Sides::kUnknown);
+      noteDoubtful(areaOf(parts, Sides::kUnknown));
+      return;
+    }
+    report_.clipped += clipped;
+    noteDoubtful(areaOf(parts, Sides::kUnknown));
+    for (const SurfacePart& part : parts) {
+      if (isKept(part.sides)) addPiece(part);
+    }
+  }
+
+  TriangleMesh takeMesh() { return std::move(boundary_); }
+  std::vector<std::uint8_t> takeSeparates() { return std::move(separates_); }
+
+ private:
+  static double areaOf(const std::vector<SurfacePart>& parts, Sides sides) {
+    double area = 0.0;
+    for (const SurfacePart& part : parts) {
+      if (part.sides != sides) continue;
+      for (const auto& t : part.piece.triangles()) {
+        const auto place = [&](int k) -> const Vector3d& { return part.piece.corners()[t[k]].place; };
+        area += 0.5 * (place(1) - place(0)).cross(place(2) - place(0)).norm();
+      }
+    }
+    return area;
+  }
+
+  void noteDoubtful(double area) {
+    report_.doubtful += area > 0.0;
+    report_.doubtful_area += area;
+  }
+
+  void add(Vector3i corners, Sides sides) {
+    if (sides == Sides::kInward) std::swap(corners[1], corners[2]);
+    boundary_.triangles.push_back(corners);
+    const bool has_sides = sides == Sides::kOutward || sides == Sides::kInward;
+    const int last = static_cast<int>(boundary_.triangles.size()) - 1;
+    separates_.push_back(has_sides && hasCertainPlane(boundary_, last, tolerance_));
+  }
+
+  void addPiece(const SurfacePart& part) {
+    std::vector<int> vertices;
+    for (const FlatCorner& corner : part.piece.corners()) {
+      vertices.push_back(corner.vertex >= 0 ? corner.vertex : static_cast<int>(boundary_.vertices.size()));
+      if (corner.vertex < 0) boundary_.vertices.push_back(corner.place);
+    }
+    for (const auto& t : part.piece.triangles()) {
+      add({vertices[t[0]], vertices[t[1]], vertices[t[2]]}, part.sides);
+      ++report_.pieces;
+      report_.reversed += part.sides == Sides::kInward;
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  SurfaceTolerance tolerance_;
+  SolidReport& report_;
+  TriangleMesh boundary_;
+  std::vector<std::uint8_t> separates_;
+};
+
+}  // namespace
+
+Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
+    : closed_(isClosed(mesh)), all_(std::make_shared<TriangleTree>(mesh)), tree_(all_), boundary_(mesh) {
+  if (!closed_) {
+    separates_ = separatingTriangles(mesh, *all_);
+    return;
+  }
+  const SurfaceTolerance tolerance = surfaceTolerance(mesh);
+  const TriangleCuts cuts = triangleCuts(mesh, *all_, tolerance, limits.pairs);
+  const std::vector<Sides> sides = sidesOfUncut(mesh, *all_, cuts, tolerance);
+  separates_.resize(sides.size());
+  std::transform(sides.begin(), sides.end(), separates_.begin(), [](Sides s) { return s == Sides::kOutward; });
+  report_.pairs = cuts.pairs;
+  if (!cuts.complete) {
+    report_.failure = "more than " + std::to_string(limits.pairs) + " pairs of triangles cut each other";
+    return;
+  }
+  std::vector<int> cut;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (!cuts.of[i].empty()) cut.push_back(static_cast<int>(i));
+  }
+  const bool as_it_is = cut.empty() && std::all_of(sides.begin(), sides.end(),
+                                                   [](Sides s) { return s != Sides::kBuried && s != Sides::kInward; });
+  if (as_it_is) return;
+
+  std::vector<std::vector<SurfacePart>> parts(sides.size());
+  const TriangleCutter cutter(mesh, *all_, tolerance);
+  const std::size_t most_steps = limits.steps / std::max<std::size_t>(cut.size(), 1);
+  tbb::parallel_for(std::size_t{0}, cut.size(),
+                    [&](std::size_t i) { parts[cut[i]] = cutter.parts(cut[i], cuts.of[cut[i]], most_steps); });
+  BoundaryWriter writer(mesh, tolerance, report_);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const int triangle = static_cast<int>(i);
+    parts[i].empty() ? writer.addWhole(triangle, sides[i]) : writer.addParts(triangle, parts[i]);
+  }
+  report_.doubtful_area /= surfaceArea(mesh);
+  if (report_.dropped == static_cast<int>(sides.size())) {
+    report_.failure = "no triangle has the outside before it";
+    return;
+  }
+  boundary_ = writer.takeMesh();
+  separates_ = writer.takeSeparates();
+  tree_ = std::make_shared<TriangleTree>(boundary_);
+}
+
+std::string summary(const SolidReport& report) {
+  if (!report.failure.empty()) return "all triangles taken: " + report.failure;
+  std::ostringstream text;
+  text.precision(2);
+  const auto add = [&](int count, const std::string& what) {
+    if (count == 0) return;
+    text << (text.tellp() > 0 ? ", " : "") << count << (count == 1 ? " triangle " : " triangles ") << what;
+  };
+  add(report.dropped, "inside left out");
+  add(report.clipped, "clipped into " + std::to_string(report.pieces));
+  add(report.reversed, "turned");
+  add(report.doubtful, "doubtful");
+  if (report.doubtful > 0) text << " (" << 100.0 * report.doubtful_area << " % of the area)";
+  return text.str();
+}
+
+std::string warning(const SolidReport& report) {
+  constexpr double kToSpeakOf = 1e-4;
+  if (!report.failure.empty()) {
+    return "depths may be those of faces inside the solid, because " + report.failure;
+  }
+  if (report.doubtful_area <= kToSpeakOf) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "depths may be those of faces inside the solid: " << report.doubtful << " triangles ("
+       << 100.0 * report.doubtful_area << " % of the area) cannot be told to be outside or inside";
+  return text.str();
+}
+
+}  // namespace sdf_ccd

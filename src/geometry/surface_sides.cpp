@@ -1,0 +1,76 @@
+#include "surface_sides.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+#include "mesh_edges.h"
+#include "sdf_ccd/geometry/triangle.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// The middle of a triangle, and how far from the edges it is.
+SideTest::Place middle(const TriangleMesh& mesh, int triangle) {
+  const Vector3i& t = mesh.triangles[triangle];
+  const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  const Vector3d area_normal = areaNormal(mesh, triangle);
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return {(a + b + c) / 3.0, area_normal.normalized(), area_normal.norm() / longest / 3.0, triangle};
+}
+
+}  // namespace
+
+Sides SideTest::at(const Place& place, const std::vector<int>& layers) const {
+  thread_local std::vector<int> near;
+  double free = 0.1 * place.clearance;
+  tree_.trianglesWithin(place.point, free, near);
+  for (const int other : near) {
+    if (other == place.triangle || std::binary_search(layers.begin(), layers.end(), other)) continue;
+    free = std::min(free, (tree_.triangle(other).closest(place.point) - place.point).norm());
+  }
+  const double step = 0.5 * free;
+  if (step <= 4.0 * tolerance_.layer) return Sides::kUnknown;
+  const bool front = tree_.inside(place.point + step * place.normal, TriangleTree::Inside::kNotZero);
+  const bool back = tree_.inside(place.point - step * place.normal, TriangleTree::Inside::kNotZero);
+  if (front) return back ? Sides::kBuried : Sides::kInward;
+  return back ? Sides::kOutward : Sides::kSheet;
+}
+
+std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const TriangleCuts& cuts,
+                                const SurfaceTolerance& tolerance) {
+  const std::size_t count = mesh.triangles.size();
+  std::vector<std::uint8_t> uncut(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    uncut[i] = cuts.of[i].empty() && hasCertainPlane(mesh, static_cast<int>(i), tolerance);
+  }
+  TriangleSets sets(count);
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    const bool pair = last - first == 2 && uncut[first[0].triangle] != 0 && uncut[first[1].triangle] != 0;
+    if (pair) sets.join(first[0].triangle, first[1].triangle);
+  });
+  std::vector<std::int32_t> widest(count, -1);  // of the set that a triangle names
+  std::vector<double> clearance(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (uncut[i] == 0) continue;
+    const auto triangle = static_cast<std::int32_t>(i);
+    const std::int32_t set = sets.find(triangle);
+    const double here = middle(mesh, triangle).clearance;
+    if (here > clearance[set]) {
+      clearance[set] = here;
+      widest[set] = triangle;
+    }
+  }
+  const SideTest test(tree, tolerance);
+  std::vector<Sides> of_set(count, Sides::kUnknown);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    if (widest[i] >= 0) of_set[i] = test.at(middle(mesh, widest[i]), {});
+  });
+  std::vector<Sides> sides(count, Sides::kUnknown);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (uncut[i] != 0) sides[i] = of_set[sets.find(static_cast<std::int32_t>(i))];
+  }
+  return sides;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "flat_piece.h"
+#include "surface_sides.h"
+
+namespace sdf_ccd {
+
+/// A convex part of a triangle whose sides are the same all over it.
+struct SurfacePart {
+  FlatPiece piece;
+  Sides sides;
+};
+
+/// Cuts triangles of a closed mesh along the planes of those that cross them, and along the edges of those that lie on
+/// them, until nothing crosses a part; then tells the part's sides.
+///
+/// Nothing crosses a part but within a strip along its border as wide as the tolerance: so wide at most is what is
+/// told wrongly. What cannot be told is kUnknown.
+class TriangleCutter {
+ public:
+  TriangleCutter(const TriangleMesh& mesh, const TriangleTree& tree, const SurfaceTolerance& tolerance)
+      : mesh_(mesh), tolerance_(tolerance), test_(tree, tolerance) {}
+
+  /// Parts that cover the triangle; neighbours of like sides are joined where one cut has made them.
+  /// @param others  that cut it or lie on it, ascending.
+  /// @param most_steps  in each of which one other is compared with one part; empty if they do not do.
+  std::vector<SurfacePart> parts(int triangle, const std::vector<int>& others, std::size_t most_steps) const;
+
+ private:
+  class Task;
+
+  const TriangleMesh& mesh_;
+  SurfaceTolerance tolerance_;
+  SideTest test_;
+};
+
+}  // namespace sdf_ccd
