@@ -12,26 +12,28 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const Scene> scene, const DescribedScen
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
   const TfTracker::Step step = tracker_.next(now, cycle_);
   if (step == TfTracker::Step::kJump) monitor_.reset();
-  if (step != TfTracker::Step::kCycle) return step;
-  run(request);
-  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_);
-  if (!unchecked.empty()) {
-    guarded_ = *result_;
-    addUnchecked(unchecked, guarded_);
-    result_ = &guarded_;
-  }
+  if (step == TfTracker::Step::kCycle) run(request);
   return step;
 }
 
 void MonitorLoop::run(const CycleRequest& request) {
   try {
     result_ = &monitor_.run(cycle_.motion, request);
+    guardReach();
   } catch (const std::exception& error) {
     monitor_.reset();
     cycle_.motion.missing.assign(scene().bodies.size(), error.what());
     cycle_.motion.motion_error.clear();
     result_ = &monitor_.run(cycle_.motion, request);
   }
+}
+
+void MonitorLoop::guardReach() {
+  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_);
+  if (unchecked.empty()) return;
+  guarded_ = *result_;
+  addUnchecked(unchecked, guarded_);
+  result_ = &guarded_;
 }
 
 void MonitorLoop::reset() {

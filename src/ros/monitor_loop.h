@@ -33,6 +33,7 @@ class MonitorLoop {
 
  private:
   void run(const CycleRequest& request);
+  void guardReach();
 
   TfHistory history_;
   TfTracker tracker_;

@@ -46,10 +46,10 @@ double Tally::medianBoundOverError() const {
 
 std::vector<Family> families() {
   return {{"both_move", bothMove, 4000},
-          {"degenerate", degenerate, 4000},
-          {"topology", topology, 4000},
+          {"degenerate", degenerate, 3000},
+          {"topology", topology, 1500},
           {"metamorphic", metamorphic, 2000},
-          {"search", search, 6000}};
+          {"search", search, 4000}};
 }
 
 }  // namespace sdf_ccd::test
