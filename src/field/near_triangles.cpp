@@ -15,14 +15,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What rounding may take from a distance, relative to the cube it is compared in.
 constexpr double kSlack = 1e-9;
 
-/// Triangles that share the closest edge or vertex tie, to rounding of their squared distances, which is worst of
-/// slivers. Too many ties cost little: what then does not agree about the sign is told by the centre's.
-constexpr double kTie = 1e-9;
-
 /// How far a triangle may be from the centre of a cube and still be the closest to a place in it: that place is within
 /// distance + radius of the surface, and the centre within another radius of it.
-double reach(const SpaceCube& cube, double distance) {
-  return (std::abs(distance) + 2.0 * cube.radius()) * (1.0 + kSlack);
+double reach(const SurfaceIndex& surface, const SpaceCube& cube, double distance) {
+  return (std::abs(distance) + 2.0 * cube.radius()) * (1.0 + kSlack) + surface.exact().solid().seam();
 }
 
 /// Whether a triangle can be nearer to a place of a cube than another whose distances from the corners are given.
@@ -64,7 +60,7 @@ PlaceLanes::Lane distancesAtCorners(const SurfaceIndex& surface, int triangle, c
   ClosestLanes closest;
   closest.distance2.fill(kInfinity);
   surface.offer(triangle, Vector3d::Zero(), corners, closest);
-  for (double& value : closest.distance2) value = std::sqrt(value) + kSlack * size;
+  for (double& value : closest.distance2) value = std::sqrt(value) + kSlack * size + surface.exact().solid().seam();
   return closest.distance2;
 }
 
@@ -153,21 +149,22 @@ const Vector3d* NearTriangles::setCone(Vector3d axis) {
 }
 
 NearTriangles::Closest NearTriangles::closest(const Vector3d& p) const {
-  double best2 = kInfinity, best = kInfinity;
+  double best2 = kInfinity, tie2 = kInfinity, best = kInfinity;
   Closest closest{kInfinity, p, 0};
   for (std::size_t i = 0; i < count_; ++i) {
     const MeasuredTriangle& t = surface_->triangle(ids_[i]);
     if (!t.mayBeWithin(best, p)) continue;
     const Vector3d q = t.closest(p);
     const double distance2 = (q - p).squaredNorm();
-    if (distance2 > best2 * (1.0 + kTie)) continue;
+    if (distance2 > tie2) continue;
     const SurfaceIndex::Face& face = surface_->face(ids_[i]);
     const int sign = !face.separates ? 0 : (p - q).dot(face.normal) < 0.0 ? -1 : 1;
-    const bool tie = distance2 >= best2 * (1.0 - kTie);
+    const bool tie = surface_->tie2(distance2) >= best2;
     closest.sign = tie && sign != closest.sign ? 0 : sign;
     if (distance2 < best2) {
       best2 = distance2;
-      best = std::sqrt(distance2) * (1.0 + kTie);
+      tie2 = surface_->tie2(distance2);
+      best = std::sqrt(tie2) * (1.0 + kSlack);
       closest.point = q;
     }
   }
@@ -209,7 +206,7 @@ void NearTriangles::signedDistances(const PlaceLanes& places, int count, PlaceLa
 }
 
 NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const SignedSurface::Nearest& nearest) {
-  const double most = reach(cube, nearest.distance);
+  const double most = reach(surface, cube, nearest.distance);
   const PlaceLanes::Lane at_corners = distancesAtCorners(surface, nearest.triangle, cube, most);
   ids_.push_back(nearest.triangle);
   const auto may_matter = [&](const Vector3d& center, double radius) {
@@ -251,11 +248,11 @@ int NearOctants::sign(int k, std::size_t nearest) const {
   const DirectionCone& cone = around_.gradientCone();
   if (cone.sine < 1.0) return sideOf(ways[nearest].at(k).dot(cone.axis));
   // As in NearTriangles::signedDistance().
-  const double best2 = ways[nearest].distance2[k];
+  const double best2 = ways[nearest].distance2[k], tie2 = around_.surface().tie2(best2);
   int agreed = 0;
   bool agree = true;
   for (std::size_t i = 0; i < around_.size() && agree; ++i) {
-    if (ways[i].distance2[k] > best2 * (1.0 + kTie)) continue;
+    if (ways[i].distance2[k] > tie2) continue;
     const SurfaceIndex::Face& face = around_.surface().face(around_.triangle(i));
     const int side = face.separates ? sideOf(ways[i].at(k).dot(face.normal)) : 0;
     agree = side != 0 && (agreed == 0 || side == agreed);
@@ -270,7 +267,7 @@ const NearTriangles& NearOctants::operator[](int k) {
   std::int32_t* const first = ids_.get() + k * around_.size();
   *first = nearest_[k];
   const SpaceCube octant = around_.cube().octant(k);
-  const double most = reach(octant, distances_[k]);
+  const double most = reach(around_.surface(), octant, distances_[k]);
   const PlaceLanes::Lane at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, most);
   const std::int32_t* const last = listNear(around_, ways_.get(), k, nearest_[k], most, at_corners, first + 1);
   near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};

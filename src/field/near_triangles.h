@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -27,6 +28,11 @@ class SurfaceIndex {
   };
 
   const SignedSurface& exact() const { return exact_; }
+  /// Triangles that share the closest edge or vertex tie: up to what squared distance, if the closest one is at this.
+  double tie2(double closest2) const {
+    const double closest = std::sqrt(closest2) + exact_.solid().seam();
+    return closest * closest * (1.0 + kTie);
+  }
   const MeasuredTriangle& triangle(int i) const { return triangles_[static_cast<std::size_t>(i)]; }
   const Face& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
 
@@ -35,6 +41,10 @@ class SurfaceIndex {
   void ways(int i, const PlaceLanes& places, WayLanes& ways) const;
 
  private:
+  /// Rounding of squared distances, which is worst of slivers. Too many ties cost little: what then does not agree about
+  /// the sign is told by the centre's.
+  static constexpr double kTie = 1e-9;
+
   SignedSurface exact_;
   std::vector<MeasuredTriangle> triangles_;
   std::vector<Face> faces_;

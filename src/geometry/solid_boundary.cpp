@@ -23,12 +23,12 @@ class BoundaryWriter {
     boundary_.vertices = mesh.vertices;
   }
 
-  void addWhole(int triangle, Sides sides) {
+  void addWhole(int triangle, Sides sides, bool tells_sides = true) {
     if (!isKept(sides)) {
       ++report_.dropped;
       return;
     }
-    add(mesh_.triangles[triangle], sides);
+    add(mesh_.triangles[triangle], sides, tells_sides);
     if (sides == Sides::kUnknown) noteDoubtful(0.5 * areaNormal(mesh_, triangle).norm());
     report_.reversed += sides == Sides::kInward;
   }
@@ -40,8 +40,8 @@ class BoundaryWriter {
     };
     const bool one = parts.size() == 1, clipped = has(Sides::kBuried) || has(Sides::kCovered);
     if (one || (!clipped && !(has(Sides::kOutward) && has(Sides::kInward)))) {
-      if (one) return addWhole(triangle, parts.front().sides);
-      add(mesh_.triangles[triangle], Sides::kUnknown);
+      if (one) return addWhole(triangle, parts.front().sides, parts.front().tells_sides);
+      add(mesh_.triangles[triangle], Sides::kUnknown, false);
       noteDoubtful(areaOf(parts, Sides::kUnknown));
       return;
     }
@@ -73,12 +73,12 @@ class BoundaryWriter {
     report_.doubtful_area += area;
   }
 
-  void add(Vector3i corners, Sides sides) {
+  void add(Vector3i corners, Sides sides, bool tells_sides) {
     if (sides == Sides::kInward) std::swap(corners[1], corners[2]);
     boundary_.triangles.push_back(corners);
     const bool has_sides = sides == Sides::kOutward || sides == Sides::kInward;
     const int last = static_cast<int>(boundary_.triangles.size()) - 1;
-    separates_.push_back(has_sides && hasCertainPlane(boundary_, last, tolerance_));
+    separates_.push_back(tells_sides && has_sides && hasCertainPlane(boundary_, last, tolerance_));
   }
 
   void addPiece(const SurfacePart& part) {
@@ -88,7 +88,7 @@ class BoundaryWriter {
       if (corner.vertex < 0) boundary_.vertices.push_back(corner.place);
     }
     for (const auto& t : part.piece.triangles()) {
-      add({vertices[t[0]], vertices[t[1]], vertices[t[2]]}, part.sides);
+      add({vertices[t[0]], vertices[t[1]], vertices[t[2]]}, part.sides, part.tells_sides);
       ++report_.pieces;
       report_.reversed += part.sides == Sides::kInward;
     }
@@ -142,6 +142,7 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
     report_.failure = "no triangle has the outside before it";
     return;
   }
+  seam_ = 4.0 * tolerance.border;
   boundary_ = writer.takeMesh();
   separates_ = writer.takeSeparates();
   tree_ = std::make_shared<TriangleTree>(boundary_);

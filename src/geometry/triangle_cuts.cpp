@@ -105,7 +105,7 @@ SurfaceTolerance surfaceTolerance(const TriangleMesh& mesh) {
 bool hasCertainPlane(const TriangleMesh& mesh, int triangle, const SurfaceTolerance& tolerance) {
   const double longest = longestEdge(cornersOf(mesh, triangle));
   const double height = areaNormal(mesh, triangle).norm() / std::max(longest, 1e-300);
-  return height > 1e-6 * longest && height > 10.0 * tolerance.layer;
+  return height > 1e-6 * longest && height > tolerance.border;
 }
 
 TriangleCuts triangleCuts(const TriangleMesh& mesh, const TriangleTree& tree, const SurfaceTolerance& tolerance,

@@ -8,7 +8,8 @@
 namespace sdf_ccd {
 namespace {
 
-/// Of planes whose angle is less the line of intersection is not certain: what matters is how far apart they are.
+/// Of planes whose angle is less, faces that are meant to lie on each other among them, what matters is how far apart
+/// they are, not along which line they meet.
 constexpr double kShallow = 1e-5;
 
 /// Another triangle as seen from the plane of the one that is cut.
@@ -32,7 +33,8 @@ struct Relation {
   Kind kind = kNone;
   bool again = false;  ///< after the cut it may still matter
   FlatLine line{};
-  double length = 0.0;  ///< of the cut
+  double length = 0.0;    ///< of the cut
+  bool doubtful = false;  ///< the part's front and back must not tell sides alone
 };
 
 double heightAt(const Other& other, const Vector2d& x) {
@@ -68,6 +70,7 @@ class TriangleCutter::Task {
     }
     std::vector<SurfacePart> parts = divide(FlatPiece(std::move(whole)), std::move(all));
     if (out_of_steps_) return std::nullopt;
+    for (SurfacePart& part : parts) part.tells_sides = !doubtful_;
     return parts;
   }
 
@@ -161,7 +164,10 @@ class TriangleCutter::Task {
     for (const Vector2d& x : common) heights.push_back(heightAt(other, x));
     const double low = *std::min_element(heights.begin(), heights.end());
     const double high = *std::max_element(heights.begin(), heights.end());
-    if (low >= 0.9 * layer || high <= -0.9 * layer) return {};
+    // What is not a layer all over, seen from both, may be left out of the one and stay of the other.
+    const bool doubtful = (low > 0.05 * layer || high < -0.05 * layer || high - low > 0.05 * layer) &&
+                          low < 2.0 * layer && high > -2.0 * layer;
+    if (low >= 0.9 * layer || high <= -0.9 * layer) return {Relation::kNone, false, {}, 0.0, doubtful};
     if (low >= -1.5 * layer && high <= 1.5 * layer) {
       Relation longest{Relation::kLayer, true};
       for (int k = 0; k < 3; ++k) {
@@ -171,6 +177,7 @@ class TriangleCutter::Task {
         }
       }
       longest.again = true;
+      longest.doubtful = doubtful;
       return longest;
     }
     const double level = high > 1.5 * layer ? layer : -layer;
@@ -184,6 +191,7 @@ class TriangleCutter::Task {
     Relation found = segmentRelation(piece, ends[0], ends[1]);
     if (found.kind != Relation::kCut) return {Relation::kUnclear, true};
     found.again = true;
+    found.doubtful = true;
     return found;
   }
 
@@ -201,6 +209,7 @@ class TriangleCutter::Task {
     std::size_t kept = 0;
     for (const int i : near) {
       const Relation found = relation(piece, others_[i]);
+      doubtful_ = doubtful_ || found.doubtful;
       if (found.kind == Relation::kNone) continue;
       near[kept++] = i;
       unclear = unclear || found.kind == Relation::kUnclear;
@@ -244,6 +253,7 @@ class TriangleCutter::Task {
   std::vector<Other> others_;  ///< ascending
   std::size_t steps_left_;
   bool out_of_steps_ = false;
+  bool doubtful_ = false;  ///< another triangle is nearly a layer
 };
 
 std::vector<SurfacePart> TriangleCutter::parts(int triangle, const std::vector<int>& others,

@@ -12,6 +12,7 @@ namespace sdf_ccd {
 struct SurfacePart {
   FlatPiece piece;
   Sides sides;
+  bool tells_sides = true;  ///< false: near-by faces, nearly on this one, make the side that is nearest doubtful
 };
 
 /// Cuts triangles of a closed mesh along the planes of those that cross them, and along the edges of those that lie on

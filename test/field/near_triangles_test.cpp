@@ -87,5 +87,15 @@ TEST_F(NearTrianglesTest, AreExactWhereSolidsOverlap) {
               0.05);
 }
 
+TEST_F(NearTrianglesTest, AreExactWhereSolidsCrossAtSmallAngles) {
+  // Faces that cross end in edges of several pieces, nearest to many places; one of them alone does not tell the side.
+  for (const double angle : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    const Isometry3d X(Eigen::AngleAxisd(angle, Vector3d(1, 2, 3).normalized()));
+    const TriangleMesh box = test::boxMesh({0.2, 0.15, 0.1});
+    expectExact(merged(box, transformed(box, X)), 0.05);
+    expectExact(merged(box, transformed(test::boxMesh({0.15, 0.2, 0.1}), X)), 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -62,6 +62,10 @@ class Solid {
   /// through a triangle that faces its way is enough.
   const std::vector<std::uint8_t>& separates() const { return separates_; }
 
+  /// How far pieces that meet may be apart [m]: what is nearer than that to the closest one may be as close. 0 where
+  /// nothing was cut.
+  double seam() const { return seam_; }
+
   /// By the winding number of all triangles; see TriangleTree::inside().
   bool inside(const Vector3d& p) const { return all_->inside(p, rule()); }
 
@@ -74,6 +78,7 @@ class Solid {
   std::shared_ptr<const TriangleTree> all_, tree_;
   TriangleMesh boundary_;
   std::vector<std::uint8_t> separates_;
+  double seam_ = 0.0;
   SolidReport report_;
 };
 
