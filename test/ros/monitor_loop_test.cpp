@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ros/cycle_messages.h"
+#include "ros/described_world.h"
 #include "ros/tf_messages.h"
 #include "scene/scene_case.h"
 
@@ -45,7 +46,7 @@ class MonitorLoopTest : public ::testing::Test {
     MonitorParameters parameters;
     parameters.monitor = test::soft();
     parameters.tf.max_latency = max_latency;
-    loop_ = std::make_unique<MonitorLoop>(scene(), "world", parameters);
+    loop_ = std::make_unique<MonitorLoop>(scene(), test::describedWorld(), parameters);
     said_.clear();
   }
 
@@ -210,7 +211,7 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
   broken.bodies[0].X_frame_B.linear() *= 1.1;  // no rotation
   MonitorParameters parameters;
   parameters.monitor = test::soft();
-  loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), "world", parameters);
+  loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), test::describedWorld(), parameters);
   ros::Time end;
   for (int i = 0; i < 10; ++i) {
     const double now = 10.0 + i * kPeriod;
@@ -270,7 +271,7 @@ TEST(MonitorLoop, TwoArmsThatMeetBetweenTheirTransformsAreNotClear) {
   };
   MonitorParameters parameters;
   parameters.monitor = test::soft();
-  MonitorLoop loop(test::build({tip("left"), tip("right")}, test::fine(0.001)), "world", parameters);
+  MonitorLoop loop(test::build({tip("left"), tip("right")}, test::fine(0.001)), test::describedWorld(), parameters);
   loop.history().add(message({stampedTransform("world", "right_base", 0.0, 2.0 * (kArm + kTip) - kDepth)}), true);
   int cycles = 0;
   for (int i = 0; i < 2; ++i) {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "ros/cycle_messages.h"
+#include "ros/described_world.h"
 #include "ros/monitor_loop.h"
 #include "ros/tf_messages.h"
 #include "scene/scene_case.h"
@@ -90,7 +91,7 @@ class Episode {
   explicit Episode(unsigned seed) : random_(seed) {
     MonitorParameters parameters;
     parameters.monitor = test::soft();
-    loop_ = std::make_unique<MonitorLoop>(scene(), "world", parameters);
+    loop_ = std::make_unique<MonitorLoop>(scene(), test::describedWorld(), parameters);
     for (double& phase : phases_) phase = uniform(0.0, 6.3);
     rate_ = uniform(1.0, 5.0);
     delay_ = chance(0.3) ? 0.0 : uniform(0.0, 0.25);

@@ -8,6 +8,7 @@
 #include "adversarial/ros/tf_stream.h"
 #include "adversarial/ros/tf_truth.h"
 #include "oracle/shapes.h"
+#include "ros/described_world.h"
 #include "ros/monitor_loop.h"
 
 namespace sdf_ccd::test {
@@ -94,7 +95,7 @@ void aim(const World& world, std::size_t other, double wanted, std::vector<TfEve
 class Play {
  public:
   Play(const World& world, const MonitorParameters& parameters, Trouble trouble, Tally& tally)
-      : world_(world), loop_(world.scene, "world", parameters), trouble_(trouble), tally_(tally) {
+      : world_(world), loop_(world.scene, describedWorld(), parameters), trouble_(trouble), tally_(tally) {
     take(plateEvent());
   }
 
