@@ -24,10 +24,11 @@ SideTest::Place middle(const TriangleMesh& mesh, int triangle) {
 Sides SideTest::at(const Place& place, const std::vector<int>& layers) const {
   thread_local std::vector<int> near;
   double free = 0.1 * place.clearance;
-  tree_.trianglesWithin(place.point, free, near);
+  tree_.trianglesWithin(place.point, free + tolerance_.closest, near);
   for (const int other : near) {
     if (other == place.triangle || std::binary_search(layers.begin(), layers.end(), other)) continue;
-    free = std::min(free, (tree_.triangle(other).closest(place.point) - place.point).norm());
+    const MeasuredTriangle& t = tree_.triangle(other);
+    free = std::min(free, (t.closest(place.point) - place.point).norm() - closestError(t.a(), t.b(), t.c()));
   }
   const double step = 0.5 * free;
   if (step <= 4.0 * tolerance_.layer) return Sides::kUnknown;

@@ -69,9 +69,10 @@ bool onOneSide(const Corners& t, const Corners& of, double eps) {
 }
 
 /// Whether two triangles of a mesh cut or overlap each other elsewhere than at vertices and edges they share.
-bool cut(const TriangleMesh& mesh, int first, int second, double eps) {
+bool cut(const TriangleMesh& mesh, int first, int second, double tolerance) {
   const Vector3i &i = mesh.triangles[first], &j = mesh.triangles[second];
   const Corners a = cornersOf(mesh, first), b = cornersOf(mesh, second);
+  const double eps = tolerance + closestError(a[0], a[1], a[2]) + closestError(b[0], b[1], b[2]);
   int shared = 0, alone_i = 0, alone_j = 0;  // corners; and, of triangles that share one, which
   for (int k = 0; k < 3; ++k) {
     const bool in_j = i[k] == j[0] || i[k] == j[1] || i[k] == j[2];
@@ -94,12 +95,22 @@ bool cut(const TriangleMesh& mesh, int first, int second, double eps) {
 
 }  // namespace
 
+double closestError(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const double longest = longestEdge({a, b, c});
+  if (!(longest > 0.0)) return 0.0;
+  const double thinness = (b - a).cross(c - a).norm() / (longest * longest);
+  // Below this, closest points are looked for on the edges too, and the interior's lose fewer digits.
+  constexpr double kSliver = 1e-4;
+  const double lost = thinness > kSliver ? 4e-16 / (thinness * thinness) : 1e-15 / std::max(thinness, 1e-300);
+  return longest * std::min(thinness, lost);
+}
+
 SurfaceTolerance surfaceTolerance(const TriangleMesh& mesh) {
   const AlignedBox3d box = boundingBox(mesh);
   // Far from the origin, what is cut off a triangle has corners rounded to 1e-16 of their coordinates.
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   const double size = std::max(box.sizes().maxCoeff(), 1e-4 * reach);
-  return {1e-10 * size, 1e-9 * size, 1e-14 * size};
+  return {1e-10 * size, 1e-9 * size, 1e-14 * size, 1e-7 * size};
 }
 
 bool hasCertainPlane(const TriangleMesh& mesh, int triangle, const SurfaceTolerance& tolerance) {
@@ -122,7 +133,7 @@ TriangleCuts triangleCuts(const TriangleMesh& mesh, const TriangleTree& tree, co
     const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
     const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
     std::vector<int>& near = near_of_thread.local();
-    tree.trianglesWithin(center, radius + eps, near);
+    tree.trianglesWithin(center, radius + eps + tolerance.closest, near);
     for (const int other : near) {
       if (other == triangle || !cut(mesh, triangle, other, eps)) continue;
       cuts.of[i].push_back(other);
