@@ -7,6 +7,7 @@
 #include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/openings.h"
+#include "sdf_ccd/geometry/solid_boundary.h"
 #include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -110,7 +111,7 @@ TEST(OpenMeshField, CracksAreNoOpenings) {
   for (const FieldOptions& options : bothKinds(0.01, 32)) {
     const DistanceField field = buildField(soup, options), closed = buildField(ball, options);
     EXPECT_FALSE(field.openings());
-    EXPECT_LE(field.cells(), 1.2 * closed.cells());
+    EXPECT_LE(field.cells(), 2.0 * closed.cells());  // what overlaps by the jitter is clipped, which leaves slivers
     for (int i = 0; i < 2000; ++i) {
       const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.4), Vector3d::Constant(0.4)});
       const FieldSample a = field.sample(p), b = closed.sample(p);
@@ -129,6 +130,9 @@ TEST_P(RealOpenMesh, SamplesHold) {
   const Openings openings = findOpenings(mesh);
   const TriangleMesh closed = welded(merged(mesh, openings.caps));
   const double size = boundingBox(mesh).sizes().maxCoeff();
+  // Where parts overlap, depth is to the boundary of all of them together: no less than to the nearest triangle.
+  const SolidReport overlaps = Solid(closed).report();
+  const bool overlapping = overlaps.dropped + overlaps.clipped > 0;
   Random random(4);
   for (const FieldOptions& options : bothKinds(0.004 * size, 64)) {
     const DistanceField field = buildField(mesh, options);
@@ -138,8 +142,10 @@ TEST_P(RealOpenMesh, SamplesHold) {
       for (const Vector3i& t : closed.triangles) {
         winding += solidAngleFraction(closed.vertices[t[0]], closed.vertices[t[1]], closed.vertices[t[2]], p);
       }
-      const double truth = (winding > 0.5 ? -1.0 : 1.0) * distance(closed, p);
+      const double truth = (std::abs(winding) > 0.5 ? -1.0 : 1.0) * distance(closed, p);
       const FieldSample sample = field.sample(p);
+      ASSERT_LE(sample.value - truth, sample.error + 1e-6 * size) << p.transpose();
+      if (overlapping && std::abs(winding) > 0.5) continue;
       ASSERT_LE(std::abs(sample.value - truth), sample.error + 1e-6 * size) << p.transpose();
       ASSERT_GE(distance(mesh, p), std::abs(sample.value) - sample.error - 1e-6 * size);
       const FieldSample of_mesh = field.meshSample(p);

@@ -5,13 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include "ros/parameters.h"
 
 namespace sdf_ccd {
 namespace {
 
 XmlRpc::XmlRpcValue load(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "sdf_ccd_parameters_test.yaml";
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("sdf_ccd_parameters_" + std::to_string(getpid()) + ".yaml");
   std::ofstream(file) << text;
   return loadYamlParameters(file.string());
 }
