@@ -41,9 +41,15 @@ double squaredDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c, 
   return best;
 }
 
+/// What all tests of a triangle against others need, measured once.
+struct Measured {
+  Vector3d normal;  ///< of length one, or zero
+  double error;     ///< see closestError()
+  bool certain;     ///< see hasCertainPlane()
+};
+
 /// Whether the segment meets the triangle, to a distance `eps`.
-bool meets(const Corners& t, const Vector3d& a, const Vector3d& b, double eps) {
-  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+bool meets(const Corners& t, const Vector3d& normal, const Vector3d& a, const Vector3d& b, double eps) {
   const double at_a = normal.dot(a - t[0]), at_b = normal.dot(b - t[0]);
   if (std::min(at_a, at_b) > eps || std::max(at_a, at_b) < -eps) return false;
   if (distanceToTriangle(t, a) <= eps || distanceToTriangle(t, b) <= eps) return true;
@@ -57,8 +63,7 @@ bool meets(const Corners& t, const Vector3d& a, const Vector3d& b, double eps) {
   return false;
 }
 
-bool onOneSide(const Corners& t, const Corners& of, double eps) {
-  const Vector3d normal = (of[1] - of[0]).cross(of[2] - of[0]).normalized();
+bool onOneSide(const Corners& t, const Corners& of, const Vector3d& normal, double eps) {
   double low = eps, high = -eps;
   for (const Vector3d& corner : t) {
     const double s = normal.dot(corner - of[0]);
@@ -69,10 +74,8 @@ bool onOneSide(const Corners& t, const Corners& of, double eps) {
 }
 
 /// Whether two triangles of a mesh cut or overlap each other elsewhere than at vertices and edges they share.
-bool cut(const TriangleMesh& mesh, int first, int second, double tolerance) {
+bool cut(const TriangleMesh& mesh, const std::vector<Measured>& measured, int first, int second, double tolerance) {
   const Vector3i &i = mesh.triangles[first], &j = mesh.triangles[second];
-  const Corners a = cornersOf(mesh, first), b = cornersOf(mesh, second);
-  const double eps = tolerance + closestError(a[0], a[1], a[2]) + closestError(b[0], b[1], b[2]);
   int shared = 0, alone_i = 0, alone_j = 0;  // corners; and, of triangles that share one, which
   for (int k = 0; k < 3; ++k) {
     const bool in_j = i[k] == j[0] || i[k] == j[1] || i[k] == j[2];
@@ -81,14 +84,17 @@ bool cut(const TriangleMesh& mesh, int first, int second, double tolerance) {
     if (j[k] == i[0] || j[k] == i[1] || j[k] == i[2]) alone_j = k;
   }
   if (shared == 3) return true;
-  if (shared == 2) return areaNormal(mesh, first).normalized().dot(areaNormal(mesh, second).normalized()) < -0.999999;
+  const Vector3d &normal_a = measured[first].normal, &normal_b = measured[second].normal;
+  if (shared == 2) return normal_a.dot(normal_b) < -0.999999;
+  const Corners a = cornersOf(mesh, first), b = cornersOf(mesh, second);
+  const double eps = tolerance + measured[first].error + measured[second].error;
   if (shared == 1) {
-    return meets(b, a[(alone_i + 1) % 3], a[(alone_i + 2) % 3], eps) ||
-           meets(a, b[(alone_j + 1) % 3], b[(alone_j + 2) % 3], eps);
+    return meets(b, normal_b, a[(alone_i + 1) % 3], a[(alone_i + 2) % 3], eps) ||
+           meets(a, normal_a, b[(alone_j + 1) % 3], b[(alone_j + 2) % 3], eps);
   }
-  if (onOneSide(a, b, eps) || onOneSide(b, a, eps)) return false;
+  if (onOneSide(a, b, normal_b, eps) || onOneSide(b, a, normal_a, eps)) return false;
   for (int k = 0; k < 3; ++k) {
-    if (meets(b, a[k], a[(k + 1) % 3], eps) || meets(a, b[k], b[(k + 1) % 3], eps)) return true;
+    if (meets(b, normal_b, a[k], a[(k + 1) % 3], eps) || meets(a, normal_a, b[k], b[(k + 1) % 3], eps)) return true;
   }
   return false;
 }
@@ -124,18 +130,25 @@ TriangleCuts triangleCuts(const TriangleMesh& mesh, const TriangleTree& tree, co
   const double eps = tolerance.layer;
   TriangleCuts cuts;
   cuts.of.resize(mesh.triangles.size());
+  std::vector<Measured> measured(mesh.triangles.size());
+  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
+    const int triangle = static_cast<int>(i);
+    const Corners c = cornersOf(mesh, triangle);
+    measured[i] = {areaNormal(mesh, triangle).normalized(), closestError(c[0], c[1], c[2]),
+                   hasCertainPlane(mesh, triangle, tolerance)};
+  });
   std::atomic<std::size_t> pairs{0};
   tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
   tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
     const int triangle = static_cast<int>(i);
-    if (!hasCertainPlane(mesh, triangle, tolerance)) return;
+    if (!measured[i].certain) return;
     const Corners c = cornersOf(mesh, triangle);
     const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
     const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
     std::vector<int>& near = near_of_thread.local();
     tree.trianglesWithin(center, radius + eps + tolerance.closest, near);
     for (const int other : near) {
-      if (other == triangle || !cut(mesh, triangle, other, eps)) continue;
+      if (other == triangle || !cut(mesh, measured, triangle, other, eps)) continue;
       cuts.of[i].push_back(other);
       if (++pairs > max_pairs) break;
     }

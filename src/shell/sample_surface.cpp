@@ -68,7 +68,14 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) 
 }
 
 PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
-  return sampleSurface(solid.boundary(), options, EdgeSampling(options));
+  ShellOptions thinned = options;
+  if (solid.seam() > 0.0) {
+    // Along seams vertices lie in heaps, of which a few points do; more would take forever to tell apart.
+    constexpr double kApart = 0.1;
+    const double finest = hasEdges(options) ? options.edge_gap : options.spacing;
+    thinned.vertex_spacing = std::max(options.vertex_spacing, kApart * finest);
+  }
+  return sampleSurface(solid.boundary(), thinned, EdgeSampling(options));
 }
 
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& asked, const EdgeSampling& sampling) {

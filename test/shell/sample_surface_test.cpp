@@ -298,5 +298,19 @@ TEST(SampleSurface, FacesInsideTheSolidGetNoPointsAndNoArea) {
   }
 }
 
+TEST(SampleSurface, HeapsOfVerticesAlongSeamsAreThinned) {
+  // Faces that cross at next to no angle: dozens of corners in one place for the spacing.
+  TriangleMesh mesh = test::boxMesh({0.2, 0.15, 0.1});
+  for (int i = 1; i < 12; ++i) {
+    const Isometry3d X(Eigen::AngleAxisd(1e-7 * i, Vector3d(1, 2 + 0.1 * i, 3).normalized()));
+    mesh = merged(mesh, transformed(test::boxMesh({0.2, 0.15, 0.1}), X));
+  }
+  ShellOptions options;
+  options.spacing = 0.02;
+  const PointShell shell = sampleSurface(mesh, options);
+  EXPECT_LE(shell.covering_radius, options.spacing);
+  EXPECT_LT(shell.size(), 5000U);
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -59,7 +59,7 @@ class Solid {
 
   /// Of the boundary's triangles, see separatingTriangles(). What was cut off lies beside its neighbours without
   /// sharing edges or corners with them, which the cone of normals does not need: that a line out of the solid passes
-  /// through a triangle that faces its way is enough.
+  /// through a triangle that faces its way is enough. Pieces that meet in an edge must be asked together: see seam().
   const std::vector<std::uint8_t>& separates() const { return separates_; }
 
   /// How far pieces that meet may be apart [m]: what is nearer than that to the closest one may be as close. 0 where

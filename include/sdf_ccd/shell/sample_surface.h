@@ -13,9 +13,11 @@ struct ShellOptions {
   /// Where it is less than the spacing, edges get points of their own: of two surfaces that touch each other, sampled
   /// like this, a point of one is no farther than this from the other (see contact_gap.h) [m]. 0: no such points.
   double edge_gap = 0.0;
-  bool has_siblings = false;    ///< the surface is one of several of a body, whose edges may be sampled apart
-  double vertex_spacing = 0.0;  ///< mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all
-  std::uint64_t seed = 1;       ///< equal seeds give equal shells
+  bool has_siblings = false;  ///< the surface is one of several of a body, whose edges may be sampled apart
+  /// Mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all, but of a mesh whose parts overlap
+  /// those nearer than a tenth of the spacing (or edge gap) are left out.
+  double vertex_spacing = 0.0;
+  std::uint64_t seed = 1;               ///< equal seeds give equal shells
   std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
 };
 
