@@ -13,7 +13,8 @@ namespace sdf_ccd {
 namespace {
 
 XmlRpc::XmlRpcValue load(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("sdf_ccd_parameters_" + std::to_string(getpid()) + ".yaml");
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("sdf_ccd_" + std::to_string(getpid()) + "_test.yaml");
   std::ofstream(file) << text;
   return loadYamlParameters(file.string());
 }
