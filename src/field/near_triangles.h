@@ -41,8 +41,8 @@ class SurfaceIndex {
   void ways(int i, const PlaceLanes& places, WayLanes& ways) const;
 
  private:
-  /// Rounding of squared distances, which is worst of slivers. Too many ties cost little: what then does not agree about
-  /// the sign is told by the centre's.
+  /// Rounding of squared distances, which is worst of slivers. Too many ties cost little: what then does not agree
+  /// about the sign is told by the centre's.
   static constexpr double kTie = 1e-9;
 
   SignedSurface exact_;

@@ -50,7 +50,8 @@ tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, co
     const urdf::Joint& joint = *link.joint;
     const bool moves = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
                        joint.type == urdf::Joint::PRISMATIC;
-    if (moves && positions.count(robot_->leader(joint).name) > 0) message.transforms.push_back(transform(link, X_RL, stamp));
+    if (moves && positions.count(robot_->leader(joint).name) > 0)
+      message.transforms.push_back(transform(link, X_RL, stamp));
   }
   return message;
 }

@@ -50,9 +50,8 @@ void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits);
 ///
 /// Source: Xu & Barbič 2014, §3.3. A node of the sphere tree is skipped if its centre's segment stays farther than
 /// radius + σ + the field's error from the surface, and one that stays deeper than that is inside all the time; the
-/// result equals that of testing every point. Spheres and points meet a grid in batches (see segment_batch.h for the tolerance, and for
-/// the threads of large shells).
-/// Reuses the memory of `result`.
+/// result equals that of testing every point. Spheres and points meet a grid in batches (see segment_batch.h for the
+/// tolerance, and for the threads of large shells). Reuses the memory of `result`.
 /// @param shell, tree  frame P; the tree was built over the shell.
 /// @param path         X_FP, as chords.
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
