@@ -26,8 +26,9 @@ double squaredDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c, 
 }
 
 /// Whether the segment meets the triangle, to a distance `eps`.
-bool meets(const Corners& t, const Vector3d& a, const Vector3d& b, double eps) {
-  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+bool meets(const FacedTriangle& triangle, const Vector3d& a, const Vector3d& b, double eps) {
+  const Corners& t = triangle.corners;
+  const Vector3d& normal = triangle.normal;
   const double at_a = normal.dot(a - t[0]), at_b = normal.dot(b - t[0]);
   if (std::min(at_a, at_b) > eps || std::max(at_a, at_b) < -eps) return false;
   if (distanceToTriangle(t, a) <= eps || distanceToTriangle(t, b) <= eps) return true;
@@ -41,11 +42,10 @@ bool meets(const Corners& t, const Vector3d& a, const Vector3d& b, double eps) {
   return false;
 }
 
-bool onOneSide(const Corners& t, const Corners& of, double eps) {
-  const Vector3d normal = (of[1] - of[0]).cross(of[2] - of[0]).normalized();
+bool onOneSide(const FacedTriangle& t, const FacedTriangle& of, double eps) {
   double low = eps, high = -eps;
-  for (const Vector3d& corner : t) {
-    const double s = normal.dot(corner - of[0]);
+  for (const Vector3d& corner : t.corners) {
+    const double s = of.normal.dot(corner - of.corners[0]);
     low = std::min(low, s);
     high = std::max(high, s);
   }
@@ -65,6 +65,18 @@ bool folded(const TriangleMesh& mesh, const Vector3i& i, const Vector3i& j) {
   return height(i[apex_i]).dot(height(j[apex_j])) > 0.999999;
 }
 
+FacedTriangle faced(const TriangleMesh& mesh, int triangle) {
+  return {mesh.triangles[triangle], cornersOf(mesh, triangle), areaNormal(mesh, triangle).normalized()};
+}
+
+/// The first corner that the other triangle has too.
+int commonCorner(const Vector3i& of, const Vector3i& with) {
+  for (int k = 0; k < 3; ++k) {
+    if ((with.array() == of[k]).any()) return k;
+  }
+  return 0;
+}
+
 }  // namespace
 
 Corners cornersOf(const TriangleMesh& mesh, int triangle) {
@@ -82,27 +94,34 @@ double cutTolerance(const TriangleMesh& mesh) {
   return 1e-12 * std::max(box.sizes().maxCoeff(), 1e-6 * reach);
 }
 
-bool cut(const TriangleMesh& mesh, int first, int second, double eps) {
-  const Vector3i &i = mesh.triangles[first], &j = mesh.triangles[second];
-  const Corners a = cornersOf(mesh, first), b = cornersOf(mesh, second);
-  int shared = 0, alone_i = 0, alone_j = 0;  // corners; and, of triangles that share one, which
-  for (int k = 0; k < 3; ++k) {
-    const bool in_j = i[k] == j[0] || i[k] == j[1] || i[k] == j[2];
-    shared += in_j;
-    if (in_j) alone_i = k;
-    if (j[k] == i[0] || j[k] == i[1] || j[k] == i[2]) alone_j = k;
-  }
-  if (shared == 3) return true;
-  if (shared == 2) return folded(mesh, i, j);
-  if (shared == 1) {
-    return meets(b, a[(alone_i + 1) % 3], a[(alone_i + 2) % 3], eps) ||
-           meets(a, b[(alone_j + 1) % 3], b[(alone_j + 2) % 3], eps);
+int sharedVertices(const Vector3i& a, const Vector3i& b) {
+  int shared = 0;
+  for (int k = 0; k < 3; ++k) shared += (b.array() == a[k]).any();
+  return shared;
+}
+
+bool meet(const FacedTriangle& a, const FacedTriangle& b, double eps) {
+  if (sharedVertices(a.vertices, b.vertices) == 1) {
+    // Beside the common vertex they meet where the opposite side of one does.
+    const int at_a = commonCorner(a.vertices, b.vertices), at_b = commonCorner(b.vertices, a.vertices);
+    return meets(b, a.corners[(at_a + 1) % 3], a.corners[(at_a + 2) % 3], eps) ||
+           meets(a, b.corners[(at_b + 1) % 3], b.corners[(at_b + 2) % 3], eps);
   }
   if (onOneSide(a, b, eps) || onOneSide(b, a, eps)) return false;
   for (int k = 0; k < 3; ++k) {
-    if (meets(b, a[k], a[(k + 1) % 3], eps) || meets(a, b[k], b[(k + 1) % 3], eps)) return true;
+    if (meets(b, a.corners[k], a.corners[(k + 1) % 3], eps) || meets(a, b.corners[k], b.corners[(k + 1) % 3], eps)) {
+      return true;
+    }
   }
   return false;
+}
+
+bool cut(const TriangleMesh& mesh, int first, int second, double eps) {
+  const Vector3i &i = mesh.triangles[first], &j = mesh.triangles[second];
+  const int shared = sharedVertices(i, j);
+  if (shared == 3) return true;
+  if (shared == 2) return folded(mesh, i, j);
+  return meet(faced(mesh, first), faced(mesh, second), eps);
 }
 
 }  // namespace sdf_ccd

@@ -12,6 +12,20 @@ Corners cornersOf(const TriangleMesh& mesh, int triangle);
 
 double longestEdge(const Corners& c);
 
+/// A triangle of a mesh, with its normal of length one (or zero).
+struct FacedTriangle {
+  Vector3i vertices;
+  Corners corners;
+  Vector3d normal;
+};
+
+/// How many vertices two triangles of a mesh have in common.
+int sharedVertices(const Vector3i& a, const Vector3i& b);
+
+/// Whether two triangles with at most one common vertex cut, touch or overlap each other elsewhere than there, to a
+/// distance `eps` [m], on the cautious side. It does not depend on which way they face.
+bool meet(const FacedTriangle& a, const FacedTriangle& b, double eps);
+
 /// What cut() takes for nothing: 1e-12 of the mesh's size [m].
 double cutTolerance(const TriangleMesh& mesh);
 

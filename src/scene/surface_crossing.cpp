@@ -1,9 +1,9 @@
 #include "surface_crossing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "../geometry/triangle_cut.h"
 #include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -63,13 +63,6 @@ class PointWalk {
   Vector3d start_, way_;
   double length_ = 0.0;
 };
-
-using Corners = std::array<Vector3d, 3>;
-
-Corners cornersOf(const TriangleMesh& mesh, int triangle) {
-  const Vector3i& t = mesh.triangles[triangle];
-  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-}
 
 /// Where the edge pq passes through the triangle for sure, see surfacesCross().
 std::optional<Vector3d> pierced(const Corners& t, const Vector3d& p, const Vector3d& q, double error) {
