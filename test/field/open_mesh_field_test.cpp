@@ -13,6 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
+using test::distance;
 using test::Random;
 
 constexpr double kHalf = 0.22;  // of the bin's side [m]
@@ -22,15 +23,6 @@ std::vector<FieldOptions> bothKinds(double max_error, int cells) {
   adaptive.max_error = max_error;
   uniform.cells = cells;
   return {adaptive, uniform};
-}
-
-double distance(const TriangleMesh& mesh, const Vector3d& p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vector3i& t : mesh.triangles) {
-    const Vector3d q = closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
-    least = std::min(least, (q - p).norm());
-  }
-  return least;
 }
 
 double boxDistance(const Vector3d& p) {

@@ -8,15 +8,9 @@
 namespace sdf_ccd {
 namespace {
 
+using test::boxAt;
 using test::OrientedBox;
 using test::Random;
-
-OrientedBox boxAt(const Vector3d& center, const Vector3d& half_size) {
-  OrientedBox box;
-  box.X_WB.translation() = center;
-  box.half_size = half_size;
-  return box;
-}
 
 /// Two boxes of 1.0 × 0.6 × 0.6 m that overlap by half, in one mesh: 1.5 × 0.6 × 0.6 m together.
 TriangleMesh overlappingBoxes() {

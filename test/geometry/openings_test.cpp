@@ -13,6 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
+using test::distance;
 using test::Random;
 
 /// By the definition: all triangles' solid angles, summed.
@@ -26,15 +27,6 @@ double winding(const TriangleMesh& mesh, const Vector3d& p) {
 
 TriangleMesh closedMesh(const TriangleMesh& mesh, const Openings& openings) {
   return welded(merged(mesh, openings.caps));
-}
-
-double distance(const TriangleMesh& mesh, const Vector3d& p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vector3i& t : mesh.triangles) {
-    const Vector3d q = closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
-    least = std::min(least, (q - p).norm());
-  }
-  return least;
 }
 
 double largestReach(const Openings& openings) {

@@ -10,15 +10,9 @@
 namespace sdf_ccd {
 namespace {
 
+using test::boxAt;
 using test::OrientedBox;
 using test::Random;
-
-OrientedBox boxAt(const Vector3d& center, const Vector3d& half_size) {
-  OrientedBox box;
-  box.X_WB.translation() = center;
-  box.half_size = half_size;
-  return box;
-}
 
 double areaThatSeparates(const Solid& solid) {
   double area = 0;

@@ -20,6 +20,13 @@ struct OrientedBox {
   double outside(const Vector3d& p) const { return ((X_WB.inverse() * p).cwiseAbs() - half_size).maxCoeff(); }
 };
 
+inline OrientedBox boxAt(const Vector3d& center, const Vector3d& half_size) {
+  OrientedBox box;
+  box.X_WB.translation() = center;
+  box.half_size = half_size;
+  return box;
+}
+
 inline TriangleMesh meshOf(const std::vector<OrientedBox>& boxes) {
   TriangleMesh mesh;
   for (const OrientedBox& box : boxes) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "oracle/shapes.h"
+#include "sdf_ccd/geometry/triangle.h"
 
 /// Meshes that are not closed.
 namespace sdf_ccd::test {
@@ -20,6 +22,16 @@ TriangleMesh without(TriangleMesh mesh, Lost lost) {
 /// A box of this half side without its lid at the top (z).
 inline TriangleMesh binMesh(double half) {
   return without(boxMesh(Vector3d::Constant(half)), [half](const Vector3d& p) { return p.z() > 0.99 * half; });
+}
+
+/// Of a place to the nearest triangle [m], one after the other.
+inline double distance(const TriangleMesh& mesh, const Vector3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3i& t : mesh.triangles) {
+    const Vector3d q = closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
+    least = std::min(least, (q - p).norm());
+  }
+  return least;
 }
 
 }  // namespace sdf_ccd::test
