@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 
 #include <embree3/rtcore.h>
@@ -65,6 +66,23 @@ class EmbreeScene {
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene_, &context, &ray);
     return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1.0 : double(ray.ray.tfar);
+  }
+
+  /// Of the closed mesh at the segment's start, whose end is outside: triangles passed through, out less in.
+  int windingNumber(const Segment& s) const {
+    RTCRayHit ray = EmbreeScene::ray(s);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    int number = 0;
+    for (;;) {
+      rtcIntersect1(scene_, &context, &ray);
+      if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return number;
+      const float out = ray.hit.Ng_x * ray.ray.dir_x + ray.hit.Ng_y * ray.ray.dir_y + ray.hit.Ng_z * ray.ray.dir_z;
+      number += (out > 0.0F) - (out < 0.0F);
+      ray.ray.tnear = std::nextafter(ray.ray.tfar, 2.0F);
+      ray.ray.tfar = 1.0F;
+      ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    }
   }
 
  private:

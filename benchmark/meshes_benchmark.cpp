@@ -1,50 +1,105 @@
-// What is found in meshes as people draw them, and what building their fields costs. Prints rows of results.csv.
-#include <chrono>
+// What is found in meshes as people draw them, what building their fields costs, and which crossings these report that
+// the meshes do not have. Prints rows of results.csv.
+#include <ctime>
 #include <stdexcept>
 
+#include "embree_scene.h"
 #include "results.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "segment_cases.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// Of all threads, which other work on the machine disturbs less than the wall's clock.
+double processorSeconds() {
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
 
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+/// Intervals that a field reports on segments across its box, and those whose middle is not inside the mesh.
+struct Crossings {
+  std::size_t reported = 0, untrue = 0;
+};
+
+Crossings countCrossings(const DistanceField& field, const EmbreeScene& mesh, const AlignedBox3d& box) {
+  constexpr int kSegments = 20'000;
+  test::Random random(20140924);
+  // From outside to outside.
+  const double radius = 0.75 * box.diagonal().norm();
+  Crossings crossings;
+  for (int i = 0; i < kSegments; ++i) {
+    const Vector3d towards = test::uniformIn(random, box), way = test::direction(random);
+    const double middle = way.dot(box.center() - towards);
+    const Segment segment{towards + (middle - radius) * way, towards + (middle + radius) * way};
+    for (const Interval& interval : segmentIntervals(field, segment)) {
+      const double t = 0.5 * (interval.enter + interval.exit);
+      ++crossings.reported;
+      crossings.untrue += mesh.windingNumber({segment.start + t * (segment.end - segment.start), segment.end}) == 0;
+    }
+  }
+  return crossings;
+}
+
+class Rows {
+ public:
+  explicit Rows(std::string name) : name_(std::move(name)) {}
+  void add(const std::string& metric, double value, const char* unit) const {
+    print({"meshes", name_, "sdf_ccd", metric, value, unit, 1});
+  }
+
+ private:
+  std::string name_;
+};
+
+void addQuality(const MeshQuality& quality, const Rows& rows) {
+  rows.add("degenerate", quality.degenerate_triangles, "");
+  rows.add("duplicates", quality.duplicate_triangles, "");
+  rows.add("walls_dropped", quality.hidden_triangles, "");
+  rows.add("walls_kept", quality.wall_triangles, "");
+  rows.add("dropped_area", quality.duplicate_area + quality.hidden_area, "m^2");
+  rows.add("components", quality.components, "");
+  rows.add("turned_closed", quality.inverted_components, "");
+  rows.add("turned_open", quality.inverted_sheets, "");
+  rows.add("negative", quality.negative_triangles, "");
+  rows.add("boundary_edges", quality.boundary_edges, "");
+  rows.add("non_manifold_edges", quality.non_manifold_edges, "");
+  rows.add("trusted", quality.sign_trusted, "");
+}
+
+void addSolid(const SolidReport& report, const Rows& rows) {
+  rows.add("buried", report.dropped, "");
+  rows.add("clipped", report.clipped, "");
+  rows.add("doubtful", report.doubtful, "");
 }
 
 void study(const std::string& name, const TriangleMesh& mesh, const StudyOptions& options) {
-  const auto row = [&](const std::string& metric, double value, const char* unit) {
-    print({"meshes", name, "sdf_ccd", metric, value, unit, 1});
-  };
-  auto start = Clock::now();
+  const Rows rows(name);
+  rows.add("triangles", double(mesh.triangles.size()), "");
+  double start = processorSeconds();
   const OrientedMesh oriented = orientOutward(mesh);
-  row("orient_seconds", secondsSince(start), "s");
-  const MeshQuality& quality = oriented.quality;
-  row("triangles", double(mesh.triangles.size()), "");
-  row("degenerate", quality.degenerate_triangles, "");
-  row("duplicates", quality.duplicate_triangles, "");
-  row("walls_dropped", quality.hidden_triangles, "");
-  row("walls_kept", quality.wall_triangles, "");
-  row("dropped_area", quality.duplicate_area + quality.hidden_area, "m^2");
-  row("components", quality.components, "");
-  row("turned_closed", quality.inverted_components, "");
-  row("turned_open", quality.inverted_sheets, "");
-  row("negative", quality.negative_triangles, "");
-  row("boundary_edges", quality.boundary_edges, "");
-  row("non_manifold_edges", quality.non_manifold_edges, "");
-  row("trusted", quality.sign_trusted, "");
+  rows.add("orient_seconds", processorSeconds() - start, "s");
+  addQuality(oriented.quality, rows);
+  start = processorSeconds();
+  const Solid solid(oriented.mesh);
+  rows.add("solid_seconds", processorSeconds() - start, "s");
+  addSolid(solid.report(), rows);
+  const AlignedBox3d box = boundingBox(oriented.mesh);
+  const EmbreeScene embree(oriented.mesh);
   for (const std::string& error : options.errors) {
     FieldOptions field;
-    field.max_error = std::stod(error) * boundingBox(oriented.mesh).sizes().maxCoeff();
-    start = Clock::now();
-    const DistanceField built = buildField(oriented.mesh, field);
-    row("build_seconds_" + error, secondsSince(start), "s");
-    row("cells_" + error, double(built.cells()), "");
+    field.max_error = std::stod(error) * box.sizes().maxCoeff();
+    start = processorSeconds();
+    const DistanceField built = buildField(solid, field);
+    rows.add("build_seconds_" + error, processorSeconds() - start, "s");
+    rows.add("cells_" + error, double(built.cells()), "");
+    rows.add("megabytes_" + error, 1e-6 * double(built.bytes()), "MB");
+    if (!isClosed(oriented.mesh)) continue;
+    const Crossings crossings = countCrossings(built, embree, box);
+    rows.add("crossings_" + error, double(crossings.reported), "");
+    rows.add("untrue_share_" + error, double(crossings.untrue) / double(crossings.reported), "1");
   }
 }
 

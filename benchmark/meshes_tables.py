@@ -1,7 +1,10 @@
 """Table of the study `meshes`."""
 
 COUNTS = ['triangles', 'degenerate', 'duplicates', 'walls_dropped', 'walls_kept', 'components', 'turned_closed',
-          'turned_open', 'negative', 'boundary_edges', 'non_manifold_edges']
+          'turned_open', 'negative', 'buried', 'clipped', 'doubtful', 'boundary_edges', 'non_manifold_edges']
+COSTS = [('turning, CPU s', 'orient_seconds', '%.2g', 1), ('solid, CPU s', 'solid_seconds', '%.2g', 1),
+         ('field to 1e-3, CPU s', 'build_seconds_1e-3', '%.2g', 1), ('MB', 'megabytes_1e-3', '%.2g', 1),
+         ('untrue crossings, %', 'untrue_share_1e-3', '%.2g', 100)]
 
 
 def meshes(results):
@@ -10,10 +13,13 @@ def meshes(results):
     for case in results.cases('meshes'):
         def get(metric):
             return results.get('meshes', case, 'sdf_ccd', metric)
-        seconds = get('build_seconds_1e-3')
+
+        def cost(metric, form, factor):
+            value = get(metric)
+            return '-' if value is None else form % (factor * value)
         rows.append([case, *('%d' % get(metric) for metric in COUNTS), 'yes' if get('trusted') else 'no',
-                     '%.2g' % get('orient_seconds'), '-' if seconds is None else '%.2g' % seconds])
-    return ['mesh', *(name.replace('_', ' ') for name in COUNTS), 'sign trusted', 'turning, s', 'field to 1e-3, s'], rows
+                     *(cost(metric, form, factor) for _, metric, form, factor in COSTS)])
+    return ['mesh', *(name.replace('_', ' ') for name in COUNTS), 'sign trusted', *(name for name, *_ in COSTS)], rows
 
 
 TABLES = {'meshes': meshes}
