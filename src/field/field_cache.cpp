@@ -11,7 +11,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Counts what the same options have meant: a field of an earlier meaning must not be taken for one of today's.
-constexpr double kMeaning = 3;
+constexpr double kMeaning = 4;
 
 /// Ends the name of the file that holds what is doubtful about a field.
 constexpr const char* kDoubt = ".doubt";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace sdf_ccd {
@@ -135,6 +136,14 @@ void flip(TriangleMesh& mesh, const Patch& patch) {
   for (const std::int32_t triangle : patch.triangles) {
     std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
   }
+}
+
+TriangleMesh normalized(TriangleMesh mesh) {
+  const AlignedBox3d box = boundingBox(mesh);
+  int exponent = 0;
+  std::frexp(box.sizes().maxCoeff(), &exponent);
+  for (Vector3d& v : mesh.vertices) v = std::ldexp(1.0, -exponent) * (v - box.center());
+  return mesh;
 }
 
 }  // namespace sdf_ccd

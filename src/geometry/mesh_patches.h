@@ -24,4 +24,8 @@ TriangleMesh extract(const TriangleMesh& mesh, const Patch& patch);
 
 void flip(TriangleMesh& mesh, const Patch& patch);
 
+/// The mesh moved and scaled so that it is about 1 m large and near the origin: there, tolerances hold whatever its
+/// units, and no digits are lost to its distance.
+TriangleMesh normalized(TriangleMesh mesh);
+
 }  // namespace sdf_ccd

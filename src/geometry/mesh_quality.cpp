@@ -30,16 +30,6 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
   quality.components = static_cast<int>(roots.size());
 }
 
-/// The mesh moved and scaled so that it is about 1 m large and near the origin: there, tolerances hold whatever its
-/// units, and no digits are lost to its distance.
-TriangleMesh normalized(TriangleMesh mesh) {
-  const AlignedBox3d box = boundingBox(mesh);
-  int exponent = 0;
-  std::frexp(box.sizes().maxCoeff(), &exponent);
-  for (Vector3d& v : mesh.vertices) v = std::ldexp(1.0, -exponent) * (v - box.center());
-  return mesh;
-}
-
 /// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `walls`.
 void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
   MeshQuality& quality = result.quality;

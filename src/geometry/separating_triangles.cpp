@@ -21,8 +21,8 @@ std::vector<std::uint8_t> agreeWithNeighbours(const TriangleMesh& mesh, const st
   return agree;
 }
 
-/// Whether a triangle of an open mesh faces the outside, as the winding number just before and behind it says.
-bool facesOutside(const TriangleMesh& mesh, const TriangleTree& tree, int triangle) {
+/// Whether a triangle of an open mesh faces the outside, as what lies just before and behind it says.
+bool facesOutside(const TriangleMesh& mesh, const Interior& interior, int triangle) {
   const Vector3i& t = mesh.triangles[triangle];
   const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
   const Vector3d center = (a + b + c) / 3.0;
@@ -31,20 +31,21 @@ bool facesOutside(const TriangleMesh& mesh, const TriangleTree& tree, int triang
   const Vector3d step = 1e-6 * areaNormal(mesh, triangle) / longest;
   for (const Vector3d& towards : {center, a, b, c}) {
     const Vector3d p = center + 0.9 * (towards - center);
-    if (tree.inside(p + step, TriangleTree::Inside::kAboveHalf)) return false;
-    if (!tree.inside(p - step, TriangleTree::Inside::kAboveHalf)) return false;
+    if (interior.contains(p + step)) return false;
+    if (!interior.contains(p - step)) return false;
   }
   return true;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> separatingTriangles(const TriangleMesh& mesh, const TriangleTree& tree) {
+std::vector<std::uint8_t> separatingTriangles(const TriangleMesh& mesh, const TriangleTree& tree,
+                                              const Interior& interior) {
   const SurfaceTolerance tolerance = surfaceTolerance(mesh);
   const TriangleCuts cuts = triangleCuts(mesh, tree, tolerance, 0);
   std::vector<std::uint8_t> separates(mesh.triangles.size(), 0);
-  if (isClosed(mesh)) {
-    const std::vector<Sides> sides = sidesOfUncut(mesh, tree, cuts, tolerance);
+  if (interior.closed()) {
+    const std::vector<Sides> sides = sidesOfUncut(mesh, tree, interior, cuts, tolerance);
     std::transform(sides.begin(), sides.end(), separates.begin(), [](Sides s) { return s == Sides::kOutward; });
     return separates;
   }
@@ -52,7 +53,7 @@ std::vector<std::uint8_t> separatingTriangles(const TriangleMesh& mesh, const Tr
   tbb::parallel_for(std::size_t{0}, separates.size(), [&](std::size_t i) {
     const int triangle = static_cast<int>(i);
     separates[i] = agrees[i] != 0 && cuts.of[i].empty() && hasCertainPlane(mesh, triangle, tolerance) &&
-                   facesOutside(mesh, tree, triangle);
+                   facesOutside(mesh, interior, triangle);
   });
   return separates;
 }

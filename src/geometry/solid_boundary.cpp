@@ -104,14 +104,15 @@ class BoundaryWriter {
 }  // namespace
 
 Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
-    : closed_(isClosed(mesh)), all_(std::make_shared<TriangleTree>(mesh)), tree_(all_), boundary_(mesh) {
-  if (!closed_) {
-    separates_ = separatingTriangles(mesh, *all_);
+    : tree_(std::make_shared<TriangleTree>(mesh)), interior_(mesh, tree_), boundary_(mesh) {
+  const std::shared_ptr<const TriangleTree> all = tree_;
+  if (!closed()) {
+    separates_ = separatingTriangles(mesh, *all, interior_);
     return;
   }
   const SurfaceTolerance tolerance = surfaceTolerance(mesh);
-  const TriangleCuts cuts = triangleCuts(mesh, *all_, tolerance, limits.pairs);
-  const std::vector<Sides> sides = sidesOfUncut(mesh, *all_, cuts, tolerance);
+  const TriangleCuts cuts = triangleCuts(mesh, *all, tolerance, limits.pairs);
+  const std::vector<Sides> sides = sidesOfUncut(mesh, *all, interior_, cuts, tolerance);
   separates_.resize(sides.size());
   std::transform(sides.begin(), sides.end(), separates_.begin(), [](Sides s) { return s == Sides::kOutward; });
   report_.pairs = cuts.pairs;
@@ -128,7 +129,7 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
   if (as_it_is) return;
 
   std::vector<std::vector<SurfacePart>> parts(sides.size());
-  const TriangleCutter cutter(mesh, *all_, tolerance);
+  const TriangleCutter cutter(mesh, *all, interior_, tolerance);
   const std::size_t most_steps = limits.steps / std::max<std::size_t>(cut.size(), 1);
   tbb::parallel_for(std::size_t{0}, cut.size(),
                     [&](std::size_t i) { parts[cut[i]] = cutter.parts(cut[i], cuts.of[cut[i]], most_steps); });

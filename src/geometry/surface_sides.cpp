@@ -32,14 +32,14 @@ Sides SideTest::at(const Place& place, const std::vector<int>& layers) const {
   }
   const double step = 0.5 * free;
   if (step <= 4.0 * tolerance_.layer) return Sides::kUnknown;
-  const bool front = tree_.inside(place.point + step * place.normal, TriangleTree::Inside::kNotZero);
-  const bool back = tree_.inside(place.point - step * place.normal, TriangleTree::Inside::kNotZero);
+  const bool front = interior_.contains(place.point + step * place.normal);
+  const bool back = interior_.contains(place.point - step * place.normal);
   if (front) return back ? Sides::kBuried : Sides::kInward;
   return back ? Sides::kOutward : Sides::kSheet;
 }
 
-std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const TriangleCuts& cuts,
-                                const SurfaceTolerance& tolerance) {
+std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const Interior& interior,
+                                const TriangleCuts& cuts, const SurfaceTolerance& tolerance) {
   const std::size_t count = mesh.triangles.size();
   std::vector<std::uint8_t> uncut(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tr
       widest[set] = triangle;
     }
   }
-  const SideTest test(tree, tolerance);
+  const SideTest test(tree, interior, tolerance);
   std::vector<Sides> of_set(count, Sides::kUnknown);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     if (widest[i] >= 0) of_set[i] = test.at(middle(mesh, widest[i]), {});

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "sdf_ccd/geometry/interior.h"
 #include "triangle_cuts.h"
 
 namespace sdf_ccd {
@@ -22,7 +22,9 @@ enum class Sides : std::uint8_t {
 /// Tells the sides of flat pieces of a closed mesh.
 class SideTest {
  public:
-  SideTest(const TriangleTree& tree, const SurfaceTolerance& tolerance) : tree_(tree), tolerance_(tolerance) {}
+  /// @param tree, interior  of the same mesh.
+  SideTest(const TriangleTree& tree, const Interior& interior, const SurfaceTolerance& tolerance)
+      : tree_(tree), interior_(interior), tolerance_(tolerance) {}
 
   /// A place of a piece. Those of `layers` (ascending) lie on all of the piece and are taken together with it.
   struct Place {
@@ -38,6 +40,7 @@ class SideTest {
 
  private:
   const TriangleTree& tree_;
+  const Interior& interior_;
   SurfaceTolerance tolerance_;
 };
 
@@ -45,7 +48,7 @@ class SideTest {
 ///
 /// Just before the surface nothing lies between triangles that share an edge with no third one and that nothing cuts:
 /// the winding number is the same there. So one of a connected set speaks for all.
-std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const TriangleCuts& cuts,
-                                const SurfaceTolerance& tolerance);
+std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const Interior& interior,
+                                const TriangleCuts& cuts, const SurfaceTolerance& tolerance);
 
 }  // namespace sdf_ccd

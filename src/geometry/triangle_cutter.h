@@ -22,8 +22,9 @@ struct SurfacePart {
 /// told wrongly. What cannot be told is kUnknown.
 class TriangleCutter {
  public:
-  TriangleCutter(const TriangleMesh& mesh, const TriangleTree& tree, const SurfaceTolerance& tolerance)
-      : mesh_(mesh), tolerance_(tolerance), test_(tree, tolerance) {}
+  TriangleCutter(const TriangleMesh& mesh, const TriangleTree& tree, const Interior& interior,
+                 const SurfaceTolerance& tolerance)
+      : mesh_(mesh), tolerance_(tolerance), test_(tree, interior, tolerance) {}
 
   /// Parts that cover the triangle; neighbours of like sides are joined where one cut has made them.
   /// @param others  that cut it or lie on it, ascending.

@@ -7,7 +7,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Counts what the same options have meant.
-constexpr double kMeaning = 2;
+constexpr double kMeaning = 3;
 
 }  // namespace
 

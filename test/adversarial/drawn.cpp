@@ -1,7 +1,10 @@
 #include "adversarial/drawn.h"
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
+#include "oracle/drawn_meshes.h"
 #include "oracle/shapes.h"
 
 namespace sdf_ccd::test {
@@ -30,6 +33,10 @@ Actor actor(const std::string& kind, const TriangleMesh& mesh, Pieces solid, Pie
           {{std::make_shared<const TriangleMesh>(mesh), Isometry3d::Identity(), kind}},
           std::move(solid),
           std::move(reach)};
+}
+
+const TriangleMesh& meshOf(const Actor& body) {
+  return *std::get<std::shared_ptr<const TriangleMesh>>(body.geometry.at(0).shape);
 }
 
 /// Walls of a box with outer and inner half sizes.
@@ -88,6 +95,13 @@ Actor bowTie() {
   return actor("bow-tie", welded(joined({large, flipped(small)})), {convexOf(large), convexOf(small)});
 }
 
+Actor overlaidLobe() {
+  const CrossedTetrahedra crossed;
+  const TriangleMesh over = block({0.05, -0.2, -0.2}, {0.3, 0.2, 0.2});
+  return actor("overlaid lobe", merged(crossed.mesh, over),
+               {convexOf(crossed.large), convexOf(crossed.small), convexOf(over)});
+}
+
 Actor membrane() {
   return ofFaces("membrane", {{{-0.2, -0.2, 0}, {0.2, -0.2, 0}, {0.2, 0.2, 0}, {-0.2, 0.2, 0}}});
 }
@@ -119,13 +133,18 @@ Actor wheel() {
   return actor("wheel", welded(joined(meshes)), std::move(pieces));
 }
 
-Actor openBin() {
+/// The lid is missing.
+std::vector<Corners> binFaces() {
   const double x = 0.2, y = 0.15, z = 0.1;
-  return ofFaces("open bin", {{{-x, -y, -z}, {-x, y, -z}, {x, y, -z}, {x, -y, -z}},
-                              {{-x, -y, -z}, {x, -y, -z}, {x, -y, z}, {-x, -y, z}},
-                              {{x, -y, -z}, {x, y, -z}, {x, y, z}, {x, -y, z}},
-                              {{x, y, -z}, {-x, y, -z}, {-x, y, z}, {x, y, z}},
-                              {{-x, y, -z}, {-x, -y, -z}, {-x, -y, z}, {-x, y, z}}});
+  return {{{-x, -y, -z}, {-x, y, -z}, {x, y, -z}, {x, -y, -z}},
+          {{-x, -y, -z}, {x, -y, -z}, {x, -y, z}, {-x, -y, z}},
+          {{x, -y, -z}, {x, y, -z}, {x, y, z}, {x, -y, z}},
+          {{x, y, -z}, {-x, y, -z}, {-x, y, z}, {x, y, z}},
+          {{-x, y, -z}, {-x, -y, -z}, {-x, -y, z}, {-x, y, z}}};
+}
+
+Actor openBin() {
+  return ofFaces("open bin", binFaces());
 }
 
 Actor thickBin() {
@@ -147,6 +166,20 @@ Actor thickBin() {
   }
   Pieces pieces = walls(kOuter, kInner, false);
   return actor("thick bin", mesh, std::move(pieces));
+}
+
+Actor coveredBlock() {
+  // Half in a bin that lies on its rim, whose faces look inward.
+  std::vector<Corners> faces = binFaces();
+  for (Corners& corners : faces) {
+    for (Vector3d& p : corners) p.tail<2>() *= -1.0;
+    std::reverse(corners.begin(), corners.end());
+  }
+  const Actor cover = ofFaces("cover", faces);
+  const TriangleMesh within = block({-0.1, -0.08, -0.2}, {0.1, 0.08, 0.05});
+  Pieces pieces = cover.solid;
+  pieces.push_back(convexOf(within));
+  return actor("covered block", merged(meshOf(cover), within), std::move(pieces));
 }
 
 Actor sharedEdge() {
@@ -233,9 +266,10 @@ Actor rod() {
 }
 
 std::vector<Actor> drawnActors() {
-  return {voxel(),      link(),       bead(),        bowTie(),      openBin(),  wheel(),          rod(),
-          voxels(),     hollowBox(),  nestedBoxes(), invertedBox(), membrane(), doubleMembrane(), thickBin(),
-          sharedEdge(), sharedFace(), overlapping(), fins(),        clusters(), beads(),          ground()};
+  return {voxel(),        link(),       bead(),        bowTie(),      openBin(),  wheel(),          rod(),
+          voxels(),       hollowBox(),  nestedBoxes(), invertedBox(), membrane(), doubleMembrane(), thickBin(),
+          sharedEdge(),   sharedFace(), overlapping(), fins(),        clusters(), beads(),          overlaidLobe(),
+          coveredBlock(), ground()};
 }
 
 }  // namespace sdf_ccd::test

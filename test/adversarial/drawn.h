@@ -11,6 +11,8 @@ Actor hollowBox();    ///< with a cavity that nothing leads into
 Actor nestedBoxes();  ///< the same, but with the inner box drawn outward too: what is within may be solid
 Actor invertedBox();
 Actor bowTie();          ///< two prisms that share an edge, the small one inside out
+Actor overlaidLobe();    ///< of a surface that crosses itself, the one inside out, with a block over it
+Actor coveredBlock();    ///< half within a bin that is turned over, whose faces look inward
 Actor membrane();        ///< one square, drawn from one side
 Actor doubleMembrane();  ///< drawn from both
 Actor wheel();           ///< an open rim, with a web drawn from both sides whose border lies on the rim's triangles

@@ -39,7 +39,7 @@ TEST(DrawnMesh, AShelfInsideOutInAnOpenCupboardIsSolid) {
 }
 
 TEST(DrawnMesh, BothLobesOfABowTieAreSolid) {
-  const TriangleMesh mesh = test::bowTie();
+  const TriangleMesh mesh = test::bowTieMesh();
   for (const TriangleMesh& drawn : {mesh, test::flipped(mesh)}) {
     const DistanceField field = fieldOf(drawn, 0.005);
     const FieldSample lobe = field.sample({0.125, 0, 0}), rod = field.sample({0, 0, 0.1});

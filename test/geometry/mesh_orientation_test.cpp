@@ -134,7 +134,7 @@ TEST(MeshOrientation, ACavityThatCutsOrTouchesWhatHoldsItIsFilled) {
 }
 
 TEST(MeshOrientation, LobesOfABowTieAreCountedAndDoubtedInOtherParts) {
-  const TriangleMesh tie = test::bowTie();
+  const TriangleMesh tie = test::bowTieMesh();
   const OrientedMesh alone = orientOutward(tie);
   EXPECT_GT(alone.quality.negative_triangles, 96);
   EXPECT_TRUE(alone.quality.sign_trusted);

@@ -10,7 +10,8 @@ namespace sdf_ccd {
 namespace {
 
 std::vector<std::uint8_t> separating(const TriangleMesh& mesh) {
-  return separatingTriangles(mesh, TriangleTree(mesh));
+  const auto tree = std::make_shared<const TriangleTree>(mesh);
+  return separatingTriangles(mesh, *tree, Interior(mesh, tree));
 }
 
 int count(const TriangleMesh& mesh) {

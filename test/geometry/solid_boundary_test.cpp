@@ -1,10 +1,13 @@
 #include "sdf_ccd/geometry/solid_boundary.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "oracle/box_union.h"
+#include "oracle/drawn_meshes.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -66,6 +69,49 @@ TEST(Solid, PartsInsideOutAreSolidToo) {
   EXPECT_GT(signedVolume(solid.boundary()), 0.216);
   EXPECT_EQ(solid.report().reversed, static_cast<int>(ball.triangles.size()));
   EXPECT_NEAR(areaThatSeparates(solid), surfaceArea(solid.boundary()), 1e-12);
+}
+
+TEST(Solid, ALobeInsideOutDoesNotCancelWhatOverlapsIt) {
+  const TriangleMesh block = test::translated(test::boxMesh({0.1, 0.2, 0.2}), {0.15, 0, 0});  // 0.05 < x < 0.25
+  const OrientedMesh drawn = orientOutward(merged(test::CrossedTetrahedra().mesh, block));
+  EXPECT_FALSE(drawn.quality.sign_trusted);
+  const Solid solid(drawn.mesh);
+  EXPECT_TRUE(solid.inside({0.12, 0.01, 0.01}));   // in both
+  EXPECT_TRUE(solid.inside({0.03, 0.005, 0.02}));  // in the lobe
+  EXPECT_TRUE(solid.inside({-0.2, 0.01, 0.02}));
+  EXPECT_TRUE(solid.inside({0.2, 0.15, 0.1}));
+  EXPECT_FALSE(solid.inside({0.03, 0.1, 0.0}));
+  EXPECT_FALSE(solid.inside({0.3, 0.0, 0.0}));
+  // No face within it stays, so depths are those of the whole.
+  EXPECT_GT(solid.tree().closestPoint({0.15, 0.0, 0.0}).distance, 0.09);
+}
+
+TEST(Solid, ASheetThatFacesInwardDoesNotCancelWhatItCovers) {
+  // A bin without a lid, all its faces inward, about the upper half of a closed block.
+  TriangleMesh bin = test::flipped(test::boxMesh({0.3, 0.3, 0.3}));
+  bin.triangles.erase(std::remove_if(bin.triangles.begin(), bin.triangles.end(),
+                                     [&](const Vector3i& t) {
+                                       return std::all_of(t.begin(), t.end(),
+                                                          [&](int v) { return bin.vertices[v].z() < 0.0; });
+                                     }),
+                      bin.triangles.end());
+  const TriangleMesh block = test::translated(test::boxMesh({0.1, 0.1, 0.3}), {0, 0, -0.1});
+  const TriangleMesh mesh = merged(bin, block);
+  ASSERT_FALSE(isClosed(mesh));
+  const Solid solid(mesh);
+  EXPECT_TRUE(solid.inside({0.02, 0.01, 0.15}));
+  EXPECT_TRUE(solid.inside({0.02, 0.01, -0.35}));
+  EXPECT_FALSE(solid.inside({0.5, 0.0, 0.0}));
+}
+
+TEST(Solid, CavitiesOfAnOpenMeshStayFree) {
+  TriangleMesh sheet;
+  sheet.vertices = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+  sheet.triangles = {{0, 1, 2}};
+  const TriangleMesh hollow = merged(test::boxMesh({0.3, 0.3, 0.3}), test::flipped(test::icosphere(0.1, 2)));
+  const Solid solid(merged(hollow, sheet));
+  EXPECT_FALSE(solid.inside({0, 0, 0}));
+  EXPECT_TRUE(solid.inside({0.2, 0, 0}));
 }
 
 TEST(Solid, SheetsStay) {

@@ -76,7 +76,7 @@ struct Cupboard {
 
 /// One closed component that crosses itself, a body of revolution about z: a rod of radius 0.1 m below z = -0.05 and
 /// 0.05 m above, |z| <= 0.2, with winding number 1, and a ring of radii 0.1 to 0.15 m, |z| <= 0.05, with -1.
-inline TriangleMesh bowTie() {
+inline TriangleMesh bowTieMesh() {
   constexpr int kSteps = 96;
   const std::vector<std::pair<double, double>> profile = {{0, -0.2},     {0.1, -0.2},   {0.1, 0.05}, {0.15, 0.05},
                                                           {0.15, -0.05}, {0.05, -0.05}, {0.05, 0.2}, {0, 0.2}};
@@ -90,5 +90,32 @@ inline TriangleMesh bowTie() {
   }
   return lofted(rings);
 }
+
+/// Two tetrahedra with the edge from (0, 0, -h) to (0, 0, h) in common, h = 0.15 m, the one at x < 0 with winding
+/// number 1, the other with -1: one closed component, a double cone over a quadrilateral that crosses itself.
+struct CrossedTetrahedra {
+  TriangleMesh large, small;  ///< each by itself, turned outward
+  TriangleMesh mesh;
+
+  CrossedTetrahedra() {
+    mesh.vertices = {{-0.3, -0.2, 0}, {0.24, 0.16, 0}, {0.24, -0.16, 0}, {-0.3, 0.2, 0}, {0, 0, 0.15}, {0, 0, -0.15}};
+    for (int i = 0; i < 4; ++i) {
+      const int j = (i + 1) % 4;
+      mesh.triangles.emplace_back(j, i, 4);
+      mesh.triangles.emplace_back(i, j, 5);
+    }
+    const auto tetrahedron = [&](int a, int b) {
+      return TriangleMesh{{mesh.vertices[a], mesh.vertices[b], mesh.vertices[4], mesh.vertices[5]},
+                          {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {1, 3, 2}}};
+    };
+    large = tetrahedron(3, 0);
+    small = tetrahedron(2, 1);
+    for (TriangleMesh* part : {&large, &small, &mesh}) {
+      if (signedVolume(*part) < 0.0) {
+        for (Vector3i& t : part->triangles) std::swap(t[1], t[2]);
+      }
+    }
+  }
+};
 
 }  // namespace sdf_ccd::test

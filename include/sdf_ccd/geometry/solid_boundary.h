@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "sdf_ccd/geometry/interior.h"
 
 namespace sdf_ccd {
 
@@ -34,8 +33,8 @@ struct SolidLimits {
   std::size_t steps = 60'000'000;  ///< in each of which a triangle is compared with a piece of another
 };
 
-/// A mesh as the solid that it bounds: all places where the winding number is not zero, if the mesh is closed (see
-/// isClosed()). Overlapping parts are one solid, and a part that is inside out is solid too.
+/// A mesh as the solid that it bounds, if it is closed (see Interior): all places where the winding number of a part is
+/// not zero, but for cavities. Overlapping parts are one solid, and a part that is inside out is solid too.
 ///
 /// Triangles that lie inside the solid are left out. Those of which a part does are cut, and these parts left out: only
 /// what is certain to be inside before and behind the surface. So no place of the solid's boundary is farther from
@@ -43,14 +42,13 @@ struct SolidLimits {
 /// size are taken as one: such a gap between two parts is closed. Faces with outside on both sides (a wall without
 /// thickness, drawn from both sides) stay.
 ///
-/// Where the mesh is not closed there is no solid: all triangles are kept, and inside is where the winding number is
-/// above one half.
+/// Where the mesh is not closed there is no solid: all triangles are kept.
 class Solid {
  public:
   /// @throws std::invalid_argument if the mesh is not valid (see validate()).
   explicit Solid(const TriangleMesh& mesh, const SolidLimits& limits = {});
 
-  bool closed() const { return closed_; }
+  bool closed() const { return interior_.closed(); }
   const SolidReport& report() const { return report_; }
 
   /// What is kept, turned outward.
@@ -66,16 +64,11 @@ class Solid {
   /// nothing was cut.
   double seam() const { return seam_; }
 
-  /// By the winding number of all triangles; see TriangleTree::inside().
-  bool inside(const Vector3d& p) const { return all_->inside(p, rule()); }
+  bool inside(const Vector3d& p) const { return interior_.contains(p); }
 
  private:
-  TriangleTree::Inside rule() const {
-    return closed_ ? TriangleTree::Inside::kNotZero : TriangleTree::Inside::kAboveHalf;
-  }
-
-  bool closed_;
-  std::shared_ptr<const TriangleTree> all_, tree_;
+  std::shared_ptr<const TriangleTree> tree_;
+  Interior interior_;  ///< of all triangles
   TriangleMesh boundary_;
   std::vector<std::uint8_t> separates_;
   double seam_ = 0.0;
