@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "grid_place.h"
+
 namespace sdf_ccd {
 
 namespace leaf_error {
@@ -69,7 +71,9 @@ void AdaptiveGrid::check() const {
   if (!shape_.origin.allFinite()) fail("origin is not finite");
   if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("band " + std::to_string(shape_.band));
   if (!(shape_.error_bound >= 0.0) || !std::isfinite(shape_.error_bound)) fail("error bound is not a length");
+  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's box is none");
   if (shape_.size.minCoeff() < 1 || shape_.size.maxCoeff() > 1024) fail("top cells out of 1 to 1024 per axis");
+  if (!isPlace(shape_.box(), shape_.unit())) fail("its place is too far away for its cells");
   if (arrays_.top.size != shape_.count()) fail(std::to_string(arrays_.top.size) + " words do not fit the top cells");
   if (arrays_.bases.size != arrays_.nodes.size) fail("bases do not fit the nodes");
   if (arrays_.leaf_errors.size != leafCount()) fail("errors do not fit the leaves");

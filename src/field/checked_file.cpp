@@ -4,9 +4,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -57,10 +57,13 @@ std::size_t aligned(std::size_t offset) {
 /// XXH3 (64 bits) of the XXH3 of each piece, so that pieces can be read at the same time.
 class Checksum {
  public:
-  static std::uint64_t of(const char* data, std::size_t bytes) {
+  /// @param piece  (from, bytes) of each piece: its data.
+  template <class Piece>
+  static std::uint64_t of(std::size_t bytes, Piece piece) {
     std::vector<std::uint64_t> pieces((bytes + kPiece - 1) / kPiece);
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
-      pieces[i] = XXH3_64bits(data + i * kPiece, std::min(kPiece, bytes - i * kPiece));
+      const std::size_t from = i * kPiece, count = std::min(kPiece, bytes - from);
+      pieces[i] = XXH3_64bits(piece(from, count), count);
     });
     return of(pieces);
   }
@@ -98,6 +101,94 @@ class Checksum {
   std::vector<std::uint64_t> pieces_;
   std::size_t in_piece_ = 0;
 };
+
+/// A file to read: a regular one, so that nothing waits for what may never come.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    if (descriptor_ < 0) fail(path, std::strerror(errno));
+    struct stat status {};
+    if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
+      close(descriptor_);
+      fail(path, "not a regular file");
+    }
+    bytes_ = static_cast<std::size_t>(status.st_size);
+  }
+  ~OpenFile() { close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  std::size_t bytes() const { return bytes_; }
+
+  Header header() const {
+    if (bytes_ < sizeof(Header)) {
+      fail(path_, "truncated: " + std::to_string(bytes_) + " bytes are less than a header");
+    }
+    Header header;
+    read(reinterpret_cast<char*>(&header), sizeof header, 0);
+    return header;
+  }
+
+  /// Reads what follows the header to its place behind `to`; returns its checksum.
+  std::uint64_t readAfterHeader(char* to) const {
+    return Checksum::of(bytes_ - sizeof(Header), [&](std::size_t from, std::size_t bytes) {
+      char* part = to + sizeof(Header) + from;
+      read(part, bytes, sizeof(Header) + from);
+      return part;
+    });
+  }
+
+ private:
+  void read(char* to, std::size_t bytes, std::size_t offset) const {
+    while (bytes > 0) {
+      const ssize_t n = pread(descriptor_, to, bytes, static_cast<off_t>(offset));
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail(path_, std::string("cannot read: ") + std::strerror(errno));
+      if (n == 0) fail(path_, "truncated while it was read");
+      to += n;
+      bytes -= static_cast<std::size_t>(n);
+      offset += static_cast<std::size_t>(n);
+    }
+  }
+
+  std::string path_;
+  int descriptor_;
+  std::size_t bytes_ = 0;
+};
+
+void requireHeader(const std::string& path, Header header, const std::string& kind, std::uint32_t version,
+                   std::size_t bytes) {
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) fail(path, "not a file of sdf_ccd");
+  if (!isKind(header, kind)) {
+    header.kind[sizeof header.kind - 1] = '\0';
+    fail(path, "holds a " + std::string(header.kind) + ", not a " + kind);
+  }
+  if (header.byte_order != kByteOrder) fail(path, "written in another byte order");
+  if (header.version != version) {
+    fail(path, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(version));
+  }
+  if (header.file_bytes != bytes) {
+    fail(path, "truncated: " + std::to_string(bytes) + " of " + std::to_string(header.file_bytes) + " bytes");
+  }
+  if (header.section_count > kMaxSections || sizeof(Header) + header.section_count * sizeof(SectionEntry) > bytes) {
+    fail(path, "damaged: " + std::to_string(header.section_count) + " sections");
+  }
+}
+
+std::vector<FileSection> sectionsOf(const std::string& path, const Header& header, const char* start,
+                                    std::size_t bytes) {
+  std::vector<FileSection> sections;
+  for (std::size_t i = 0; i < header.section_count; ++i) {
+    SectionEntry entry;
+    std::memcpy(&entry, start + sizeof(Header) + i * sizeof entry, sizeof entry);
+    if (entry.offset > bytes || entry.bytes > bytes - entry.offset || entry.offset % kAlignment != 0) {
+      fail(path, "damaged: section " + std::to_string(i) + " lies outside the file");
+    }
+    sections.push_back({start + entry.offset, entry.bytes});
+  }
+  return sections;
+}
 
 /// A file that is removed again unless it is committed.
 class TemporaryFile {
@@ -182,54 +273,22 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
 
 std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, const std::string& kind,
                                                      std::uint32_t version) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail(path, std::strerror(errno));
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
-    close(descriptor);
-    fail(path, "not a regular file");
-  }
-  const auto bytes = static_cast<std::size_t>(status.st_size);
-  if (bytes < sizeof(Header)) {
-    close(descriptor);
-    fail(path, "truncated: " + std::to_string(bytes) + " bytes are less than a header");
-  }
-  void* mapping = mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, descriptor, 0);
-  close(descriptor);
-  if (mapping == MAP_FAILED) fail(path, std::string("cannot map: ") + std::strerror(errno));
-  std::shared_ptr<CheckedFile> file(new CheckedFile(path, mapping, bytes));
-  file->verify(kind, version);
-  return file;
+  const OpenFile opened(path);
+  const Header header = opened.header();
+  requireHeader(path, header, kind, version, opened.bytes());
+  Memory memory = allocate(path, opened.bytes());
+  auto* start = static_cast<char*>(memory.get());
+  if (opened.readAfterHeader(start) != header.checksum) fail(path, "damaged: the checksum does not fit");
+  std::vector<FileSection> sections = sectionsOf(path, header, start, opened.bytes());
+  return std::shared_ptr<const CheckedFile>(new CheckedFile(path, std::move(memory), std::move(sections)));
 }
 
-void CheckedFile::verify(const std::string& kind, std::uint32_t version) {
-  const auto* start = static_cast<const char*>(mapping_);
-  Header header;
-  std::memcpy(&header, start, sizeof header);
-  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) fail(path_, "not a file of sdf_ccd");
-  if (!isKind(header, kind)) {
-    header.kind[sizeof header.kind - 1] = '\0';
-    fail(path_, "holds a " + std::string(header.kind) + ", not a " + kind);
-  }
-  if (header.byte_order != kByteOrder) fail(path_, "written in another byte order");
-  if (header.version != version) {
-    fail(path_, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(version));
-  }
-  if (header.file_bytes != bytes_) {
-    fail(path_, "truncated: " + std::to_string(bytes_) + " of " + std::to_string(header.file_bytes) + " bytes");
-  }
-  if (header.section_count > kMaxSections || sizeof(Header) + header.section_count * sizeof(SectionEntry) > bytes_ ||
-      Checksum::of(start + sizeof(Header), bytes_ - sizeof(Header)) != header.checksum) {
-    fail(path_, "damaged: the checksum does not fit");
-  }
-  for (std::size_t i = 0; i < header.section_count; ++i) {
-    SectionEntry entry;
-    std::memcpy(&entry, start + sizeof(Header) + i * sizeof entry, sizeof entry);
-    if (entry.offset > bytes_ || entry.bytes > bytes_ - entry.offset || entry.offset % kAlignment != 0) {
-      fail(path_, "damaged: section " + std::to_string(i) + " lies outside the file");
-    }
-    sections_.push_back({start + entry.offset, entry.bytes});
-  }
+/// Whole pages, large ones where the kernel has them.
+CheckedFile::Memory CheckedFile::allocate(const std::string& path, std::size_t bytes) {
+  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) fail(path, "no memory for its " + std::to_string(bytes) + " bytes");
+  madvise(memory, bytes, MADV_HUGEPAGE);
+  return {memory, Unmap{bytes}};
 }
 
 std::size_t CheckedFile::checkedCount(std::size_t i, std::size_t value_size) const {
@@ -238,15 +297,17 @@ std::size_t CheckedFile::checkedCount(std::size_t i, std::size_t value_size) con
   return sections_[i].bytes / value_size;
 }
 
-CheckedFile::~CheckedFile() {
-  munmap(mapping_, bytes_);
+void CheckedFile::Unmap::operator()(void* memory) const {
+  munmap(memory, bytes);
 }
 
 bool isCheckedFile(const std::string& path, const std::string& kind) {
-  Header header{};
-  std::ifstream in(path, std::ios::binary);
-  if (!in.read(reinterpret_cast<char*>(&header), sizeof header)) return false;
-  return std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 && isKind(header, kind);
+  try {
+    const Header header = OpenFile(path).header();
+    return std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 && isKind(header, kind);
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 }  // namespace sdf_ccd

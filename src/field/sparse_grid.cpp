@@ -10,6 +10,7 @@
 
 #include "cube_corner.h"
 #include "far_ball_search.h"
+#include "grid_place.h"
 
 namespace sdf_ccd {
 namespace {
@@ -23,6 +24,13 @@ std::array<double, 8> cornersOf(const GridShape& shape, View<float> corners, con
   std::array<double, 8> c;
   for (int k = 0; k < 8; ++k) c[k] = corners[shape.cornerIndex(brick + cubeCorner(k))];
   return c;
+}
+
+/// In one pass that the compiler turns into vectors: a number less itself is zero.
+bool allFinite(View<float> values) {
+  bool finite = true;
+  for (std::size_t i = 0; i < values.size; ++i) finite &= values[i] - values[i] == 0.0F;
+  return finite;
 }
 
 /// A word per brick.
@@ -86,6 +94,8 @@ void SparseGrid::check() const {
   if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("band " + std::to_string(shape_.band));
   if (!(error_bound_ >= 0.0) || !std::isfinite(error_bound_)) fail("error bound " + std::to_string(error_bound_));
   if (shape_.bricks.minCoeff() < 1 || shape_.bricks.maxCoeff() > 4096) fail("brick counts out of 1 to 4096");
+  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's box is none");
+  if (!isPlace(shape_.box(), shape_.cell)) fail("its place is too far away for its cells");
   if (arrays_.words.size != shape_.brickCount())
     fail(std::to_string(arrays_.words.size) + " words do not fit the bricks");
   if (arrays_.corners.size != shape_.cornerCount()) {
@@ -94,6 +104,7 @@ void SparseGrid::check() const {
   if (!(shape_.step >= 0.0) || !std::isfinite(shape_.step)) fail("step " + std::to_string(shape_.step));
   if ((shape_.step > 0.0 ? arrays_.samples.size : arrays_.steps.size) != 0) fail("samples of the other kind");
   if (sampleCount() % GridShape::kSamples != 0) fail("samples end within a brick");
+  if (!allFinite(arrays_.corners) || !allFinite(arrays_.samples)) fail("a sample is no number");
   const auto stored = static_cast<std::uint32_t>(sampleCount() / GridShape::kSamples);
   for (std::size_t i = 0; i < arrays_.words.size; ++i) {
     const std::uint32_t word = arrays_.words[i];

@@ -1,8 +1,10 @@
 #include "sdf_ccd/shell/shell_file.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "sdf_ccd/field/checked_file.h"
+#include "sdf_ccd/field/view.h"
 
 namespace sdf_ccd {
 namespace {
@@ -11,6 +13,17 @@ constexpr char kKind[] = "shell";
 constexpr std::uint32_t kVersion = 3;
 
 static_assert(sizeof(Vector3d) == 3 * sizeof(double), "points are written as three numbers each");
+
+/// The first point whose place, normal or area is not one; as many as there are if all are.
+std::size_t firstBad(View<Vector3d> points, View<Vector3d> normals, View<double> areas) {
+  constexpr double kFarthest = 1e15;  // [m]: squares of distances, and volumes, stay finite
+  for (std::size_t i = 0; i < points.size; ++i) {
+    const bool good = (points[i].array().abs() < kFarthest).all() && normals[i].squaredNorm() < 1.0 + 1e-6 &&
+                      areas[i] >= 0.0 && std::isfinite(areas[i]);
+    if (!good) return i;
+  }
+  return points.size;
+}
 
 }  // namespace
 
@@ -34,6 +47,10 @@ PointShell loadShell(const std::string& path) {
     throw std::runtime_error(path + ": damaged: " + std::to_string(points) + " points, " + std::to_string(normals) +
                              " normals, " + std::to_string(areas) + " areas");
   }
+  const std::size_t bad = firstBad({point, points}, {normal, normals}, {area, areas});
+  if (bad < points) throw std::runtime_error(path + ": damaged: point " + std::to_string(bad) + " is none");
+  const bool has_radii = radii[0] >= 0.0 && std::isfinite(radii[0]) && radii[1] >= 0.0 && radii[2] >= 0.0;
+  if (!has_radii || !std::isfinite(radii[2])) throw std::runtime_error(path + ": damaged: its radii are no lengths");
   PointShell shell;
   shell.points.assign(point, point + points);
   shell.normals.assign(normal, normal + normals);

@@ -1,5 +1,6 @@
 #include "sdf_ccd/field/field_file.h"
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,10 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/mended_file.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
 #include "sdf_ccd/field/checked_file.h"
 #include "sdf_ccd/field/field_cache.h"
+#include "sdf_ccd/query/segment_batch.h"
 
 namespace sdf_ccd {
 namespace {
@@ -46,6 +49,11 @@ class FieldFile : public testing::Test {
     options.max_error = 0.004;
     return options;
   }
+  FieldOptions floats() const {
+    FieldOptions options = options_;
+    options.sample_bits = 32;
+    return options;
+  }
   void expectDamageIsNoticed(const FieldOptions& options) const;
 
   fs::path directory_;
@@ -62,6 +70,27 @@ void expectSame(const DistanceField& a, const DistanceField& b) {
   }
   EXPECT_EQ(a.band(), b.band());
   EXPECT_EQ(a.errorBound(), b.errorBound());
+}
+
+/// Asked everywhere, for places and segments, one by one and in batches.
+void expectNumbers(const DistanceField& field, test::Random& random) {
+  const AlignedBox3d box(Vector3d::Constant(-0.6), Vector3d::Constant(0.6));
+  std::vector<Segment> segments;
+  for (int i = 0; i < 40; ++i) {
+    const Vector3d p = test::uniformIn(random, box), q = test::uniformIn(random, box);
+    const FieldSample sample = field.sample(p);
+    ASSERT_FALSE(std::isnan(sample.value));
+    ASSERT_FALSE(std::isnan(sample.error));
+    segments.push_back({p, q});
+    for (const Interval& interval : segmentIntervals(field, segments.back())) {
+      ASSERT_LE(0.0, interval.enter);
+      ASSERT_LE(interval.enter, interval.exit);
+      ASSERT_LE(interval.exit, 1.0);
+    }
+  }
+  BatchResult result;
+  segmentIntervals(field, segments.data(), segments.size(), {}, result);
+  for (const SegmentHit& hit : result.hits) ASSERT_LE(hit.enter, hit.exit + 1e-6F);
 }
 
 TEST_F(FieldFile, RoundTripIsExact) {
@@ -111,25 +140,12 @@ TEST_F(FieldFile, BadOpeningsAreRefused) {
     saveField(buildField(test::binMesh(0.3), options), path("a.field"));
     const std::string kind = options.max_error ? "adaptive field" : "field";
     const std::size_t first = options.max_error ? 7 : 4;  // of the three sections
+    const test::MendedFile good(path("a.field"), kind, kVersion);
     const auto loadWith = [&](std::size_t section, auto change) {
-      const auto file = CheckedFile::open(path("a.field"), kind, kVersion);
-      std::vector<std::string> bytes(file->sectionCount());
-      std::vector<FileSection> sections;
-      for (std::size_t i = 0; i < bytes.size(); ++i) {
-        std::size_t count = 0;
-        const char* data = file->section<char>(i, count);
-        bytes[i].assign(data, count);
-        if (i == first + section) change(bytes[i]);
-        sections.push_back({bytes[i].data(), bytes[i].size()});
-      }
-      writeCheckedFile(path("b.field"), kind, kVersion, sections);
+      good.write(path("b.field"), [&](auto& sections) { change(sections[first + section]); });
       return loadField(path("b.field"));
     };
-    const auto put = [](auto value) {
-      return [value](std::string& bytes) {
-        bytes.replace(0, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
-      };
-    };
+    const auto put = [](auto value) { return [value](std::string& bytes) { test::put(value, 0, bytes); }; };
     EXPECT_TRUE(loadWith(0, put(0.3)).openings());
     for (const double x : {0.4, -1e300, HUGE_VAL, std::nan("")}) EXPECT_THROW(loadWith(0, put(x)), std::runtime_error);
     for (const std::int32_t i : {-1, 6, 1 << 30}) EXPECT_THROW(loadWith(1, put(i)), std::runtime_error) << i;
@@ -175,20 +191,13 @@ void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
 /// A file whose checksum fits: its shape may still be nonsense.
 TEST_F(FieldFile, BadStepsAreRefused) {
   saveField(buildField(mesh_, options_), path("a.field"));
+  const test::MendedFile good(path("a.field"), "field", kVersion);
   const auto loadWith = [&](double step, std::int32_t sample_bits) {
-    const auto file = CheckedFile::open(path("a.field"), "field", kVersion);
-    std::vector<std::string> bytes(file->sectionCount());
-    std::vector<FileSection> sections;
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-      std::size_t count = 0;
-      const char* data = file->section<char>(i, count);
-      bytes[i].assign(data, count);
-      sections.push_back({bytes[i].data(), count});
-    }
-    // The shape ends with them.
-    bytes[0].replace(bytes[0].size() - 12, 4, reinterpret_cast<const char*>(&sample_bits), 4);
-    bytes[0].replace(bytes[0].size() - 8, 8, reinterpret_cast<const char*>(&step), 8);
-    writeCheckedFile(path("b.field"), "field", kVersion, sections);
+    good.write(path("b.field"), [&](auto& sections) {
+      // The shape ends with them.
+      test::put(sample_bits, sections[0].size() - 12, sections[0]);
+      test::put(step, sections[0].size() - 8, sections[0]);
+    });
     return loadField(path("b.field"));
   };
   EXPECT_EQ(loadWith(1e-5, 16).grid()->shape().step, 1e-5);
@@ -200,6 +209,46 @@ TEST_F(FieldFile, BadStepsAreRefused) {
   EXPECT_THROW(loadWith(0.0, 16), std::runtime_error);
   EXPECT_THROW(loadWith(1e-5, 32), std::runtime_error);
   EXPECT_THROW(loadWith(1e-5, 8), std::runtime_error);
+}
+
+/// Of whatever numbers a file whose checksum fits holds: they are refused, or queries end and answer in numbers.
+TEST_F(FieldFile, NoNumbersBreakQueries) {
+  int refused = 0, asked = 0;
+  for (const FieldOptions& options : {options_, floats(), adaptive()}) {
+    saveField(buildField(test::binMesh(0.3), options), path("a.field"));
+    const test::MendedFile good(path("a.field"), options.max_error ? "adaptive field" : "field", kVersion);
+    test::Random random(3);
+    for (int i = 0; i < 1500; ++i) {
+      good.write(path("b.field"), [&](auto& sections) { test::breakNumbers(random, sections); });
+      try {
+        expectNumbers(loadField(path("b.field")), random);
+        ++asked;
+      } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("b.field"), std::string::npos);
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 500);
+  EXPECT_GT(asked, 500);
+}
+
+TEST_F(FieldFile, OnceLoadedAFileMayBeCutShort) {
+  for (const FieldOptions& options : {options_, adaptive()}) {
+    const DistanceField field = buildField(mesh_, options);
+    saveField(field, path("a.field"));
+    const DistanceField loaded = loadField(path("a.field"));
+    fs::resize_file(path("a.field"), 100);
+    expectSame(field, loaded);
+  }
+}
+
+TEST_F(FieldFile, PipesAndDevicesAreRefusedAtOnce) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  for (const std::string& file : {path("pipe"), std::string("/dev/zero")}) {
+    EXPECT_FALSE(isFieldFile(file));
+    EXPECT_THROW(loadField(file), std::runtime_error);
+  }
 }
 
 TEST_F(FieldFile, EveryDamageIsNoticed) {

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -49,6 +50,30 @@ TEST_F(ShellFile, PartsThatDoNotFitEachOtherAreRefused) {
   shell_.areas.pop_back();
   saveShell(shell_, path_.string());
   EXPECT_THROW(loadShell(path_.string()), std::runtime_error);
+}
+
+TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
+  const PointShell good = shell_;
+  const auto expectRefused = [&](auto change) {
+    shell_ = good;
+    change();
+    saveShell(shell_, path_.string());
+    EXPECT_THROW(loadShell(path_.string()), std::runtime_error);
+  };
+  for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan(""), 1e300}) {
+    expectRefused([&] { shell_.points[1].y() = bad; });
+    expectRefused([&] { shell_.normals[0].z() = bad; });
+  }
+  for (const double bad : {HUGE_VAL, -1e-9, std::nan("")}) {
+    expectRefused([&] { shell_.areas[1] = bad; });
+    expectRefused([&] { shell_.covering_radius = bad; });
+    expectRefused([&] { shell_.flatness = bad; });
+  }
+  for (const double bad : {-1e-9, std::nan("")}) expectRefused([&] { shell_.edge_radius = bad; });
+  shell_ = good;
+  shell_.edge_radius = HUGE_VAL;  // edges were not sampled apart
+  saveShell(shell_, path_.string());
+  EXPECT_EQ(loadShell(path_.string()).edge_radius, HUGE_VAL);
 }
 
 TEST_F(ShellFile, EveryTruncationIsRefused) {

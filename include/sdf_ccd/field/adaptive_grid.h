@@ -152,7 +152,7 @@ class AdaptiveGrid {
     View<std::uint8_t> leaf_errors;
   };
 
-  /// The same on memory that `owner` keeps alive (a mapped file).
+  /// The same on memory that `owner` keeps alive (a file's).
   AdaptiveGrid(const AdaptiveShape& shape, const Arrays& arrays, std::shared_ptr<const void> owner);
 
   const AdaptiveShape& shape() const { return shape_; }

@@ -28,14 +28,14 @@ FileSection sectionOf(const View<T>& view) {
 void writeCheckedFile(const std::string& path, const std::string& kind, std::uint32_t version,
                       const std::vector<FileSection>& sections);
 
-/// A file of writeCheckedFile(), mapped read-only. Sections are aligned to 64 bytes.
+/// A file of writeCheckedFile(), read into memory of its own: what happens to the file later changes nothing. Sections
+/// are aligned to 64 bytes.
 class CheckedFile {
  public:
   /// @throws std::runtime_error naming the path and what is wrong: missing, not of this kind, another version,
   /// truncated, damaged.
   static std::shared_ptr<const CheckedFile> open(const std::string& path, const std::string& kind,
                                                  std::uint32_t version);
-  ~CheckedFile();
   CheckedFile(const CheckedFile&) = delete;
   CheckedFile& operator=(const CheckedFile&) = delete;
 
@@ -49,14 +49,19 @@ class CheckedFile {
   }
 
  private:
-  CheckedFile(std::string path, void* mapping, std::size_t bytes)
-      : path_(std::move(path)), mapping_(mapping), bytes_(bytes) {}
+  struct Unmap {
+    std::size_t bytes;
+    void operator()(void* memory) const;
+  };
+  using Memory = std::unique_ptr<void, Unmap>;
+  static Memory allocate(const std::string& path, std::size_t bytes);
+
+  CheckedFile(std::string path, Memory memory, std::vector<FileSection> sections)
+      : path_(std::move(path)), memory_(std::move(memory)), sections_(std::move(sections)) {}
   std::size_t checkedCount(std::size_t i, std::size_t value_size) const;
-  void verify(const std::string& kind, std::uint32_t version);
 
   std::string path_;
-  void* mapping_;
-  std::size_t bytes_;
+  Memory memory_;
   std::vector<FileSection> sections_;
 };
 

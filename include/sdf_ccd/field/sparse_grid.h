@@ -81,7 +81,7 @@ class SparseGrid {
     View<std::int16_t> steps;   ///< as GridData
   };
 
-  /// The same on memory that `owner` keeps alive (a mapped file).
+  /// The same on memory that `owner` keeps alive (a file's).
   SparseGrid(const GridShape& shape, const Arrays& arrays, double error_bound, std::shared_ptr<const void> owner);
 
   const GridShape& shape() const { return shape_; }
