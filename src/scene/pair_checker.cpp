@@ -193,10 +193,8 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
     result.touches_at_sample = true;
     result.deepest = *crossing;
   }
-  // What holds for the field everywhere, or for the deepest point's place alone: that is often much less.
-  const ErrorBound& error = result.error;
   const ContactPoint* deepest = collector_.deepestCertain();
-  const bool deep = deepest && deepest->depth > std::min(error.field, deepest->depth_error) + error.chord + error.root;
+  const bool deep = deepest && result.error.provesContact(deepest->depth, deepest->depth_error);
   result.verdict = deep || collector_.crosses() ? Verdict::kContact : Verdict::kUncertain;
 }
 

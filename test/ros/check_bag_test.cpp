@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -216,6 +217,77 @@ TEST_F(CheckBag, TfAndRatesAndPlotsTellTheSameContacts) {
   EXPECT_NEAR(std::stod(once["end"]), std::stod(often["end"]), 1e-6);
 }
 
+struct Touch {
+  double from, until;  // from the cycle's start [s]
+  double depth, depth_error;
+};
+
+/// A message of one pair of links, as a monitor would send it of a cycle of 0.1 s; its verdict is the truth.
+ContactArray toldOf(std::uint8_t verdict, double start, const std::vector<Touch>& touches) {
+  ContactArray message;
+  message.cycle_start = ros::Time(start);
+  message.header.stamp = message.complete_until = ros::Time(start + 0.1);
+  message.verdict = verdict;
+  message.checked = 1;
+  message.pairs.resize(1);
+  PairContact& pair = message.pairs[0];
+  pair.body_a = "a";
+  pair.body_b = "b";
+  pair.verdict = verdict;
+  pair.error_field = 0.003;
+  pair.error_chord = 0.0001;
+  pair.error_gap = 0.001;
+  pair.error_bound = message.error_bound = 0.0041;
+  for (const Touch& touch : touches) {
+    TimeInterval interval;
+    interval.start = message.cycle_start + ros::Duration(touch.from);
+    interval.end = message.cycle_start + ros::Duration(touch.until);
+    pair.intervals.push_back(interval);
+    PointContact point;
+    point.enter = point.time = interval.start;
+    point.exit = interval.end;
+    point.depth = touch.depth;
+    point.depth_error = touch.depth_error;
+    pair.points.push_back(point);
+    if (point.depth >= pair.deepest.depth) pair.deepest = point;
+  }
+  pair.depth = pair.deepest.depth;
+  return message;
+}
+
+TEST_F(CheckBag, TheTableSaysOfContactsWhatTheMessagesSay) {
+  struct Case {
+    std::vector<ContactArray> told;
+    std::string verdicts;  // of the rows
+  };
+  constexpr std::uint8_t kContact = PairContact::CONTACT, kUncertain = PairContact::UNCERTAIN;
+  const std::vector<Case> cases = {
+      // Less deep than the field's largest error, but deeper than that of its location.
+      {{toldOf(kContact, kBegin, {{0.0, 0.02, 0.001, 0.0002}})}, "CONTACT "},
+      // As of an open mesh: deeper than the error bound, but perhaps only inside a cap.
+      {{toldOf(kUncertain, kBegin, {{0.0, 0.02, 0.01, 0.01}})}, "UNCERTAIN "},
+      // Surfaces that are known to cross, although no depth shows it.
+      {{toldOf(kContact, kBegin, {{0.0, 0.02, 0.0, 0.0}})}, "CONTACT "},
+      // Of two times within a cycle, one is proved.
+      {{toldOf(kContact, kBegin, {{0.0, 0.02, 0.0001, 0.0002}, {0.03, 0.05, 0.001, 0.0002}})}, "UNCERTAIN CONTACT "},
+      // One contact over two cycles: the second proves it, although it is less deep there.
+      {{toldOf(kUncertain, kBegin, {{0.05, 0.1, 0.002, 0.003}}),
+        toldOf(kContact, kBegin + 0.1, {{0.0, 0.05, 0.001, 0.0002}})},
+       "CONTACT "},
+  };
+  for (const Case& each : cases) {
+    {
+      rosbag::Bag bag(path("told.bag").string(), rosbag::bagmode::Write);
+      for (const ContactArray& message : each.told) bag.write("contacts", message.header.stamp, message);
+    }
+    const ToolRun result = run("plot-bag told.bag --out told");
+    EXPECT_LE(result.exit_code, kPartlyDone) << result.error;
+    std::string verdicts;
+    for (Row contact : table("told/contacts.csv")) verdicts += contact["verdict"] + " ";
+    EXPECT_EQ(verdicts, each.verdicts);
+  }
+}
+
 TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
   ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
   {
@@ -347,9 +419,15 @@ TEST_F(CheckBag, BadBagsAreRefused) {
   write("empty.bag", "");
   write("text.bag", "not a bag");
   rosbag::Bag(path("none.bag").string(), rosbag::bagmode::Write).close();
-  for (const char* bag : {"cut.bag", "empty.bag", "text.bag", "none.bag", "missing.bag"}) {
-    expectRefused(check(bag, "no"), bag);
-    expectRefused("plot-bag " + std::string(bag) + " --out no", bag);
+  const std::map<std::string, std::string> reasons = {{"cut.bag", "try `rosbag reindex cut.bag`"},
+                                                      {"empty.bag", ": is not a bag"},
+                                                      {"text.bag", ": is not a bag"},
+                                                      {"none.bag", "none.bag"},
+                                                      {"missing.bag", ": cannot be opened: No such file"},
+                                                      {".", ": is a directory, not a bag"}};
+  for (const auto& [bag, reason] : reasons) {
+    expectRefused(check(bag, "no"), reason);
+    expectRefused("plot-bag " + bag + " --out no", reason);
   }
   expectRefused("plot-bag arm.bag --out no", "holds no sdf_ccd/ContactArray");
   expectRefused(check("arm.bag", "no", "--start 1000"), "nothing is left after the start at 1000 s");
@@ -358,6 +436,13 @@ TEST_F(CheckBag, BadBagsAreRefused) {
   }
   write("bad.yaml", "rate: fast\n");
   expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: parameter ~/rate is fast");
+  write("bad.yaml", "filed: {cell_size: 0.01}\n");
+  expectRefused(check("arm.bag", "no", "--config bad.yaml"),
+                "bad.yaml: nothing reads parameter ~/filed, did you mean field?");
+  write("bad.yaml", "world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]\n");
+  expectRefused(check("arm.bag", "no", "--config bad.yaml"),
+                "bad.yaml: nothing reads parameter ~/world[0]/xzy, did you mean xyz?");
+  write("bad.yaml", "rate: fast\n");
   expectRefused(check("arm.bag", "no", "--srdf missing.srdf"), "missing.srdf");
   expectRefused(check("arm.bag", "no", "--srdf bad.yaml"), "bad.yaml: the SRDF cannot be parsed: line 1");
   for (const char* text : {"arm", "<robot name='arm'><link name='a'/><link", "<robot name='arm'><joint/></robot>"}) {
@@ -396,12 +481,133 @@ TEST_F(CheckBag, InterruptedItLeavesNothing) {
   const std::string script = "cd '" + path("").string() + "' && { '" SDF_CCD_TOOL "' " +
                              check("arm.bag", "no", "--config fine.yaml") +
                              " > /dev/null 2> ../error.txt & "
-                             "for i in $(seq 300); do ls no/summary.txt.* > /dev/null 2>&1 && break; sleep 0.02; done; "
+                             "for i in $(seq 300); do [ -d no ] && break; sleep 0.02; done; "
                              "kill -INT $!; wait $!; }";
   const int status = std::system(script.c_str());
   EXPECT_EQ(WEXITSTATUS(status), kBadInput);
   EXPECT_NE(readText(path("../error.txt")).find("interrupted: nothing is written to no"), std::string::npos);
   EXPECT_FALSE(fs::exists(path("no")));
+}
+
+TEST_F(CheckBag, KilledItLeavesNoFiles) {
+  {
+    const int unnamed = ::open(path("").c_str(), O_TMPFILE | O_RDWR, 0600);
+    if (unnamed < 0) GTEST_SKIP() << "this file system has no files without a name";
+    ::close(unnamed);
+  }
+  write("fine.yaml", "cache: false\nfield: {cell_size: 0.0007}\n");
+  const std::string script = "cd '" + path("").string() + "' && { '" SDF_CCD_TOOL "' " +
+                             check("arm.bag", "no", "--config fine.yaml") +
+                             " > /dev/null 2>&1 & "
+                             "for i in $(seq 300); do [ -d no ] && break; sleep 0.02; done; sleep 0.1; "
+                             "kill -KILL $!; wait $!; }";
+  const int status = std::system((script + " 2> /dev/null").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGKILL);
+  ASSERT_TRUE(fs::exists(path("no")));
+  EXPECT_TRUE(fs::is_empty(path("no"))) << fs::directory_iterator(path("no"))->path();
+}
+
+TEST_F(CheckBag, OnAFullDiskItLeavesNothing) {
+  write("arm.yaml", readText(path("arm.yaml")) + "cache: false\n");
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  const auto kilobytes = fs::file_size(path("made/checked.bag")) / 1024;
+  const std::size_t files = countFiles();
+  for (const std::string& limit : {std::to_string(kilobytes - 1), std::to_string(kilobytes / 2), std::string("1")}) {
+    // A limit on the size of files: their writer is told as of a full disk, that no more can be written.
+    const std::string script = "cd '" + path("").string() + "' && ulimit -f " + limit + " && trap '' XFSZ && '" +
+                               SDF_CCD_TOOL "' " + check("arm.bag", "no") + " > /dev/null 2> ../error.txt";
+    const int status = std::system(("bash -c \"" + script + "\"").c_str());
+    const std::string error = test::withoutProgress(readText(path("../error.txt")));
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), kBadInput) << error;
+    EXPECT_NE(error.find(": cannot write: File too large"), std::string::npos) << error;
+    EXPECT_EQ(error.find('/'), 0u + std::string("sdf_ccd: no").size()) << error;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+    EXPECT_EQ(countFiles(), files);
+    EXPECT_FALSE(fs::exists(path("no")));
+  }
+}
+
+/// A base, two links on it that can touch, and others, whose transforms nobody sends.
+std::string robotOfManyLinks(int others) {
+  const std::string shape =
+      "<collision><origin xyz='0 0.05 0'/><geometry><sphere radius='0.01'/></geometry></collision>";
+  std::string urdf = "<robot name='many'><link name='base'>" + shape + "</link>";
+  const auto add = [&](const std::string& name) {
+    urdf += "<link name='" + name + "'>" + shape + "</link><joint name='to_" + name +
+            "' type='continuous'><parent link='base'/><child link='" + name + "'/><origin xyz='0.05 0 0'/></joint>";
+  };
+  add("known");
+  add("known2");
+  for (int i = 0; i < others; ++i) add(std::string("lost_") + char('a' + i));
+  return urdf + "</robot>";
+}
+
+TEST_F(CheckBag, WhyNothingWasCheckedIsSaidFirst) {
+  write("many.urdf", robotOfManyLinks(16));
+  write("many.yaml", "check_adjacent: true\ncache: false\n");
+  const std::string options = " --urdf many.urdf --config many.yaml --out ";
+  const auto writeTf = [&](const std::string& file, const std::map<std::string, std::string>& parents) {
+    rosbag::Bag bag(path(file).string(), rosbag::bagmode::Write);
+    tf2_msgs::TFMessage message;
+    for (const auto& [child, parent] : parents) {
+      message.transforms.emplace_back();
+      message.transforms.back().header.frame_id = parent;
+      message.transforms.back().child_frame_id = child;
+      message.transforms.back().transform.translation.z = 0.2 * double(message.transforms.size());
+    }
+    for (auto& transform : message.transforms) transform.transform.rotation.w = 1.0;
+    for (int i = 0; i < 60; ++i) {
+      for (auto& transform : message.transforms) transform.header.stamp = ros::Time(kBegin + kPeriod * i);
+      bag.write("/tf", message.transforms[0].header.stamp, message);
+    }
+  };
+  // Links whose transforms do not come: one reason, of whatever many links.
+  writeTf("some.bag", {{"known", "base"}, {"known2", "base"}});
+  const ToolRun some = run("check-bag some.bag" + options + "some");
+  EXPECT_EQ(some.exit_code, kPartlyDone) << some.error;
+  EXPECT_EQ(
+      some.error.find("sdf_ccd: no cycle was checked as a whole, as known - lost_a: no transform from lost_a to "), 0u)
+      << some.error;
+  const std::size_t not_checked = some.out.find("\nnot checked ");
+  EXPECT_LT(not_checked, some.out.find("\ncontact "));
+  EXPECT_EQ(some.out.find(" more\n", not_checked), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("as known - lost_a: no transform from lost_a to base: none of lost_a has come", not_checked),
+            std::string::npos)
+      << some.out;
+
+  // A fixed frame that the robot's transforms do not lead to.
+  writeTf("apart.bag", {{"known", "base"},
+                        {"known2", "base"},
+                        {"lost_a", "base"},
+                        {"lost_b", "base"},
+                        {"lost_c", "base"},
+                        {"odom", "world"}});
+  write("many.urdf", robotOfManyLinks(3));
+  write("many.yaml", "check_adjacent: true\ncache: false\nfixed_frame: world\n");
+  expectRefused("check-bag apart.bag" + options + "no",
+                "apart.bag: nothing could be checked, as known - known2: no transform from known to world: tf's tree "
+                "is rooted at base, not world");
+}
+
+TEST_F(CheckBag, JointStatesThatAreNotFiniteAreCounted) {
+  {
+    rosbag::Bag bag(path("nan.bag").string(), rosbag::bagmode::Write);
+    const Pose pose = downwards();
+    for (int i = 0; i < 60; ++i) {
+      sensor_msgs::JointState state;
+      state.header.stamp = ros::Time(kBegin + kPeriod * i);
+      state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
+      const double nan = std::nan("");
+      state.position = {kFirstYaw, pose.shoulder, nan, pose.wrist, 0.0, nan};
+      bag.write("joint_states", state.header.stamp, state);
+    }
+  }
+  const ToolRun result = run(check("nan.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("60 positions of joint elbow in joint_states are not finite"), std::string::npos)
+      << result.error;
+  EXPECT_EQ(result.error.find("unknown"), std::string::npos) << result.error;
 }
 
 TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {

@@ -20,8 +20,12 @@ struct ErrorBound {
 
   /// For "no contact": the surface between the points counts.
   double total() const { return field + chord + root + gap; }
-  /// For "contact": a point of the surface that is deeper than this is proof, whatever lies between the points.
-  double point() const { return field + chord + root; }
+  /// For "contact": whether a surface point of this depth is proof, whatever lies between the points. It has to be
+  /// deeper than the field's error, everywhere or, often much less, at its own location, and what the motion adds.
+  /// @param depth_error  of the field at that location [m].
+  bool provesContact(double depth, double depth_error) const {
+    return depth > (depth_error < field ? depth_error : field) + chord + root;
+  }
 };
 
 }  // namespace sdf_ccd

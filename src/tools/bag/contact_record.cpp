@@ -10,12 +10,35 @@ namespace {
 
 const ros::Duration kJoin(0.001);  // shorter breaks are of rounding, or of a field's cells
 
+bool isWithin(const PointContact& point, const TimeInterval& interval) {
+  return interval.start <= point.time && point.time <= interval.end;
+}
+
 /// The deepest point that the message names within the interval; null if it names none.
 const PointContact* deepestWithin(const PairContact& pair, const TimeInterval& interval) {
-  const auto isWithin = [&](const PointContact& p) { return interval.start <= p.time && p.time <= interval.end; };
-  if (isWithin(pair.deepest)) return &pair.deepest;
-  const auto found = std::find_if(pair.points.begin(), pair.points.end(), isWithin);
+  if (isWithin(pair.deepest, interval)) return &pair.deepest;
+  const auto found = std::find_if(pair.points.begin(), pair.points.end(),
+                                  [&](const PointContact& point) { return isWithin(point, interval); });
   return found == pair.points.end() ? nullptr : &*found;
+}
+
+ErrorBound errorOf(const PairContact& pair) {
+  return {pair.error_field, pair.error_chord, pair.error_root, pair.error_gap};
+}
+
+/// Which of a pair's intervals its verdict is about: those with a point that proves contact, as the monitor takes it.
+/// Where no point that the message lists does, as where surfaces are known to cross, it may be any of them.
+std::vector<bool> inContact(const PairContact& pair) {
+  if (pair.verdict != PairContact::CONTACT) return std::vector<bool>(pair.intervals.size(), false);
+  std::vector<bool> proved;
+  for (const TimeInterval& interval : pair.intervals) {
+    const auto proves = [&](const PointContact& p) {
+      return isWithin(p, interval) && errorOf(pair).provesContact(p.depth, p.depth_error);
+    };
+    proved.push_back(proves(pair.deepest) || std::any_of(pair.points.begin(), pair.points.end(), proves));
+  }
+  const bool any = std::find(proved.begin(), proved.end(), true) != proved.end();
+  return any ? proved : std::vector<bool>(proved.size(), true);
 }
 
 }  // namespace
@@ -25,7 +48,9 @@ void ContactJoiner::add(const ContactArray& message) {
   until_ = message.header.stamp;
   for (const PairContact& pair : message.pairs) {
     bool is_first = true;
-    for (const TimeInterval& interval : pair.intervals) {
+    const std::vector<bool> in_contact = inContact(pair);
+    for (std::size_t i = 0; i < pair.intervals.size(); ++i) {
+      const TimeInterval& interval = pair.intervals[i];
       const auto [known, is_new] = last_.try_emplace({pair.body_a, pair.body_b}, contacts_.size());
       if (is_new || interval.start > contacts_[known->second].end + kJoin) {
         known->second = contacts_.size();
@@ -41,11 +66,9 @@ void ContactJoiner::add(const ContactArray& message) {
       is_first = false;
       contact.error_bound = std::max(contact.error_bound, pair.error_bound);
       contact.seen_at_samples |= bool(pair.in_contact_at_samples);
+      if (in_contact[i]) contact.verdict = Verdict::kContact;
       const PointContact* deepest = deepestWithin(pair, interval);
-      if (!deepest || deepest->depth < contact.deepest.depth) continue;
-      contact.deepest = *deepest;
-      // As the pair's verdict is found: a point that is deeper than the bound without the gap between points.
-      if (deepest->depth > pair.error_bound - pair.error_gap) contact.verdict = Verdict::kContact;
+      if (deepest && deepest->depth >= contact.deepest.depth) contact.deepest = *deepest;
     }
   }
 }

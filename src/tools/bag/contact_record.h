@@ -14,7 +14,7 @@ namespace sdf_ccd::tools {
 struct ContactRecord {
   std::string body_a, body_b;
   ros::Time start, end;
-  Verdict verdict = Verdict::kUncertain;  ///< kContact if a point was deeper than the bound allows to doubt
+  Verdict verdict = Verdict::kUncertain;  ///< kContact if the pair's was, in a cycle, for this
   PointContact deepest;                   ///< in the fixed frame
   double error_bound = 0.0;               ///< largest of the cycles [m]
   unsigned cycles = 0;
