@@ -22,15 +22,8 @@ std::set<int> touching(const CycleResult& result) {
 
 }  // namespace
 
-CheckedBag::CheckedBag(const std::string& file, const MonitorLoop& loop, const MarkerOptions& markers)
-    : loop_(loop), drawer_(loop.fixedFrame(), markers) {
-  bag_.open(file, rosbag::bagmode::Write);
-  bag_.setCompression(rosbag::compression::LZ4);
-}
-
-CheckedBag::~CheckedBag() {
-  bag_.close();
-}
+CheckedBag::CheckedBag(BagWriter& bag, const MonitorLoop& loop, const MarkerOptions& markers)
+    : loop_(loop), drawer_(loop.fixedFrame(), markers), bag_(bag) {}
 
 void CheckedBag::addScene(const SceneDescription& description, const ros::Time& begin) {
   std_msgs::String plan;

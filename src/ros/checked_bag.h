@@ -3,8 +3,7 @@
 #include <map>
 #include <string>
 
-#include <rosbag/bag.h>
-
+#include "ros/bag_writer.h"
 #include "ros/cycle_messages.h"
 #include "ros/markers.h"
 #include "ros/recorded_motion.h"
@@ -22,10 +21,9 @@ namespace sdf_ccd {
 ///   plan, world      once
 class CheckedBag {
  public:
-  /// @param loop  is asked for each cycle; must outlive this.
-  /// @throws rosbag::BagException if the file cannot be written.
-  CheckedBag(const std::string& file, const MonitorLoop& loop, const MarkerOptions& markers);
-  ~CheckedBag();
+  /// @param bag   open, and empty; closed by whoever opened it. It throws where it cannot be written.
+  /// @param loop  is asked for each cycle. Both must outlive this.
+  CheckedBag(BagWriter& bag, const MonitorLoop& loop, const MarkerOptions& markers);
 
   /// The scene, at the bag's begin.
   void addScene(const SceneDescription& description, const ros::Time& begin);
@@ -44,7 +42,7 @@ class CheckedBag {
 
   const MonitorLoop& loop_;
   MarkerDrawer drawer_;
-  rosbag::Bag bag_;
+  BagWriter& bag_;
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;     // by child frame
   std::map<std::string, boost::shared_ptr<ros::M_string>> latched_connections_;  // by topic
 };

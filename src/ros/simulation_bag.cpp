@@ -60,9 +60,7 @@ Marker toMarker(const SimulationSetup& setup, std::size_t body, const std::strin
 
 }  // namespace
 
-SimulationBag::SimulationBag(const std::string& path, const SimulationSetup& setup) {
-  bag_.open(path, rosbag::bagmode::Write);
-  bag_.setCompression(rosbag::compression::LZ4);
+SimulationBag::SimulationBag(BagWriter& bag, const SimulationSetup& setup) : bag_(bag) {
   for (std::size_t b = 0; b < setup.world.bodies.size(); ++b) {
     frames_.push_back(setup.world.bodies[b].name);
     markers_.markers.push_back(toMarker(setup, b, frames_[b]));
@@ -72,10 +70,6 @@ SimulationBag::SimulationBag(const std::string& path, const SimulationSetup& set
   scene.transforms.push_back(
       toTransformStamped({stamp, "world", "scene"}, Isometry3d(Eigen::Translation3d(setup.world.origin_W))));
   bag_.write("/tf_static", stamp, scene);
-}
-
-SimulationBag::~SimulationBag() {
-  bag_.close();
 }
 
 void SimulationBag::add(double time, const std::vector<BodyState>& states) {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include <rosbag/bag.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include "ros/bag_writer.h"
 #include "sdf_ccd/dynamics/simulation_file.h"
 
 namespace sdf_ccd {
@@ -18,15 +18,15 @@ namespace sdf_ccd {
 /// jumps back gets them again. Time begins at 1 s, as 0 means "no time" to ROS.
 class SimulationBag {
  public:
-  /// @throws rosbag::BagException if the file cannot be written.
-  SimulationBag(const std::string& path, const SimulationSetup& setup);
-  ~SimulationBag();
+  /// @param bag  open, and empty; closed by whoever opened it, and must outlive this. It throws where it cannot be
+  ///             written.
+  SimulationBag(BagWriter& bag, const SimulationSetup& setup);
 
   /// Poses at `time` [s] of the simulation; call with times that increase.
   void add(double time, const std::vector<BodyState>& states);
 
  private:
-  rosbag::Bag bag_;
+  BagWriter& bag_;
   std::vector<std::string> frames_;  // per body
   visualization_msgs::MarkerArray markers_;
   double next_markers_ = 0.0;  // [s]

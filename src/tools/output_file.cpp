@@ -4,11 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 namespace sdf_ccd::tools {
 namespace {
@@ -42,47 +41,57 @@ fs::path followed(const std::string& path) {
   fail(path, std::strerror(ELOOP));
 }
 
+std::unique_ptr<TemporaryFile> makeTemporary(const std::string& path, const std::string& target) {
+  try {
+    return std::make_unique<TemporaryFile>(target);
+  } catch (const std::system_error& error) {
+    fail(path, error.code().message());
+  }
+}
+
+void place(const std::string& path, TemporaryFile& temporary) {
+  try {
+    temporary.place();
+  } catch (const std::system_error& error) {
+    fail(path, error.code().message());
+  }
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) fail(path, "it is a directory");
-  target_ = followed(path).string();
-  if (isOpenFile(target_) || (fs::exists(status) && !fs::is_regular_file(status))) {
-    stream_.open(target_, std::ios::binary | std::ios::app);
+  const std::string target = followed(path).string();
+  if (isOpenFile(target) || (fs::exists(status) && !fs::is_regular_file(status))) {
+    stream_.open(target, std::ios::binary | std::ios::app);
     if (!stream_) fail(path, std::strerror(errno));
     return;
   }
-  temporary_ = target_ + ".XXXXXX";
-  const int descriptor = ::mkstemp(&temporary_[0]);
-  if (descriptor < 0) {
-    temporary_.clear();
-    fail(path, std::strerror(errno));
-  }
-  ::fchmod(descriptor, 0644);
-  ::close(descriptor);
-  stream_.open(temporary_, std::ios::binary);
+  temporary_ = makeTemporary(path, target);
+  stream_.open(temporary_->path(), std::ios::binary);
 }
 
-OutputFile::~OutputFile() {
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
+OutputFile::~OutputFile() = default;
+
+void OutputFile::close() {
+  if (!stream_.is_open()) return;
+  errno = 0;
+  stream_.close();
+  if (!stream_) fail(path_, errno != 0 ? std::strerror(errno) : "not everything could be written");
 }
 
 void OutputFile::commit() {
-  stream_.close();
-  if (!stream_) fail(path_, std::strerror(errno));
-  if (temporary_.empty()) return;
-  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, std::strerror(errno));
-  temporary_.clear();
+  close();
+  if (temporary_) place(path_, *temporary_);
 }
 
-OutputPath::~OutputPath() {
-  std::remove(part().c_str());
-}
+OutputPath::OutputPath(const std::string& path)
+    : path_(path), temporary_(makeTemporary(path, followed(path).string())) {}
 
 void OutputPath::commit() {
-  if (std::rename(part().c_str(), path_.c_str()) != 0) fail(path_, std::strerror(errno));
+  place(path_, *temporary_);
 }
 
 OutputDirectory::OutputDirectory(const std::string& path) : path_(path) {

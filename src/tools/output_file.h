@@ -1,11 +1,14 @@
 #pragma once
 
 #include <fstream>
+#include <memory>
 #include <string>
+
+#include "temporary_file.h"
 
 namespace sdf_ccd::tools {
 
-/// A file that appears complete or not at all: written beside its place under another name, renamed by commit().
+/// A file that appears complete or not at all: it is written before it has its name, which commit() gives it.
 /// Symbolic links stay, and what they lead to is written. Devices, pipes and open files (/dev/stdout, /dev/fd/3) are
 /// appended to at once.
 class OutputFile {
@@ -18,29 +21,34 @@ class OutputFile {
 
   std::ostream& stream() { return stream_; }
 
+  /// Ends the writing; of several files, all before the first commit(), so that none is there if one is incomplete.
   /// @throws std::runtime_error if not everything could be written.
+  void close();
+
+  /// Closes it first, unless that is done. @throws std::runtime_error if the file cannot be put in its place.
   void commit();
 
  private:
   std::string path_;
-  std::string target_;     // where links lead from path_
-  std::string temporary_;  // empty if the target is written directly
+  std::unique_ptr<TemporaryFile> temporary_;  // null if the target is written directly
   std::ofstream stream_;
 };
 
-/// The same for writers that want a path: they write to part(), beside its place.
+/// The same for writers that want a path: they write to part(), and have closed it before commit().
 class OutputPath {
  public:
-  explicit OutputPath(const std::string& path) : path_(path) {}
-  ~OutputPath();  ///< without commit() nothing stays
-  OutputPath(const OutputPath&) = delete;
-  OutputPath& operator=(const OutputPath&) = delete;
+  /// @throws std::runtime_error if the path cannot be written.
+  explicit OutputPath(const std::string& path);
 
-  std::string part() const { return path_ + ".part"; }
+  const std::string& path() const { return path_; }
+  const std::string& part() const { return temporary_->path(); }
+
+  /// @throws std::runtime_error if the file cannot be put in its place.
   void commit();
 
  private:
   std::string path_;
+  std::unique_ptr<TemporaryFile> temporary_;
 };
 
 /// Makes a directory; if nothing has been put into it in the end, and it is new, it goes again.

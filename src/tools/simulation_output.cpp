@@ -12,20 +12,20 @@ namespace sdf_ccd::tools {
 #ifdef SDF_CCD_WITH_ROS
 struct SimulationOutput::Bag {
   Bag(const std::string& path, const SimulationSetup& setup)
-      : path(path), writer(std::make_unique<SimulationBag>(this->path.part(), setup)) {}
-  void add(const Simulation& simulation) { writer->add(simulation.last().time, simulation.states()); }
-  void commit() {
-    writer.reset();
-    path.commit();
-  }
+      : path(path), writer(this->path.part(), path), bag(writer, setup) {}
+  void add(const Simulation& simulation) { bag.add(simulation.last().time, simulation.states()); }
+  void close() { writer.close(); }
+  void commit() { path.commit(); }
 
   OutputPath path;
-  std::unique_ptr<SimulationBag> writer;
+  BagWriter writer;
+  SimulationBag bag;
 };
 #else
 struct SimulationOutput::Bag {
   Bag(const std::string&, const SimulationSetup&) {}
   void add(const Simulation&) {}
+  void close() {}
   void commit() {}
 };
 #endif
@@ -55,6 +55,8 @@ void SimulationOutput::add(const Simulation& simulation) {
 
 void SimulationOutput::commit(const std::string& summary) {
   summary_.stream() << summary;
+  bag_->close();
+  for (OutputFile* file : {&steps_, &poses_, &summary_}) file->close();
   for (OutputFile* file : {&steps_, &poses_, &summary_}) file->commit();
   bag_->commit();
 }

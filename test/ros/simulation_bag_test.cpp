@@ -19,7 +19,8 @@ TEST(SimulationBag, HoldsEveryBodysPosesAndMarkersLockedToThem) {
       ".");
   const std::string path = (std::filesystem::temp_directory_path() / "sdf_ccd_simulation_test.bag").string();
   {
-    SimulationBag bag(path, setup);
+    BagWriter writer(path, path);
+    SimulationBag bag(writer, setup);
     for (int frame = 0; frame < 30; ++frame) bag.add(0.1 * frame, setup.states);
   }
   std::map<std::string, int> counts;

@@ -47,21 +47,24 @@ struct CheckFiles {
       : directory(path),
         summary(directory.file("summary.txt")),
         plan(directory.file("plan.txt")),
-        bag(directory.file("checked.bag")),
+        bag_path(directory.file("checked.bag")),
+        bag(bag_path.part(), bag_path.path()),
         report(directory) {}
 
   /// @param title  of the plot.
   void commit(const std::string& title) {
+    bag.close();
+    for (OutputFile* file : {&plan, &summary}) file->close();
     if (!report.commit(title)) std::cerr << "sdf_ccd: no error_time.svg: gnuplot is missing, or failed" << std::endl;
-    bag.commit();
-    plan.commit();
-    summary.commit();
+    bag_path.commit();
+    for (OutputFile* file : {&plan, &summary}) file->commit();
   }
 
   Interrupt interrupt;  ///< it must not leave them there
   OutputDirectory directory;
   OutputFile summary, plan;
-  OutputPath bag;
+  OutputPath bag_path;
+  BagWriter bag;
   CycleReport report;
 };
 
@@ -118,7 +121,7 @@ std::string planText(const Scene& scene, const std::vector<std::string>& warning
 double check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
              MonitorLoop& loop, CheckFiles& files) {
   const auto start = std::chrono::steady_clock::now();
-  CheckedBag bag(files.bag.part(), loop, parameters.markers);
+  CheckedBag bag(files.bag, loop, parameters.markers);
   bag.addScene(described.scene, motion.begin());
   Recorder recorder(motion, loop, bag, files);
   checkBag(motion, parameters, loop, recorder);
@@ -127,28 +130,29 @@ double check(const RecordedMotion& motion, const MonitorParameters& parameters, 
 
 void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
   const std::vector<CycleRecord>& cycles = statistics.cycles();
-  const std::vector<std::string> never_checked = statistics.neverChecked();
+  const std::string why = statistics.whyNotChecked();
   require(!cycles.empty(), bag + ": no cycle: the robot's transforms are never known at the same time");
   require(std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& cycle) { return cycle.hasBound(); }),
-          bag + ": nothing could be checked" +
-              (never_checked.empty() ? ": there are no pairs" : ", as " + never_checked.front()));
+          bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
 }
 
-/// Names on stderr what was never checked.
-void requireComplete(const CycleStatistics& statistics, const Scene& scene) {
-  bool is_complete = true;
+/// Names on stderr what was never checked; whether there is nothing of that kind.
+bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
+  bool is_complete = statistics.hasCheckedCycle();
+  if (!is_complete) {
+    std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
+  }
   for (const Body& body : scene.bodies) {
     if (body.failure.empty()) continue;
     std::cerr << "sdf_ccd: not checked: " << body.failure << std::endl;
     is_complete = false;
   }
-  const std::vector<std::string> never_checked = statistics.neverChecked();
-  if (!never_checked.empty()) {
-    std::cerr << "sdf_ccd: " << never_checked.size() << " pairs were checked in no cycle, as " << never_checked.front()
-              << std::endl;
+  if (statistics.neverChecked() > 0) {
+    std::cerr << "sdf_ccd: " << statistics.neverChecked() << " pairs were checked in no cycle, as "
+              << statistics.whyNotChecked() << std::endl;
     is_complete = false;
   }
-  if (!is_complete) throw PartlyDone();
+  return is_complete;
 }
 
 void run(const Arguments& arguments) {
@@ -171,9 +175,14 @@ void run(const Arguments& arguments) {
   }
   MonitorLoop loop(scene, described, parameters);
   const double took = check(motion, parameters, described, loop, files);
+  for (const std::string& warning : motion.warnings()) {
+    std::cerr << "sdf_ccd: warning: " << warning << std::endl;
+    warnings.push_back(warning);
+  }
   const CycleStatistics& statistics = files.report.statistics();
   requireChecked(statistics, arguments.bag);
 
+  const bool is_complete = isComplete(statistics, *scene);
   const double length = (motion.end() - motion.begin()).toSec();
   std::ostringstream text;
   text << "bag              " << arguments.bag << ": " << rounded(length, 3) << " s from " << timeText(motion.begin())
@@ -186,7 +195,7 @@ void run(const Arguments& arguments) {
   files.summary.stream() << expected << text.str();
   files.plan.stream() << planText(*scene, warnings);
   files.commit("Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
-  requireComplete(statistics, *scene);
+  if (!is_complete) throw PartlyDone();
 }
 
 void checkThenRun(const Arguments& arguments) {
@@ -218,7 +227,7 @@ void addCheckBagCommand(CLI::App& app) {
       "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
-      "code 1: some bodies or pairs were never checked.");
+      "code 1: some bodies or pairs were never checked, or no cycle was checked as a whole; 2: nothing was checked.");
   command->add_option("bag", arguments->bag, "Bag to read")->required();
   command->add_option("--urdf", arguments->config.urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")
       ->required();

@@ -27,8 +27,8 @@ bool CycleReport::commit(const std::string& title) {
   }
   const bool is_plotted = plotErrorTime(statistics_.cycles(), {title, subtitle}, plot_file_.part());
   for (const ContactRecord& contact : statistics_.contacts()) contacts_file_.stream() << toRow(contact);
-  cycles_file_.commit();
-  contacts_file_.commit();
+  for (OutputFile* file : {&cycles_file_, &contacts_file_}) file->close();
+  for (OutputFile* file : {&cycles_file_, &contacts_file_}) file->commit();
   if (is_plotted) plot_file_.commit();
   return is_plotted;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
+#include <tuple>
 
 #include "precision/error_summary.h"
 #include "print.h"
@@ -35,6 +37,16 @@ std::string list(const std::string& heading, const std::vector<std::string>& ite
   return text;
 }
 
+/// A reason without what differs from pair to pair and cycle to cycle: the links' names, and numbers.
+std::string kindOf(std::string reason, const PairContact& pair) {
+  for (const std::string& body : {pair.body_a, pair.body_b}) {
+    for (std::size_t at = reason.find(body); !body.empty() && at != std::string::npos; at = reason.find(body, at + 1)) {
+      reason.replace(at, body.size(), "*");
+    }
+  }
+  return std::regex_replace(reason, std::regex("[0-9]+([.][0-9]+)?"), "#");
+}
+
 }  // namespace
 
 void CycleStatistics::add(const ContactArray& message) {
@@ -46,21 +58,33 @@ void CycleStatistics::add(const ContactArray& message) {
     count.in_contact += pair.verdict == PairContact::CONTACT;
     count.uncertain += pair.verdict == PairContact::UNCERTAIN;
     count.not_checked += pair.verdict == PairContact::NOT_CHECKED;
-    if (count.reason.empty()) count.reason = pair.reason;
+    if (count.reason.empty() && !pair.reason.empty()) {
+      count.reason = pair.reason;
+      count.kind = kindOf(pair.reason, pair);
+    }
   }
 }
 
-std::vector<std::string> CycleStatistics::neverChecked() const {
-  std::vector<std::string> lines;
-  for (const auto& [name, count] : pairs_) {
-    if (count.not_checked == cycles_.size()) lines.push_back(name + ": " + count.reason);
-  }
-  return lines;
+std::size_t CycleStatistics::neverChecked() const {
+  return std::count_if(pairs_.begin(), pairs_.end(),
+                       [&](const auto& pair) { return pair.second.not_checked == cycles_.size(); });
+}
+
+bool CycleStatistics::hasCheckedCycle() const {
+  return std::any_of(cycles_.begin(), cycles_.end(),
+                     [](const CycleRecord& cycle) { return cycle.verdict != Verdict::kNotChecked; });
+}
+
+std::string CycleStatistics::whyNotChecked() const {
+  const std::vector<Unchecked> reasons = unchecked();
+  return reasons.empty() ? "" : reasons.front().example;
 }
 
 std::string CycleStatistics::summary(const ros::Time& begin) const {
-  std::string text = verdictLine() + timeLine(begin) + contactLines(begin) + uncertainLines() + notCheckedLines() +
-                     contradictedLine(begin);
+  const std::string found = contactLines(begin) + uncertainLines();
+  std::string text = verdictLine() + timeLine(begin);
+  text += hasCheckedCycle() ? found + notCheckedLines() : notCheckedLines() + found;
+  text += contradictedLine(begin);
   for (const std::string& line : runTimesAndBounds()) text += line + "\n";
   return text;
 }
@@ -108,23 +132,32 @@ std::string CycleStatistics::uncertainLines() const {
   return list("uncertain        " + std::to_string(items.size()) + " pairs, in some cycle", items);
 }
 
-std::string CycleStatistics::notCheckedLines() const {
-  struct Group {
-    std::size_t pairs = 0, most_cycles = 0;
-  };
-  std::map<std::string, Group> groups;  // by reason
-  std::size_t pairs = 0;
+/// By reason, that for which most was not checked first.
+std::vector<CycleStatistics::Unchecked> CycleStatistics::unchecked() const {
+  std::map<std::string, Unchecked> reasons;
   for (const auto& [name, count] : pairs_) {
     if (count.not_checked == 0) continue;
-    Group& group = groups[count.reason];
-    ++group.pairs;
-    ++pairs;
-    group.most_cycles = std::max(group.most_cycles, count.not_checked);
+    Unchecked& reason = reasons[count.kind];
+    if (count.not_checked > reason.most_cycles) reason.example = name + ": " + count.reason;
+    ++reason.pairs;
+    reason.cycles += count.not_checked;
+    reason.most_cycles = std::max(reason.most_cycles, count.not_checked);
   }
+  std::vector<Unchecked> sorted;
+  for (const auto& [kind, reason] : reasons) sorted.push_back(reason);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Unchecked& a, const Unchecked& b) {
+    return std::tie(a.most_cycles, a.cycles) > std::tie(b.most_cycles, b.cycles);
+  });
+  return sorted;
+}
+
+std::string CycleStatistics::notCheckedLines() const {
+  std::size_t pairs = 0;
   std::vector<std::string> items;
-  for (const auto& [reason, group] : groups) {
-    items.push_back(std::to_string(group.pairs) + " pairs, in up to " + std::to_string(group.most_cycles) +
-                    " cycles: " + reason);
+  for (const Unchecked& reason : unchecked()) {
+    pairs += reason.pairs;
+    items.push_back(std::to_string(reason.pairs) + " pairs, in up to " + std::to_string(reason.most_cycles) +
+                    " cycles, as " + reason.example);
   }
   return list("not checked      " + std::to_string(pairs) + " pairs, in some cycle", items);
 }

@@ -18,8 +18,14 @@ class CycleStatistics {
   const std::vector<CycleRecord>& cycles() const { return cycles_; }
   std::vector<ContactRecord> contacts() const { return joiner_.contacts(); }
 
-  /// "body - body: reason" of the pairs that were NOT_CHECKED in every cycle.
-  std::vector<std::string> neverChecked() const;
+  /// How many pairs were NOT_CHECKED in every cycle.
+  std::size_t neverChecked() const;
+
+  /// Whether some cycle was checked as a whole, its verdict being another than NOT_CHECKED.
+  bool hasCheckedCycle() const;
+
+  /// "body - body: reason", an example of the reason for which most was not checked; empty if all was.
+  std::string whyNotChecked() const;
 
   /// Cycles by verdict, what was checked, pairs in contact and in doubt, run times and error bounds.
   /// @param begin  what times are told from.
@@ -31,9 +37,16 @@ class CycleStatistics {
  private:
   struct PairCount {
     std::size_t in_contact = 0, uncertain = 0, not_checked = 0;  // cycles
-    std::string reason;                                          // the first that it was not checked for
+    std::string reason, kind;                                    // the first that it was not checked for
   };
 
+  /// Pairs that were not checked for one reason, but for the names and numbers in it.
+  struct Unchecked {
+    std::string example;  // "body - body: reason"
+    std::size_t pairs = 0, cycles = 0, most_cycles = 0;
+  };
+
+  std::vector<Unchecked> unchecked() const;
   std::string verdictLine() const;
   std::string timeLine(const ros::Time& begin) const;
   std::string contactLines(const ros::Time& begin) const;

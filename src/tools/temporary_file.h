@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+namespace sdf_ccd::tools {
+
+/// A file that is written before it gets its name. It has none until then, so that whatever ends the program leaves
+/// nothing of it; where the file system has no such files, it has a random name beside its place, which stays after
+/// `kill -9`.
+class TemporaryFile {
+ public:
+  /// @param target  the place that it is for; links are not followed.
+  /// @throws std::system_error if none can be made in the target's directory.
+  explicit TemporaryFile(const std::string& target);
+  ~TemporaryFile();  ///< without place() nothing stays
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  /// What this process, and others of the same user while it lives, open to write it.
+  const std::string& path() const { return path_; }
+
+  /// Puts it where it belongs, instead of what is there. Whoever writes it must have closed it.
+  /// @throws std::system_error if that fails.
+  void place();
+
+ private:
+  void openNamed();
+  void giveName();
+
+  std::string target_;
+  std::string path_;
+  std::string name_;  // beside the target; empty if it has none
+  int descriptor_ = -1;
+};
+
+}  // namespace sdf_ccd::tools
