@@ -10,6 +10,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/geometry/nearest_name.h"
 #include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
@@ -86,7 +87,7 @@ class YamlMap {
   void finish() const {
     for (const auto& entry : node_) {
       const auto key = entry.first.Scalar();
-      if (read_.count(key) == 0) fail(entry.first, "`" + key + "` is not known here");
+      if (read_.count(key) == 0) fail(entry.first, "`" + key + "` is not known here" + suggestion(key, unused()));
     }
   }
 
@@ -95,6 +96,14 @@ class YamlMap {
   }
 
  private:
+  /// Keys that could be here, and are not.
+  std::set<std::string> unused() const {
+    std::set<std::string> keys;
+    for (const std::string& key : read_)
+      if (!has(key)) keys.insert(key);
+    return keys;
+  }
+
   template <class T>
   T convert(const YAML::Node& value, const std::string& key) const {
     try {

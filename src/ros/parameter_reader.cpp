@@ -4,6 +4,8 @@
 #include <locale>
 #include <sstream>
 
+#include "sdf_ccd/geometry/nearest_name.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -51,6 +53,8 @@ void ParameterReader::fail(const std::string& key, const std::string& expected) 
     text << " is missing";
   }
   text << ", expected " << expected;
+  const std::string misspelt = has(key) ? "" : nearestName(key, notRead());
+  if (!misspelt.empty()) text << "; is it " << misspelt << "?";
   throw ParameterError(text.str());
 }
 
@@ -140,14 +144,32 @@ std::vector<ParameterReader> ParameterReader::list(const std::string& key) {
   return readers;
 }
 
-std::vector<std::string> ParameterReader::unread() const {
-  std::vector<std::string> names;
+std::set<std::string> ParameterReader::notRead() const {
+  std::set<std::string> names;
   if (tree_.getType() != XmlRpcValue::TypeStruct) return names;
   for (auto member = const_cast<XmlRpcValue&>(tree_).begin(); member != const_cast<XmlRpcValue&>(tree_).end();
        ++member) {
-    if (read_.count(member->first) == 0) names.push_back(name_ + "/" + member->first);
+    if (read_.count(member->first) == 0) names.insert(member->first);
   }
   return names;
+}
+
+std::set<std::string> ParameterReader::unset() const {
+  std::set<std::string> names;
+  for (const std::string& key : read_)
+    if (!has(key)) names.insert(key);
+  return names;
+}
+
+std::vector<std::string> ParameterReader::unread() const {
+  std::vector<std::string> texts;
+  for (const std::string& name : notRead()) texts.push_back(name_ + "/" + name + suggestion(name, unset()));
+  return texts;
+}
+
+void ParameterReader::finish() const {
+  const std::vector<std::string> names = unread();
+  if (!names.empty()) throw ParameterError("nothing reads parameter " + names.front());
 }
 
 }  // namespace sdf_ccd

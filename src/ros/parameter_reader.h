@@ -44,8 +44,11 @@ class ParameterReader {
   ParameterReader group(const std::string& key);
   std::vector<ParameterReader> list(const std::string& key);
 
-  /// Names of what was not read, this group's only.
+  /// What was not read, of this group only, each with what may have been meant: "~/filed, did you mean field?".
   std::vector<std::string> unread() const;
+
+  /// Throws if there is such, so that a misspelt parameter is not taken for one that is not set.
+  void finish() const;
 
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
 
@@ -56,6 +59,9 @@ class ParameterReader {
 
   /// Null if it is not set.
   XmlRpc::XmlRpcValue* find(const std::string& key);
+
+  std::set<std::string> unset() const;  ///< of what was read, or looked for
+  std::set<std::string> notRead() const;
 };
 
 }  // namespace sdf_ccd

@@ -58,6 +58,7 @@ WorldObject readWorldObject(ParameterReader& reader) {
     default:
       reader.fail("type", "one of box sphere cylinder plane mesh");
   }
+  reader.finish();
   return object;
 }
 
@@ -83,8 +84,7 @@ std::optional<ErrorBudget> readBudget(ParameterReader& reader) {
   }
 }
 
-FieldOptions readField(ParameterReader reader, const std::optional<ErrorBudget>& budget,
-                       std::vector<std::string>& unknown) {
+FieldOptions readField(ParameterReader reader, const std::optional<ErrorBudget>& budget) {
   FieldOptions field;
   const int given = reader.has("cells") + reader.has("cell_size") + reader.has("max_error");
   if (given > 1) reader.fail("cells", "only one of cells, cell_size and max_error to be set");
@@ -103,23 +103,22 @@ FieldOptions readField(ParameterReader reader, const std::optional<ErrorBudget>&
   const double most = budget ? kKnobMegabytes : static_cast<double>(field.max_bytes >> 20);
   const double megabytes = reader.positive("max_megabytes", most);
   field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
-  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  reader.finish();
   return field;
 }
 
-ShellOptions readShell(ParameterReader reader, const std::optional<ErrorBudget>& budget,
-                       std::vector<std::string>& unknown) {
+ShellOptions readShell(ParameterReader reader, const std::optional<ErrorBudget>& budget) {
   ShellOptions shell;
   shell.spacing = reader.positive("spacing", budget ? budget->face_spacing : 0.005);
   shell.edge_gap = reader.notNegative("edge_gap", budget ? budget->edge_gap : shell.edge_gap);
   if (budget) shell.max_points = kKnobPoints;
   shell.vertex_spacing = reader.notNegative("vertex_spacing", 0.002);
   shell.seed = reader.integer("seed", static_cast<int>(shell.seed), 0);
-  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  reader.finish();
   return shell;
 }
 
-ContactOptions readContact(ParameterReader reader, std::vector<std::string>& unknown) {
+ContactOptions readContact(ParameterReader reader) {
   ContactOptions contact;
   contact.stiffness_per = static_cast<StiffnessPer>(
       reader.choice("stiffness_per", {"area", "point"}, static_cast<int>(contact.stiffness_per)));
@@ -130,17 +129,17 @@ ContactOptions readContact(ParameterReader reader, std::vector<std::string>& unk
   contact.quadrature =
       static_cast<Quadrature>(reader.choice("quadrature", {"exact", "midpoint"}, static_cast<int>(contact.quadrature)));
   contact.midpoint_intervals = reader.integer("midpoint_intervals", contact.midpoint_intervals, 1);
-  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  reader.finish();
   return contact;
 }
 
-OctomapObject readOctomap(ParameterReader reader, std::vector<std::string>& unknown) {
+OctomapObject readOctomap(ParameterReader reader) {
   OctomapObject octomap;
   octomap.file = reader.text("file", "");
   octomap.frame = reader.text("frame", "");
   octomap.X_frame_B = readPose(reader);
   octomap.cell_size = reader.notNegative("cell_size", 0.0);
-  for (const std::string& name : reader.unread()) unknown.push_back(name);
+  reader.finish();
   return octomap;
 }
 
@@ -172,12 +171,11 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
 
   for (ParameterReader& object : reader.list("world")) {
     parameters.world.push_back(readWorldObject(object));
-    for (const std::string& unread : object.unread()) parameters.unknown.push_back(unread);
   }
-  parameters.octomap = readOctomap(reader.group("octomap"), parameters.unknown);
+  parameters.octomap = readOctomap(reader.group("octomap"));
   const std::optional<ErrorBudget> budget = readBudget(reader);
-  parameters.scene.field = readField(reader.group("field"), budget, parameters.unknown);
-  parameters.scene.shell = readShell(reader.group("shell"), budget, parameters.unknown);
+  parameters.scene.field = readField(reader.group("field"), budget);
+  parameters.scene.shell = readShell(reader.group("shell"), budget);
   if (reader.flag("cache", true)) {
     parameters.scene.cache_directory = reader.text("cache_directory", "");
     if (parameters.scene.cache_directory.empty()) parameters.scene.cache_directory = defaultCacheDirectory();
@@ -185,7 +183,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     reader.text("cache_directory", "");
   }
 
-  parameters.monitor.contact = readContact(reader.group("contact"), parameters.unknown);
+  parameters.monitor.contact = readContact(reader.group("contact"));
   ChordOptions& chords = parameters.monitor.chords;
   chords.tolerance = reader.positive("chord_tolerance", budget ? budget->chord_tolerance : chords.tolerance);
   parameters.scene.motion_margin = ErrorBudget::kChords * chords.tolerance;
@@ -201,7 +199,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
   reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's
   reader.positive("diagnostic_period", 1.0);   // the diagnostic updater's
-  for (const std::string& unread : reader.unread()) parameters.unknown.push_back(unread);
+  parameters.unknown = reader.unread();
   return parameters;
 }
 

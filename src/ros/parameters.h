@@ -54,7 +54,7 @@ struct MonitorParameters {
   MarkerOptions markers;
   double rate = 0.0;  ///< [Hz]
   int max_points = 0;
-  std::vector<std::string> unknown;  ///< names of parameters that nothing reads
+  std::vector<std::string> unknown;  ///< what nothing reads, with what may be meant; in groups it is refused
 };
 
 /// Thrown while the robot's description is not there; it may come later.

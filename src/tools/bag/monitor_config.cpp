@@ -1,6 +1,5 @@
 #include "monitor_config.h"
 
-#include <iostream>
 #include <set>
 #include <stdexcept>
 
@@ -55,8 +54,8 @@ MonitorParameters readParameters(const MonitorConfig& config) {
   if (!config.srdf.empty()) parameters.srdf = readText(config.srdf);
   parameters.urdf_source = config.urdf;
   parameters.srdf_source = config.srdf;
-  for (const std::string& name : parameters.unknown) {
-    std::cerr << "sdf_ccd: " << prefix << "nothing reads parameter " << name << std::endl;
+  if (!parameters.unknown.empty()) {
+    throw std::runtime_error(prefix + "nothing reads parameter " + parameters.unknown.front());
   }
   return parameters;
 }

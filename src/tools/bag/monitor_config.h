@@ -15,7 +15,7 @@ struct MonitorConfig {
   std::optional<double> max_error;  ///< [m]; then the file's own shares of it are passed over
 };
 
-/// Reads them; parameters that nothing reads are named on stderr.
+/// Reads them. A parameter that nothing reads, which on a parameter server may be another's, is an error in a file.
 /// @throws std::runtime_error that names the file, or the parameter and its value.
 MonitorParameters readParameters(const MonitorConfig& config);
 
