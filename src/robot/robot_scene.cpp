@@ -60,6 +60,14 @@ void warnOfUnknownLinks(const RobotModel& robot, const Srdf& srdf, std::vector<s
   for (const std::string& link : named) warnings.push_back("the SRDF names link " + link + ", the URDF has none");
 }
 
+void warnOfVisualOnly(const std::vector<std::string>& links, std::vector<std::string>& warnings) {
+  if (links.empty()) return;
+  std::string text = links.size() == 1 ? "1 link has" : std::to_string(links.size()) + " links have";
+  text += " a visual but no collision shape, and no contact of theirs is found:";
+  for (const std::string& link : links) text += " " + link;
+  warnings.push_back(text);
+}
+
 /// The link whose frame carries the body, if that never moves against the robot's root.
 std::optional<Isometry3d> poseInRoot(const RobotModel& robot, const std::vector<Isometry3d>& X_RL,
                                      const BodyDescription& body) {
@@ -91,7 +99,10 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
   for (const std::string& name : robot.links()) {
     const auto link = robot.urdf().getLink(name);
     const auto unread = robot.unread().find(name);
-    if (link->collision_array.empty() && unread == robot.unread().end()) continue;
+    if (link->collision_array.empty() && unread == robot.unread().end()) {
+      if (!link->visual_array.empty()) scene.visual_only.push_back(name);
+      continue;
+    }
     BodyDescription body;
     body.name = name;
     body.frame = name;
@@ -106,6 +117,7 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
   if (scene.bodies.empty()) {
     warnings.push_back("robot " + robot.urdf().getName() + " has no link with a collision element");
   }
+  warnOfVisualOnly(scene.visual_only, warnings);
   warnOfUnknownLinks(robot, srdf, warnings);
 
   std::vector<std::optional<ExtentBall>> balls;

@@ -19,6 +19,8 @@ constexpr double kLogPeriod = 3.0;      // of building's progress [s]
 constexpr double kLongestPeriod = 1e6;  // longer ones overflow clocks [s]
 constexpr double kLateShown = 3.0;      // a contradiction by late transforms, in the diagnostics [s]
 constexpr double kSending = 0.1;        // until the last messages have left [s]
+constexpr double kPatience = 2.0;       // until it is warned of what is not checked [s]
+constexpr double kWarnPeriod = 10.0;    // of such warnings [s]
 
 /// Thrown out of building when the nodelet is unloaded meanwhile.
 struct Stopped {};
@@ -107,6 +109,7 @@ void CollisionMonitor::setUp() {
   described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, ""));
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   world_publisher_.publish(toWorldMarkers(described_.scene));
+  joint_watch_ = std::make_unique<JointWatch>(*described_.robot);
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, parameters_.markers);
@@ -171,6 +174,9 @@ void CollisionMonitor::listen() {
   };
   tf_subscriber_ = listenTo("/tf", false);
   tf_static_subscriber_ = listenTo("/tf_static", true);
+  const boost::function<void(const sensor_msgs::JointStateConstPtr&)> watch =
+      [this](const sensor_msgs::JointStateConstPtr& joints) { joint_watch_->add(*joints); };
+  joint_subscriber_ = node.subscribe<sensor_msgs::JointState>("joint_states", 10, watch);
   tf_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &tf_queue_);
   tf_spinner_->start();
 }
@@ -187,6 +193,8 @@ void CollisionMonitor::cycle() {
     case TfTracker::Step::kStalled:
       health_.stalled = true;
       health_.rate = 0.0;
+      health_.bad_joints = joint_watch_->lines("joint_states");
+      warnWhileUnchecked(true);
       return idle("no new transforms");
     case TfTracker::Step::kJump:
       NODELET_WARN("Time has jumped back: starting anew");
@@ -221,8 +229,26 @@ void CollisionMonitor::publishState() {
   health_.contradicted = contradicted();
   health_.out_of_order = loop_->history().outOfOrder();
   health_.refused = loop_->history().refused();
+  health_.bad_joints = joint_watch_->lines("joint_states");
+  warnWhileUnchecked(!health_.missing.empty());
   state_publisher_.publish(state);
   diagnostics_->update(health_);
+}
+
+/// Says on the console, now and then, why bodies are not checked.
+void CollisionMonitor::warnWhileUnchecked(bool is_unchecked) {
+  const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run
+  if (!is_unchecked) {
+    unchecked_since_ = ros::WallTime();
+    return;
+  }
+  if (unchecked_since_.isZero()) unchecked_since_ = now;
+  if ((now - unchecked_since_).toSec() < kPatience) return;
+  if (!last_warning_.isZero() && (now - last_warning_).toSec() < kWarnPeriod) return;
+  last_warning_ = now;
+  std::string cause = uncheckedCause(*loop_);
+  for (const std::string& line : health_.bad_joints) cause += "; " + line;
+  NODELET_WARN("Not checked: %s", cause.c_str());
 }
 
 /// What late transforms have contradicted in the last seconds; said in the log when it begins.

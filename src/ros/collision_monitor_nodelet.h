@@ -13,6 +13,7 @@
 #include <std_srvs/Empty.h>
 
 #include "ros/diagnostics.h"
+#include "ros/joint_watch.h"
 #include "ros/outputs.h"
 #include "ros/queries.h"
 #include "sdf_ccd/MonitorState.h"
@@ -26,6 +27,7 @@ namespace sdf_ccd {
 ///
 /// Subscribes:
 ///   /tf, /tf_static  tf2_msgs/TFMessage
+///   joint_states     sensor_msgs/JointState  only to name joints whose positions are not finite
 ///
 /// Publishes, below the node's name, besides what Outputs and Diagnostics do:
 ///   state  sdf_ccd/MonitorState  every cycle, and, as NOT_CHECKED, once a second while there is none and on unloading;
@@ -60,6 +62,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void publishUnchecked(const std::string& reason);
   void forget(const std::string& reason);
   void publishState();
+  void warnWhileUnchecked(bool is_unchecked);
   std::string contradicted();
 
   bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
@@ -74,15 +77,17 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::unique_ptr<MonitorLoop> loop_;
   std::unique_ptr<Outputs> outputs_;
   std::unique_ptr<Queries> queries_;
+  std::unique_ptr<JointWatch> joint_watch_;
 
   std::unique_ptr<Diagnostics> diagnostics_;
   MonitorHealth health_;
-  ros::WallTime last_cycle_;  // when it was published
-  ros::WallTime last_step_;   // of the loop that found anything
-  ros::WallTime last_idle_;   // when it was said that nothing is checked; 0 after a cycle
-  ros::WallTime last_late_;   // when transforms contradicted a cycle
-  std::string late_;          // what was said of that
-  ros::WallTime last_log_;    // of the progress of building
+  ros::WallTime last_cycle_;                      // when it was published
+  ros::WallTime last_step_;                       // of the loop that found anything
+  ros::WallTime last_idle_;                       // when it was said that nothing is checked; 0 after a cycle
+  ros::WallTime last_late_;                       // when transforms contradicted a cycle
+  std::string late_;                              // what was said of that
+  ros::WallTime last_log_;                        // of the progress of building
+  ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
 
   ros::Publisher state_publisher_;
   ros::Publisher plan_publisher_;
@@ -90,7 +95,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   ros::CallbackQueue service_queue_;
   ros::CallbackQueue tf_queue_;
   std::vector<ros::ServiceServer> services_;
-  ros::Subscriber tf_subscriber_, tf_static_subscriber_;
+  ros::Subscriber tf_subscriber_, tf_static_subscriber_, joint_subscriber_;
   std::unique_ptr<ros::AsyncSpinner> service_spinner_, tf_spinner_;
 
   std::mutex ready_mutex_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <map>
 
 namespace sdf_ccd {
 
@@ -139,6 +140,22 @@ std::vector<std::string> missingBodies(const MonitorLoop& loop) {
     if (!missing[body].empty()) lines.push_back(loop.scene().bodies[body].name + ": " + missing[body]);
   }
   return lines;
+}
+
+std::string uncheckedCause(const MonitorLoop& loop) {
+  const std::vector<std::string> missing = missingBodies(loop);
+  if (missing.empty()) return "no new transforms come";
+  const auto causeOf = [](const std::string& line) { return line.substr(line.rfind(": ") + 1); };
+  std::map<std::string, std::size_t> bodies;  // by cause
+  for (const std::string& line : missing) ++bodies[causeOf(line)];
+  const auto shares = [&](const std::string& a, const std::string& b) {
+    return bodies[causeOf(a)] < bodies[causeOf(b)];
+  };
+  const std::size_t others = missing.size() - 1;
+  return *std::max_element(missing.begin(), missing.end(), shares) +
+         (others == 0   ? ""
+          : others == 1 ? "; and 1 body more"
+                        : "; and " + std::to_string(others) + " bodies more");
 }
 
 std::vector<std::string> failedBodies(const Scene& scene) {

@@ -34,6 +34,10 @@ std::string wrenchTopic(const Body& body);
 /// "body: reason" of the bodies that the cycle could not check for want of transforms.
 std::vector<std::string> missingBodies(const MonitorLoop& loop);
 
+/// In one line, why bodies are not checked: an example of the reason that most of them have, and how many others there
+/// are.
+std::string uncheckedCause(const MonitorLoop& loop);
+
 /// "body: reason" of those that no cycle can check.
 std::vector<std::string> failedBodies(const Scene& scene);
 

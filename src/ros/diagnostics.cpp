@@ -56,6 +56,8 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::ERROR, "none come");
   } else if (!health_.missing.empty()) {
     status.summaryf(DiagnosticStatus::ERROR, "%zu bodies not known", health_.missing.size());
+  } else if (!health_.bad_joints.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.bad_joints.front());
   } else if (!health_.contradicted.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.contradicted);
   } else if (health_.pairs_delayed > 0) {
@@ -64,6 +66,7 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::OK, "all known");
   }
   addLines("missing", health_.missing, status);
+  addLines("joint", health_.bad_joints, status);
   status.add("pairs delayed", health_.pairs_delayed);
   status.add("out of order", health_.out_of_order);
   status.add("refused", health_.refused);

@@ -29,6 +29,7 @@ struct MonitorHealth {
   std::string contradicted;             ///< by late transforms, a short time ago; empty if nothing was
   long out_of_order = 0;                ///< transforms that came behind newer ones
   long refused = 0;                     ///< transforms that say nothing
+  std::vector<std::string> bad_joints;  ///< whose positions in joint_states are not finite, and how many
 };
 
 /// Publishes:

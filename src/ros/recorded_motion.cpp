@@ -37,7 +37,7 @@ std::string prefixOf(const DescribedScene& described) {
 
 RecordedMotion::RecordedMotion(const std::string& file, const DescribedScene& described,
                                const RecordedMotionOptions& options)
-    : file_(file), options_(options), joints_(described.robot, prefixOf(described)) {
+    : file_(file), options_(options), joints_(described.robot, prefixOf(described)), joint_watch_(*described.robot) {
   readBag(file_, [&] {
     bag_.open(file_, rosbag::bagmode::Read);
     findTopics();
@@ -157,6 +157,7 @@ void RecordedMotion::playMessage(const rosbag::MessageInstance& message,
   if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {
     each({recorded, *tf, isStatic(message.getTopic())});
   } else if (const auto joints = message.instantiate<sensor_msgs::JointState>()) {
+    joint_watch_.add(*joints);
     const ros::Time& stamp = joints->header.stamp;
     const tf2_msgs::TFMessage moved = joints_.moved(*joints, stamp.isZero() ? message.getTime() : stamp);
     if (!moved.transforms.empty()) each({recorded, moved, false});

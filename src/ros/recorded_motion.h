@@ -11,6 +11,7 @@
 
 #include "ros/describe_scene.h"
 #include "ros/joint_frames.h"
+#include "ros/joint_watch.h"
 
 namespace sdf_ccd {
 
@@ -48,6 +49,9 @@ class RecordedMotion {
   /// @throws std::runtime_error that names the bag, if it is damaged.
   void play(const std::function<void(const RecordedTransforms&)>& each) const;
 
+  /// What is wrong with the joint states that were played: positions that are not finite, which are passed over.
+  std::vector<std::string> warnings() const { return joint_watch_.lines(source()); }
+
  private:
   void findTopics();
   void findFrames(const DescribedScene& described);
@@ -58,6 +62,7 @@ class RecordedMotion {
   std::string file_;
   RecordedMotionOptions options_;
   JointFrames joints_;
+  mutable JointWatch joint_watch_;  // of what was played
   rosbag::Bag bag_;
   ros::Time begin_, end_;
   std::vector<std::string> tf_topics_;           // /tf and /tf_static, those that are there

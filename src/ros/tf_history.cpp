@@ -203,7 +203,15 @@ bool TfHistory::way(const std::string& frame, Way& up, Way& down, std::string& p
     return false;
   }
   if (rootOf(frame, up) != rootOf(fixed_frame_, down)) {
-    problem = "no transform from " + frame + " to " + fixed_frame_;
+    problem = "no transform from " + frame + " to " + fixed_frame_ + ": ";
+    if (up.empty()) {
+      problem += "none of " + frame + " has come";
+    } else if (down.empty()) {
+      problem += "tf's tree is rooted at " + rootOf(frame, up) + ", not " + fixed_frame_;
+    } else {
+      problem += "its tree is rooted at " + rootOf(frame, up) + ", that of " + fixed_frame_ + " at " +
+                 rootOf(fixed_frame_, down);
+    }
     return false;
   }
   while (!up.empty() && !down.empty() && up.back() == down.back()) {

@@ -238,6 +238,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   scene.max_error = options.max_error;
   scene.pairs = plan.pairs;
   scene.left_out = plan.left_out;
+  scene.visual_only = description.visual_only;
   MeshPool pool(options);
   const std::size_t count = description.bodies.size();
   for (std::size_t i = 0; i < count; ++i) {

@@ -106,6 +106,11 @@ std::string planTable(const Scene& scene) {
   for (const BodyReport& report : scene.reports)
     for (const std::string& warning : report.warnings) warnings += "  " + report.name + ": " + warning + "\n";
   if (!failures.empty()) text += "not checked:\n" + failures;
+  if (!scene.visual_only.empty()) {
+    text += "not checked, as they have a visual but no collision shape:\n ";
+    for (const std::string& link : scene.visual_only) text += " " + link;
+    text += "\n";
+  }
   if (!warnings.empty()) text += "to know:\n" + warnings;
   if (!scene.left_out.empty()) text += "left out:\n" + leftOutLines(scene.left_out);
   return text;

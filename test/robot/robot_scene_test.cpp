@@ -6,6 +6,7 @@
 
 #include "oracle/test_data.h"
 #include "robot/read_text.h"
+#include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd {
 namespace {
@@ -84,6 +85,23 @@ TEST(RobotScene, LinksWithCollisionElementsAreBodies) {
   EXPECT_EQ(std::get<Cylinder>(std::get<Primitive>(body.geometry[2].shape)).half_length, 1.5);
   EXPECT_EQ(body.geometry[2].source, "cylinder");
   EXPECT_TRUE(described.warnings.empty());
+}
+
+TEST(RobotScene, LinksThatAreOnlySeenAreNamed) {
+  const std::string visual = "<visual><geometry><sphere radius='0.2'/></geometry></visual>";
+  const Described described =
+      describe("<robot name='r'>" + link("a", box("1 1 1", "0 0 0") + visual) + link("frame") +
+               joint("a", "frame", "fixed", "0 0 0") + link("cover", visual) + joint("a", "cover", "fixed", "0 0 0") +
+               link("lid", visual) + joint("a", "lid", "continuous", "0 0 0") + "</robot>");
+  ASSERT_EQ(described.scene.bodies.size(), 1u);
+  EXPECT_EQ(described.scene.visual_only, (std::vector<std::string>{"cover", "lid"}));
+  ASSERT_EQ(described.warnings.size(), 1u);
+  EXPECT_EQ(described.warnings[0],
+            "2 links have a visual but no collision shape, and no contact of theirs is found: cover lid");
+  const Scene scene = buildScene(described.scene, planScene(described.scene), {});
+  EXPECT_NE(planTable(scene).find("not checked, as they have a visual but no collision shape:\n  cover lid\n"),
+            std::string::npos)
+      << planTable(scene);
 }
 
 TEST(RobotScene, MeshesAreSharedByUriAndScale) {

@@ -80,6 +80,19 @@ class MonitorLoopTest : public ::testing::Test {
   std::vector<ContactArray> said_;
 };
 
+TEST_F(MonitorLoopTest, TheCauseOfWhatIsNotCheckedIsNamed) {
+  step(100.0);
+  EXPECT_EQ(uncheckedCause(*loop_).find("hand: no transform from hand to world: none of hand has come"), 0u)
+      << uncheckedCause(*loop_);
+  for (int i = 0; i < 30; ++i) {
+    const double time = 100.0 + kPeriod * i;
+    for (const char* link : {"hand", "foot"}) send(stampedTransform("base", link, time, 0.1));
+    step(time + 0.01);
+  }
+  EXPECT_EQ(uncheckedCause(*loop_),
+            "hand: no transform from hand to world: tf's tree is rooted at base, not world; and 1 body more");
+}
+
 TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
   sendHand(0.0, 0.0, true);
   double crossing = 0.0;

@@ -80,6 +80,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<PlannedPair> pairs;
   std::vector<LeftOut> left_out;
+  std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid
   std::vector<BodyReport> reports;
   ErrorBound bound;                 ///< the largest of all pairs; chord: what the options allow for
   std::optional<double> max_error;  ///< that was wanted [m]
