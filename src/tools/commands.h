@@ -7,6 +7,7 @@ namespace sdf_ccd::tools {
 /// Each adds one subcommand; its callback does the work and throws if it cannot.
 void addBuildCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
+void addLearnPairsCommand(CLI::App& app);
 void addQueryCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 void addWorkPrecisionCommand(CLI::App& app);

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   sdf_ccd::tools::addBuildCommand(app);
   sdf_ccd::tools::addInfoCommand(app);
   sdf_ccd::tools::addQueryCommand(app);
+  sdf_ccd::tools::addLearnPairsCommand(app);
   sdf_ccd::tools::addSimulateCommand(app);
   sdf_ccd::tools::addWorkPrecisionCommand(app);
 #ifdef SDF_CCD_WITH_ROS

@@ -1,0 +1,172 @@
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+#include <tbb/global_control.h>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "output_file.h"
+#include "print.h"
+#include "progress_bar.h"
+#include "sdf_ccd/robot/learn_pairs.h"
+#ifdef SDF_CCD_WITH_ROS
+#include "ros/recorded_positions.h"
+#endif
+
+namespace sdf_ccd::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kNamed = 10;  // of a list
+
+struct Arguments {
+  std::string urdf, srdf, out, bag, topic;
+  long states = 10'000;
+  long seed = 1;
+  int threads = 0;  // 0: one per core
+  double max_error = 0.005;
+  bool default_pairs = false;
+};
+
+std::string readText(const std::string& path) {
+  const std::string text = loadLocalResource(path, nullptr, "").bytes;
+  if (text.empty()) throw std::runtime_error(path + ": is empty");
+  return text;
+}
+
+/// A bar for each part of the work.
+class Bars {
+ public:
+  void show(const std::string& what, double share) {
+    if (what != what_) {
+      bar_.reset();  // ends its line
+      bar_ = std::make_unique<ProgressBar>(what);
+      what_ = what;
+    }
+    (*bar_)(share);
+  }
+
+ private:
+  std::string what_;
+  std::unique_ptr<ProgressBar> bar_;
+};
+
+void printList(const std::string& heading, const std::vector<LearnedPair>& pairs) {
+  if (pairs.empty()) return;
+  std::cout << heading << pairs.size() << "\n";
+  for (std::size_t i = 0; i < std::min(kNamed, pairs.size()); ++i) {
+    const LearnedPair& pair = pairs[i];
+    std::cout << "  " << pair.link_a << " - " << pair.link_b << (pair.reason.empty() ? "" : ": " + pair.reason) << "\n";
+  }
+  if (pairs.size() > kNamed) std::cout << "  and " << pairs.size() - kNamed << " more\n";
+}
+
+void printReport(const LearnedPairs& pairs) {
+  std::map<std::string, std::size_t> reasons;
+  for (const LearnedPair& pair : pairs.disabled) ++reasons[pair.reason];
+  const std::size_t states = 1 + pairs.states + pairs.recorded;
+  std::cout << "states           " << pairs.states << " random (seed " << pairs.seed << "), " << pairs.recorded
+            << " recorded, and the default\n"
+            << "time             " << shortly(pairs.build_seconds) << " s for fields and shells, "
+            << shortly(pairs.test_seconds)
+            << " s for the states: " << shortly(1e3 * pairs.test_seconds / double(states)) << " ms each\n"
+            << "error bound      " << shortly(1e3 * pairs.error_bound) << " mm\n"
+            << "no check needed  " << pairs.disabled.size();
+  for (const auto& [reason, count] : reasons) std::cout << ", " << count << " " << reason;
+  std::cout << "; of Never, " << pairs.proved << " are proved\n";
+  if (pairs.known > 0) std::cout << "as given         " << pairs.known << "\n";
+  printList("touch            ", pairs.touching);
+  printList("close            ", pairs.close);
+  printList("not learned      ", pairs.unknown);
+  printList("touch at default ", pairs.at_default);
+  std::cout << std::flush;
+}
+
+LearnOptions learnOptions(const Arguments& arguments, const RobotModel& robot) {
+  LearnOptions options;
+  options.states = static_cast<std::size_t>(arguments.states);
+  options.seed = static_cast<std::uint64_t>(arguments.seed);
+  options.max_error = arguments.max_error;
+  options.default_pairs = arguments.default_pairs;
+#ifdef SDF_CCD_WITH_ROS
+  if (!arguments.bag.empty()) options.recorded = recordedPositions(arguments.bag, robot, arguments.topic);
+#else
+  static_cast<void>(robot);
+#endif
+  return options;
+}
+
+void run(const Arguments& arguments) {
+  if (arguments.states < 0) throw std::runtime_error("--states must not be negative");
+  if (arguments.states == 0 && arguments.bag.empty()) throw std::runtime_error("--states 0 needs --bag");
+  if (arguments.seed < 0) throw std::runtime_error("--seed must not be negative");
+  if (arguments.threads < 0) throw std::runtime_error("--threads must not be negative");
+  if (!(arguments.max_error > 0.0)) throw std::runtime_error("--max-error must be positive");
+  std::unique_ptr<tbb::global_control> limit;
+  if (arguments.threads > 0) {
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
+  }
+  const std::string directory = fs::absolute(arguments.urdf).parent_path().string();
+  const PackageFinder packages = packagesFromEnvironment();
+  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); };
+  const RobotModel robot(readText(arguments.urdf), arguments.urdf);
+  const std::string given = arguments.srdf.empty() ? "" : readText(arguments.srdf);
+  const Srdf srdf = given.empty() ? Srdf() : parseSrdf(given, arguments.srdf);
+  LearnOptions options = learnOptions(arguments, robot);
+  const Interrupt interrupt;
+  OutputFile out(arguments.out);
+  LearnedPairs pairs;
+  {
+    Bars bars;
+    options.progress = [&](const std::string& what, double share) {
+      if (interrupt.asked()) throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
+      bars.show(what, share);
+    };
+    pairs = learnPairs(robot, srdf, loader, options);
+  }
+  for (const std::string& warning : pairs.warnings) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
+  out.stream() << srdfWith(pairs, robot, given);
+  out.commit();
+  printReport(pairs);
+  if (pairs.unknown.empty()) return;
+  std::cerr << "sdf_ccd: nothing is learned of " << pairs.unknown.size() << " pairs, as "
+            << pairs.unknown.front().link_a << " - " << pairs.unknown.front().link_b << ": "
+            << pairs.unknown.front().reason << std::endl;
+  throw PartlyDone();
+}
+
+}  // namespace
+
+void addLearnPairsCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("learn-pairs", "Write an SRDF of the pairs of links that need no check");
+  command->footer(
+      "Adjacent: joined by one joint. Always: touch in all of the states, deeper than the error bound. Never: farther "
+      "apart than it in all of them, which is no proof unless they are out of each other's reach: the file says of how "
+      "many states it holds. States are drawn within the joints' limits, a quarter of them with joints at their "
+      "limits; "
+      "mimic joints follow, continuous ones take a full revolution. The same seed gives the same file. What a given "
+      "SRDF holds is kept. Exit code 1: nothing is learned of some pairs, as a mesh is missing or a joint has no "
+      "bounds.");
+  command->add_option("--urdf", arguments->urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")->required();
+  command->add_option("--out", arguments->out, "SRDF file to write")->required();
+  command->add_option("--srdf", arguments->srdf, "SRDF to start from: all that it holds is kept");
+  command->add_option("--states", arguments->states, "Random states; default 10000");
+  command->add_option("--seed", arguments->seed, "Of the random states; default 1");
+  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  command->add_option("--max-error", arguments->max_error,
+                      "Error bound [m]: pairs that come nearer than this are not left out; default 0.005");
+  command->add_flag("--default", arguments->default_pairs,
+                    "Also leave out pairs that touch where all joints are at zero, but not always");
+#ifdef SDF_CCD_WITH_ROS
+  command->add_option("--bag", arguments->bag, "Bag whose joint states are tested too; --states 0: these alone");
+  command->add_option("--joint-states", arguments->topic, "Topic of them; default all of the bag");
+#endif
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace sdf_ccd::tools
