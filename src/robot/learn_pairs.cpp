@@ -17,7 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using NamePair = std::pair<std::string, std::string>;
 
-constexpr std::size_t kRound = 256;  // states between two looks at which pairs are still open
+constexpr std::size_t kRound = 256;    // states between two looks at which pairs are still open
+constexpr std::size_t kAlways = 1000;  // random states that tell what touches always: each costs a search for contacts
 
 NamePair sorted(const std::string& a, const std::string& b) {
   return a < b ? NamePair(a, b) : NamePair(b, a);
@@ -117,8 +118,10 @@ struct Seen {
   bool touch = false, apart = false, close = false, unchecked = false, touch_at_default = false;
 
   /// Whether another state may change what is said of it.
-  bool isOpen() const {
+  /// @param is_long  whether it has been tested in more than kAlways random states.
+  bool isOpen(bool is_long) const {
     if (is_rigid && (touch || apart || close)) return false;
+    if (is_long && touch) return false;
     return !unchecked && !(touch && (apart || close));
   }
 };
@@ -155,6 +158,9 @@ class States {
 
   std::size_t size() const { return size_; }
   bool atEnd() const { return next_ == size_; }
+  std::size_t randomTaken() const {
+    return next_ > options_.recorded.size() ? next_ - 1 - options_.recorded.size() : 0;
+  }
   double share() const { return double(next_) / double(size_); }
 
   std::vector<JointPositions> take(std::size_t count) {
@@ -187,7 +193,7 @@ std::vector<Seen> testPairs(const RobotModel& robot, const Scene& scene, const L
     const bool is_default = states.share() == 0.0;
     std::vector<std::size_t> open;
     for (std::size_t p = 0; p < seen.size(); ++p)
-      if (seen[p].isOpen()) open.push_back(p);
+      if (seen[p].isOpen(states.randomTaken() > kAlways)) open.push_back(p);
     if (open.empty()) break;
     // The first look is soon: most pairs that touch now and then do so in the first states.
     const std::vector<JointPositions> round = states.take(is_default ? 1 : kRound);
@@ -214,6 +220,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   const auto start = Clock::now();
   LearnedPairs pairs;
   pairs.states = options.states;
+  pairs.always_states = std::min(options.states, kAlways);
   pairs.recorded = options.recorded.size();
   pairs.seed = options.seed;
   RobotSceneOptions all;

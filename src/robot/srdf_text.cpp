@@ -25,7 +25,9 @@ std::string commentText(const LearnedPairs& pairs) {
   std::string text =
       " What follows was learned by `sdf_ccd learn-pairs` from " + statesText(pairs) + ", with an error bound of " +
       numberText(1e3 * pairs.error_bound) +
-      " mm.\n       Adjacent: joined by one joint; not tested. Always: touched in all of these states.\n"
+      " mm.\n       Adjacent: joined by one joint; not tested. Always: touched in all recorded and the first " +
+      std::to_string(pairs.always_states) +
+      " random ones.\n"
       "       Never: farther apart than the bound in all of these states. Of " +
       std::to_string(pairs.proved) +
       " pairs that is proved, as they are\n       rigidly joined or out of reach; of the others it is NO "

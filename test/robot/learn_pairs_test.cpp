@@ -8,7 +8,8 @@
 #include <map>
 #include <set>
 
-#include "read_text.h"
+#include "oracle/test_data.h"
+#include "robot/read_text.h"
 #include "sdf_ccd/robot/joint_sampler.h"
 
 namespace sdf_ccd {
@@ -184,6 +185,31 @@ TEST(LearnPairs, TheDemoArm) {
   EXPECT_TRUE(namesOf(pairs.disabled, "Never").count("upper_arm wrist") > 0);
   EXPECT_TRUE(namesOf(pairs.touching).count("hand turret") > 0);
   EXPECT_TRUE(pairs.unknown.empty());
+}
+
+/// MoveIt's setup assistant has tested the Panda with FCL. What it calls Never or Adjacent we do too, but for pairs
+/// that come near each other at their joints' limits, where it drew no states.
+TEST(LearnPairs, AgreesWithTheSetupAssistantOnAPanda) {
+  SDF_CCD_NEEDS_DATA("robots/panda_from_xacro.urdf");
+  const std::string robots = test::dataPath("robots");
+  ::setenv("ROS_PACKAGE_PATH", robots.c_str(), 1);
+  const PackageFinder packages = packagesFromEnvironment();
+  const RobotModel robot(test::readText(robots + "/panda_from_xacro.urdf"));
+  const Srdf theirs = parseSrdf(test::readText(robots + "/panda_moveit_config/config/panda.srdf"));
+  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, ""); };
+  LearnOptions options;
+  options.states = 1000;
+  const LearnedPairs pairs = learnPairs(robot, {}, loader, options);
+  std::map<std::string, std::string> reasons;
+  for (const DisabledPair& pair : theirs.disabled) {
+    reasons[std::min(pair.body_a, pair.body_b) + " " + std::max(pair.body_a, pair.body_b)] = pair.reason;
+  }
+  for (const LearnedPair& pair : pairs.disabled) {
+    const std::string names = *namesOf({pair}).begin();
+    EXPECT_EQ(reasons[names], "SRDF: " + pair.reason) << names;
+    reasons.erase(names);
+  }
+  EXPECT_LE(reasons.size(), 2u);  // fingers that touch at 0 (Default), and links 2 and 6
 }
 
 TEST(JointSampler, DrawsWithinLimitsAndAllOfThem) {
