@@ -23,7 +23,7 @@ class SurfaceIndex {
   /// What a triangle says of the surface's direction.
   struct Face {
     Vector3d normal;  ///< of length one
-    bool separates;   ///< see separatingTriangles()
+    bool separates;   ///< see Solid::separates()
     bool sliver;
   };
 

@@ -5,7 +5,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "sdf_ccd/geometry/separating_triangles.h"
 #include "triangle_cutter.h"
 
 namespace sdf_ccd {
@@ -107,7 +106,7 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
     : tree_(std::make_shared<TriangleTree>(mesh)), interior_(mesh, tree_), boundary_(mesh) {
   const std::shared_ptr<const TriangleTree> all = tree_;
   if (!closed()) {
-    separates_ = separatingTriangles(mesh, *all, interior_);
+    separates_.assign(mesh.triangles.size(), 0);
     return;
   }
   const SurfaceTolerance tolerance = surfaceTolerance(mesh);

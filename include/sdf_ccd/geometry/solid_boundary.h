@@ -55,7 +55,12 @@ class Solid {
   const TriangleMesh& boundary() const { return boundary_; }
   const TriangleTree& tree() const { return *tree_; }  ///< over it
 
-  /// Of the boundary's triangles, see separatingTriangles(). What was cut off lies beside its neighbours without
+  /// For each of the boundary's triangles 1 if it is certain that its front faces the outside and its back the inside:
+  /// both have been asked for, and nothing cuts or overlaps it, within 1e-10 of the mesh's size and on the cautious
+  /// side. Where only such triangles are near, the gradient of the signed distance lies in the convex cone of their
+  /// normals. None of a mesh that is not closed.
+  ///
+  /// What was cut off lies beside its neighbours without
   /// sharing edges or corners with them, which the cone of normals does not need: that a line out of the solid passes
   /// through a triangle that faces its way is enough. Pieces that meet in an edge must be asked together: see seam().
   const std::vector<std::uint8_t>& separates() const { return separates_; }
