@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
+
+#include "process/regular_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -59,16 +60,11 @@ fs::path spelledAsOnDisk(const fs::path& path, const std::string& uri, std::stri
 }
 
 std::string readFile(const fs::path& path, const std::string& uri) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) fail(uri, path.string() + " is a directory");
-  if (!fs::is_regular_file(status)) fail(uri, path.string() + " is not a regular file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(uri, path.string() + " cannot be opened");
-  std::string bytes(fs::file_size(path, error), '\0');
-  stream.read(&bytes[0], static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) fail(uri, path.string() + " cannot be read");
-  return bytes;
+  try {
+    return readRegularFile(path.string());
+  } catch (const std::exception& error) {
+    fail(uri, path.string() + " " + error.what());
+  }
 }
 
 /// `package://name/path`, also with a third slash before the name.

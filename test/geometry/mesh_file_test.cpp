@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
@@ -127,7 +128,7 @@ TEST(MeshFile, AnnouncingMoreThanThereIsCostsNoMemory) {
   EXPECT_NE(errorOf([&] { parseMesh(stl, "lies.stl"); }).find("4294967295 triangles"), std::string::npos);
 }
 
-TEST(MeshFile, WhatAssimpDoesNotSurviveIsRefusedFirst) {
+TEST(MeshFile, CountsAndReferencesThatLieAreRefused) {
   const std::string good = dae(kBox, "<unit meter=\"1\"/>", std::string("<node>") + kDaeInstance + "</node>");
   const auto damaged = [](std::string bytes, const std::string& from, const std::string& to) {
     return bytes.replace(bytes.find(from), from.size(), to);
@@ -203,6 +204,15 @@ TEST(MeshFile, DamagedFilesThrowOrGiveAValidMesh) {
   }
   EXPECT_GT(read, 100);
   EXPECT_GT(refused, 100);
+}
+
+TEST(MeshFile, HostileFilesAreRefusedAndTheirNeighbourIsRead) {
+  for (const std::string& name : test::hostileMeshes()) {
+    EXPECT_EQ(errorOf([&] { loadMesh(test::hostilePath(name)); }).rfind(test::hostilePath(name) + ": ", 0), 0u) << name;
+  }
+  const MeshQuality quality = orientOutward(loadMesh(test::hostilePath("prism_12.off"))).quality;
+  EXPECT_NEAR(quality.volume, 3.0, 0.2);  // its corners are not quite those of a regular one
+  EXPECT_EQ(quality.boundary_edges, 0);
 }
 
 struct RobotMesh {

@@ -68,6 +68,35 @@ inline std::string ply(const TriangleMesh& mesh) {
   return out;
 }
 
+/// With a colour at each vertex and an element between vertices and faces.
+inline std::string binaryPly(const TriangleMesh& mesh, bool is_big_endian) {
+  std::string out = std::string("ply\nformat binary_") + (is_big_endian ? "big" : "little") + "_endian 1.0\n" +
+                    "comment made by hand\nelement vertex " + std::to_string(mesh.vertices.size()) +
+                    "\nproperty uchar red\nproperty double x\nproperty float y\nproperty float z\n" +
+                    "element camera 1\nproperty list ushort short numbers\nelement face " +
+                    std::to_string(mesh.triangles.size()) +
+                    "\nproperty list uchar uint vertex_index\nproperty int16 flags\nend_header\n";
+  const auto append = [&](const auto& value) {
+    std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);  // little-endian machines only
+    out += is_big_endian ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
+  };
+  for (const Vector3d& v : mesh.vertices) {
+    append(std::uint8_t{200});
+    append(v.x());
+    append(static_cast<float>(v.y()));
+    append(static_cast<float>(v.z()));
+  }
+  append(std::uint16_t{2});
+  append(std::int16_t{-7});
+  append(std::int16_t{9});
+  for (const Vector3i& t : mesh.triangles) {
+    append(std::uint8_t{3});
+    for (int i = 0; i < 3; ++i) append(static_cast<std::uint32_t>(t[i]));
+    append(std::int16_t{1});
+  }
+  return out;
+}
+
 /// One geometry, with a line beside its triangles, under `node` (transforms and instances, see kDaeInstance).
 constexpr const char* kDaeInstance = "<instance_geometry url=\"#g\"/>";
 

@@ -15,8 +15,10 @@ namespace sdf_ccd {
 /// voxels (GeometryDescription::watertight_voxels).
 /// @param resolution  set to the voxels' size [m].
 /// @throws std::runtime_error naming the file and the reason: unreadable, truncated, damaged, nothing occupied, a tree
-/// of another type than OcTree and ColorOcTree, a build without OctoMap. OctoMap itself may print to stderr, e.g. that
-/// a file has the format of 2010.
+/// of another type than OcTree and ColorOcTree, a build without OctoMap, more faces than are taken of a file of its
+/// size (2 million and 8,000 per byte, at most 25 million: 19 bytes can mean 10 billion); Cancelled. The file is read
+/// by a process of its own, as those of meshes (parseMesh()), with 512 MiB of memory and 2,000 times the file's size,
+/// at most 6 GiB.
 TriangleMesh loadOctomapSurface(const std::string& path, double& resolution);
 
 }  // namespace sdf_ccd

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 #include <unordered_map>
 
 #include "sdf_ccd/geometry/triangle_mesh.h"
@@ -13,6 +11,8 @@ namespace sdf_ccd {
 /// Collects faces of voxels as triangles with shared vertices.
 class VoxelSurface {
  public:
+  static constexpr std::size_t kBytesPerFace = 256;  ///< while it is made, at most: vectors double as they grow
+
   using Cell = std::array<std::int64_t, 3>;  ///< of a voxel, or of its lower corner
 
   /// @param origin  cell at the frame's origin.
@@ -20,9 +20,6 @@ class VoxelSurface {
 
   /// The face of `cell` across `axis`, on its upper or lower side; the outside is away from the cell.
   void addFace(const Cell& cell, int axis, bool upper) {
-    if (mesh_.triangles.size() >= kMaxTriangles) {
-      throw std::runtime_error("its surface has more than " + std::to_string(kMaxTriangles) + " triangles");
-    }
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
     Cell corner = cell;
@@ -42,8 +39,6 @@ class VoxelSurface {
   TriangleMesh take() { return std::move(mesh_); }
 
  private:
-  static constexpr std::size_t kMaxTriangles = 40'000'000;
-
   int vertex(const Cell& corner) {
     const std::uint64_t key = static_cast<std::uint64_t>(corner[0]) << 40 |
                               static_cast<std::uint64_t>(corner[1]) << 20 | static_cast<std::uint64_t>(corner[2]);

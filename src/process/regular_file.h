@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace sdf_ccd {
+
+/// No mesh, map or other file that is read whole may be larger: 1 GiB.
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
+
+/// The content of a file on disk. Devices, pipes and sockets, whose reading might never end, are not opened.
+/// @throws std::runtime_error with the reason, without the path; Cancelled.
+std::string readRegularFile(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
+
+}  // namespace sdf_ccd

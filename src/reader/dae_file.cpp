@@ -1,0 +1,182 @@
+#include "dae_file.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+#include <tinyxml2.h>
+
+#include "collada_mesh.h"
+#include "xml_numbers.h"
+
+namespace sdf_ccd {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr int kMaxNodes = 20'000;  // once instances are followed
+constexpr int kMaxDepth = 1000;
+
+/// The next element in document order, below `root`.
+const XMLElement* next(const XMLElement* element, const XMLElement* root) {
+  if (const XMLElement* child = element->FirstChildElement()) return child;
+  while (element != root) {
+    if (const XMLElement* sibling = element->NextSiblingElement()) return sibling;
+    element = element->Parent()->ToElement();
+  }
+  return nullptr;
+}
+
+std::vector<double> exactly(std::size_t count, const XMLElement& element) {
+  std::vector<double> numbers = numbersOf(element);
+  if (numbers.size() == count) return numbers;
+  throw std::runtime_error(placeOf(element) + " holds " + std::to_string(numbers.size()) + " numbers, not " +
+                           std::to_string(count));
+}
+
+Eigen::Affine3d lookAt(const std::vector<double>& n) {
+  const Vector3d eye(n[0], n[1], n[2]), target(n[3], n[4], n[5]), up(n[6], n[7], n[8]);
+  const Vector3d back = (eye - target).normalized(), right = up.cross(back).normalized();
+  Eigen::Affine3d X = Eigen::Affine3d::Identity();
+  X.linear() << right, back.cross(right), back;
+  X.translation() = eye;
+  return X;
+}
+
+/// What one child of a node adds to its transform; nothing if it is none.
+Eigen::Affine3d transformOf(const XMLElement& element) {
+  const std::string_view name = element.Name();
+  Eigen::Affine3d X = Eigen::Affine3d::Identity();
+  if (name == "matrix") {
+    const std::vector<double> n = exactly(16, element);
+    X.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(n.data());
+  } else if (name == "translate") {
+    X.translation() = Vector3d(exactly(3, element).data());
+  } else if (name == "scale") {
+    X.linear().diagonal() = Vector3d(exactly(3, element).data());
+  } else if (name == "rotate") {
+    const std::vector<double> n = exactly(4, element);
+    const Vector3d axis(n[0], n[1], n[2]);
+    if (axis.norm() > 0.0) X.linear() = Eigen::AngleAxisd(n[3] * M_PI / 180.0, axis.normalized()).toRotationMatrix();
+  } else if (name == "lookat") {
+    X = lookAt(exactly(9, element));
+  } else if (name == "skew") {
+    throw std::runtime_error(placeOf(element) + ": nodes that are skewed are not read");
+  }
+  return X;
+}
+
+/// Gathers the meshes of a scene's nodes.
+class SceneReader {
+ public:
+  explicit SceneReader(const XMLElement& root) {
+    for (const XMLElement* element = &root; element; element = next(element, &root)) {
+      const std::string id = attributeOf(*element, "id");
+      if (!id.empty()) by_id_.emplace(id, element);
+    }
+  }
+
+  TriangleMesh read(const XMLElement& root) {
+    const XMLElement* scene = root.FirstChildElement("scene");
+    const XMLElement* instance = scene ? scene->FirstChildElement("instance_visual_scene") : nullptr;
+    if (!instance) throw std::runtime_error("it has no <scene>");
+    addNode(*target(*instance, "url", "visual_scene"), Eigen::Affine3d::Identity());
+    return std::move(result_);
+  }
+
+ private:
+  const XMLElement* target(const XMLElement& from, const char* attribute, const char* kind) const {
+    const std::string id = referenceOf(from, attribute);
+    const auto found = by_id_.find(id);
+    if (found != by_id_.end() && std::string(found->second->Name()) == kind) return found->second;
+    throw std::runtime_error(placeOf(from) + " refers to \"#" + id.substr(0, 80) + "\", which is no <" + kind + ">");
+  }
+
+  /// @param X  the parent's place.
+  void addNode(const XMLElement& node, Eigen::Affine3d X) {
+    if (!open_.insert(&node).second) {
+      throw std::runtime_error("the node \"" + attributeOf(node, "id") + "\" contains itself");
+    }
+    if (++nodes_ > kMaxNodes) {
+      throw std::runtime_error("it has more than " + std::to_string(kMaxNodes) + " nodes once instances are followed");
+    }
+    if (open_.size() > kMaxDepth) {
+      throw std::runtime_error("nodes are more than " + std::to_string(kMaxDepth) + " deep");
+    }
+    // A node's transforms come first; they hold for all of its other children.
+    for (const XMLElement* child = node.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      X = X * transformOf(*child);
+    }
+    for (const XMLElement* child = node.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      const std::string_view name = child->Name();
+      if (name == "node") addNode(*child, X);
+      if (name == "instance_node") addNode(*target(*child, "url", "node"), X);
+      if (name == "instance_geometry") addGeometry(*target(*child, "url", "geometry"), X);
+      if (name == "instance_controller") addController(*target(*child, "url", "controller"), X);
+    }
+    open_.erase(&node);
+  }
+
+  void addController(const XMLElement& controller, const Eigen::Affine3d& X) {
+    const XMLElement* skin = controller.FirstChildElement("skin");
+    const XMLElement* shape = skin ? skin : controller.FirstChildElement("morph");
+    if (shape) addGeometry(*target(*shape, "source", "geometry"), X);
+  }
+
+  void addGeometry(const XMLElement& geometry, const Eigen::Affine3d& X) {
+    const XMLElement* element = geometry.FirstChildElement("mesh");
+    if (!element) return;
+    const auto [found, is_new] = meshes_.try_emplace(&geometry);
+    if (is_new) found->second = colladaMesh(*element);
+    const TriangleMesh& mesh = found->second;
+    if (result_.vertices.size() + mesh.vertices.size() > std::numeric_limits<int>::max()) {
+      throw std::runtime_error("more than 2^31 vertices");
+    }
+    const Vector3i offset = Vector3i::Constant(static_cast<int>(result_.vertices.size()));
+    const bool mirrored = X.linear().determinant() < 0;
+    for (const Vector3d& v : mesh.vertices) result_.vertices.push_back(X * v);
+    for (Vector3i t : mesh.triangles) {
+      if (mirrored) std::swap(t[1], t[2]);
+      result_.triangles.emplace_back(t + offset);
+    }
+  }
+
+  std::map<std::string, const XMLElement*> by_id_;
+  std::map<const XMLElement*, TriangleMesh> meshes_;  // of geometries, each read once
+  std::set<const XMLElement*> open_;                  // nodes that are being added
+  int nodes_ = 0;
+  TriangleMesh result_;
+};
+
+/// Metres per unit; 1 where it says nothing.
+double meterOf(const XMLElement& root) {
+  const XMLElement* asset = root.FirstChildElement("asset");
+  const XMLElement* unit = asset ? asset->FirstChildElement("unit") : nullptr;
+  const char* text = unit ? unit->Attribute("meter") : nullptr;
+  if (!text) return 1;
+  double meter = 0;
+  if (unit->QueryDoubleAttribute("meter", &meter) != tinyxml2::XML_SUCCESS || !std::isfinite(meter) || meter <= 0) {
+    throw std::runtime_error("unit meter=\"" + std::string(text) + "\" is not a positive number");
+  }
+  return meter;
+}
+
+}  // namespace
+
+TriangleMesh parseDae(const std::string& bytes) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error("not well-formed XML near line " + std::to_string(document.ErrorLineNum()));
+  }
+  const XMLElement* root = document.RootElement();
+  if (!root) throw std::runtime_error("an XML document without elements");
+  const double meter = meterOf(*root);
+  TriangleMesh mesh = SceneReader(*root).read(*root);
+  for (Vector3d& v : mesh.vertices) v *= meter;
+  return mesh;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,75 @@
+#include "obj_file.h"
+
+#include <charconv>
+#include <stdexcept>
+
+#include "polygon_mesh.h"
+#include "text_words.h"
+
+namespace sdf_ccd {
+namespace {
+
+[[noreturn]] void fail(std::size_t line, const std::string& what) {
+  throw std::runtime_error("line " + std::to_string(line) + ": " + what);
+}
+
+/// Coordinates, and a weight or a colour after them.
+Vector3d vertexOn(std::string_view words, std::size_t line) {
+  std::vector<double> numbers;
+  while (const std::optional<double> number = takeNumber(words)) numbers.push_back(*number);
+  if (numbers.size() < 3) fail(line, "a vertex of " + std::to_string(numbers.size()) + " coordinates");
+  const double weight = numbers.size() == 4 && numbers[3] != 0.0 ? numbers[3] : 1.0;
+  return vertexOf(numbers[0] / weight, numbers[1] / weight, numbers[2] / weight);
+}
+
+/// `vertex`, `vertex/texture`, `vertex//normal` or all three; counted from 1, or back from the newest with -1.
+std::int64_t cornerOf(std::string_view word, std::size_t vertices, std::size_t line) {
+  std::int64_t index = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+  const bool is_whole = error == std::errc() && (end == word.data() + word.size() || *end == '/');
+  if (!is_whole || index == 0) fail(line, "a face whose corners are no numbers of vertices");
+  return index > 0 ? index - 1 : static_cast<std::int64_t>(vertices) + index;
+}
+
+/// Takes a line, which a backslash at its end makes go on with the next.
+std::string takeLogicalLine(std::string_view& text, std::size_t& line) {
+  std::string whole;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    std::string_view part = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++line;
+    if (!part.empty() && part.back() == '\r') part.remove_suffix(1);
+    const bool goes_on = !part.empty() && part.back() == '\\' && !text.empty();
+    if (goes_on) part.remove_suffix(1);
+    whole += part;
+    if (!goes_on) return whole.substr(0, whole.find('#'));
+    whole += ' ';
+  }
+}
+
+}  // namespace
+
+TriangleMesh parseObj(const std::string& bytes) {
+  std::string_view text = bytes;
+  TriangleMesh mesh;
+  PolygonList faces;
+  std::vector<std::int64_t> corners;
+  for (std::size_t line = 0; !text.empty();) {
+    const std::string whole = takeLogicalLine(text, line);
+    std::string_view words = whole;
+    const std::string_view keyword = takeWord(words);
+    if (keyword == "v") mesh.vertices.push_back(vertexOn(words, line));
+    if (keyword != "f") continue;
+    corners.clear();
+    for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words)) {
+      corners.push_back(cornerOf(word, mesh.vertices.size(), line));
+    }
+    if (corners.size() < 3) fail(line, "a face of " + std::to_string(corners.size()) + " corners");
+    faces.add(corners);
+  }
+  faces.appendTo(mesh);
+  return mesh;
+}
+
+}  // namespace sdf_ccd

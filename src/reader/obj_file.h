@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// Reads the vertices and polygons (`v`, `f`) of a Wavefront OBJ; all else is passed over, material libraries too.
+/// @throws std::runtime_error with the reason for those that are not whole.
+TriangleMesh parseObj(const std::string& bytes);
+
+}  // namespace sdf_ccd

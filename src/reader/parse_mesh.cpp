@@ -1,0 +1,32 @@
+#include "parse_mesh.h"
+
+#include <stdexcept>
+
+#include "dae_file.h"
+#include "obj_file.h"
+#include "off_file.h"
+#include "ply_file.h"
+#include "stl_file.h"
+
+namespace sdf_ccd {
+namespace {
+
+TriangleMesh parse(const std::string& bytes, const std::string& format) {
+  if (format == "stl") return parseStl(bytes);
+  if (format == "obj") return parseObj(bytes);
+  if (format == "off") return parseOff(bytes);
+  if (format == "ply") return parsePly(bytes);
+  if (format == "dae") return parseDae(bytes);
+  throw std::runtime_error("a mesh of format \"" + format + "\" is not read; STL, OBJ, OFF, PLY and DAE are");
+}
+
+}  // namespace
+
+TriangleMesh parseMeshHere(const std::string& bytes, const std::string& format) {
+  if (bytes.empty()) throw std::runtime_error("empty");
+  TriangleMesh mesh = welded(parse(bytes, format));
+  validate(mesh);
+  return mesh;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// Reads PLY as text and binary in either byte order: the elements `vertex` (x, y, z), `face` and `tristrips`
+/// (vertex_indices or vertex_index); others are skipped.
+/// @throws std::runtime_error with the reason, also if there is less than the header announces.
+TriangleMesh parsePly(const std::string& bytes);
+
+}  // namespace sdf_ccd

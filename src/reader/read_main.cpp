@@ -1,0 +1,103 @@
+// Reads a mesh or an OctoMap from stdin, in a process of its own: sdf_ccd_read FORMAT < FILE. For the library, see
+// process/read_apart.h; its answer is that of process/read_answer.h.
+
+#include <malloc.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <exception>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "confine.h"
+#include "parse_mesh.h"
+#include "parse_octomap.h"
+#include "process/read_answer.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kExitNoHost = 4, kExitUsage = 2;
+constexpr std::size_t kMaxReason = 1000;
+constexpr int kMemoryPiece = 8 << 20;  // bytes
+
+void send(const void* from, std::size_t size) {
+  const char* bytes = static_cast<const char*>(from);
+  while (size > 0) {
+    const ssize_t count = ::write(STDOUT_FILENO, bytes, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) ::_exit(kExitNoHost);
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
+  }
+}
+
+void sendReason(std::string reason) {
+  reason.resize(std::min(reason.size(), kMaxReason));
+  if (reason.empty()) reason = "not readable, without a reason";
+  ReadAnswer answer;
+  answer.reason_bytes = reason.size();
+  send(&answer, sizeof answer);
+  send(reason.data(), reason.size());
+}
+
+void sendMesh(const ReadMesh& read) {
+  ReadAnswer answer;
+  answer.vertices = read.mesh.vertices.size();
+  answer.triangles = read.mesh.triangles.size();
+  answer.resolution = read.resolution;
+  send(&answer, sizeof answer);
+  send(read.mesh.vertices.data(), answer.vertices * sizeof(Vector3d));
+  send(read.mesh.triangles.data(), answer.triangles * sizeof(Vector3i));
+}
+
+std::string readInput(std::size_t size) {
+  std::string bytes(size, '\0');
+  for (std::size_t have = 0; have < size;) {
+    const ssize_t count = ::read(STDIN_FILENO, &bytes[have], size - have);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) ::_exit(kExitNoHost);
+    have += static_cast<std::size_t>(count);
+  }
+  return bytes;
+}
+
+/// Not left to the libraries, of which some take it for an error of the file.
+void endOutOfMemory() {
+  ::_exit(kExitOutOfMemory);
+}
+
+/// Memory is taken in large pieces and never given back: the process is short, and each new page costs.
+void takeMemoryInLargePieces() {
+  ::mallopt(M_TOP_PAD, kMemoryPiece);
+  ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  ::mallopt(M_MMAP_THRESHOLD, kMemoryPiece);
+}
+
+void answer(const std::string& format) {
+  leaveHost();
+  struct stat input;
+  if (::fstat(STDIN_FILENO, &input) != 0) ::_exit(kExitNoHost);
+  const ReadLimits limits = limitsOf(format, static_cast<std::uint64_t>(input.st_size));
+  takeMemoryInLargePieces();
+  std::set_new_handler(endOutOfMemory);
+  confine(limits);
+  try {
+    const std::string bytes = readInput(static_cast<std::size_t>(input.st_size));
+    sendMesh(format == "octomap" ? parseOctomapHere(bytes, limits.memory) : ReadMesh{parseMeshHere(bytes, format)});
+  } catch (const std::exception& error) {
+    sendReason(error.what());
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
+
+int main(int argc, char** argv) {
+  if (argc != 2) return sdf_ccd::kExitUsage;
+  sdf_ccd::answer(argv[1]);
+  ::_exit(0);  // no destructors: they cost time, and may crash on what a damaged file has left
+}

@@ -1,0 +1,63 @@
+#include "text_words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n\v\f";
+constexpr std::size_t kShown = 80;  // of a line
+
+}  // namespace
+
+std::string_view takeWord(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+std::string_view takeLine(std::string_view& text) {
+  while (!text.empty()) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    line = line.substr(0, line.find('#'));
+    if (line.find_first_not_of(kSpace) != std::string_view::npos) return line;
+  }
+  return {};
+}
+
+std::optional<double> takeNumber(std::string_view& text) {
+  const std::string_view word = takeWord(text);
+  char* end = nullptr;
+  const double value = word.empty() ? 0.0 : std::strtod(word.data(), &end);
+  if (word.empty() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint64_t> takeCount(std::string_view& text) {
+  const std::string_view word = takeWord(text);
+  std::uint64_t count = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+  if (word.empty() || error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return count;
+}
+
+void failTruncated(const std::string& element, std::uint64_t announced, std::uint64_t whole) {
+  throw std::runtime_error("truncated or damaged: " + std::to_string(announced) + " of element " + element +
+                           " are announced, " + std::to_string(whole) + " are whole");
+}
+
+std::uint64_t requireRoom(double count, std::size_t bytes, std::string_view line) {
+  if (count >= 0 && count == std::floor(count) && count <= static_cast<double>(bytes)) {
+    return static_cast<std::uint64_t>(count);
+  }
+  throw std::runtime_error("\"" + std::string(line.substr(0, kShown)) + "\" announces more than " +
+                           std::to_string(bytes) + " bytes hold");
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sdf_ccd::test {
+
+/// Small files that made readers crash, hang or take gigabytes, in test/data/hostile. All but the prism of two
+/// twelve-cornered polygons, which is a good one, are refused.
+inline const std::vector<std::string>& hostileMeshes() {
+  static const std::vector<std::string> names = {
+      "assimp_11.iqm",         "assimp_11.md2",      "assimp_24.smd",    "node_bomb.dae",         "obj_mtl_segv.obj",
+      "off_heap_overflow.off", "off_huge_count.off", "ply_hang_89b.ply", "ply_heap_overflow.ply", "ply_oom.ply"};
+  return names;
+}
+
+inline std::string hostilePath(const std::string& name) {
+  return std::string(SDF_CCD_SOURCE_DIR) + "/test/data/hostile/" + name;
+}
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,101 @@
+#include <chrono>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "oracle/hostile_files.h"
+#include "robot/read_text.h"
+#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/scene/monitor.h"
+#include "sdf_ccd/scene/scene_plan.h"
+
+namespace sdf_ccd {
+namespace {
+
+const std::string kSource = SDF_CCD_SOURCE_DIR;
+
+/// The demo's arm, whose forearm has another mesh.
+SceneDescription armWith(const std::string& forearm) {
+  std::string urdf = test::readText(kSource + "/config/demo/arm.urdf");
+  const std::string good = "package://sdf_ccd/config/demo/meshes/forearm.obj";
+  for (std::size_t at = 0; (at = urdf.find(good, at)) != std::string::npos; at += forearm.size()) {
+    urdf.replace(at, good.size(), forearm);
+  }
+  const ResourceLoader loader = [](const std::string& uri) {
+    return loadLocalResource(
+        uri, [](const std::string&) { return kSource; }, "");
+  };
+  std::vector<std::string> warnings;
+  return describeRobot(RobotModel(urdf), {}, loader, {}, warnings);
+}
+
+SceneDescription goodArm() {
+  return armWith("package://sdf_ccd/config/demo/meshes/forearm.obj");
+}
+
+double leastSeconds(const std::string& forearm) {
+  double least = 1e9;
+  for (int run = 0; run < 9; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    armWith(forearm);
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return least;
+}
+
+class HostileMesh : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(HostileMesh, CostsItsLinkAlone) {
+  const SceneDescription arm = armWith("file://" + test::hostilePath(GetParam()));
+  ASSERT_EQ(arm.bodies.size(), goodArm().bodies.size());
+  for (const BodyDescription& body : arm.bodies) {
+    if (body.name == "forearm") {
+      EXPECT_EQ(body.failure.rfind("link forearm: ", 0), 0u) << body.failure;
+      EXPECT_NE(body.failure.find(GetParam()), std::string::npos) << body.failure;
+      EXPECT_LT(body.failure.size(), 1000u);
+    } else {
+      EXPECT_EQ(body.failure, "") << body.name;
+    }
+  }
+
+  SceneOptions options;
+  options.field.cells = 8;
+  options.shell.spacing = 0.05;
+  const auto scene = std::make_shared<const Scene>(buildScene(arm, planScene(arm, planOptions(options)), options));
+  Monitor monitor(scene, MonitorOptions());
+  CycleMotion rest;
+  rest.times = {0.0, 1.0};
+  for (std::size_t i = 0; i < scene->bodies.size(); ++i) {
+    Isometry3d X = Isometry3d::Identity();
+    X.translation().x() = 10.0 * static_cast<double>(i);  // apart, so that what is checked is CLEAR
+    rest.X_WB.push_back({X, X});
+  }
+  const CycleResult& result = monitor.run(rest, {});
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  for (const PairResult& pair : result.pairs) {
+    const bool has_it = scene->bodies[pair.body_a].name == "forearm" || scene->bodies[pair.body_b].name == "forearm";
+    EXPECT_EQ(pair.verdict, has_it ? Verdict::kNotChecked : Verdict::kClear);
+    EXPECT_EQ(pair.reason.find(GetParam()) != std::string::npos, has_it) << pair.reason;
+  }
+  EXPECT_GT(result.checked, 0);
+  EXPECT_GT(result.not_checked, 0);
+}
+
+TEST_P(HostileMesh, StartsNoLater) {
+  EXPECT_LT(leastSeconds("file://" + test::hostilePath(GetParam())),
+            leastSeconds("package://sdf_ccd/config/demo/meshes/forearm.obj") + 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hostile, HostileMesh, ::testing::ValuesIn(test::hostileMeshes()), [](const auto& info) {
+  std::string name = info.param;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
+
+TEST(HostileMesh, ThePrismIsWhole) {
+  const SceneDescription arm = armWith("file://" + test::hostilePath("prism_12.off"));
+  for (const BodyDescription& body : arm.bodies) EXPECT_EQ(body.failure, "");
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,29 @@
+#!/bin/bash
+# Installs the build, moves it, and has the tool there read a mesh and a map: it must find the program that reads them.
+# usage: installed_layout.sh BUILD_DIRECTORY LIB_DIRECTORY BIN_DIRECTORY DATA_DIRECTORY
+set -euo pipefail
+build=$1 lib=$2 bin=$3 data=$4
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "installed_layout: $1" >&2; cat "$work/log" >&2; exit 1; }
+
+# The reader lies in the build where the library looks for it; DESTDIR would put the moved tree elsewhere.
+env -u DESTDIR cmake -DCMAKE_INSTALL_PREFIX="$work/first" -P "$build/cmake_install.cmake" > "$work/log" 2>&1 || fail "no install"
+mv "$work/first" "$work/moved"
+[ -x "$work/moved/$lib/sdf_ccd/sdf_ccd_read" ] || fail "the reader is not in $lib/sdf_ccd"
+tool=$work/moved/$bin/sdf_ccd
+export LD_LIBRARY_PATH=$work/moved/$lib:${LD_LIBRARY_PATH:-}
+
+cd /
+build_mesh() { "$tool" build --mesh "$data/prism_12.off" --resolution 8 --out "$work/made" > "$work/log" 2>&1; }
+build_mesh || fail "the moved tool reads no mesh"
+# Found from the library's own path, also where that is a relative one.
+cd "$work/moved"
+LD_LIBRARY_PATH=$lib "$tool" build --mesh "$data/prism_12.off" --resolution 8 --out "$work/made" > "$work/log" 2>&1 ||
+  fail "no mesh is read where the library's path is relative"
+cd /
+mv "$work/moved/$lib/sdf_ccd/sdf_ccd_read" "$work/elsewhere"
+status=0; build_mesh || status=$?
+[ $status = 2 ] && grep -q "the program sdf_ccd_read, which reads it, is neither in" "$work/log" || fail "status $status without the reader"
+SDF_CCD_READER=$work/elsewhere build_mesh || fail "SDF_CCD_READER is not followed"
+echo "installed layout: good"
