@@ -4,6 +4,7 @@
 
 #include "process/read_apart.h"
 #include "process/regular_file.h"
+#include "process/shown_text.h"
 
 namespace sdf_ccd {
 
@@ -13,7 +14,7 @@ TriangleMesh loadOctomapSurface(const std::string& path, double& resolution) {
     resolution = read.resolution;
     return std::move(read.mesh);
   } catch (const std::exception& error) {
-    throw std::runtime_error(path + ": " + error.what());
+    throw std::runtime_error(shownText(path) + ": " + error.what());
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "process/read_apart.h"
 #include "process/regular_file.h"
+#include "process/shown_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -39,7 +40,7 @@ TriangleMesh parseMesh(const std::string& bytes, const std::string& name) {
   try {
     return parse(bytes, name);
   } catch (const std::exception& error) {
-    throw std::runtime_error(name + ": " + error.what());
+    throw std::runtime_error(shownText(name) + ": " + error.what());
   }
 }
 
@@ -47,7 +48,7 @@ TriangleMesh loadMesh(const std::string& path) {
   try {
     return parse(readRegularFile(path), path);
   } catch (const std::exception& error) {
-    throw std::runtime_error(path + ": " + error.what());
+    throw std::runtime_error(shownText(path) + ": " + error.what());
   }
 }
 

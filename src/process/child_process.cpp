@@ -37,6 +37,24 @@ Descriptor aboveStandard(int number) {
   return high;
 }
 
+std::vector<std::string> environmentOf(const ProgramCall& call) {
+  std::vector<const char*> names = call.variables;
+  names.push_back("LD_LIBRARY_PATH");
+  std::vector<std::string> environment;
+  for (const char* name : names) {
+    if (const char* value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
+  }
+  return environment;
+}
+
+/// As exec() wants them. The texts must stay where they are.
+std::vector<char*> pointersTo(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(&text[0]);
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 /// What posix_spawn() wants to know, and gives back.
 class SpawnSettings {
  public:
@@ -74,33 +92,25 @@ class SpawnSettings {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
-                           const Descriptor& input, Clock::time_point deadline)
+ChildProcess::ChildProcess(const ProgramCall& call, const Descriptor& input, Clock::time_point deadline)
     : deadline_(deadline) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail(program + " cannot be started", errno);
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail(call.program + " cannot be started", errno);
   Descriptor answer(ends[1]);
   output_ = aboveStandard(ends[0]);
-  answer = aboveStandard(std::exchange(answer, Descriptor()).release());
+  answer = aboveStandard(answer.release());
   ::fcntl(output_.number(), F_SETFL, O_NONBLOCK);
   ::fcntl(output_.number(), F_SETPIPE_SZ, kPipeBytes);  // fewer turns; refused beyond the user's share
 
-  std::vector<std::string> words = {program};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const char* libraries = std::getenv("LD_LIBRARY_PATH");
-  std::string environment = libraries ? std::string("LD_LIBRARY_PATH=") + libraries : "";
-  std::vector<char*> argv, envp;
-  for (std::string& word : words) argv.push_back(&word[0]);
-  argv.push_back(nullptr);
-  if (libraries) envp.push_back(&environment[0]);
-  envp.push_back(nullptr);
-
+  std::vector<std::string> words = {call.program}, environment = environmentOf(call);
+  words.insert(words.end(), call.arguments.begin(), call.arguments.end());
+  const std::vector<char*> argv = pointersTo(words), envp = pointersTo(environment);
   const SpawnSettings settings(input.number(), answer.number());
   const int error =
-      ::posix_spawn(&pid_, program.c_str(), settings.actions(), settings.attributes(), argv.data(), envp.data());
+      ::posix_spawn(&pid_, call.program.c_str(), settings.actions(), settings.attributes(), argv.data(), envp.data());
   if (error != 0) {
     pid_ = -1;
-    fail(program + " cannot be started", error);
+    fail(call.program + " cannot be started", error);
   }
 }
 

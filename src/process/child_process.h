@@ -10,11 +10,18 @@
 
 namespace sdf_ccd {
 
+/// What is to be run.
+struct ProgramCall {
+  std::string program;
+  std::vector<std::string> arguments;
+  std::vector<const char*> variables = {};  ///< of the environment that it gets too, beside LD_LIBRARY_PATH
+};
+
 /// A program that reads its stdin, answers on its stdout, and is killed at the latest with its owner.
 ///
 /// May be used from several threads at once, whatever the host does with SIGCHLD and SIGPIPE: only this process is
 /// waited for, and nothing is written to a pipe. It gets no other open file, a process group of its own (so that
-/// Ctrl-C is the host's affair), default signals, and LD_LIBRARY_PATH alone of the environment.
+/// Ctrl-C is the host's affair), default signals, and nothing else of the environment.
 class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,8 +31,7 @@ class ChildProcess {
 
   /// @param input  becomes its stdin, at its present offset. Not open: it gets none.
   /// @throws std::runtime_error with the reason if it cannot be started.
-  ChildProcess(const std::string& program, const std::vector<std::string>& arguments, const Descriptor& input,
-               Clock::time_point deadline);
+  ChildProcess(const ProgramCall& call, const Descriptor& input, Clock::time_point deadline);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

@@ -135,7 +135,7 @@ ReadMesh readApart(const std::string& format, const std::string& bytes) {
   const Descriptor input = memoryFile(bytes);
   const auto time =
       std::chrono::duration_cast<ChildProcess::Clock::duration>(std::chrono::duration<double>(limits.wall_seconds));
-  ChildProcess child(program, {format}, input, ChildProcess::Clock::now() + time);
+  ChildProcess child({program, {format}}, input, ChildProcess::Clock::now() + time);
   try {
     return AnswerReader(child, limits).read();
   } catch (const ChildProcess::Late&) {

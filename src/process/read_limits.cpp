@@ -21,7 +21,7 @@ std::uint64_t computersMemory() {
 
 ReadLimits limitsOf(const std::string& format, std::uint64_t bytes) {
   ReadLimits limits;
-  limits.memory = format == "octomap" ? std::min(kLeast + 2000 * bytes, 6144 * kMiB) : kLeast + 64 * bytes;
+  limits.memory = format == "octomap" ? std::min(kLeast + 2000 * bytes, 6144 * kMiB) : kLeast + 32 * bytes;
   limits.memory = std::min(limits.memory, std::max(kLeast, computersMemory() / 4 * 3));
   limits.cpu_seconds = kCpuSeconds + kCpuSecondsPerMiB * static_cast<double>(bytes) / static_cast<double>(kMiB);
   limits.wall_seconds = kWallPerCpu * limits.cpu_seconds;

@@ -13,7 +13,7 @@ struct ReadLimits {
   double wall_seconds = 0.0;
 };
 
-/// Meshes: 512 MiB and 64 times the file's size. OctoMaps, of which a byte may mean many faces: 512 MiB and 2,000 times
+/// Meshes: 512 MiB and 32 times the file's size. OctoMaps, of which a byte may mean many faces: 512 MiB and 2,000 times
 /// the file's size, at most 6 GiB. Neither more than three quarters of the computer's memory. Computing: 5 s and 1 s
 /// per MiB; by the clock six times that.
 /// @param format  as the program sdf_ccd_read takes it: the ending of a mesh's file name, or `octomap`.

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "process/shown_text.h"
 #include "sdf_ccd/geometry/mesh_file.h"
 #include "urdf_geometry.h"
 
@@ -54,7 +55,7 @@ LinkGeometryLoader::Mesh LinkGeometryLoader::mesh(const std::string& uri, const 
   try {
     if (!found) found = std::make_shared<TriangleMesh>(scaled(*original, toEigen(scale)));
   } catch (const std::exception& error) {
-    throw std::runtime_error(uri + ": " + error.what());
+    throw std::runtime_error(shownText(uri) + ": " + error.what());
   }
   return found;
 }
@@ -71,8 +72,8 @@ LinkGeometryLoader::Mesh LinkGeometryLoader::unscaledMesh(const std::string& uri
     validate(*found);
   } catch (const std::exception& error) {
     // Once for all links that use it; the URI is what the user can search for in the URDF.
-    const std::string reason = error.what();
-    failures_[uri] = reason.find(uri) == std::string::npos ? uri + ": " + reason : reason;
+    const std::string reason = error.what(), shown = shownText(uri);
+    failures_[uri] = reason.find(shown) == std::string::npos ? shown + ": " + reason : reason;
     throw std::runtime_error(failures_[uri]);
   }
   return found;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "process/regular_file.h"
+#include "process/shown_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& uri, const std::string& reason) {
-  throw std::runtime_error(uri + ": " + reason);
+  throw std::runtime_error(shownText(uri) + ": " + shownText(reason));
 }
 
 bool startsWith(const std::string& text, const std::string& start) {
@@ -52,10 +53,10 @@ fs::path spelledAsOnDisk(const fs::path& path, const std::string& uri, std::stri
     const std::string entry = entryIgnoringCase(found, component.string());
     if (entry.empty()) fail(uri, "no such file (" + (found / component).string() + " does not exist)");
     if (!warning.empty()) warning += ", ";
-    warning += "found " + entry + ", the URI says " + component.string();
+    warning += "found " + shownText(entry) + ", the URI says " + shownText(component.string());
     found /= entry;
   }
-  if (!warning.empty()) warning = uri + ": " + warning;
+  if (!warning.empty()) warning = shownText(uri) + ": " + warning;
   return found;
 }
 

@@ -106,7 +106,7 @@ void CollisionMonitor::setUp() {
   idle("reading the robot");
   readWhenThere();
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
-  described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, ""));
+  described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   world_publisher_.publish(toWorldMarkers(described_.scene));
   joint_watch_ = std::make_unique<JointWatch>(*described_.robot);

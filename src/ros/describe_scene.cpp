@@ -1,9 +1,10 @@
 #include "ros/describe_scene.h"
 
 #include <array>
+#include <stdexcept>
 
-#include <resource_retriever/retriever.h>
-
+#include "process/shown_text.h"
+#include "ros/fetch_http.h"
 #include "sdf_ccd/field/octomap_surface.h"
 #include "sdf_ccd/geometry/mesh_file.h"
 
@@ -63,15 +64,24 @@ BodyDescription toBody(const OctomapObject& octomap, const std::string& frame) {
   return body;
 }
 
+bool isHttp(const std::string& uri) {
+  return uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0;
+}
+
 }  // namespace
 
-ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory) {
-  return [packages, directory](const std::string& uri) {
-    if (uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0) {
-      const resource_retriever::MemoryResource memory = resource_retriever::Retriever().get(uri);
-      return Resource{{reinterpret_cast<const char*>(memory.data.get()), memory.size}, uri, ""};
+ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http) {
+  return [packages, directory, allow_http](const std::string& uri) {
+    if (!isHttp(uri)) return loadLocalResource(uri, packages, directory);
+    if (!allow_http) {
+      throw std::runtime_error(shownText(uri) +
+                               ": http and https are fetched only if the parameter allow_http is true");
     }
-    return loadLocalResource(uri, packages, directory);
+    try {
+      return Resource{fetchHttp(uri), uri, ""};
+    } catch (const std::exception& error) {
+      throw std::runtime_error(shownText(uri) + ": " + error.what());
+    }
   };
 }
 

@@ -23,10 +23,10 @@ struct DescribedScene {
   std::vector<std::string> warnings;
 };
 
-/// package://, file:// and paths from the disk, http:// and https:// through resource_retriever.
+/// package://, file:// and paths from the disk; http:// and https:// where they are allowed (fetchHttp()).
 /// @param packages   finds a package's folder.
 /// @param directory  that relative paths start from; empty: there are none.
-ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory);
+ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http);
 
 /// Reads URDF, SRDF, world objects and the OctoMap. A link or object whose mesh cannot be read is there, with the
 /// reason in BodyDescription::failure.

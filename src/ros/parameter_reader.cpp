@@ -4,12 +4,15 @@
 #include <locale>
 #include <sstream>
 
+#include "process/shown_text.h"
 #include "sdf_ccd/geometry/nearest_name.h"
 
 namespace sdf_ccd {
 namespace {
 
 using XmlRpc::XmlRpcValue;
+
+constexpr std::size_t kMaxName = 256;  // bytes
 
 /// Sets the number that the value holds. YAML takes 1.0e8 (without a sign in the exponent) for a text; here it is a
 /// number all the same.
@@ -48,7 +51,9 @@ void ParameterReader::fail(const std::string& key, const std::string& expected) 
   text << "parameter " << name_ << "/" << key;
   if (has(key)) {
     XmlRpcValue value = tree_[key];
-    text << " is " << value;
+    std::ostringstream written;
+    written << value;
+    text << " is " << shownText(written.str());
   } else {
     text << " is missing";
   }
@@ -99,6 +104,14 @@ std::string ParameterReader::text(const std::string& key, const std::string& fal
   if (!value) return fallback;
   if (value->getType() != XmlRpcValue::TypeString) fail(key, "a text");
   return *value;
+}
+
+std::string ParameterReader::name(const std::string& key, const std::string& fallback) {
+  const std::string value = text(key, fallback);
+  if (value.size() > kMaxName || value != shownText(value)) {
+    fail(key, "at most " + std::to_string(kMaxName) + " bytes without control characters");
+  }
+  return value;
 }
 
 int ParameterReader::choice(const std::string& key, std::initializer_list<const char*> choices, int fallback) {

@@ -36,6 +36,9 @@ class ParameterReader {
   bool flag(const std::string& key, bool fallback);
   std::string text(const std::string& key, const std::string& fallback);
 
+  /// A text that names a frame or a body, and stands in every message and table: at most 256 bytes, on one line.
+  std::string name(const std::string& key, const std::string& fallback);
+
   /// Index of the value among `choices`.
   int choice(const std::string& key, std::initializer_list<const char*> choices, int fallback);
 

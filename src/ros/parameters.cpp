@@ -29,8 +29,9 @@ std::string required(ParameterReader& reader, const std::string& key) {
 
 WorldObject readWorldObject(ParameterReader& reader) {
   WorldObject object;
-  object.name = required(reader, "name");
-  object.frame = reader.text("frame", "");
+  object.name = reader.name("name", "");
+  if (object.name.empty()) reader.fail("name", "a text");
+  object.frame = reader.name("frame", "");
   object.X_frame_B = readPose(reader);
   constexpr double kUnset = -1.0;  // refused by positive(): sizes have no default
   switch (reader.choice("type", {"box", "sphere", "cylinder", "plane", "mesh"}, -1)) {
@@ -136,7 +137,7 @@ ContactOptions readContact(ParameterReader reader) {
 OctomapObject readOctomap(ParameterReader reader) {
   OctomapObject octomap;
   octomap.file = reader.text("file", "");
-  octomap.frame = reader.text("frame", "");
+  octomap.frame = reader.name("frame", "");
   octomap.X_frame_B = readPose(reader);
   octomap.cell_size = reader.notNegative("cell_size", 0.0);
   reader.finish();
@@ -165,8 +166,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
 
   parameters.urdf_parameter = reader.text("urdf_parameter", "robot_description");
   parameters.srdf_parameter = reader.text("srdf_parameter", parameters.urdf_parameter + "_semantic");
-  parameters.fixed_frame = withoutLeadingSlash(reader.text("fixed_frame", ""));
-  parameters.tf_prefix = withoutLeadingSlash(reader.text("tf_prefix", ""));
+  parameters.fixed_frame = withoutLeadingSlash(reader.name("fixed_frame", ""));
+  parameters.tf_prefix = withoutLeadingSlash(reader.name("tf_prefix", ""));
+  parameters.allow_http = reader.flag("allow_http", false);
   parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
 
   for (ParameterReader& object : reader.list("world")) {

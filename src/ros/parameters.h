@@ -45,6 +45,7 @@ struct MonitorParameters {
   std::string srdf_source;
   std::string fixed_frame;  ///< empty: the robot's root link
   std::string tf_prefix;
+  bool allow_http = false;  ///< meshes may come over the network
   RobotSceneOptions robot;
   std::vector<WorldObject> world;
   OctomapObject octomap;

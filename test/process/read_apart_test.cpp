@@ -270,7 +270,7 @@ TEST_F(ReadApart, MemoryIsBounded) {
   many += "</node>";
   const std::string bomb = test::dae(test::icosphere(1.0, 3), "", many + "<node>" + nodes + "</node>");
   EXPECT_EQ(failureOf("dae", bomb), "the reader was stopped: it needed more than " +
-                                        std::to_string(512 + 64 * bomb.size() / (1 << 20)) + " MB");
+                                        std::to_string(512 + 32 * bomb.size() / (1 << 20)) + " MB");
 }
 
 TEST_F(ReadApart, ComputingIsBounded) {

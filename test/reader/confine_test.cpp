@@ -66,7 +66,7 @@ TEST(Confine, LeavesMemoryUpToItsLimit) {
 
 TEST(Confine, LimitsGrowWithTheFileAndNeverBeyondTheComputer) {
   EXPECT_EQ(limitsOf("stl", 0).memory, 512u << 20);
-  EXPECT_EQ(limitsOf("stl", 1 << 20).memory, 576u << 20);
+  EXPECT_EQ(limitsOf("stl", 1 << 20).memory, 544u << 20);
   EXPECT_EQ(limitsOf("octomap", 19).memory, (512u << 20) + 38000);
   const std::uint64_t pages = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
   const std::uint64_t computer = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));

@@ -104,6 +104,19 @@ TEST_F(ResourceFiles, FailuresNameTheUriAndTheReason) {
   EXPECT_NE(failure("package://arm_description/Meshes/").find("is a directory"), std::string::npos);
   EXPECT_NE(failure("package://arm_description").find("names no file"), std::string::npos);
   EXPECT_NE(failure("package://").find("names no file"), std::string::npos);
+  for (const char* start : {"package://", "file:///", "", "gopher://", "package://arm_description/"}) {
+    for (const char* part : {"a", "a/", "../", "./", "\033\n"}) {
+      std::string uri = start;
+      while (uri.size() < 1'000'000) uri += part;
+      try {
+        loadLocalResource(uri, find_, directory_.string());
+        ADD_FAILURE() << start << part;
+      } catch (const std::runtime_error& error) {
+        EXPECT_LT(std::string(error.what()).size(), 1000u);
+        EXPECT_EQ(std::string(error.what()).find_first_of("\n\033"), std::string::npos);
+      }
+    }
+  }
   EXPECT_NE(failure("http://example.org/x.stl").find("http:// is not supported"), std::string::npos);
   EXPECT_NE(failure("file://x.stl").find("absolute"), std::string::npos);
   EXPECT_NE(failure("").find("empty"), std::string::npos);

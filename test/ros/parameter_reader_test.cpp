@@ -59,6 +59,23 @@ TEST(ParameterReader, ErrorsNameParameterAndValue) {
   EXPECT_EQ(errorOf([&] { reader.fail("name", "a text"); }), "parameter /monitor/name is missing, expected a text");
 }
 
+TEST(ParameterReader, NamesAreShortAndMessagesToo) {
+  XmlRpc::XmlRpcValue tree;
+  tree["fair"] = std::string(256, 'x');
+  tree["long"] = std::string(1 << 20, 'x');
+  tree["lines"] = std::string("a\nb");
+  ParameterReader reader(tree, "/monitor");
+  EXPECT_EQ(reader.name("fair", ""), std::string(256, 'x'));
+  EXPECT_EQ(reader.name("none", "world"), "world");
+  for (const char* key : {"long", "lines"}) {
+    const std::string error = errorOf([&] { reader.name(key, ""); });
+    EXPECT_NE(error.find("expected at most 256 bytes without control characters"), std::string::npos) << error;
+    EXPECT_LT(error.size(), 600u);
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+  }
+  EXPECT_LT(errorOf([&] { reader.positive("long", 1.0); }).size(), 600u);
+}
+
 TEST(ParameterReader, NoParametersGiveDefaults) {
   ParameterReader reader(XmlRpc::XmlRpcValue(), "/monitor");
   EXPECT_EQ(reader.number("rate", 7.0), 7.0);

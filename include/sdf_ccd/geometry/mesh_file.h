@@ -10,7 +10,7 @@ namespace sdf_ccd {
 /// Polygons are triangulated, lines and points ignored; vertices at the same place are welded.
 ///
 /// It is read by a program of its own, sdf_ccd_read, a process for each mesh, so that a file that makes a reader crash,
-/// hang or swell is an error here and no more. That process has no files, no network, at most 512 MiB of memory and 64
+/// hang or swell is an error here and no more. That process has no files, no network, at most 512 MiB of memory and 32
 /// times the file's size (never more than three quarters of the computer's), 5 s of computing and 1 s per MiB, and six
 /// times that by the clock. It costs some 2 ms beyond the reading. The program lies in lib/sdf_ccd beside the library,
 /// or where the environment variable SDF_CCD_READER says; without it no mesh is read.

@@ -161,7 +161,7 @@ void run(const Arguments& arguments) {
           "a rate of " + numberText(parameters.rate) + " Hz is above the largest, " + numberText(kFastestRate) + " Hz");
   const std::string urdf_directory = fs::absolute(arguments.config.urdf).parent_path().string();
   const DescribedScene described =
-      describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), urdf_directory));
+      describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), urdf_directory, parameters.allow_http));
   const RecordedMotion motion(arguments.bag, described, arguments.motion);
   const std::string expected = "expected         " + summary(affordableCost(described, parameters.scene)) + "\n";
   std::cout << expected << std::flush;
