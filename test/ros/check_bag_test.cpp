@@ -610,6 +610,19 @@ TEST_F(CheckBag, JointStatesThatAreNotFiniteAreCounted) {
   EXPECT_EQ(result.error.find("unknown"), std::string::npos) << result.error;
 }
 
+TEST_F(CheckBag, PairsAreLearnedFromABag) {
+  const std::string command = "learn-pairs --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf --max-error 0.02 ";
+  // The arm only swings about, with its hand far from itself.
+  const ToolRun swings = run(command + "--states 0 --bag arm.bag --out arm.srdf");
+  ASSERT_EQ(swings.exit_code, kDone) << swings.error;
+  EXPECT_NE(swings.out.find(", 5 recorded, and the default"), std::string::npos) << swings.out;  // different ones
+  EXPECT_NE(readText(path("arm.srdf")).find("link1=\"turret\" link2=\"hand\" reason=\"Never\""), std::string::npos);
+  EXPECT_NE(readText(path("arm.srdf")).find("it holds for what was recorded"), std::string::npos);
+  expectRefused(command + "--states 0 --bag missing.bag --out no.srdf", "missing.bag: cannot be opened");
+  expectRefused(command + "--states 0 --bag arm.bag --joint-states /else --out no.srdf",
+                "arm.bag: holds no joint states of the robot's joints on /else");
+}
+
 TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
   const std::string link = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
   write("other.urdf", "<robot name='other'><link name='a'>" + link + "</link><link name='b'>" + link +

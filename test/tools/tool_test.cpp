@@ -399,6 +399,31 @@ TEST_F(Tool, SimulationThatCannotGoOnKeepsWhatItHas) {
   EXPECT_EQ(steps.find("inf"), std::string::npos);
 }
 
+TEST_F(Tool, LearnPairsWritesAnSrdf) {
+  ::setenv("ROS_PACKAGE_PATH", SDF_CCD_SOURCE_DIR, 1);
+  const std::string command = "learn-pairs --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf --max-error 0.02 ";
+  const ToolRun result = run(command + "--states 200 --out arm.srdf");
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find("5 Adjacent"), std::string::npos) << result.out;
+  const std::string srdf = readText(path("arm.srdf"));
+  EXPECT_NE(srdf.find("<disable_collisions link1=\"base\" link2=\"turret\" reason=\"Adjacent\"/>"), std::string::npos);
+  EXPECT_NE(srdf.find("NO PROOF"), std::string::npos);
+  ASSERT_EQ(run(command + "--states 200 --threads 1 --out again.srdf").exit_code, kDone);
+  EXPECT_EQ(readText(path("again.srdf")), srdf);
+  // It may be written over what it is given.
+  const ToolRun more = run(command + "--states 200 --srdf arm.srdf --out arm.srdf");
+  ASSERT_EQ(more.exit_code, kDone) << more.error;
+  EXPECT_NE(more.out.find("no check needed  0"), std::string::npos) << more.out;
+  EXPECT_EQ(readText(path("arm.srdf")).find(srdf.substr(0, srdf.find("</robot>"))), 0u);
+
+  expectRefused(command + "--states 0 --out no.srdf", "--states 0 needs --bag");
+  expectRefused(command + "--seed -1 --out no.srdf", "--seed must not be negative");
+  expectRefused("learn-pairs --urdf arm.urdf --max-error 0 --out no.srdf", "--max-error must be positive");
+  expectRefused(command + "--srdf missing.srdf --out no.srdf", "missing.srdf");
+  expectRefused("learn-pairs --urdf missing.urdf --out no.srdf", "missing.urdf");
+  expectRefused(command + "--out nowhere/no.srdf", "nowhere/no.srdf: cannot write");
+}
+
 TEST_F(Tool, WorkPrecisionWritesATableAndAPlot) {
   const bool has_gnuplot = std::system("gnuplot --version > /dev/null 2>&1") == 0;
   const ToolRun result = run("work-precision cell --quick --queries 20 --mesh ball.off --out study");
