@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <random>
 #include <set>
 
+#include "geometry/text_limits.h"
+#include "process/regular_file.h"
 #include "scene_shape.h"
 
 namespace sdf_ccd {
@@ -161,6 +161,7 @@ void moveOriginNearBodies(SimulationSetup& setup) {
 }  // namespace
 
 SimulationSetup parseSimulation(const std::string& text, const std::string& directory) {
+  requireSoundYaml(text);
   YAML::Node root;
   try {
     root = YAML::Load(text);
@@ -187,13 +188,9 @@ SimulationSetup parseSimulation(const std::string& text, const std::string& dire
 }
 
 SimulationSetup loadSimulation(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw std::runtime_error(path + ": is a directory");
-  std::ifstream stream(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw std::runtime_error(path + ": cannot be read");
   const std::string directory = std::filesystem::path(path).parent_path().string();
   try {
-    return parseSimulation(text, directory.empty() ? "." : directory);
+    return parseSimulation(readRegularFile(path, kMaxYamlBytes), directory.empty() ? "." : directory);
   } catch (const std::exception& error) {
     throw std::runtime_error(path + ": " + error.what());
   }

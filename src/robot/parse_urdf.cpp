@@ -6,7 +6,10 @@
 #include <thread>
 
 #include <console_bridge/console.h>
+#include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
+
+#include "geometry/text_limits.h"
 
 namespace sdf_ccd {
 namespace {
@@ -39,12 +42,25 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
+/// The document as tinyxml2 writes it: urdfdom's own reader of XML runs beyond the end of some that are damaged.
+std::string wellFormed(const std::string& xml) {
+  requireXmlSize(xml);
+  const std::string text = soundText(xml);
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
+  }
+  tinyxml2::XMLPrinter printer(nullptr, true);
+  document.Print(&printer);
+  return printer.CStr();
+}
+
 std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml) {
   const std::lock_guard<std::mutex> lock(handler_mutex);
   MessageCollector collector;
   std::shared_ptr<urdf::ModelInterface> model;
   try {
-    model = urdf::parseURDF(xml);
+    model = urdf::parseURDF(wellFormed(xml));
   } catch (const std::exception& error) {
     throw std::runtime_error("the URDF cannot be parsed: " + collector.errors() + error.what());
   }
@@ -79,6 +95,11 @@ void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
 
 std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml) {
   const auto model = parse(xml);
+  constexpr std::size_t kMostLinks = 10'000;
+  if (model->links_.size() > kMostLinks) {
+    throw std::runtime_error("the URDF has " + std::to_string(model->links_.size()) + " links, more than " +
+                             std::to_string(kMostLinks));
+  }
   for (const auto& joint : model->joints_) checkJoint(*model, *joint.second);
   return model;
 }

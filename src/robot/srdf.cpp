@@ -9,6 +9,7 @@
 #include <tinyxml2.h>
 
 #include "error_source.h"
+#include "geometry/text_limits.h"
 
 namespace sdf_ccd {
 namespace {
@@ -85,7 +86,8 @@ Srdf readSrdf(const std::string& xml) {
 
 Srdf parseSrdf(const std::string& xml, const std::string& source) {
   try {
-    return readSrdf(xml);
+    requireXmlSize(xml);
+    return readSrdf(soundText(xml));
   } catch (const std::exception& error) {
     throwFrom(source, error);
   }

@@ -9,6 +9,9 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "geometry/text_limits.h"
+#include "process/regular_file.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -48,46 +51,64 @@ XmlRpcValue toScalar(const YAML::Node& node) {
   return XmlRpcValue(text);
 }
 
-XmlRpcValue toValue(const YAML::Node& node);
-
-void setMember(XmlRpcValue& tree, const std::string& key, const YAML::Node& node) {
-  const std::size_t slash = key.find('/');
-  if (slash != std::string::npos) return setMember(tree[key.substr(0, slash)], key.substr(slash + 1), node);
-  tree[key] = toValue(node);
-}
-
-XmlRpcValue toValue(const YAML::Node& node) {
-  XmlRpcValue value;
-  switch (node.Type()) {
-    case YAML::NodeType::Scalar:
-      return toScalar(node);
-    case YAML::NodeType::Sequence:
-      value.setSize(static_cast<int>(node.size()));
-      for (std::size_t i = 0; i < node.size(); ++i) value[static_cast<int>(i)] = toValue(node[i]);
-      return value;
-    case YAML::NodeType::Map:
-      value.begin();  // makes it a struct, also without members
-      for (const auto& member : node) {
-        if (!member.first.IsScalar()) refuse(member.first.Mark(), "the name of a parameter is not a text");
-        if (member.second.IsNull()) refuse(member.first.Mark(), "parameter " + member.first.Scalar() + " has no value");
-        setMember(value, member.first.Scalar(), member.second);
-      }
-      return value;
-    default:
-      refuse(node.Mark(), "a value is missing");
+/// Makes values of nodes. What anchors and aliases expand to is counted: a few lines can mean 10⁹ values, or endless
+/// ones.
+class ValueReader {
+ public:
+  XmlRpcValue value(const YAML::Node& node) {
+    constexpr int kMostValues = 100'000, kMostLevels = 64;
+    if (++values_ > kMostValues) refuse(node.Mark(), "more than " + std::to_string(kMostValues) + " values");
+    if (levels_ == kMostLevels) refuse(node.Mark(), "nested more than " + std::to_string(kMostLevels) + " levels deep");
+    ++levels_;
+    XmlRpcValue made = node.IsScalar() ? toScalar(node) : node.IsSequence() ? sequence(node) : structure(node);
+    --levels_;
+    return made;
   }
-}
+
+ private:
+  XmlRpcValue sequence(const YAML::Node& node) {
+    XmlRpcValue made;
+    made.setSize(static_cast<int>(node.size()));
+    for (std::size_t i = 0; i < node.size(); ++i) made[static_cast<int>(i)] = value(node[i]);
+    return made;
+  }
+
+  XmlRpcValue structure(const YAML::Node& node) {
+    if (!node.IsMap()) refuse(node.Mark(), "a value is missing");
+    XmlRpcValue made;
+    made.begin();  // makes it a struct, also without members
+    for (const auto& member : node) {
+      if (!member.first.IsScalar()) refuse(member.first.Mark(), "the name of a parameter is not a text");
+      if (member.second.IsNull()) refuse(member.first.Mark(), "parameter " + member.first.Scalar() + " has no value");
+      setMember(made, member.first, member.first.Scalar(), member.second);
+    }
+    return made;
+  }
+
+  /// @param key  what is left of `name`: slashes lead into structs.
+  void setMember(XmlRpcValue& tree, const YAML::Node& name, const std::string& key, const YAML::Node& node) {
+    if (tree.valid() && tree.getType() != XmlRpcValue::TypeStruct) {
+      refuse(name.Mark(), "parameter " + name.Scalar() + " lies in one that is a value itself");
+    }
+    const std::size_t slash = key.find('/');
+    if (slash != std::string::npos) return setMember(tree[key.substr(0, slash)], name, key.substr(slash + 1), node);
+    if (tree.hasMember(key)) refuse(name.Mark(), "parameter " + name.Scalar() + " is there twice");
+    tree[key] = value(node);
+  }
+
+  int values_ = 0, levels_ = 0;
+};
 
 }  // namespace
 
 XmlRpcValue loadYamlParameters(const std::string& file) {
   try {
-    const YAML::Node document = YAML::LoadFile(file);
+    const std::string text = readRegularFile(file, kMaxYamlBytes);
+    requireSoundYaml(text);
+    const YAML::Node document = YAML::Load(text);
     if (document.IsNull()) return {};
     if (!document.IsMap()) refuse(document.Mark(), "expected parameters, as in config/monitor.yaml");
-    return toValue(document);
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(file + ": cannot be read");
+    return ValueReader().value(document);
   } catch (const std::exception& error) {
     throw std::runtime_error(file + ": " + error.what());
   }

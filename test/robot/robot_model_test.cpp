@@ -240,5 +240,49 @@ TEST(RobotModel, JointsWithoutKinematicsAreRefused) {
   EXPECT_NE(failure(joint("<mimic joint='j'/>")).find("mimics itself"), std::string::npos);
 }
 
+std::string failureOf(const std::string& urdf) {
+  try {
+    RobotModel model(urdf);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RobotModel, TextThatIsCutShortOrBrokenIsRefused) {
+  const std::string urdf = kArm;
+  for (std::size_t size = 0; size < urdf.size() - 20; ++size) EXPECT_NE(failureOf(urdf.substr(0, size)), "") << size;
+  // Bytes that begin a longer character, at the end and elsewhere: urdfdom's reader went on behind the end for them.
+  for (const char byte : {'\xC3', '\xEF', '\xF4', '\xB5', '\0'}) {
+    for (std::size_t size = 0; size < urdf.size() - 20; size += 13) {
+      EXPECT_NE(failureOf(urdf.substr(0, size) + byte), "") << size;
+      std::string broken = urdf;
+      broken[size] = byte;
+      failureOf(broken);
+    }
+  }
+  EXPECT_NE(failureOf(test::readText(SDF_CCD_SOURCE_DIR "/test/data/hostile/urdf_tinyxml_overread_130f7.urdf")), "");
+}
+
+TEST(RobotModel, CommentsMayHoldOtherEncodings) {
+  EXPECT_EQ(failureOf("<!-- caf\xE9 --><robot name=\"r\"><link name=\"a\"/></robot>"), "");
+}
+
+TEST(RobotModel, DeepAndLargeTextsAreRefused) {
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += "<a>";
+  EXPECT_NE(failureOf(deep), "");
+  std::string many = "<robot name=\"r\">";
+  for (int i = 0; i < 20'000; ++i) {
+    const std::string link = "l" + std::to_string(i), next = "l" + std::to_string(i + 1);
+    many += "<link name=\"" + link + "\"/><joint name=\"j" + link + "\" type=\"fixed\"><parent link=\"" + link +
+            "\"/><child link=\"" + next + "\"/></joint>";
+  }
+  many += "<link name=\"l20000\"/></robot>";
+  EXPECT_NE(failureOf(many).find("more than 10000"), std::string::npos) << failureOf(many);
+  EXPECT_NE(failureOf("<robot>" + std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace sdf_ccd

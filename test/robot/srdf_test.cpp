@@ -62,5 +62,12 @@ TEST(Srdf, MalformedTextGivesLineAndReason) {
   }
 }
 
+TEST(Srdf, DeepAndLargeTextsAreRefused) {
+  std::string deep = "<robot>";
+  for (int i = 0; i < 100'000; ++i) deep += "<a>";
+  EXPECT_NE(failure(deep), "parsed");
+  EXPECT_NE(failure(std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -44,6 +44,38 @@ TEST(YamlParameters, ScalarsAreWhatRosparamTakesThemFor) {
   EXPECT_EQ(tree["list"].getType(), XmlRpcValue::TypeArray);
 }
 
+TEST(YamlParameters, WhatExpandsWithoutEndIsRefused) {
+  // Ten aliases each of ten aliases, ten levels of it; a list in itself; brackets and blocks within each other.
+  std::string laughs = "a0: &a0 [x,x,x,x,x,x,x,x,x,x]\n", blocks;
+  for (int i = 1; i < 10; ++i) {
+    const std::string name = "a" + std::to_string(i), before = "*a" + std::to_string(i - 1);
+    laughs += name + ": &" + name + " [" + before;
+    for (int k = 1; k < 10; ++k) laughs += "," + before;
+    laughs += "]\n";
+  }
+  for (int i = 0; i < 100; ++i) blocks += std::string(i, ' ') + "a:\n";
+  std::string signs = "a:\n  ";
+  for (int i = 0; i < 10000; ++i) signs += "- ";
+  EXPECT_NE(errorOf(laughs).find("more than 100000 values"), std::string::npos) << errorOf(laughs);
+  EXPECT_NE(errorOf("world: &a [*a]\n").find("levels deep"), std::string::npos);
+  EXPECT_NE(errorOf("a: " + std::string(100'000, '[')).find("levels deep"), std::string::npos);
+  EXPECT_NE(errorOf(blocks).find("levels deep"), std::string::npos) << errorOf(blocks);
+  EXPECT_NE(errorOf(signs + "1\n").find("levels deep"), std::string::npos);
+}
+
+TEST(YamlParameters, AValueIsNoGroup) {
+  EXPECT_NE(errorOf("rate: 30\nrate/x: 1\n").find("parameter rate/x lies in one that is a value itself"),
+            std::string::npos)
+      << errorOf("rate: 30\nrate/x: 1\n");
+  EXPECT_NE(errorOf("rate/x: 1\nrate: 30\n").find("parameter rate is there twice"), std::string::npos);
+  EXPECT_NE(errorOf("rate: 30\nrate: 20\n").find("parameter rate is there twice"), std::string::npos);
+}
+
+TEST(YamlParameters, DevicesAreRefused) {
+  EXPECT_THROW(loadYamlParameters("/dev/zero"), std::runtime_error);
+  EXPECT_THROW(loadYamlParameters("/none"), std::runtime_error);
+}
+
 TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   const MonitorParameters documented =
       parseParameters(loadYamlParameters(SDF_CCD_SOURCE_DIR "/config/monitor.yaml"), "~");

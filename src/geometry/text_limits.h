@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+/// What texts from elsewhere may hold before a parser sees them: some call themselves for what is nested, and read
+/// beyond the end of what is cut short.
+namespace sdf_ccd {
+
+constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20, kMaxYamlBytes = std::size_t{16} << 20;
+constexpr int kMaxYamlDepth = 64;
+
+/// @throws std::runtime_error if it is larger than kMaxXmlBytes.
+void requireXmlSize(const std::string& xml);
+
+/// The text as UTF-8: bytes that are none, and control characters but tabs and ends of lines, become '?'.
+std::string soundText(std::string text);
+
+/// @throws std::runtime_error if the YAML is larger than kMaxYamlBytes or nested deeper than kMaxYamlDepth.
+void requireSoundYaml(const std::string& yaml);
+
+}  // namespace sdf_ccd
