@@ -81,9 +81,11 @@ class AnswerReader {
     if (answer.magic != ReadAnswer::kMagic) throw std::runtime_error("the reader is of another version, or damaged");
     if (answer.reason_bytes > 0) throw std::runtime_error(takeReason(answer.reason_bytes));
     // Whatever the reader holds in its memory is no more than it may have.
-    const std::uint64_t most =
-        std::min<std::uint64_t>(limits_.memory / sizeof(Vector3i), std::numeric_limits<int>::max());
-    if (answer.vertices > most || answer.triangles > most) throw std::runtime_error(tooMuchMemory(limits_));
+    const std::uint64_t most = std::min<std::uint64_t>(limits_.memory, std::numeric_limits<int>::max());
+    if (answer.vertices > most || answer.triangles > most ||
+        answer.vertices * sizeof(Vector3d) + answer.triangles * sizeof(Vector3i) > limits_.memory) {
+      throw std::runtime_error(tooMuchMemory(limits_));
+    }
     ReadMesh result;
     result.resolution = answer.resolution;
     if (!std::isfinite(result.resolution)) throw std::runtime_error("the reader's answer is damaged");

@@ -147,6 +147,8 @@ TEST_F(ReadApart, AnswersAreNotBelieved) {
   other = head;
   other.vertices = ~std::uint64_t{0};
   EXPECT_NE(answer(other, "").find("needed more than"), std::string::npos);
+  other.vertices = std::uint64_t{1} << 25;  // 768 MB
+  EXPECT_NE(answer(other, "").find("needed more than"), std::string::npos);
   other.vertices = std::uint64_t{1} << 24;  // half a GB is announced: no more memory is taken than comes
   EXPECT_NE(answer(other, "").find("without an answer"), std::string::npos);
   other = {};
