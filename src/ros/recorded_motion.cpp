@@ -38,6 +38,11 @@ std::string prefixOf(const DescribedScene& described) {
 RecordedMotion::RecordedMotion(const std::string& file, const DescribedScene& described,
                                const RecordedMotionOptions& options)
     : file_(file), options_(options), joints_(described.robot, prefixOf(described)), joint_watch_(*described.robot) {
+  for (const auto& [name, joint] : described.robot->urdf().joints_) {
+    const bool moves = joint->type == urdf::Joint::REVOLUTE || joint->type == urdf::Joint::CONTINUOUS ||
+                       joint->type == urdf::Joint::PRISMATIC;
+    if (moves && !joint->mimic) unnamed_.insert(name);
+  }
   readBag(file_, [&] {
     bag_.open(file_, rosbag::bagmode::Read);
     findTopics();
@@ -133,6 +138,14 @@ std::string RecordedMotion::source() const {
   return fixed_links_ == 0 ? "tf" : "tf, and the URDF for " + std::to_string(fixed_links_) + " fixed links";
 }
 
+std::vector<std::string> RecordedMotion::warnings() const {
+  std::vector<std::string> lines = joint_watch_.lines(source());
+  if (!joint_state_topics_.empty() && !unnamed_.empty()) {
+    lines.push_back(source() + " names nowhere these joints of the robot: " + someOf(unnamed_));
+  }
+  return lines;
+}
+
 void RecordedMotion::play(const std::function<void(const RecordedTransforms&)>& each) const {
   readBag(file_, [&] {
     const tf2_msgs::TFMessage fixed =
@@ -158,6 +171,7 @@ void RecordedMotion::playMessage(const rosbag::MessageInstance& message,
     each({recorded, *tf, isStatic(message.getTopic())});
   } else if (const auto joints = message.instantiate<sensor_msgs::JointState>()) {
     joint_watch_.add(*joints);
+    for (const std::string& name : joints->name) unnamed_.erase(name);
     const ros::Time& stamp = joints->header.stamp;
     const tf2_msgs::TFMessage moved = joints_.moved(*joints, stamp.isZero() ? message.getTime() : stamp);
     if (!moved.transforms.empty()) each({recorded, moved, false});

@@ -49,8 +49,9 @@ class RecordedMotion {
   /// @throws std::runtime_error that names the bag, if it is damaged.
   void play(const std::function<void(const RecordedTransforms&)>& each) const;
 
-  /// What is wrong with the joint states that were played: positions that are not finite, which are passed over.
-  std::vector<std::string> warnings() const { return joint_watch_.lines(source()); }
+  /// What is wrong with the joint states that were played: positions that are not finite, which are passed over, and
+  /// joints of the robot that none of them names.
+  std::vector<std::string> warnings() const;
 
  private:
   void findTopics();
@@ -62,7 +63,8 @@ class RecordedMotion {
   std::string file_;
   RecordedMotionOptions options_;
   JointFrames joints_;
-  mutable JointWatch joint_watch_;  // of what was played
+  mutable JointWatch joint_watch_;         // of what was played
+  mutable std::set<std::string> unnamed_;  // joints that move by themselves, and that nothing that was played names
   rosbag::Bag bag_;
   ros::Time begin_, end_;
   std::vector<std::string> tf_topics_;           // /tf and /tf_static, those that are there

@@ -610,6 +610,16 @@ TEST_F(CheckBag, JointStatesThatAreNotFiniteAreCounted) {
   EXPECT_EQ(result.error.find("unknown"), std::string::npos) << result.error;
 }
 
+TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
+  writeHeldContact([](double) { return true; });  // of the elbow
+  const ToolRun result = run(check("held.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("joint_states names nowhere these joints of the robot: elbow\n"), std::string::npos)
+      << result.error;
+  const ToolRun complete = run(check("arm.bag", "whole"));
+  EXPECT_EQ(complete.error.find("names nowhere"), std::string::npos) << complete.error;
+}
+
 TEST_F(CheckBag, PairsAreLearnedFromABag) {
   const std::string command = "learn-pairs --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf --max-error 0.02 ";
   // The arm only swings about, with its hand far from itself.
