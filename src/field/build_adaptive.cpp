@@ -8,7 +8,6 @@
 #include <string>
 
 #include <tbb/concurrent_vector.h>
-#include <tbb/parallel_for.h>
 
 #include "cell_fit.h"
 #include "cube_corner.h"
@@ -16,6 +15,7 @@
 #include "near_triangles.h"
 #include "progress_counter.h"
 #include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/geometry/parallel_for.h"
 
 namespace sdf_ccd {
 namespace {
@@ -97,6 +97,7 @@ class AdaptiveBuilder {
   std::vector<float> centers_;  ///< distances at the top cells' centres [top cells]
   tbb::concurrent_vector<std::pair<std::size_t, BuiltCell>> built_;  ///< top cells near the surface, in no order
   ProgressCounter counter_;
+  const CancelPoint cancel_;
   std::atomic<std::size_t> bytes_{0};
   std::atomic<bool> capped_{false};  ///< a leaf at the last depth is not proved
   AdaptiveData data_;
@@ -169,6 +170,7 @@ bool AdaptiveBuilder::holdsFar(double center_distance, int depth) const {
 }
 
 BuiltCell AdaptiveBuilder::cell(CellFit& fit, const NearTriangles& near, int depth) {
+  cancel_.check();
   const double side = near.cube().side;
   BuiltCell built;
   built.distance = near.centerDistance();
@@ -301,7 +303,7 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
 void AdaptiveBuilder::setFarBalls() {
   data_.top.resize(shape_.count());
   const FarBallSearch search(FarBallSearch::Lattice::kCenters, shape_.size, centers_);
-  tbb::parallel_for(0, shape_.size.z(), [&](int z) {
+  parallelFor(0, shape_.size.z(), [&](int z) {
     std::size_t index = std::size_t(z) * shape_.size.x() * shape_.size.y();
     for (int y = 0; y < shape_.size.y(); ++y)
       for (int x = 0; x < shape_.size.x(); ++x) data_.top[index++] = search.ball({x, y, z}).word();
@@ -314,7 +316,7 @@ AdaptiveGrid AdaptiveBuilder::build() {
   // Blocks of so many cells along a side share a search for the triangles near them.
   constexpr int kBlock = 4;
   const Vector3i blocks = (shape_.size.array() + (kBlock - 1)) / kBlock;
-  tbb::parallel_for(0, blocks.y() * blocks.z(), [&](int row) {
+  parallelFor(0, blocks.y() * blocks.z(), [&](int row) {
     const SignedSurface& exact = surface_.exact();
     SignedSurface::Nearest nearest{};
     for (int x = 0; x < blocks.x(); ++x) {
@@ -332,6 +334,7 @@ AdaptiveGrid AdaptiveBuilder::build() {
   setFarBalls();
   std::sort(built_.begin(), built_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [index, cell] : built_) {
+    cancel_.check();
     std::uint32_t& word = data_.top[index];
     switch (cell.kind) {
       case BuiltCell::kFar:

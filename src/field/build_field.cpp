@@ -7,13 +7,12 @@
 #include <stdexcept>
 #include <string>
 
-#include <tbb/parallel_for.h>
-
 #include "build_adaptive.h"
 #include "cube_corner.h"
 #include "near_triangles.h"
 #include "progress_counter.h"
 #include "sdf_ccd/geometry/openings.h"
+#include "sdf_ccd/geometry/parallel_for.h"
 
 namespace sdf_ccd {
 namespace {
@@ -180,7 +179,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   GridData data;
   data.corners.resize(shape.cornerCount());
   const Vector3i corner_counts = shape.bricks.array() + 1;
-  tbb::parallel_for(0, corner_counts.z(), [&](int z) {
+  parallelFor(0, corner_counts.z(), [&](int z) {
     const double side = GridShape::kBrick * shape.cell;
     SignedSurface::Nearest last{};
     for (int y = 0; y < corner_counts.y(); ++y)
@@ -192,7 +191,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   });
 
   data.slots.assign(bricks, SparseGrid::kFar);
-  tbb::parallel_for(0, shape.bricks.z(), [&](int z) {
+  parallelFor(0, shape.bricks.z(), [&](int z) {
     for (int y = 0; y < shape.bricks.y(); ++y)
       for (int x = 0; x < shape.bricks.x(); ++x) {
         const Vector3i b(x, y, z);
@@ -218,7 +217,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   if (in_steps) shape.step = GridShape::stepFor(largest);
   in_steps ? data.steps.resize(samples) : data.samples.resize(samples);
   ProgressCounter counter(progress, sampled.size());
-  tbb::parallel_for(std::size_t{0}, sampled.size(), [&](std::size_t i) {
+  parallelFor(std::size_t{0}, sampled.size(), [&](std::size_t i) {
     const std::size_t first = i * GridShape::kSamples;
     if (in_steps) {
       std::array<float, GridShape::kSamples> metres;

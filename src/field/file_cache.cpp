@@ -5,25 +5,34 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
+
+#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
 namespace {
 
+constexpr auto kPoll = std::chrono::milliseconds(10);
+
 /// Held by the one process that makes a file; the kernel frees it if that process dies.
 class FileLock {
  public:
-  explicit FileLock(const std::string& path) : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+  /// @throws std::runtime_error if it cannot be had, or not in time; Cancelled.
+  FileLock(const std::string& path, double seconds)
+      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
     if (descriptor_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
-    while (flock(descriptor_, LOCK_EX) != 0) {
-      if (errno == EINTR) continue;
-      const std::string reason = std::strerror(errno);
+    try {
+      wait(path, seconds);
+    } catch (...) {
       close(descriptor_);
-      throw std::runtime_error(path + ": cannot lock: " + reason);
+      throw;
     }
   }
   ~FileLock() { close(descriptor_); }
@@ -31,6 +40,21 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
 
  private:
+  /// Asks again and again, as a call that waits could not be cancelled.
+  void wait(const std::string& path, double seconds) const {
+    const auto start = std::chrono::steady_clock::now();
+    while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK && errno != EINTR) {
+        throw std::runtime_error(path + ": cannot lock: " + std::strerror(errno));
+      }
+      checkCancelled();
+      if (std::chrono::steady_clock::now() - start > std::chrono::duration<double>(seconds)) {
+        throw std::runtime_error(path + ": another process has held it for " + numberText(seconds) + " s");
+      }
+      std::this_thread::sleep_for(kPoll);
+    }
+  }
+
   int descriptor_;
 };
 
@@ -45,7 +69,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
       std::error_code error;
       std::filesystem::create_directories(directory_, error);
       if (error) throw std::runtime_error(directory_ + ": " + error.message());
-      lock = std::make_unique<FileLock>(path + ".lock");
+      lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
       outcome.warning = std::string("cache not used: ") + error.what();
     }

@@ -5,14 +5,16 @@
 #include <mutex>
 
 #include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/geometry/cancel.h"
 
 namespace sdf_ccd {
 
-/// Share done, reported by whichever thread gets there.
+/// Share done, reported by whichever thread gets there. Ends work that the thread that made it has cancelled.
 class ProgressCounter {
  public:
   ProgressCounter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
   void add() {
+    cancel_.check();
     const std::size_t done = ++done_;
     if (!progress_) return;
     const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
@@ -20,6 +22,7 @@ class ProgressCounter {
   }
 
  private:
+  const CancelPoint cancel_;
   const Progress& progress_;
   std::size_t total_;
   std::atomic<std::size_t> done_{0};

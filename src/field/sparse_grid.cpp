@@ -6,11 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-#include <tbb/parallel_for.h>
-
 #include "cube_corner.h"
 #include "far_ball_search.h"
 #include "grid_place.h"
+#include "sdf_ccd/geometry/parallel_for.h"
 
 namespace sdf_ccd {
 namespace {
@@ -41,7 +40,7 @@ std::vector<std::uint32_t> brickWords(const GridShape& shape, const GridData& da
   for (const float metres : data.corners) corners.push_back(static_cast<float>(metres * bricks_per_metre));
   const FarBallSearch search(FarBallSearch::Lattice::kCorners, shape.bricks, corners);
   std::vector<std::uint32_t> words(data.slots.size());
-  tbb::parallel_for(0, shape.bricks.z(), [&](int z) {
+  parallelFor(0, shape.bricks.z(), [&](int z) {
     for (int y = 0; y < shape.bricks.y(); ++y)
       for (int x = 0; x < shape.bricks.x(); ++x) {
         const Vector3i brick(x, y, z);

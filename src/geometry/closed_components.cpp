@@ -5,8 +5,7 @@
 #include <memory>
 #include <set>
 
-#include <tbb/parallel_for.h>
-
+#include "sdf_ccd/geometry/parallel_for.h"
 #include "sdf_ccd/geometry/triangle_tree.h"
 #include "triangle_cut.h"
 
@@ -38,7 +37,7 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
   std::vector<Vector3d> behind(count);
   std::vector<double> numbers(count, 0.0);
   std::vector<char> known(count, 0);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  parallelFor(std::size_t{0}, count, [&](std::size_t i) {
     const Corners c = cornersOf(part, static_cast<int>(i));
     const Vector3d area_normal = areaNormal(part, static_cast<int>(i));
     const double longest = longestEdge(c);
@@ -76,8 +75,7 @@ class Inspection {
       : mesh_(mesh), patches_(patches), eps_(cutTolerance(mesh)) {
     components_.resize(patches.size());
     label_.assign(mesh.triangles.size(), -1);
-    tbb::parallel_for(std::size_t{0}, patches.size(),
-                      [&](std::size_t i) { components_[i] = measure(mesh, patches[i]); });
+    parallelFor(std::size_t{0}, patches.size(), [&](std::size_t i) { components_[i] = measure(mesh, patches[i]); });
     for (std::size_t i = 0; i < patches.size(); ++i) {
       if (!components_[i].tree) continue;
       closed_.push_back(static_cast<std::int32_t>(i));

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include <tbb/parallel_for.h>
-
+#include "sdf_ccd/geometry/parallel_for.h"
 #include "sdf_ccd/geometry/triangle_tree.h"
 #include "triangle_cut.h"
 
@@ -26,7 +25,7 @@ std::vector<char> hiddenWalls(const TriangleMesh& mesh, const std::vector<Patch>
   const int first = static_cast<int>(closed.triangles.size());
   closed.triangles.insert(closed.triangles.end(), walls.begin(), walls.end());
   const double eps = cutTolerance(closed);
-  tbb::parallel_for(std::size_t{0}, walls.size(), [&](std::size_t i) {
+  parallelFor(std::size_t{0}, walls.size(), [&](std::size_t i) {
     const int wall = first + static_cast<int>(i);
     const Corners c = cornersOf(closed, wall);
     const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;

@@ -11,6 +11,7 @@
 #include "hidden_walls.h"
 #include "mesh_patches.h"
 #include "open_components.h"
+#include "sdf_ccd/geometry/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -34,6 +35,7 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
 void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
   MeshQuality& quality = result.quality;
   const std::vector<Patch> patches = orientConsistently(result.mesh);
+  checkCancelled();
   TriangleMesh likeness = normalized(result.mesh);
   bool doubtful = false;
   const std::vector<ClosedComponent> closed = inspectClosed(likeness, patches);
@@ -82,6 +84,7 @@ OrientedMesh orientOutward(const TriangleMesh& mesh) {
   const TriangleMesh weld = welded(mesh);
   if (weld.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
   quality.degenerate_triangles = static_cast<int>(mesh.triangles.size() - weld.triangles.size());
+  checkCancelled();
   DistinctTriangles distinct = distinctTriangles(weld);
   quality.duplicate_triangles = distinct.copies;
   quality.duplicate_area = distinct.copied_area;
@@ -92,7 +95,9 @@ OrientedMesh orientOutward(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < result.mesh.triangles.size(); ++i) {
     quality.degenerate_triangles += areaNormal(result.mesh, static_cast<int>(i)).squaredNorm() == 0;
   }
+  checkCancelled();
   inspectEdges(result.mesh, quality);
+  checkCancelled();
   quality.box = boundingBox(result.mesh);
 
   result.mesh = std::move(distinct.mesh);

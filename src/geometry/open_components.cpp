@@ -6,8 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
+#include "sdf_ccd/geometry/parallel_for.h"
 #include "sdf_ccd/geometry/triangle_tree.h"
 
 namespace sdf_ccd {
@@ -125,8 +124,7 @@ std::vector<char> seenFromBehind(const TriangleMesh& mesh, const std::vector<Pat
 
   const Caster caster(mesh, patches);
   std::vector<Votes> votes(patches.size());
-  tbb::parallel_for(std::size_t{0}, open.size(),
-                    [&](std::size_t i) { votes[open[i]] = caster.cast(open[i], open.size()); });
+  parallelFor(std::size_t{0}, open.size(), [&](std::size_t i) { votes[open[i]] = caster.cast(open[i], open.size()); });
 
   // What the outside sees is decided first, then what is seen from there.
   std::stable_sort(open.begin(), open.end(), [&](std::int32_t a, std::int32_t b) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include <tbb/parallel_for.h>
-
+#include "sdf_ccd/geometry/parallel_for.h"
 #include "triangle_cutter.h"
 
 namespace sdf_ccd {
@@ -130,8 +129,8 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
   std::vector<std::vector<SurfacePart>> parts(sides.size());
   const TriangleCutter cutter(mesh, *all, interior_, tolerance);
   const std::size_t most_steps = limits.steps / std::max<std::size_t>(cut.size(), 1);
-  tbb::parallel_for(std::size_t{0}, cut.size(),
-                    [&](std::size_t i) { parts[cut[i]] = cutter.parts(cut[i], cuts.of[cut[i]], most_steps); });
+  parallelFor(std::size_t{0}, cut.size(),
+              [&](std::size_t i) { parts[cut[i]] = cutter.parts(cut[i], cuts.of[cut[i]], most_steps); });
   BoundaryWriter writer(mesh, tolerance, report_);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const int triangle = static_cast<int>(i);

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
-
 #include "mesh_edges.h"
+#include "sdf_ccd/geometry/parallel_for.h"
 #include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -64,7 +63,7 @@ std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tr
   }
   const SideTest test(tree, interior, tolerance);
   std::vector<Sides> of_set(count, Sides::kUnknown);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  parallelFor(std::size_t{0}, count, [&](std::size_t i) {
     if (widest[i] >= 0) of_set[i] = test.at(middle(mesh, widest[i]), {});
   });
   std::vector<Sides> sides(count, Sides::kUnknown);

@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
+#include "sdf_ccd/geometry/parallel_for.h"
 #include "triangle_cut.h"
 
 namespace sdf_ccd {
@@ -61,7 +61,7 @@ TriangleCuts triangleCuts(const TriangleMesh& mesh, const TriangleTree& tree, co
   TriangleCuts cuts;
   cuts.of.resize(mesh.triangles.size());
   std::vector<Measured> measured(mesh.triangles.size());
-  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
+  parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
     const int triangle = static_cast<int>(i);
     const Corners c = cornersOf(mesh, triangle);
     measured[i] = {areaNormal(mesh, triangle).normalized(), closestError(c[0], c[1], c[2]),
@@ -69,7 +69,7 @@ TriangleCuts triangleCuts(const TriangleMesh& mesh, const TriangleTree& tree, co
   });
   std::atomic<std::size_t> pairs{0};
   tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
-  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
+  parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
     const int triangle = static_cast<int>(i);
     if (!measured[i].certain) return;
     const Corners c = cornersOf(mesh, triangle);

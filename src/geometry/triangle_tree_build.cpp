@@ -8,6 +8,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "sdf_ccd/geometry/cancel.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -54,6 +56,7 @@ class TriangleTree::Builder {
     cylinders_.resize(tree_.nodes_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree_.nodes_.size(), 64), [this](const auto& range) {
       for (std::size_t node = range.begin(); node < range.end(); ++node) {
+        cancel_.check();
         const Triangle* const begin = tree_.triangles_.data() + ranges_[node].begin;
         const Triangle* const end = tree_.triangles_.data() + ranges_[node].end;
         tree_.expansions_[node] = expand(begin, end);
@@ -70,6 +73,7 @@ class TriangleTree::Builder {
   };
 
   void divide(std::size_t index) {
+    cancel_.check();
     const Range range = ranges_[index];
     AlignedBox3d box, centers;
     for (std::int32_t i = range.begin; i < range.end; ++i) {
@@ -187,6 +191,7 @@ class TriangleTree::Builder {
     return found;
   }
 
+  const CancelPoint cancel_;
   TriangleTree& tree_;
   const TriangleMesh& mesh_;
   std::vector<AlignedBox3d> boxes_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/shell/contact_gap.h"
 
 namespace sdf_ccd {
@@ -42,11 +43,13 @@ void setRadii(const std::vector<ShellPart>& parts, PointShell& all) {
 }  // namespace
 
 PointShell unionShell(const std::vector<ShellPart>& parts) {
+  const CancelPoint cancel;
   PointShell all;
   setRadii(parts, all);
   for (std::size_t own = 0; own < parts.size(); ++own) {
     const PointShell& shell = parts[own].shell;
     for (std::size_t i = 0; i < shell.size(); ++i) {
+      cancel.check();
       const Vector3d p_B = parts[own].X_BG * shell.points[i];
       const double depth = knownDepth(parts, own, p_B);
       if (depth > shell.covering_radius) continue;

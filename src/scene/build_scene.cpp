@@ -10,6 +10,7 @@
 #include "mesh_pool.h"
 #include "pair_bound.h"
 #include "sdf_ccd/field/sparse_grid.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/scene/sample_motion.h"
 #include "sdf_ccd/scene/scene.h"
@@ -255,6 +256,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     report.pairs = std::count_if(plan.pairs.begin(), plan.pairs.end(), [&](const PlannedPair& pair) {
       return pair.body_a == static_cast<int>(i) || pair.body_b == static_cast<int>(i);
     });
+    checkCancelled();
     const auto report_progress = [&](double share) {
       if (progress) progress(described.name, (double(i) + share) / double(count));
     };

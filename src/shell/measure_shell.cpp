@@ -3,9 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
 #include "piece_walk.h"
+#include "sdf_ccd/geometry/parallel_for.h"
 
 namespace sdf_ccd {
 namespace {
@@ -17,7 +16,7 @@ constexpr std::size_t kChunk = 64;
 template <typename Work>
 void forEachChunk(const TriangleMesh& mesh, Work work) {
   const std::size_t count = mesh.triangles.size();
-  tbb::parallel_for(std::size_t{0}, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  parallelFor(std::size_t{0}, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     work(chunk, static_cast<int>(chunk * kChunk), static_cast<int>(std::min(count, (chunk + 1) * kChunk)));
   });
 }
@@ -55,6 +54,7 @@ void shareOut(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& piec
 
 double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double scale) {
   const NearestPoint nearest(shell);
+  const CancelPoint cancel;
   const Vector3d any = Vector3d::Zero();
   std::vector<double> reached2(chunks(mesh), 0.0);
   // Some place of each triangle first: the better the bound from below, the fewer pieces need cutting.
@@ -71,7 +71,7 @@ double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double 
         return contested.piece.farthest2(candidate.point) <= bound2;
       });
     };
-    PieceWalk pieces(nearest, scale);
+    PieceWalk pieces(nearest, scale, cancel);
     for (int i = first; i < last; ++i) {
       pieces.walk(SurfacePiece::of(mesh, i), any, isBelow, [&](const ContestedPiece& contested) {
         forEachCell(contested, [&](const Candidate& candidate, const CellPolygon& cell) {
@@ -88,9 +88,10 @@ double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double 
 
 std::vector<double> nearestAreas(const TriangleMesh& mesh, const PointShell& shell, double scale) {
   const NearestPoint nearest(shell);
+  const CancelPoint cancel;
   std::vector<Shares> shares(chunks(mesh));
   forEachChunk(mesh, [&](std::size_t chunk, int first, int last) {
-    PieceWalk pieces(nearest, scale);
+    PieceWalk pieces(nearest, scale, cancel);
     for (int i = first; i < last; ++i) {
       const SurfacePiece whole = SurfacePiece::of(mesh, i);
       Vector3d facing = areaNormal(mesh, i);

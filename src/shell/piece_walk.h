@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nearest_point.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "voronoi_piece.h"
 
 namespace sdf_ccd {
@@ -13,9 +14,10 @@ namespace sdf_ccd {
 /// Cuts triangles into pieces with few candidates each for the nearest point.
 class PieceWalk {
  public:
-  /// @param scale  about the distance between points [m].
-  PieceWalk(const NearestPoint& nearest, double scale)
-      : nearest_(nearest), scale2_(scale * scale), gather2_(kGather * kGather * scale2_) {}
+  /// @param scale   about the distance between points [m].
+  /// @param cancel  ends the walk.
+  PieceWalk(const NearestPoint& nearest, double scale, const CancelPoint& cancel)
+      : nearest_(nearest), cancel_(cancel), scale2_(scale * scale), gather2_(kGather * kGather * scale2_) {}
 
   /// Calls visit(contested) for pieces that cover `whole`, each with at most kMaxCells candidates, whose normals are
   /// not against `facing`. Before that, settle(contested) may end the matter by returning true.
@@ -23,6 +25,7 @@ class PieceWalk {
   void walk(const SurfacePiece& whole, const Vector3d& facing, Settle settle, Visit visit) {
     stack_.assign(1, {whole, 0, 0});
     while (!stack_.empty()) {
+      cancel_.check();
       const Entry current = stack_.back();
       stack_.pop_back();
       // What lies above belongs to pieces that are done; what lies below, to the ones this was halved from.
@@ -96,6 +99,7 @@ class PieceWalk {
   }
 
   const NearestPoint& nearest_;
+  const CancelPoint cancel_;
   double scale2_;
   double gather2_;  ///< pieces with a longer edge, squared, are halved before points are looked for
   std::vector<Entry> stack_;

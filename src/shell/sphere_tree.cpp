@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sdf_ccd/geometry/cancel.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -21,10 +23,12 @@ class Builder {
   }
 
   SphereTree build() {
+    const CancelPoint cancel;
     SphereTree tree;
     if (points_.empty()) return tree;
     tree.nodes.push_back(node(0, static_cast<std::int32_t>(points_.size())));
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+      cancel.check();
       const SphereTree::Node parent = tree.nodes[i];
       if (parent.end - parent.begin <= kLeafSize) continue;
       const std::int32_t middle = split(parent.begin, parent.end);

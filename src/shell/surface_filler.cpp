@@ -110,6 +110,7 @@ void SurfaceFiller::addVertices() {
   PointGrid kept(thinning);
   std::vector<Vector3d> places;
   for (std::size_t v = 0; v < normals.size(); ++v) {
+    cancel_.check();
     const Vector3d& p = mesh_.vertices[v];
     if (kept.anyNear(p, [&](std::int32_t i) { return (places[i] - p).squaredNorm() < thinning * thinning; })) continue;
     kept.insert(p);
@@ -124,6 +125,7 @@ void SurfaceFiller::fillEdges(const std::vector<SurfaceEdge>& edges, double edge
   PointGrid near(1.2 * radius);                      // from places that far apart, all points within it of an edge
   for (const Vector3d& p : shell_.points) near.insert(p);
   for (const SurfaceEdge& edge : edges) {
+    cancel_.check();
     CoveredParts covered(edge, radius);
     const double places = std::floor(covered.length() / radius);
     if (places > static_cast<double>(options_.max_points)) refuse();
@@ -154,6 +156,7 @@ void SurfaceFiller::throwDarts() {
   const double darts = 7 * area / (options_.spacing * options_.spacing);
   std::mt19937_64 random(options_.seed);
   for (double dart = 0; dart < darts; ++dart) {
+    cancel_.check();
     const double choice = uniform(random) * area, u = std::sqrt(uniform(random)), v = uniform(random);
     const auto place = std::upper_bound(area_below.begin(), area_below.end(), choice);
     const std::size_t i = std::min<std::size_t>(place - area_below.begin(), area_below.size() - 1);
@@ -174,6 +177,7 @@ void SurfaceFiller::fillGaps() {
     const Vector3d& normal = triangle_normals_[i];
     stack.push_back(SurfacePiece::of(mesh_, static_cast<int>(i)));
     while (!stack.empty()) {
+      cancel_.check();
       const SurfacePiece piece = stack.back();
       stack.pop_back();
       const double length2 = piece.longestEdge().second;

@@ -4,13 +4,15 @@
 
 #include "flat_pieces.h"
 #include "point_grid.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 #include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
 namespace sdf_ccd {
 
-/// Adds points to a shell until no place of the mesh is farther than options.spacing from one that faces its way.
+/// Adds points to a shell until no place of the mesh is farther than options.spacing from one that faces its way, or
+/// until that is cancelled.
 class SurfaceFiller {
  public:
   /// @param mesh  welded.
@@ -32,6 +34,7 @@ class SurfaceFiller {
   void add(const Vector3d& p, const Vector3d& normal);
   bool isCovered(const Vector3d& p, const Vector3d& normal) const;
 
+  const CancelPoint cancel_;
   const TriangleMesh& mesh_;
   const ShellOptions& options_;
   std::vector<Vector3d> triangle_normals_;  // unit, or zero

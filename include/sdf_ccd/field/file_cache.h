@@ -13,12 +13,15 @@ struct CacheOutcome {
 
 /// Files that are expensive to make, kept in a directory under names made from what they depend on.
 ///
-/// Safe against several processes: whoever comes second waits for the first and loads what it made. A file that is
+/// Safe against several processes: whoever comes second waits for the first and loads what it made; if that takes too
+/// long, as the first has stopped, it makes its own and leaves the cache alone. A file that is
 /// damaged or of another version is made again; a directory that cannot be written costs only the saving.
 class FileCache {
  public:
   /// @param directory  made if it does not exist; empty: nothing is read or written.
-  explicit FileCache(std::string directory) : directory_(std::move(directory)) {}
+  /// @param lock_seconds  that it waits for another process at most, for each file.
+  explicit FileCache(std::string directory, double lock_seconds = 60.0)
+      : directory_(std::move(directory)), lock_seconds_(lock_seconds) {}
 
   struct Actions {
     std::function<void(const std::string& path)> load;  ///< throws std::runtime_error if the file is not good
@@ -26,11 +29,12 @@ class FileCache {
     std::function<void(const std::string& path)> save;  ///< throws std::runtime_error if it cannot
   };
 
-  /// Loads the file, or makes its content and saves it. What make() throws passes through.
+  /// Loads the file, or makes its content and saves it. What make() throws passes through. @throws Cancelled too.
   CacheOutcome get(const std::string& name, const Actions& actions) const;
 
  private:
   std::string directory_;
+  double lock_seconds_;
 };
 
 }  // namespace sdf_ccd
