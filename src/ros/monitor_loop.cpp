@@ -1,10 +1,30 @@
 #include "ros/monitor_loop.h"
 
+#include <algorithm>
+
 namespace sdf_ccd {
+namespace {
+
+/// The frames of all bodies, and of all links: queries rest on these.
+TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& described,
+                                const MonitorParameters& parameters) {
+  TfHistoryOptions options;
+  options.wanted = {withoutLeadingSlash(described.fixed_frame)};
+  for (const Body& body : scene.bodies) options.wanted.push_back(withoutLeadingSlash(body.frame));
+  const std::vector<std::string> links = described.robot ? described.robot->links() : std::vector<std::string>();
+  for (const std::string& link : links) {
+    options.wanted.push_back(withoutLeadingSlash(described.tf_prefix + link));
+  }
+  // A cycle of max_cycle may have waited for max_latency; as long again for those that check it anew.
+  options.keep = std::max(options.keep, 2.0 * (parameters.tf.max_cycle + parameters.tf.max_latency));
+  return options;
+}
+
+}  // namespace
 
 MonitorLoop::MonitorLoop(std::shared_ptr<const Scene> scene, const DescribedScene& described,
                          const MonitorParameters& parameters)
-    : history_(described.fixed_frame),
+    : history_(described.fixed_frame, historyOptions(*scene, described, parameters)),
       tracker_(history_, trackedBodies(*scene), scene->pairs, parameters.tf),
       monitor_(scene, parameters.monitor),
       reach_guard_(described) {}

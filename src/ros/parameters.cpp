@@ -10,6 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kDefaultCellSize = 0.004;  // [m]
+constexpr double kLongestCycle = 3600.0;    // so long transforms have to be kept [s]
 
 // What one field and one shell may cost under max_error before they are made coarser.
 constexpr double kKnobMegabytes = 256.0;
@@ -194,6 +195,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.tf.sampling.tolerance = chords.tolerance;
   parameters.tf.max_latency = reader.positive("max_latency", parameters.tf.max_latency);
   parameters.tf.max_cycle = reader.positive("max_cycle", parameters.tf.max_cycle);
+  for (const char* key : {"max_latency", "max_cycle"}) {
+    if (reader.positive(key, 1.0) > kLongestCycle) reader.fail(key, "at most an hour");
+  }
   parameters.rate = reader.positive("rate", 30.0);
 
   parameters.max_points = reader.integer("max_points", 20, 0);

@@ -7,11 +7,18 @@
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kKeep(10.0);        // as long as tf2's buffer keeps transforms
 const ros::Duration kJumpBack(1.0);     // publishers may disagree, and a wall clock be set back, by less
 const ros::Duration kSimJumpBack(0.1);  // two threads may see a simulated clock this much apart
 constexpr std::size_t kGoesOn = 2;  // so many transforms far behind the newest, one after the other, are no late ones
-constexpr std::uint32_t kLastSecond = 1u << 31;  // differences of later stamps are no ros::Duration
+constexpr std::uint32_t kLastSecond = 1u << 31;      // differences of later stamps are no ros::Duration
+constexpr std::size_t kLongestName = 256;            // of a frame
+constexpr std::size_t kMostOthers[] = {1000, 5000};  // frames that are not followed: moving, static
+constexpr std::size_t kMostOtherRecords = 200;       // of one of them
+constexpr double kMostRecords = 1e6;                 // of all frames that are followed
+constexpr double kFewestRecords = 1000.0;            // of one of them, however many there are
+constexpr double kRecordsPerSecond = 2000.0;         // of one of them, if there are few
+constexpr std::ptrdiff_t kMostBehind = 1000;         // records that one that comes late may lie behind
+const ros::Duration kSweepPeriod(1.0);
 
 ros::Time before(const ros::Time& time, const ros::Duration& duration) {
   return time.toNSec() > static_cast<std::uint64_t>(duration.toNSec()) ? time - duration : ros::Time();
@@ -31,7 +38,7 @@ std::deque<TfPose>::const_iterator lastUpTo(const std::deque<TfPose>& records, c
 
 std::string secondsText(const ros::Time& time) {
   char text[32];
-  std::snprintf(text, sizeof text, "%u.%03u s", time.sec, time.nsec / 1000000);
+  std::snprintf(text, sizeof text, "%.3f s", time.toSec());
   return text;
 }
 
@@ -42,30 +49,58 @@ std::string withoutLeadingSlash(const std::string& frame) {
   return start == std::string::npos ? std::string() : frame.substr(start);
 }
 
-TfHistory::TfHistory(const std::string& fixed_frame) : fixed_frame_(withoutLeadingSlash(fixed_frame)) {}
+TfHistory::TfHistory(const std::string& fixed_frame, const TfHistoryOptions& options)
+    : fixed_frame_(withoutLeadingSlash(fixed_frame)), keep_(options.keep), followed_(options.wanted) {}
 
 void TfHistory::watchClock(const ros::Time& now) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (now < before(clock_, ros::Time::isSimTime() ? kSimJumpBack : kJumpBack)) clear();
-  clock_ = now;
+  const bool jumps = now < before(clock_, ros::Time::isSimTime() ? kSimJumpBack : kJumpBack);
+  if (jumps) clear();
+  clock_ = jumps ? now : std::max(clock_, now);
+  if (clock_ < swept_ || before(clock_, kSweepPeriod) > swept_) forgetSilentOthers();
 }
 
 void TfHistory::add(const tf2_msgs::TFMessage& message, bool is_static) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const geometry_msgs::TransformStamped& transform : message.transforms) addOne(transform, is_static);
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    const std::string problem = problemOf(transform, is_static);
+    problem.empty() ? addOne(transform, is_static) : refuse(problem);
+  }
+}
+
+void TfHistory::refuse(const std::string& why) {
+  ++refused_;
+  refusal_ = why;
+}
+
+/// Why a transform says nothing; empty if it does.
+std::string TfHistory::problemOf(const geometry_msgs::TransformStamped& transform, bool is_static) const {
+  const std::string &child = transform.child_frame_id, &parent = transform.header.frame_id;
+  const ros::Time& stamp = transform.header.stamp;
+  if (child.size() > kLongestName || parent.size() > kLongestName) {
+    return "a frame's name has " + std::to_string(std::max(child.size(), parent.size())) + " characters";
+  }
+  if (child.find_first_not_of('/') == std::string::npos) return "a frame in " + parent + " has no name";
+  if (parent.find_first_not_of('/') == std::string::npos) return "the parent of " + child + " has no name";
+  if (withoutLeadingSlash(child) == withoutLeadingSlash(parent)) return child + " is its own parent";
+  if (is_static) return {};
+  if (stamp.sec < kLastSecond && (clock_.isZero() || stamp < clock_ || before(stamp, keep_) <= clock_)) return {};
+  return child + " is stamped " + secondsText(stamp) + ", when it is " + secondsText(clock_);
 }
 
 void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, bool is_static) {
   const std::string child = withoutLeadingSlash(transform.child_frame_id);
   const std::string parent = withoutLeadingSlash(transform.header.frame_id);
-  const ros::Time& stamp = transform.header.stamp;
-  if (child.empty() || parent.empty() || child == parent || (!is_static && stamp.sec >= kLastSecond)) {
-    ++refused_;
+  const ros::Time& sent = transform.header.stamp;
+  const ros::Time stamp = is_static ? ros::Time() : ros::Time(sent.sec, sent.nsec);  // nsec may be above a second
+  if (edges_.count(child) == 0 && !followed_.has(child) && others_[is_static] >= kMostOthers[is_static]) {
+    ++not_kept_;
     return;
   }
   const TfPose pose = toTfPose(stamp, transform.transform);
   const auto [found, is_new] = edges_.try_emplace(child);
   Edge& edge = found->second;
+  edge.heard = clock_;
   const bool is_same_kind = edge.is_static == is_static, is_same_parent = edge.parent == parent;
   if (!is_new && is_same_kind && is_same_parent) {
     if (!is_static) return record(child, edge, pose);
@@ -76,13 +111,63 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, bool is
   const char* change = is_new          ? "has come"
                        : !is_same_kind ? (is_static ? "has become static" : "is no longer static")
                                        : (is_static ? "has another static transform" : "has another parent");
-  const ros::Time last = is_new || edge.is_static ? ros::Time() : edge.records.back().stamp;
+  ros::Time last = is_new || edge.is_static ? ros::Time() : edge.records.back().stamp;
+  if (!clock_.isZero()) last = std::min(last, clock_);  // farther no cycle has gone
   beginAnew(edge, {pose}, change);
-  edge.parent = parent;
-  edge.is_static = is_static;
+  if (is_new) {
+    edge.is_followed = followed_.has(child);
+    edge.is_static = is_static;
+    if (!edge.is_followed) ++others_[is_static];
+  }
   edge.dropped_until = last;
+  setParent(edge, parent, is_static);
   // Cycles may have gone beyond the stamp already, by what the frame was before.
   if (!is_new && !is_static) noteLate(edge, {child, stamp, ros::TIME_MAX});
+}
+
+void TfHistory::setParent(Edge& edge, const std::string& parent, bool is_static) {
+  if (!edge.is_followed && edge.is_static != is_static) {
+    --others_[edge.is_static];
+    ++others_[is_static];
+  }
+  edge.is_static = is_static;
+  edge.parent = parent;
+  if (edge.is_followed) followAbove(parent);
+}
+
+void TfHistory::followAbove(const std::string& parent) {
+  if (followed_.has(parent)) return;
+  const auto parent_of = [this](const std::string& frame) {
+    const auto edge = edges_.find(frame);
+    return edge == edges_.end() ? nullptr : &edge->second.parent;
+  };
+  if (followed_.addParent(parent, parent_of)) {
+    for (auto& [child, edge] : edges_) setFollowed(edge, followed_.has(child));
+    return;
+  }
+  auto above = edges_.find(parent);
+  for (; above != edges_.end() && !above->second.is_followed && followed_.has(above->first);
+       above = edges_.find(above->second.parent)) {
+    setFollowed(above->second, true);
+  }
+}
+
+void TfHistory::setFollowed(Edge& edge, bool is_followed) {
+  if (edge.is_followed == is_followed) return;
+  edge.is_followed = is_followed;
+  is_followed ? --others_[edge.is_static] : ++others_[edge.is_static];
+  if (!edge.is_static) drop(edge);
+}
+
+/// Makes room for others, as moving frames are known again as soon as they come again.
+void TfHistory::forgetSilentOthers() {
+  swept_ = clock_;
+  for (auto edge = edges_.begin(); edge != edges_.end();) {
+    const Edge& known = edge->second;
+    const bool is_silent = !known.is_followed && !known.is_static && known.heard < before(clock_, keep_);
+    if (is_silent) --others_[0];
+    edge = is_silent ? edges_.erase(edge) : std::next(edge);
+  }
 }
 
 void TfHistory::beginAnew(Edge& edge, const std::deque<TfPose>& records, const char* change) {
@@ -99,16 +184,26 @@ void TfHistory::record(const std::string& child, Edge& edge, const TfPose& pose)
   if (pose.stamp > records.back().stamp) {
     edge.behind.clear();
     records.push_back(pose);
-    for (; records.front().stamp < before(pose.stamp, kKeep); records.pop_front()) {
-      edge.dropped_until = records.front().stamp;
-      edge.is_cut = true;
-    }
+    drop(edge);
   } else if (hasGoneBack(edge, pose)) {
     beginAnew(edge, std::deque<TfPose>(edge.behind), "has stamps that went back");
   } else if (pose.stamp < records.front().stamp) {
     recordBefore(child, edge, pose, true);
   } else {
     recordBehind(child, edge, pose);
+  }
+}
+
+/// What is too old, or too much.
+void TfHistory::drop(Edge& edge) const {
+  const double share = kMostRecords / static_cast<double>(followed_.size() + 1);
+  const double most = std::max(kFewestRecords, std::min(share, kRecordsPerSecond * keep_.toSec()));
+  const std::size_t kept = edge.is_followed ? static_cast<std::size_t>(most) : kMostOtherRecords;
+  std::deque<TfPose>& records = edge.records;
+  const ros::Time oldest = before(records.back().stamp, keep_);
+  for (; records.front().stamp < oldest || records.size() > kept; records.pop_front()) {
+    edge.dropped_until = records.front().stamp;
+    edge.is_cut = true;
   }
 }
 
@@ -128,7 +223,14 @@ void TfHistory::recordBehind(const std::string& child, Edge& edge, const TfPose&
   const TfPose& last = *std::prev(next);
   const bool rests = isSamePlace(last, pose) && isSamePlace(pose, *next);
   if (!rests) noteLate(edge, {child, last.stamp, next->stamp});
-  edge.records.insert(next, pose);
+  if (edge.records.end() - next <= kMostBehind) {
+    edge.records.insert(next, pose);
+    return drop(edge);
+  }
+  // To put it in its place would cost more the more often it happens: nothing is known any more up to there.
+  edge.dropped_until = pose.stamp;
+  edge.is_cut = true;
+  edge.records.erase(edge.records.begin(), next);
 }
 
 /// Of a time before all that is known.
@@ -136,10 +238,10 @@ void TfHistory::recordBefore(const std::string& child, Edge& edge, const TfPose&
   ++out_of_order_;
   const ros::Time first = edge.records.front().stamp;
   if (pose.stamp <= edge.dropped_until) {
-    noteLate(edge, {child, before(pose.stamp, kKeep), edge.dropped_until});
+    noteLate(edge, {child, before(pose.stamp, keep_), edge.dropped_until});
   } else if (edge.is_cut) {
     noteLate(edge, {child, edge.dropped_until, first});
-  } else if (is_same_parent && pose.stamp >= before(edge.records.back().stamp, kKeep)) {
+  } else if (is_same_parent && pose.stamp >= before(edge.records.back().stamp, keep_)) {
     edge.records.push_front(pose);  // nothing was known there
   }
 }
@@ -155,6 +257,7 @@ void TfHistory::noteLate(Edge& edge, const LateTransforms& late) {
 
 void TfHistory::clear() {
   for (auto edge = edges_.begin(); edge != edges_.end();) {
+    if (!edge->second.is_static && !edge->second.is_followed) --others_[0];
     edge = edge->second.is_static ? std::next(edge) : edges_.erase(edge);
   }
   jumped_ = true;
@@ -175,10 +278,20 @@ long TfHistory::refused() const {
   return refused_;
 }
 
+std::string TfHistory::refusal() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return refusal_;
+}
+
+long TfHistory::notKept() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return not_kept_;
+}
+
 TfHistory::Way TfHistory::edgesUpwards(const std::string& frame) const {
   Way edges;
   auto edge = edges_.find(frame);
-  while (edge != edges_.end() && edges.size() <= edges_.size()) {  // a loop is longer
+  while (edge != edges_.end() && edges.size() <= kMostAbove) {  // a loop is longer
     edges.push_back(&*edge);
     edge = edges_.find(edge->second.parent);
   }
@@ -198,8 +311,9 @@ bool TfHistory::way(const std::string& frame, Way& up, Way& down, std::string& p
   const auto rootOf = [](const std::string& from, const Way& edges) {
     return edges.empty() ? from : edges.back()->second.parent;
   };
-  if (up.size() > edges_.size() || down.size() > edges_.size()) {
-    problem = "the transforms above " + frame + " or " + fixed_frame_ + " are a loop";
+  if (up.size() > kMostAbove || down.size() > kMostAbove) {
+    problem = "the transforms above " + frame + " or " + fixed_frame_ + " are a loop, or more than " +
+              std::to_string(kMostAbove);
     return false;
   }
   if (rootOf(frame, up) != rootOf(fixed_frame_, down)) {

@@ -9,6 +9,7 @@
 
 #include <tf2_msgs/TFMessage.h>
 
+#include "ros/followed_frames.h"
 #include "ros/tf_window.h"
 
 namespace sdf_ccd {
@@ -22,15 +23,25 @@ struct LateTransforms {
   ros::Time since, until;  ///< where the frame's motion is another than what was known before
 };
 
+/// What a TfHistory keeps.
+struct TfHistoryOptions {
+  std::vector<std::string> wanted;  ///< frames to follow, with all above them; none: every frame
+  double keep = 10.0;               ///< moving transforms are kept as long, as tf2's buffer does [s]
+};
+
 /// The transforms of the last seconds. It interpolates them as tf2 does, and knows besides at which times they were
 /// recorded. Unlike tf2's buffer it
 ///  - lets a frame change from static to moving and back, and to another parent: what is known of it begins anew;
 ///  - tells what came behind newer transforms;
 ///  - keeps transforms that are no rigid motion, as a problem of their frame at that time.
+///
+/// What nodes send cannot make it grow, or slow, without bound: about a million records are kept in all, those of a
+/// frame at twice a kilohertz at least where there are few. Of frames that are not followed, so that a query may be
+/// given in one, a thousand moving ones with their last records, as long as they come, and five thousand static ones.
 /// Thread-safe.
 class TfHistory {
  public:
-  explicit TfHistory(const std::string& fixed_frame);
+  explicit TfHistory(const std::string& fixed_frame, const TfHistoryOptions& options = {});
 
   const std::string& fixedFrame() const { return fixed_frame_; }
 
@@ -39,6 +50,7 @@ class TfHistory {
   void add(const tf2_msgs::TFMessage& message, bool is_static);
 
   /// Watches the ROS clock, 0 if it does not run yet. A clock that goes back clears everything but static transforms.
+  /// Transforms stamped later than it by more than is kept are refused: of now they could tell nothing.
   void watchClock(const ros::Time& now);
 
   /// True once after the clock has gone back.
@@ -72,8 +84,15 @@ class TfHistory {
   /// Transforms that came behind newer ones of the same frame.
   long outOfOrder() const;
 
-  /// Transforms that say nothing: without frames, of a frame in itself, or stamped after 2038.
+  /// Transforms that say nothing: without frames or with names of more than 256 characters, of a frame in itself, or
+  /// stamped in the future.
   long refused() const;
+
+  /// What was wrong with the last of them; empty if there was none.
+  std::string refusal() const;
+
+  /// Transforms of frames that are not followed and had no room.
+  long notKept() const;
 
  private:
   struct Edge {  // from a frame to its parent
@@ -85,6 +104,8 @@ class TfHistory {
     std::deque<TfPose> behind;   // the last ones, as long as all of them are far behind the newest
     long version = 0;
     const char* change = "";
+    bool is_followed = true;
+    ros::Time heard;  // the clock at the last transform
 
     /// What the frame was before a change was known up to dropped_until, or the change was said to be earlier.
     ros::Time first() const { return is_static ? dropped_until : std::max(records.front().stamp, dropped_until); }
@@ -94,6 +115,13 @@ class TfHistory {
   using Way = std::vector<Edges::const_pointer>;
 
   void addOne(const geometry_msgs::TransformStamped& transform, bool is_static);
+  void refuse(const std::string& why);
+  std::string problemOf(const geometry_msgs::TransformStamped& transform, bool is_static) const;
+  void setParent(Edge& edge, const std::string& parent, bool is_static);
+  void followAbove(const std::string& parent);
+  void setFollowed(Edge& edge, bool is_followed);
+  void forgetSilentOthers();
+  void drop(Edge& edge) const;
   void record(const std::string& child, Edge& edge, const TfPose& pose);
   void recordBehind(const std::string& child, Edge& edge, const TfPose& pose);
   void recordBefore(const std::string& child, Edge& edge, const TfPose& pose, bool is_same_parent);
@@ -108,13 +136,19 @@ class TfHistory {
   Way edgesUpwards(const std::string& frame) const;
 
   const std::string fixed_frame_;
+  const ros::Duration keep_;
   mutable std::mutex mutex_;
   Edges edges_;
+  FollowedFrames followed_;
+  std::size_t others_[2] = {0, 0};  // edges that are not followed: moving, static
   ros::Time clock_;
+  ros::Time swept_;  // when silent frames were forgotten
   bool jumped_ = false;
   long versions_ = 0;
   long out_of_order_ = 0;
   long refused_ = 0;
+  long not_kept_ = 0;
+  std::string refusal_;
 };
 
 }  // namespace sdf_ccd

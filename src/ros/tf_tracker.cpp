@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
 
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);  // as of TfHistory
+const ros::Duration kJumpBack(1.0);         // as of TfHistory
+constexpr double kBackPerTime = 4.0;        // time checked again, over the time itself
+constexpr std::size_t kMostPoses = 300000;  // of all bodies in a cycle: about 100 MB with what is made of them
 
 std::string seconds(const ros::Duration& duration) {
   char text[32];
@@ -59,6 +62,8 @@ void TfTracker::reset() {
   changed_.assign(bodies_.size(), ros::Time());
   late_.clear();
   too_late_.assign(bodies_.size(), "");
+  time_to_go_back_ = kBackPerTime * options_.max_cycle;
+  goes_back_ = 0.0;
 }
 
 TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
@@ -80,6 +85,9 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   waits_since_ = now;
   if (is_first) return Step::kWaiting;
 
+  time_to_go_back_ += kBackPerTime * (end - last_end_).toSec() - goes_back_;
+  time_to_go_back_ = std::min(time_to_go_back_, kBackPerTime * options_.max_cycle);
+  goes_back_ = 0.0;
   cycle.start = last_end_;
   cycle.end = last_end_ = end;
   cycle.late.swap(late_);
@@ -147,9 +155,18 @@ void TfTracker::goBackToLate() {
       const ros::Duration age = last_end_ - since;
       if (age > ros::Duration(options_.max_cycle)) {
         too_late_[body] = "transforms of " + late.frame + " came late, of " + seconds(age) + " before the cycle";
+      } else if (!mayGoBack(age)) {
+        too_late_[body] = "transforms of " + late.frame + " come late again and again, now by " + seconds(age);
       }
     }
   }
+}
+
+/// All bodies that go back in a cycle share the time that is checked again.
+bool TfTracker::mayGoBack(const ros::Duration& age) {
+  if (age.toSec() > time_to_go_back_) return false;
+  goes_back_ = std::max(goes_back_, age.toSec());
+  return true;
 }
 
 /// The first cycle begins where all bodies are known, or, after some time, all but those that are missing.
@@ -283,13 +300,19 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
 void TfTracker::sample(const TimePart& part, TrackedCycle& cycle) {
   CycleMotion& motion = cycle.motion;
   const std::vector<double> times = sampleTimes(part, cycle);
+  const std::size_t most = kMostPoses / (bodies_.size() + 1);
+  if (cycle.samples.size() + times.size() > most) {
+    throw std::runtime_error("more transforms in one cycle than can be followed: " + std::to_string(times.size()));
+  }
+  MotionSampling sampling = options_.sampling;
+  sampling.max_samples = most - std::min(most, motion.times.size());
   pose_times_.assign(bodies_.size(), std::numeric_limits<double>::quiet_NaN());
   poses_.assign(bodies_.size(), Isometry3d::Identity());
   sampled_.missing.swap(motion.missing);
   const MotionSource source = {
       [&](double time, std::vector<Isometry3d>& X_WB) { posesDuring(time, X_WB, sampled_.missing); },
       [&](double start, double end, std::vector<double>& jerk) { boundJerks(start, end, jerk); }};
-  sampleMotion(times, source, balls_, options_.sampling, sampled_);
+  sampleMotion(times, source, balls_, sampling, sampled_);
   sampled_.missing.swap(motion.missing);
   cycle.samples.insert(cycle.samples.end(), times.begin(), times.end());
   motion.times.insert(motion.times.end(), sampled_.times.begin(), sampled_.times.end());

@@ -46,7 +46,11 @@ struct TrackedCycle {
 ///
 /// A frame that changes otherwise than by moving (from static to moving, to another parent) was somewhere unknown
 /// meanwhile: its bodies are missing for the cycle that sees it. Where transforms come late behind newer ones, the
-/// frame's pairs go back to there, if that is not longer ago than max_cycle; else its bodies are missing since then.
+/// frame's pairs go back to there, if that is not longer ago than max_cycle, and has not been for more than four times
+/// the time of late; else its bodies are missing since then.
+///
+/// A cycle with more transforms than some 300,000 poses of bodies is checked nowhere, so that no node can make cycles
+/// last for ever, or take all memory.
 class TfTracker {
  public:
   /// @param pairs  of bodies, by index.
@@ -73,6 +77,7 @@ class TfTracker {
   void look(const ros::Time& now, std::vector<std::string>& missing);
   bool hasChanged(std::size_t body) const;
   void goBackToLate();
+  bool mayGoBack(const ros::Duration& age);
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
   ros::Time foremostEnd(const std::vector<std::string>& missing) const;
   void advancePairs(TrackedCycle& cycle);
@@ -109,6 +114,8 @@ class TfTracker {
   std::vector<ros::Time> changed_;     // per body: its way was another up to here, or farther
   std::vector<LateTransforms> late_;   // what contradicts cycles
   std::vector<std::string> too_late_;  // per body: why that cannot be checked again; empty if it can
+  double time_to_go_back_ = 0.0;       // that is left to check again [s]
+  double goes_back_ = 0.0;             // in the next cycle [s]
 
   // Of one part of the cycle: what the pairs in it need of each body's motion, and that motion.
   std::vector<TimePart> needed_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
@@ -25,6 +26,7 @@ class Sampler {
   /// Adds the samples after the last one, up to and with `end`. Samples are kept in order, so the first half goes
   /// first.
   void addUpTo(double end, const std::vector<Isometry3d>& X_end, int halvings_left) {
+    cancel_.check();
     const double start = motion_.times.back(), middle = 0.5 * (start + end);
     std::vector<Isometry3d> X_middle;
     source_.poses_at(middle, X_middle);
@@ -37,7 +39,8 @@ class Sampler {
       deviation_[body] = deviation(body, X_middle[body], X_end[body]);
       worst = std::max(worst, deviation_[body]);
     }
-    if (worst > sampling_.tolerance && halvings_left > 0 && start < middle && middle < end) {
+    const bool has_room = motion_.times.size() < sampling_.max_samples;
+    if (worst > sampling_.tolerance && halvings_left > 0 && has_room && start < middle && middle < end) {
       addUpTo(middle, X_middle, halvings_left - 1);
       addUpTo(end, X_end, halvings_left - 1);
       return;
@@ -68,6 +71,7 @@ class Sampler {
   const std::vector<BoundingBall>& balls_;
   const MotionSampling& sampling_;
   CycleMotion& motion_;
+  const CancelPoint cancel_;
   std::vector<double> jerk_;
   std::vector<double> deviation_;
 };

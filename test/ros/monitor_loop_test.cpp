@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "ros/cycle_messages.h"
 #include "ros/described_world.h"
 #include "ros/tf_messages.h"
@@ -42,10 +44,11 @@ class MonitorLoopTest : public ::testing::Test {
  protected:
   MonitorLoopTest() { begin(); }
 
-  void begin(double max_latency = 0.5) {
+  void begin(double max_latency = 0.5, double max_cycle = 1.0) {
     MonitorParameters parameters;
     parameters.monitor = test::soft();
     parameters.tf.max_latency = max_latency;
+    parameters.tf.max_cycle = max_cycle;
     loop_ = std::make_unique<MonitorLoop>(scene(), test::describedWorld(), parameters);
     said_.clear();
   }
@@ -298,6 +301,47 @@ TEST(MonitorLoop, TwoArmsThatMeetBetweenTheirTransformsAreNotClear) {
     EXPECT_NEAR(loop.result().pairs[0].deepest.depth, kDepth, loop.result().error_bound);
   }
   EXPECT_EQ(cycles, 1);
+}
+
+TEST_F(MonitorLoopTest, GapsUpToMaxCycleAreCheckedHoweverLongThatIs) {
+  begin(30.0, 30.0);
+  const auto both = [&](double time, double x) {
+    sendHand(time, x);
+    sendFoot(time);
+    step(time);
+  };
+  for (const double time : {100.0, 100.1, 100.2}) both(time, 0.0);
+  said_.clear();
+  both(120.0, 1.0);  // through the plate
+  both(120.1, 1.0);
+  ASSERT_FALSE(said_.empty());
+  const PairContact* pair = pairOf(said_.front(), "hand", "plate");
+  ASSERT_NE(pair, nullptr);
+  EXPECT_EQ(pair->verdict, PairContact::CONTACT) << pair->reason;
+}
+
+TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
+  begin();
+  double now = 100.0;
+  for (int i = 0; i < 90; ++i) {
+    for (int k = 0; k < 33; ++k, now += 1e-3) {
+      sendHand(now, 0.01 * (k % 2));
+      sendHand(now - 0.9, 0.3);
+      sendFoot(now);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    step(now);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1)) << i;
+  }
+  EXPECT_GT(said_.size(), 80u);
+  said_.clear();
+  for (int i = 0; i < 60; ++i, now += kPeriod) {
+    sendHand(now, 0.0);
+    sendFoot(now);
+    step(now);
+  }
+  EXPECT_EQ(last().verdict, ContactArray::CLEAR);
+  EXPECT_LT(verdicts(ContactArray::NOT_CHECKED), 30);
 }
 
 }  // namespace

@@ -223,5 +223,94 @@ TEST(TfHistory, StampsBeyondAllClocksAndEmptyNamesAreRefused) {
   EXPECT_NE(history.span("hand").problem, "");
 }
 
+TEST(TfHistory, FramesThatNobodyWantsAreDroppedBeyondAThousand) {
+  TfHistory history("world", {{"world", "hand"}, 10.0});
+  history.watchClock(ros::Time(100.0));
+  for (int i = 0; i < 20000; ++i) {
+    history.add(message({stampedTransform("world", "foreign" + std::to_string(i), 100.0, 0.0)}), false);
+  }
+  EXPECT_EQ(history.notKept(), 19000);
+  history.add(message({stampedTransform("world", "hand", 100.0, 1.0)}), false);
+  EXPECT_NEAR(xOf(history, "hand", 100.0), 1.0, 1e-12);
+  EXPECT_EQ(problemOf(history, "foreign3", 100.0), "");
+  history.watchClock(ros::Time(120.0));  // they have fallen silent
+  history.add(message({stampedTransform("world", "camera", 120.0, 2.0)}), false);
+  EXPECT_NEAR(xOf(history, "camera", 120.0), 2.0, 1e-12);
+  EXPECT_NE(problemOf(history, "foreign3", 100.0), "");
+}
+
+TEST(TfHistory, WhatIsAboveAWantedFrameIsFollowedInWhateverOrderItComes) {
+  TfHistory history("map", {{"map", "hand"}, 10.0});
+  history.add(message({stampedTransform("map", "odom", 0.0, 1.0)}), true);
+  for (int i = 0; i < 20000; ++i) {
+    history.add(message({stampedTransform("map", "foreign" + std::to_string(i), 100.0, 0.0)}), false);
+  }
+  for (const double stamp : {100.0, 100.1}) {
+    history.add(message({stampedTransform("base", "hand", stamp, 3.0), stampedTransform("odom", "base", stamp, 2.0)}),
+                false);
+  }
+  EXPECT_NEAR(xOf(history, "hand", 100.1), 6.0, 1e-12);
+}
+
+TEST(TfHistory, PublishersThatDisagreeAboutParentsLeaveNothingBehind) {
+  TfHistory history("world", {{"world", "hand"}, 10.0});
+  for (int i = 0; i < 20000; ++i) {
+    const double stamp = 100.0 + 1e-3 * i;
+    const std::string other = "elsewhere" + std::to_string(i);
+    history.add(message({stampedTransform("world", other, stamp, 0.0), stampedTransform(other, "hand", stamp, 0.0)}),
+                false);
+  }
+  EXPECT_GT(history.notKept(), 15000);
+  history.add(message({stampedTransform("world", "hand", 120.0, 1.0), stampedTransform("world", "hand", 120.1, 1.0)}),
+              false);
+  EXPECT_NEAR(xOf(history, "hand", 120.1), 1.0, 1e-12);
+}
+
+TEST(TfHistory, AChainWithoutEndIsNoWay) {
+  TfHistory history("world");
+  for (int i = 0; i < 100000; ++i) {
+    history.add(message({stampedTransform("f" + std::to_string(i + 1), "f" + std::to_string(i), 1.0, 0.0)}), false);
+  }
+  EXPECT_EQ(problemOf(history, "f0", 1.0), "the transforms above f0 or world are a loop, or more than 256");
+}
+
+TEST(TfHistory, RecordsAreBoundedHoweverFastTheyCome) {
+  TfHistory history("world");
+  for (int i = 0; i < 60000; ++i) {
+    history.add(message({stampedTransform("world", "hand", 100.0 + 1e-4 * i, 1e-3 * i)}), false);
+  }
+  EXPECT_LE(recordedTimes(history, "hand", 100.0, 106.0).size(), 20000u);
+  EXPECT_NE(problemOf(history, "hand", 101.0), "");  // dropped, and so not known
+  EXPECT_EQ(problemOf(history, "hand", 105.9), "");
+}
+
+TEST(TfHistory, WhatComesFarBehindManyOthersEndsWhatIsKnownBeforeIt) {
+  TfHistory history("world");
+  for (int i = 0; i < 5000; ++i) {
+    history.add(message({stampedTransform("world", "hand", 100.0 + 2e-4 * i, 1e-3 * i)}), false);
+  }
+  history.add(message({stampedTransform("world", "hand", 100.2001, 50.0)}), false);
+  EXPECT_NE(problemOf(history, "hand", 100.2), "");
+  EXPECT_EQ(problemOf(history, "hand", 100.3), "");
+  EXPECT_EQ(history.takeNews({"hand"})[0].late.size(), 1u);
+}
+
+TEST(TfHistory, StampsFarAheadOfTheClockAndLongNamesAreRefused) {
+  TfHistory history("world");
+  history.watchClock(ros::Time(100.0));
+  history.add(message({stampedTransform("world", "hand", 100.0, 1.0), stampedTransform("world", "hand", 105.0, 1.0),
+                       stampedTransform("world", "hand", 110.1, 1.0)}),
+              false);
+  EXPECT_EQ(history.refused(), 1);
+  EXPECT_EQ(history.refusal(), "hand is stamped 110.100 s, when it is 100.000 s");
+  history.add(message({stampedTransform("world", std::string(1000000, 'x'), 100.0, 1.0)}), false);
+  EXPECT_EQ(history.refusal(), "a frame's name has 1000000 characters");
+  geometry_msgs::TransformStamped last = stampedTransform("world", "fixed", 0.0, 1.0);
+  last.header.stamp.sec = last.header.stamp.nsec = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_NO_THROW(history.add(message({last}), true));
+  EXPECT_NO_THROW(history.add(message({last}), false));
+  EXPECT_NEAR(xOf(history, "fixed", 100.0), 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace sdf_ccd

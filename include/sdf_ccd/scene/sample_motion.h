@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "sdf_ccd/motion/screw_motion.h"
@@ -24,6 +26,7 @@ struct MotionSource {
 struct MotionSampling {
   double tolerance = 1e-4;  ///< deviation aimed at [m]
   int max_halvings = 5;     ///< of the time between two waypoints; what deviation is left then is reported
+  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< beyond so many no time is halved any more
 };
 
 /// Samples a motion that is not of constant twist between its waypoints (tf2 turns each joint evenly, a trajectory
