@@ -1,5 +1,7 @@
 #include "ros/collision_monitor_nodelet.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -9,6 +11,7 @@
 
 #include "ros/cycle_messages.h"
 #include "ros/world_markers.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/scene/over_budget.h"
 
 namespace sdf_ccd {
@@ -18,12 +21,14 @@ constexpr double kIdlePeriod = 1.0;     // [s]
 constexpr double kLogPeriod = 3.0;      // of building's progress [s]
 constexpr double kLongestPeriod = 1e6;  // longer ones overflow clocks [s]
 constexpr double kLateShown = 3.0;      // a contradiction by late transforms, in the diagnostics [s]
-constexpr double kSending = 0.1;        // until the last messages have left [s]
+constexpr double kSending = 0.05;       // until the last messages have left [s]
 constexpr double kPatience = 2.0;       // until it is warned of what is not checked [s]
 constexpr double kWarnPeriod = 10.0;    // of such warnings [s]
 
-/// Thrown out of building when the nodelet is unloaded meanwhile.
-struct Stopped {};
+/// What a thread has freed, glibc keeps for the heap of that thread: of threads that build and end, for nothing.
+void returnFreedMemory() {
+  malloc_trim(0);
+}
 
 }  // namespace
 
@@ -38,8 +43,14 @@ CollisionMonitor::~CollisionMonitor() {
     publishUnchecked("the monitor has ended");
     ros::WallDuration(kSending).sleep();
   }
+  service_queue_.disable();  // the spinner wakes up at once
   if (service_spinner_) service_spinner_->stop();
-  if (tf_spinner_) tf_spinner_->stop();
+  queries_.reset();
+  outputs_.reset();
+  loop_.reset();
+  scene_.reset();
+  described_ = {};
+  returnFreedMemory();
 }
 
 void CollisionMonitor::onInit() {
@@ -58,15 +69,27 @@ void CollisionMonitor::serve() {
   services_ = {node.advertiseService("query_motion", &CollisionMonitor::queryMotion, this),
                node.advertiseService("query_points", &CollisionMonitor::queryPoints, this),
                node.advertiseService("reset", &CollisionMonitor::reset, this)};
-  service_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &service_queue_);
+  // One for each query that is answered, and one that says that there are too many.
+  service_spinner_ = std::make_unique<ros::AsyncSpinner>(QueryLimits().queries + 1, &service_queue_);
   service_spinner_->start();
 }
 
 void CollisionMonitor::run() {
+  const CancelScope scope(stop_);
+  try {
+    setUpThenCycle();
+  } catch (const Cancelled&) {
+    // The nodelet is being unloaded.
+  }
+  // Threads end in the reverse order of their beginning: so each gets the heap of its predecessor when the nodelet is
+  // loaded again, and what has been freed there is used again.
+  tf_queue_.disable();
+  if (tf_spinner_) tf_spinner_->stop();
+}
+
+void CollisionMonitor::setUpThenCycle() {
   try {
     setUp();
-  } catch (const Stopped&) {
-    return;
   } catch (const std::exception& error) {
     NODELET_FATAL("Nothing is checked: %s", error.what());
     health_.failure = error.what();
@@ -98,7 +121,7 @@ void CollisionMonitor::readWhenThere() {
       NODELET_WARN_ONCE("Waiting: %s", missing.what());
       idle(std::string("waiting: ") + missing.what());
     }
-    if (!waitFor(kIdlePeriod)) throw Stopped();
+    if (!waitFor(kIdlePeriod)) throw Cancelled();
   }
 }
 
@@ -114,6 +137,7 @@ void CollisionMonitor::setUp() {
   loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, parameters_.markers);
   listen();
+  returnFreedMemory();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
   health_.building.clear();
   forget("waiting for transforms");
@@ -125,12 +149,12 @@ void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
   NODELET_INFO("Expected: %s", summary(affordableCost(described_, parameters_.scene)).c_str());
   scene_ = buildDescribed(described_, parameters_.scene, [this](const std::string& body, double share) {
-    if (!waitFor(0.0)) throw Stopped();
+    checkCancelled();
     const std::string progress = "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
     idle(progress);
     logNowAndThen(progress);
   });
-  if (!waitFor(0.0)) throw Stopped();
+  checkCancelled();
   health_.warnings = described_.warnings;
   health_.bad_bodies = failedBodies(*scene_);
   for (const std::string& body : health_.bad_bodies) NODELET_ERROR("Not checked: %s", body.c_str());
@@ -168,7 +192,7 @@ void CollisionMonitor::listen() {
   node.setCallbackQueue(&tf_queue_);
   const auto listenTo = [&](const std::string& topic, bool is_static) {
     const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> add =
-        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { loop_->history().add(*message, is_static); };
+        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { take(*message, is_static); };
     return node.subscribe<tf2_msgs::TFMessage>(topic, 1000, add, ros::VoidConstPtr(),
                                                ros::TransportHints().tcpNoDelay());
   };
@@ -181,11 +205,39 @@ void CollisionMonitor::listen() {
   tf_spinner_->start();
 }
 
+/// Whatever a message says, it must not end the manager and its other nodelets.
+void CollisionMonitor::take(const tf2_msgs::TFMessage& message, bool is_static) {
+  TfHistory& history = loop_->history();
+  try {
+    history.watchClock(ros::Time::now());
+    history.add(message, is_static);
+  } catch (const std::exception& error) {
+    NODELET_WARN_THROTTLE(10.0, "Transforms are dropped: %s", error.what());
+  }
+}
+
+/// Says in the log, now and then, what is wrong with transforms that are dropped.
+void CollisionMonitor::sayWhatIsDropped() {
+  const TfHistory& history = loop_->history();
+  const long refused = history.refused(), not_kept = history.notKept();
+  if (refused > health_.refused) {
+    NODELET_WARN_THROTTLE(10.0, "%ld transforms are refused so far, the last as %s", refused,
+                          history.refusal().c_str());
+  }
+  if (not_kept > health_.not_kept) {
+    NODELET_WARN_THROTTLE(10.0, "There are more frames than are kept: %ld transforms that no body needs are dropped",
+                          not_kept);
+  }
+  health_.refused = refused;
+  health_.not_kept = not_kept;
+}
+
 void CollisionMonitor::cycle() {
   if (reset_asked_.exchange(false)) {
     loop_->reset();
     forget("reset");
   }
+  sayWhatIsDropped();
   switch (loop_->step(ros::Time::now(), outputs_->request(parameters_.max_points))) {
     case TfTracker::Step::kWaiting:
       if (!isSilent()) return diagnostics_->update(health_);
@@ -228,7 +280,6 @@ void CollisionMonitor::publishState() {
   health_.pairs_delayed = loop_->result().delayed;
   health_.contradicted = contradicted();
   health_.out_of_order = loop_->history().outOfOrder();
-  health_.refused = loop_->history().refused();
   health_.bad_joints = joint_watch_->lines("joint_states");
   warnWhileUnchecked(!health_.missing.empty());
   state_publisher_.publish(state);
@@ -298,14 +349,26 @@ bool CollisionMonitor::isReady(std::string& why_not) {
 }
 
 bool CollisionMonitor::queryMotion(QueryMotion::Request& request, QueryMotion::Response& response) {
-  response.verdict = QueryMotion::Response::NOT_CHECKED;
-  if (isReady(response.message)) queries_->answer(request, response);
+  answer(request, response);
+  if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
   return true;
 }
 
 bool CollisionMonitor::queryPoints(QueryPoints::Request& request, QueryPoints::Response& response) {
-  if (isReady(response.message)) queries_->answer(request, response);
+  answer(request, response);
   return true;
+}
+
+template <class Request, class Response>
+void CollisionMonitor::answer(const Request& request, Response& response) {
+  if (!isReady(response.message)) return;
+  const CancelScope scope(stop_);
+  try {
+    queries_->answer(request, response);
+  } catch (const Cancelled&) {
+    response = {};
+    response.message = "the monitor ends";
+  }
 }
 
 bool CollisionMonitor::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {

@@ -40,7 +40,8 @@ namespace sdf_ccd {
 ///   query_points  sdf_ccd/QueryPoints
 ///   reset         std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
 ///
-/// Building and cycles have a thread of their own; transforms and services have a callback queue and a thread each.
+/// Building and cycles have a thread of their own; transforms have a callback queue and a thread, services a queue and
+/// a thread per query that is answered at a time. Unloading ends all of them within 0.2 s, whatever they do.
 class CollisionMonitor : public nodelet::Nodelet {
  public:
   ~CollisionMonitor() override;
@@ -50,12 +51,15 @@ class CollisionMonitor : public nodelet::Nodelet {
   void serve();
 
   void run();
+  void setUpThenCycle();
   bool waitFor(double seconds);  ///< false, and at once, if the nodelet is being unloaded
   void readWhenThere();
   void setUp();
   void buildFields();
   void logNowAndThen(const std::string& progress);
   void listen();
+  void take(const tf2_msgs::TFMessage& message, bool is_static);
+  void sayWhatIsDropped();
   void cycle();
   bool isSilent() const;
   void idle(const std::string& reason);
@@ -69,6 +73,8 @@ class CollisionMonitor : public nodelet::Nodelet {
   bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
   bool isReady(std::string& why_not);
+  template <class Request, class Response>
+  void answer(const Request& request, Response& response);
 
   // Set while setting up, in this order; then only the cycles' thread changes them.
   MonitorParameters parameters_;
@@ -104,7 +110,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::atomic<bool> reset_asked_{false};
   std::mutex stop_mutex_;
   std::condition_variable stop_asked_;
-  bool stop_ = false;  // guarded by stop_mutex_
+  std::atomic<bool> stop_{false};  // set under stop_mutex_, for stop_asked_
   std::thread thread_;
 };
 

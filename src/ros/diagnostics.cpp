@@ -70,6 +70,7 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
   status.add("pairs delayed", health_.pairs_delayed);
   status.add("out of order", health_.out_of_order);
   status.add("refused", health_.refused);
+  status.add("not kept", health_.not_kept);
 }
 
 void Diagnostics::bodies(DiagnosticStatusWrapper& status) const {

@@ -30,6 +30,7 @@ struct MonitorHealth {
   long out_of_order = 0;                ///< transforms that came behind newer ones
   long refused = 0;                     ///< transforms that say nothing
   std::vector<std::string> bad_joints;  ///< whose positions in joint_states are not finite, and how many
+  long not_kept = 0;                    ///< transforms of frames that no body needs, and there is no room for
 };
 
 /// Publishes:

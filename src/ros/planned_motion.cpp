@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
@@ -132,6 +133,11 @@ std::string notesOf(const PlannedJoints& plan) {
   return notes;
 }
 
+void startAtZero(CycleMotion& motion) {
+  const double start = motion.times.front();
+  for (double& time : motion.times) time -= start;
+}
+
 PlannedMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
   const CurrentPoses& now = planned.now;
   const PlannedJoints plan = completePlan(planned.robot, namedTrajectory(request, planned), now.joints,
@@ -141,7 +147,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
   result.assumed = plan.assumed;
   result.notes = notesOf(plan);
   result.unchecked = reachableAlong(planned.robot, plan, planned.unreachable);
-  result.motion.missing = now.missing;
+  std::vector<std::string> missing = now.missing;
   const std::string& root_missing = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
   std::vector<CarriedBody> bodies;
   std::vector<BoundingBall> balls;
@@ -150,10 +156,16 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
     const bool is_carried = carrier.link >= 0;
     balls.push_back(motionBall(planned.scene.bodies[body]));
     bodies.push_back({carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], balls.back()});
-    if (is_carried) result.motion.missing[body] = root_missing.empty() ? plan.missing[carrier.link] : root_missing;
+    if (is_carried) missing[body] = root_missing.empty() ? plan.missing[carrier.link] : root_missing;
   }
-  TrajectoryMotion motion(planned.robot, plan.trajectory, bodies);
-  sampleMotion(motion.knots(), motion.source(), balls, planned.sampling, result.motion);
+  const auto along = std::make_shared<TrajectoryMotion>(planned.robot, plan.trajectory, bodies);
+  result.knots = along->knots();
+  result.piece = [along, knots = result.knots, missing, balls, sampling = planned.sampling](
+                     std::size_t first, std::size_t last, CycleMotion& motion) {
+    motion.missing = missing;
+    sampleMotion({knots.begin() + first, knots.begin() + last + 1}, along->source(), balls, sampling, motion);
+    startAtZero(motion);
+  };
   return result;
 }
 
@@ -181,8 +193,9 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
   const CurrentPoses& now = planned.now;
   PlannedMotion result;
   result.samples = timesOf(request.poses, request.poses.front().time_from_start, "poses");
-  CycleMotion& motion = result.motion;
-  motion.times = result.samples;
+  const auto whole = std::make_shared<CycleMotion>();
+  CycleMotion& motion = *whole;
+  motion.times = result.knots = result.samples;
   motion.missing = now.missing;
   for (const Isometry3d& X_WB : now.X_WB) motion.X_WB.emplace_back(motion.times.size(), X_WB);
   const std::vector<std::string>& links = planned.robot.links();
@@ -204,6 +217,16 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
     is_moved[body] = true;
   }
   result.unchecked = reachableAlong(motion, is_moved, planned.unreachable);
+  result.piece = [whole](std::size_t first, std::size_t last, CycleMotion& piece) {
+    piece.missing = whole->missing;
+    piece.times.assign(whole->times.begin() + first, whole->times.begin() + last + 1);
+    piece.X_WB.resize(whole->X_WB.size());
+    for (std::size_t body = 0; body < piece.X_WB.size(); ++body) {
+      const std::vector<Isometry3d>& poses = whole->X_WB[body];
+      piece.X_WB[body].assign(poses.begin() + first, poses.begin() + last + 1);
+    }
+    startAtZero(piece);
+  };
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,13 @@ struct PlannedScene {
   MotionSampling sampling;
 };
 
+/// A motion that is made piece by piece: all samples of a long one would take gigabytes.
 struct PlannedMotion {
-  CycleMotion motion;
+  std::vector<double> knots;  ///< where it may be cut, times from the first point on [s]
+
+  /// Sets the motion of all bodies from one of the knots to a later one, times counting from the first of them.
+  std::function<void(std::size_t first, std::size_t last, CycleMotion& motion)> piece;
+
   std::vector<double> samples;           ///< times of the request's points [s], from the first
   std::vector<UncheckedPair> unchecked;  ///< left out of the scene, though this motion may bring them together
   std::vector<AssumedJoint> assumed;
@@ -59,6 +65,7 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
 
 /// The motion of all bodies along the request's joint trajectory or link poses. A body whose frame is not a link's but
 /// hangs below one moves with it.
+/// @param scene  must outlive the motion.
 /// @throws std::invalid_argument, saying what is wrong with the request.
 PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& scene);
 

@@ -1,69 +1,153 @@
 #include "ros/queries.h"
 
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <thread>
 
 #include "ros/conversions.h"
+#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/geometry/number_text.h"
+#include "sdf_ccd/scene/join_results.h"
 
 namespace sdf_ccd {
 namespace {
 
-void refuse(const std::string& why, QueryPoints::Response& response) {
-  response = {};
-  response.message = why;
+constexpr int kNiceness = 5;                // of answers: cycles have 0
+constexpr std::size_t kKnotsPerPiece = 16;  // some milliseconds
+constexpr std::size_t kPointsPerPiece = 500;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument(what);
+}
+
+void lowerPriority() {
+  thread_local bool is_low = false;
+  if (!is_low) setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread alone, on Linux
+  is_low = true;
+}
+
+void requireAtMost(std::size_t most, std::size_t given, const std::string& what) {
+  if (given <= most) return;
+  refuse(std::to_string(given) + " " + what + ", at most " + std::to_string(most) + " are answered at a time");
 }
 
 }  // namespace
 
+class Queries::Piece {
+ public:
+  /// @param spent  by the answer so far [s].
+  /// @throws Cancelled, and std::runtime_error if that is too long.
+  Piece(Queries& queries, double& spent) : turn_(queries.turns_), spent_(spent), start_(Clock::now()) {
+    checkCancelled();
+    if (spent <= queries.limits_.seconds) return;
+    throw std::runtime_error("this takes more than " + numberText(queries.limits_.seconds) +
+                             " s of computing: ask for it in parts");
+  }
+  ~Piece() { spent_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  WorkTurns::Turn turn_;
+  double& spent_;
+  Clock::time_point start_;
+};
+
 Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& described,
-                 const MonitorParameters& parameters, const TfHistory& history, const TfTracker& tracker)
+                 const MonitorParameters& parameters, const TfHistory& history, const TfTracker& tracker,
+                 const QueryLimits& limits)
     : scene_(scene),
       robot_(described.robot),
       tf_prefix_(described.tf_prefix),
       base_joint_(described.base_joint),
       unreachable_(described.unreachable),
       sampling_(parameters.tf.sampling),
+      options_(parameters.monitor),
       max_points_(parameters.max_points),
       history_(history),
       tracker_(tracker),
-      monitor_(scene, parameters.monitor) {}
+      limits_(limits),
+      turns_(limits.queries),
+      arena_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)) {}
 
 void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
-  response.verdict = QueryMotion::Response::NOT_CHECKED;
+  lowerPriority();
   try {
-    CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, *scene_);
-    tracker_.posesAt(ros::Time(), now.X_WB, now.missing);
-    const std::string frame = withoutLeadingSlash(request.multi_dof_trajectory.header.frame_id);
-    history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
-    const PlannedMotion planned =
-        toPlannedMotion(request, {*scene_, *robot_, base_joint_, unreachable_, now, sampling_});
-    monitor_.reset();
-    CycleRequest wanted;
-    wanted.max_points = max_points_;
-    CycleResult result = monitor_.run(planned.motion, wanted);
-    response.success = true;
-    response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
-    addUnchecked(planned.unchecked, result);
-    for (const AssumedJoint& joint : planned.assumed) {
-      response.assumed_joints.push_back(joint.name);
-      response.assumed_positions.push_back(joint.position);
-    }
-    response.verdict = static_cast<std::uint8_t>(result.verdict);
-    response.error_bound = result.error_bound;
-    response.pairs = toPairContacts(result, {*scene_, planned.motion, planned.samples, ros::Time()});
-    response.checked = result.checked + result.skipped;
-    response.not_checked = result.not_checked;
+    const WorkTurns::Caller caller(turns_);
+    checkMotion(request, response);
   } catch (const std::exception& error) {
-    response.success = false;
+    response = {};
+    response.verdict = QueryMotion::Response::NOT_CHECKED;
     response.message = error.what();
   }
 }
 
-void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response& response) const {
+PlannedMotion Queries::plan(const QueryMotion::Request& request) const {
+  CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, *scene_);
+  tracker_.posesAt(ros::Time(), now.X_WB, now.missing);
+  const std::string frame = withoutLeadingSlash(request.multi_dof_trajectory.header.frame_id);
+  history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
+  return toPlannedMotion(request, {*scene_, *robot_, base_joint_, unreachable_, now, sampling_});
+}
+
+void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response) {
+  requireAtMost(limits_.waypoints,
+                request.trajectory.points.size() + request.multi_dof_trajectory.points.size() + request.poses.size(),
+                "waypoints");
+  double spent = 0.0;
+  PlannedMotion planned;
+  {
+    const Piece piece(*this, spent);
+    planned = plan(request);
+  }
+  Monitor monitor(scene_, options_);
+  CycleRequest wanted;
+  wanted.max_points = max_points_;
+  ResultJoiner joiner(max_points_);
+  CycleMotion motion;
+  for (std::size_t first = 0, last = 0; first + 1 < planned.knots.size(); first = last) {
+    last = std::min(first + kKnotsPerPiece, planned.knots.size() - 1);
+    const Piece piece(*this, spent);
+    planned.piece(first, last, motion);
+    arena_.execute([&] { joiner.add(motion, monitor.run(motion, wanted)); });
+  }
+  CycleResult result = joiner.result();
+  response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
+  addUnchecked(planned.unchecked, result);
+  for (const AssumedJoint& joint : planned.assumed) {
+    response.assumed_joints.push_back(joint.name);
+    response.assumed_positions.push_back(joint.position);
+  }
+  response.verdict = static_cast<std::uint8_t>(result.verdict);
+  response.error_bound = result.error_bound;
+  response.pairs = toPairContacts(result, {*scene_, joiner.motion(), planned.samples, ros::Time()});
+  response.checked = result.checked + result.skipped;
+  response.not_checked = result.not_checked;
+  response.success = true;
+}
+
+void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response& response) {
+  lowerPriority();
+  try {
+    const WorkTurns::Caller caller(turns_);
+    findDistances(request, response);
+    response.success = true;
+  } catch (const std::exception& error) {
+    response = {};
+    response.message = error.what();
+  }
+}
+
+void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Response& response) {
+  requireAtMost(limits_.points, request.points.size(), "points");
   const std::string frame =
       request.header.frame_id.empty() ? history_.fixedFrame() : withoutLeadingSlash(request.header.frame_id);
   Isometry3d X_WQ;
-  response.success = history_.lookup(frame, request.header.stamp, X_WQ, response.message);
-  if (!response.success) return;
+  std::string problem;
+  if (!history_.lookup(frame, request.header.stamp, X_WQ, problem)) refuse(problem);
   std::vector<Isometry3d> X_WB;
   std::vector<std::string> missing;
   tracker_.posesAt(request.header.stamp, X_WB, missing);
@@ -72,20 +156,28 @@ void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response&
     if (!description.failure.empty()) {
       response.message += "not counted: " + description.failure + "\n";
     } else if (!missing[body].empty()) {
-      return refuse("body " + description.name + ": " + missing[body], response);
+      refuse("body " + description.name + ": " + missing[body]);
     } else if (!description.parts.empty() && !description.warning.empty()) {
       response.message += "body " + description.name + ": " + description.warning + "\n";
     }
   }
-  for (const geometry_msgs::Point& point : request.points) {
-    const Vector3d p_Q = toEigen(point);
-    if (!p_Q.allFinite()) return refuse("a point is not finite", response);
-    const NearestBody nearest = nearestBody(*scene_, X_WB, X_WQ * p_Q);
-    const bool none = nearest.body < 0;
-    response.distances.push_back(none ? std::numeric_limits<double>::infinity() : nearest.distance);
-    response.errors.push_back(nearest.error);
-    response.gradients.push_back(toVector3(X_WQ.linear().transpose() * nearest.gradient_W));
-    response.bodies.push_back(none ? "" : scene_->bodies[nearest.body].name);
+  double spent = 0.0;
+  for (std::size_t first = 0; first < request.points.size(); first += kPointsPerPiece) {
+    const Piece piece(*this, spent);
+    const std::size_t end = std::min(first + kPointsPerPiece, request.points.size());
+    for (std::size_t i = first; i < end; ++i) {
+      const Vector3d p_W = X_WQ * toEigen(request.points[i]);
+      if (!p_W.allFinite()) refuse("point " + std::to_string(i) + " is not finite");
+      if (!(p_W.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
+        refuse("point " + std::to_string(i) + " is more than " + numberText(kFarthestPose) + " m from the origin");
+      }
+      const NearestBody nearest = nearestBody(*scene_, X_WB, p_W);
+      const bool none = nearest.body < 0;
+      response.distances.push_back(none ? std::numeric_limits<double>::infinity() : nearest.distance);
+      response.errors.push_back(nearest.error);
+      response.gradients.push_back(toVector3(X_WQ.linear().transpose() * nearest.gradient_W));
+      response.bodies.push_back(none ? "" : scene_->bodies[nearest.body].name);
+    }
   }
 }
 

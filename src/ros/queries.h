@@ -1,35 +1,61 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
+
+#include <tbb/task_arena.h>
 
 #include "ros/describe_scene.h"
 #include "ros/planned_motion.h"
 #include "ros/tf_tracker.h"
+#include "ros/work_turns.h"
 #include "sdf_ccd/QueryMotion.h"
 #include "sdf_ccd/QueryPoints.h"
 
 namespace sdf_ccd {
 
-/// Answers query_motion and query_points, beside the cycles: it has a monitor of its own. One call at a time.
+/// What one query may ask for, and how many there may be. What is more is refused, in the answer's message.
+struct QueryLimits {
+  std::size_t waypoints = 5000;  ///< of all trajectories of a motion
+  std::size_t points = 20000;
+  double seconds = 2.0;  ///< of computing
+  int queries = 4;       ///< at a time
+};
+
+/// Answers query_motion and query_points, beside the cycles and of lower priority than these, on at most half of the
+/// cores. Several calls at a time take turns. A motion is followed piece by piece, so memory does not grow with its
+/// length.
+///
+/// What a CancelScope of the calling thread asks for ends an answer with Cancelled.
 class Queries {
  public:
   Queries(std::shared_ptr<const Scene> scene, const DescribedScene& described, const MonitorParameters& parameters,
-          const TfHistory& history, const TfTracker& tracker);
+          const TfHistory& history, const TfTracker& tracker, const QueryLimits& limits = {});
 
   void answer(const QueryMotion::Request& request, QueryMotion::Response& response);
-  void answer(const QueryPoints::Request& request, QueryPoints::Response& response) const;
+  void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
 
  private:
+  /// One piece of an answer: takes its turn, and counts the time.
+  class Piece;
+
+  PlannedMotion plan(const QueryMotion::Request& request) const;
+  void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response);
+  void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response);
+
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const RobotModel> robot_;
   std::string tf_prefix_, base_joint_;
   std::vector<UnreachablePair> unreachable_;
   MotionSampling sampling_;
+  MonitorOptions options_;
   int max_points_;
   const TfHistory& history_;
   const TfTracker& tracker_;
-  Monitor monitor_;
+  QueryLimits limits_;
+  WorkTurns turns_;
+  tbb::task_arena arena_;
 };
 
 }  // namespace sdf_ccd

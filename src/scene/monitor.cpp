@@ -1,7 +1,5 @@
 #include "sdf_ccd/scene/monitor.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +7,8 @@
 
 #include "pair_checker.h"
 #include "sdf_ccd/geometry/number_text.h"
+#include "sdf_ccd/geometry/parallel_for.h"
+#include "summarise.h"
 
 namespace sdf_ccd {
 namespace {
@@ -59,21 +59,6 @@ void validate(const CycleMotion& motion, const Scene& scene) {
   }
 }
 
-/// Worse verdicts are larger.
-int severity(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kClear:
-      return 0;
-    case Verdict::kNotChecked:
-      return 1;
-    case Verdict::kUncertain:
-      return 2;
-    case Verdict::kContact:
-      return 3;
-  }
-  return 1;
-}
-
 }  // namespace
 
 struct Monitor::Impl {
@@ -83,32 +68,6 @@ struct Monitor::Impl {
   std::vector<PairChecker> checkers;
   std::unique_ptr<SweptBodies> bodies;
   CycleResult result;
-
-  void summarise() {
-    const auto advanced = [](const PairResult& pair) { return !pair.span.empty(); };
-    const bool any = std::any_of(result.pairs.begin(), result.pairs.end(), advanced);
-    result.verdict = any ? Verdict::kClear : Verdict::kNotChecked;
-    result.error_bound = 0.0;
-    result.error = {};
-    result.checked = result.skipped = result.not_checked = result.delayed = 0;
-    for (const PairResult& pair : result.pairs) {
-      if (pair.span.empty()) {
-        ++result.delayed;
-        continue;
-      }
-      if (severity(pair.verdict) > severity(result.verdict)) result.verdict = pair.verdict;
-      if (pair.verdict == Verdict::kNotChecked) {
-        ++result.not_checked;
-        continue;
-      }
-      ++(pair.skipped ? result.skipped : result.checked);
-      if (pair.error.total() <= result.error_bound) continue;
-      result.error = pair.error;
-      result.error_bound = pair.error.total();
-    }
-    // Of the time that delayed pairs have not been checked over nothing is known.
-    if (result.delayed > 0 && result.verdict == Verdict::kClear) result.verdict = Verdict::kNotChecked;
-  }
 };
 
 Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options) : impl_(new Impl) {
@@ -141,9 +100,9 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].span = motion.spans.empty() ? whole : motion.spans[i];
   impl_->bodies->take(motion, pairs);
   // A pair has its own memory and state, so its result is the same whichever thread it meets.
-  tbb::parallel_for(std::size_t{0}, impl_->checkers.size(),
-                    [&](std::size_t i) { impl_->checkers[i].run(motion, *impl_->bodies, request, pairs[i]); });
-  impl_->summarise();
+  parallelFor(std::size_t{0}, impl_->checkers.size(),
+              [&](std::size_t i) { impl_->checkers[i].run(motion, *impl_->bodies, request, pairs[i]); });
+  summarise(impl_->result);
   impl_->result.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return impl_->result;
 }

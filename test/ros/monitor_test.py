@@ -368,6 +368,25 @@ class MonitorTest(unittest.TestCase):
         self.assertFalse(answer.success)
         self.assertIn('nowhere', answer.message)
 
+    def test_queries_have_limits_that_they_say(self):
+        answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 2501))
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+        self.assertIn('5002 waypoints, at most 5000', answer.message)
+        answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 2500))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CLEAR)
+        answer = self.query_motion(trajectory('slide', [0.0, 1.0] * 50))
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(len(answer.pairs[0].intervals), 99)
+        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0)] * 20001)
+        self.assertFalse(answer.success)
+        self.assertIn('20001 points, at most 20000', answer.message)
+        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(1e300, 0.0, 0.0)])
+        self.assertFalse(answer.success)
+        self.assertEqual(len(answer.distances), 0)
+        self.assertIn('point 1 is more than 1e+08 m', answer.message)
+
     def test_reset(self):
         self.reset()
         self.send(0.0)

@@ -48,7 +48,9 @@ class PlannedMotionTest : public ::testing::Test {
   CycleMotion motion(const QueryMotion::Request& request) {
     planned_ = toPlannedMotion(request, {scene_, robot_, "virtual", unreachable_, now_, MotionSampling()});
     samples_ = planned_.samples;
-    return planned_.motion;
+    CycleMotion motion;
+    planned_.piece(0, planned_.knots.size() - 1, motion);
+    return motion;
   }
 
   std::string refusal(const QueryMotion::Request& request) {

@@ -1,0 +1,47 @@
+#include "summarise.h"
+
+#include <algorithm>
+
+namespace sdf_ccd {
+
+int severity(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kClear:
+      return 0;
+    case Verdict::kNotChecked:
+      return 1;
+    case Verdict::kUncertain:
+      return 2;
+    case Verdict::kContact:
+      return 3;
+  }
+  return 1;
+}
+
+void summarise(CycleResult& result) {
+  const auto advanced = [](const PairResult& pair) { return !pair.span.empty(); };
+  const bool any = std::any_of(result.pairs.begin(), result.pairs.end(), advanced);
+  result.verdict = any ? Verdict::kClear : Verdict::kNotChecked;
+  result.error_bound = 0.0;
+  result.error = {};
+  result.checked = result.skipped = result.not_checked = result.delayed = 0;
+  for (const PairResult& pair : result.pairs) {
+    if (pair.span.empty()) {
+      ++result.delayed;
+      continue;
+    }
+    if (severity(pair.verdict) > severity(result.verdict)) result.verdict = pair.verdict;
+    if (pair.verdict == Verdict::kNotChecked) {
+      ++result.not_checked;
+      continue;
+    }
+    ++(pair.skipped ? result.skipped : result.checked);
+    if (pair.error.total() <= result.error_bound) continue;
+    result.error = pair.error;
+    result.error_bound = pair.error.total();
+  }
+  // Of the time that delayed pairs have not been checked over nothing is known.
+  if (result.delayed > 0 && result.verdict == Verdict::kClear) result.verdict = Verdict::kNotChecked;
+}
+
+}  // namespace sdf_ccd

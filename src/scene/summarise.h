@@ -1,0 +1,13 @@
+#pragma once
+
+#include "sdf_ccd/scene/monitor.h"
+
+namespace sdf_ccd {
+
+/// Worse verdicts are larger.
+int severity(Verdict verdict);
+
+/// Sets what a result says of all its pairs from what it says of each: verdict, error bound and counts.
+void summarise(CycleResult& result);
+
+}  // namespace sdf_ccd

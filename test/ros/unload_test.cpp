@@ -1,0 +1,148 @@
+// Loads and unloads the nodelet as a manager does, and looks at how long that takes and what it leaves behind.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+
+#include "sdf_ccd/MonitorState.h"
+
+namespace sdf_ccd {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kSoon = 0.2;  // [s]
+const char* const kName = "/monitor";
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Of this process [MB].
+double residentMemory() {
+  std::ifstream file("/proc/self/statm");
+  double total = 0.0, resident = 0.0;
+  file >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1e6;
+}
+
+class UnloadTest : public ::testing::Test {
+ protected:
+  UnloadTest() {
+    char name[] = "/tmp/unload_test.XXXXXX";
+    cache_ = mkdtemp(name);
+    states_ =
+        node_.subscribe<MonitorState>(std::string(kName) + "/state", 100, [this](const MonitorState::ConstPtr& state) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          reasons_ += state->reason + "\n";
+          changed_.notify_all();
+        });
+  }
+  ~UnloadTest() override { fs::remove_all(cache_); }
+
+  void load(double max_error) {  // 0: the settings as they stand
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      reasons_.clear();
+    }
+    const ros::NodeHandle monitor(kName);
+    monitor.setParam("cache_directory", cache_);
+    if (max_error > 0.0) {
+      monitor.setParam("max_error", max_error);
+    } else {
+      monitor.deleteParam("max_error");
+    }
+    ASSERT_TRUE(loader_.load(kName, "sdf_ccd/CollisionMonitor", {}, {}));
+  }
+
+  /// How long it takes [s].
+  double unload() {
+    const Clock::time_point start = Clock::now();
+    EXPECT_TRUE(loader_.unload(kName));
+    return secondsSince(start);
+  }
+
+  void waitFor(const std::string& word) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const bool is_said =
+        changed_.wait_for(lock, std::chrono::seconds(60), [&] { return reasons_.find(word) != std::string::npos; });
+    ASSERT_TRUE(is_said) << word << " is not among\n" << reasons_;
+  }
+
+  ros::NodeHandle node_;
+  ros::Subscriber states_;
+  nodelet::Loader loader_{false};
+  std::string cache_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::string reasons_;  // that were said, a line each
+};
+
+TEST_F(UnloadTest, EndsSoonWhileItBuilds) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> moment(0.0, 4.0);
+  for (int i = 0; i < 12; ++i) {
+    load(3e-4);
+    std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
+    EXPECT_LT(unload(), kSoon);
+  }
+}
+
+TEST_F(UnloadTest, EndsSoonWhileAnotherProcessHoldsTheCache) {
+  load(2e-3);
+  waitFor("waiting for transforms");
+  unload();
+  std::vector<int> locks;
+  for (const auto& entry : fs::directory_iterator(cache_)) {
+    if (entry.path().extension() != ".lock") continue;
+    locks.push_back(::open(entry.path().c_str(), O_RDWR));
+    flock(locks.back(), LOCK_EX);
+  }
+  ASSERT_FALSE(locks.empty());
+  load(2e-3);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_LT(unload(), kSoon);
+  for (const int lock : locks) ::close(lock);
+}
+
+TEST_F(UnloadTest, LeavesNothingBehind) {
+  std::vector<double> sizes;
+  for (int i = 0; i < 24; ++i) {
+    load(0.0);
+    waitFor("waiting for transforms");
+    EXPECT_LT(unload(), kSoon);
+    sizes.push_back(residentMemory());
+  }
+  std::string text;
+  for (const double size : sizes) text += std::to_string(size) + " ";
+  // The heaps of some threads fill first.
+  const double early = *std::max_element(sizes.begin() + 8, sizes.begin() + 16);
+  const double late = *std::max_element(sizes.begin() + 16, sizes.end());
+  EXPECT_LT(late, 1.02 * early) << text;
+}
+
+}  // namespace
+}  // namespace sdf_ccd
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "unload_test");
+  ros::NodeHandle node;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
