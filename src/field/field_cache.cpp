@@ -16,6 +16,14 @@ constexpr double kMeaning = 4;
 /// Ends the name of the file that holds what is doubtful about a field.
 constexpr const char* kDoubt = ".doubt";
 
+/// Empty if there is no such file.
+std::string firstLine(const std::string& path) {
+  constexpr std::size_t kMostBytes = 1000;
+  char line[kMostBytes] = "";
+  std::ifstream(path).getline(line, sizeof line);
+  return line;
+}
+
 }  // namespace
 
 std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options) {
@@ -32,7 +40,7 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
   std::string doubt;
   const auto load = [&](const std::string& path) {
     field = loadField(path);
-    std::getline(std::ifstream(path + kDoubt), doubt);
+    doubt = firstLine(path + kDoubt);
   };
   const auto make = [&] {
     field = buildField(source.solid(), options, progress);

@@ -7,12 +7,11 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
 #include <thread>
 
+#include "cache_directory.h"
 #include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/number_text.h"
 
@@ -26,7 +25,7 @@ class FileLock {
  public:
   /// @throws std::runtime_error if it cannot be had, or not in time; Cancelled.
   FileLock(const std::string& path, double seconds)
-      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644)) {
     if (descriptor_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
     try {
       wait(path, seconds);
@@ -66,9 +65,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
   const std::string path = directory_ + "/" + name;
   if (!directory_.empty()) {
     try {
-      std::error_code error;
-      std::filesystem::create_directories(directory_, error);
-      if (error) throw std::runtime_error(directory_ + ": " + error.message());
+      requireOwnDirectory(directory_);
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
       outcome.warning = std::string("cache not used: ") + error.what();
@@ -76,7 +73,9 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
   }
   if (lock && access(path.c_str(), F_OK) == 0) {
     try {
+      requireOwnFile(path);
       actions.load(path);
+      markUsed(path);
       outcome.from_cache = true;
       return outcome;
     } catch (const std::runtime_error& error) {
@@ -87,6 +86,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
   if (!lock) return outcome;
   try {
     actions.save(path);
+    trimCache(directory_, name, max_bytes_);
   } catch (const std::runtime_error& error) {
     outcome.warning = std::string("not kept: ") + error.what();
   }

@@ -1,0 +1,105 @@
+#include "cache_directory.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+namespace sdf_ccd {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isOwn(const struct stat& status) {
+  return status.st_uid == ::geteuid() || status.st_uid == 0;
+}
+
+/// "hash.field", "hash.shell" and what stands beside them.
+bool isOfCache(const std::string& file) {
+  for (const char* ending : {".field", ".shell", ".field.doubt", ".field.lock", ".shell.lock"}) {
+    const std::size_t length = std::strlen(ending);
+    if (file.size() > length && file.compare(file.size() - length, length, ending) == 0) return true;
+  }
+  return false;
+}
+
+/// As writeCheckedFile() names them: six characters more.
+bool isTemporary(const std::string& file) {
+  constexpr std::size_t kMore = 7;
+  return file.size() > kMore && file[file.size() - kMore] == '.' && isOfCache(file.substr(0, file.size() - kMore));
+}
+
+struct Entry {
+  fs::path path;
+  fs::file_time_type used;
+  std::size_t bytes;
+};
+
+}  // namespace
+
+void requireOwnDirectory(const std::string& directory) {
+  std::error_code error;
+  const fs::path parent = fs::path(directory).parent_path();
+  if (!parent.empty()) fs::create_directories(parent, error);
+  if (!error && ::mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST) error = {errno, std::generic_category()};
+  struct stat status {};
+  if (!error && ::stat(directory.c_str(), &status) != 0) error = {errno, std::generic_category()};
+  if (error) throw std::runtime_error(directory + ": " + error.message());
+  if (!S_ISDIR(status.st_mode)) throw std::runtime_error(directory + ": is no directory");
+  // A group of one's own is usual.
+  const bool by_group = (status.st_mode & S_IWGRP) != 0 && status.st_gid != ::getegid();
+  if (!isOwn(status) || by_group || (status.st_mode & S_IWOTH) != 0) {
+    throw std::runtime_error(directory + ": others may write to it");
+  }
+}
+
+void requireOwnFile(const std::string& path) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0) throw std::runtime_error(path + ": " + std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) throw std::runtime_error(path + ": is a link, or no regular file");
+  if (!isOwn(status)) throw std::runtime_error(path + ": belongs to somebody else");
+}
+
+void markUsed(const std::string& path) {
+  ::utimensat(AT_FDCWD, path.c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
+}
+
+void trimCache(const std::string& directory, const std::string& name, std::size_t max_bytes) {
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  std::vector<Entry> entries;
+  std::size_t bytes = 0;
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    std::error_code gone;
+    const std::string file = it->path().filename().string();
+    if (!fs::is_regular_file(it->symlink_status(gone))) continue;
+    const fs::file_time_type used = fs::last_write_time(it->path(), gone);
+    if (gone) continue;
+    if (isTemporary(file) && used < old) fs::remove(it->path(), gone);
+    if (!isOfCache(file)) continue;
+    const std::uintmax_t size = fs::file_size(it->path(), gone);
+    if (gone) continue;
+    bytes += size;
+    const bool is_kept = file.compare(0, name.size(), name) == 0;
+    if (!is_kept && size > 0) entries.push_back({it->path(), used, size});
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });
+  for (const Entry& entry : entries) {
+    if (bytes <= max_bytes) return;
+    std::error_code gone;
+    if (!fs::remove(entry.path, gone)) continue;
+    bytes -= entry.bytes;
+    fs::remove(entry.path.string() + ".lock", gone);
+    fs::remove(entry.path.string() + ".doubt", gone);
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace sdf_ccd {
+
+/// Makes the directory, for its owner alone, if it does not exist.
+/// @throws std::runtime_error if it cannot be made, or if others may write to it: what they put there would be
+/// believed.
+void requireOwnDirectory(const std::string& directory);
+
+/// @throws std::runtime_error if the file is a link, no regular file, or somebody else's.
+void requireOwnFile(const std::string& path);
+
+/// Marks a file of the cache as used now.
+void markUsed(const std::string& path);
+
+/// Removes what was not used for longest until the cache's files hold no more than `max_bytes`, but for those of
+/// `name`, and temporary files that a process left an hour ago or earlier. Other files are left alone.
+void trimCache(const std::string& directory, const std::string& name, std::size_t max_bytes);
+
+}  // namespace sdf_ccd
