@@ -17,7 +17,7 @@ namespace sdf_ccd {
 
 /// What one query may ask for, and how many there may be. What is more is refused, in the answer's message.
 struct QueryLimits {
-  std::size_t waypoints = 5000;  ///< of all trajectories of a motion
+  std::size_t waypoints = 2000;  ///< of all trajectories of a motion
   std::size_t points = 20000;
   double seconds = 2.0;  ///< of computing
   int queries = 4;       ///< at a time
