@@ -267,6 +267,7 @@ TEST(AdaptiveGrid, ALeafFillsAnOctant) {
   AdaptiveShape shape;
   shape.cell = 1.0;
   shape.size = {1, 1, 1};
+  shape.surface_box = shape.box();
   shape.error_bound = 0.01;
   AdaptiveData data;
   data.top = {0 << 2 | top_word::kNode};
@@ -306,6 +307,7 @@ TEST(AdaptiveGrid, DamagedIndicesAreRefused) {
     AdaptiveShape s;
     s.cell = 1.0;
     s.size = {1, 1, 2};
+    s.surface_box = s.box();
     return s;
   }();
   AdaptiveData far;

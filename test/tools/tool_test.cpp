@@ -356,7 +356,7 @@ TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {
   EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 202);
   EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 1 + 2 * 3);
   EXPECT_EQ((steps + poses).find("nan"), std::string::npos);
-  expectRefused("simulate no.yaml --out no", "no.yaml: cannot be read");
+  expectRefused("simulate no.yaml --out no", "no.yaml: cannot be opened");
   expectRefused("simulate scene.yaml --out no --integrator leapfrog", "leapfrog");
   for (const char* step : {"-1", "0"}) {
     expectRefused(std::string("simulate scene.yaml --out no --step ") + step, "time step must be");
