@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -129,6 +130,16 @@ OctreeFile checkOctreeFile(const std::string& bytes) {
   }
   if (file.nodes > 0) walk(bytes, file);
   return file;
+}
+
+std::string withPlainHead(const OctreeFile& file, const std::string& bytes) {
+  if (file.format == OctreeFile::Format::kLegacyBinary) return bytes;
+  std::ostringstream head;
+  head.imbue(std::locale::classic());
+  head.precision(std::numeric_limits<double>::max_digits10);
+  head << (file.format == OctreeFile::Format::kFull ? "# Octomap OcTree file" : "# Octomap OcTree binary file")
+       << "\nid " << file.type << "\nsize " << file.nodes << "\nres " << file.resolution << "\ndata\n";
+  return head.str() + bytes.substr(file.data_offset);
 }
 
 }  // namespace sdf_ccd

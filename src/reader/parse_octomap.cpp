@@ -109,7 +109,7 @@ ReadMesh surfaceOf(const Tree& tree, double resolution, std::uint64_t max_memory
 
 ReadMesh parseOctomapHere(const std::string& bytes, std::uint64_t max_memory) {
   const OctreeFile file = checkOctreeFile(bytes);
-  std::istringstream stream(bytes);
+  std::istringstream stream(withPlainHead(file, bytes));
   if (file.format != OctreeFile::Format::kFull) {
     octomap::OcTree tree(file.resolution);
     if (!tree.readBinary(stream)) throw std::runtime_error("OctoMap cannot read it");

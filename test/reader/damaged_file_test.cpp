@@ -8,6 +8,7 @@
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
+#include "reader/octree_file.h"
 #include "reader/parse_mesh.h"
 #include "reader/parse_octomap.h"
 
@@ -104,6 +105,26 @@ TEST(DamagedFile, EveryFormatReadsEveryOther) {
     try {
       parseOctomapHere(bytes, 1 << 29);
       ADD_FAILURE() << "no map";
+    } catch (const std::exception&) {
+    }
+  }
+}
+
+/// OctoMap takes "id OcTree\vsize 24" for two entries, and "data" within a line for its end.
+TEST(DamagedFile, OctomapHeadsMeanTheSameToWhoChecksAndWhoReads) {
+  const std::string node = {0, 0, 0, 0, 0}, parent = {0, 0, 0, 0, 1};
+  const std::string whole = "# Octomap OcTree file\nid OcTree\nsize 2\nres 0.1\n";
+  EXPECT_NO_THROW(checkOctreeFile(whole + "data\n" + parent + node));
+  for (const std::string& head :
+       {whole + "# data\n", whole + "x data\n", whole + "id OcTree\vsize 900000 data\n", whole + "res 0.1\vdata\n"}) {
+    // All nodes that OctoMap would find from the earlier `data` on have all children.
+    const std::string bytes = head + std::string(64, '\xff') + "\ndata\n" + parent + node;
+    const OctreeFile file = checkOctreeFile(bytes);
+    const std::string plain = withPlainHead(file, bytes);
+    EXPECT_EQ(plain.substr(plain.size() - 10), parent + node);
+    EXPECT_EQ(plain.find("data"), plain.size() - 15);
+    try {
+      parseOctomapHere(bytes, 1 << 29);
     } catch (const std::exception&) {
     }
   }
