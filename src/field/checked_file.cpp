@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -15,6 +15,8 @@
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 #include <xxhash.h>
+
+#include "process/temporary_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -190,39 +192,35 @@ std::vector<FileSection> sectionsOf(const std::string& path, const Header& heade
   return sections;
 }
 
-/// A file that is removed again unless it is committed.
-class TemporaryFile {
+/// A file that has no name until it is complete, so that nothing stays of it whatever ends the process.
+class NewFile {
  public:
-  explicit TemporaryFile(const std::string& path) : path_(path), temporary_(path + ".XXXXXX") {
-    descriptor_ = mkstemp(&temporary_[0]);
-    if (descriptor_ < 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
-    fchmod(descriptor_, 0644);
-  }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-    if (!committed_) unlink(temporary_.c_str());
+  explicit NewFile(const std::string& path) try : path_(path), file_(path) {
+  } catch (const std::system_error& error) {
+    fail(path, "cannot write: " + error.code().message());
   }
   void write(const void* data, std::size_t bytes) {
     const char* from = static_cast<const char*>(data);
     while (bytes > 0) {
-      const ssize_t n = ::write(descriptor_, from, bytes);
+      const ssize_t n = ::write(file_.descriptor(), from, bytes);
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
       from += n;
       bytes -= static_cast<std::size_t>(n);
     }
   }
-  void commit() {
-    if (fsync(descriptor_) != 0 || std::rename(temporary_.c_str(), path_.c_str()) != 0) {
-      fail(path_, std::string("cannot write: ") + std::strerror(errno));
+  void place() {
+    if (fsync(file_.descriptor()) != 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
+    try {
+      file_.place();
+    } catch (const std::system_error& error) {
+      fail(path_, "cannot write: " + error.code().message());
     }
-    committed_ = true;
   }
 
  private:
-  std::string path_, temporary_;
-  int descriptor_ = -1;
-  bool committed_ = false;
+  std::string path_;
+  TemporaryFile file_;
 };
 
 }  // namespace
@@ -265,10 +263,10 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
   eachPiece([&](const void* data, std::size_t bytes) { checksum.add(data, bytes); });
   header.checksum = checksum.digest();
 
-  TemporaryFile file(path);
+  NewFile file(path);
   file.write(&header, sizeof header);
   eachPiece([&](const void* data, std::size_t bytes) { file.write(data, bytes); });
-  file.commit();
+  file.place();
 }
 
 std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, const std::string& kind,

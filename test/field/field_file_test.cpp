@@ -1,5 +1,6 @@
 #include "sdf_ccd/field/field_file.h"
 
+#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -348,6 +349,26 @@ TEST_F(FieldFile, CacheThatCannotBeWrittenCostsOnlyTheSaving) {
   EXPECT_FALSE(field.outcome.from_cache);
   EXPECT_NE(field.outcome.warning.find("cache not used"), std::string::npos);
   expectSame(field.field, buildField(mesh_, options_));
+}
+
+TEST_F(FieldFile, NothingStaysOfWhoeverIsKilledWhileWriting) {
+  const std::vector<char> data(1 << 22);
+  for (int i = 0; i < 30; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      for (int k = 0;; ++k) {
+        writeCheckedFile(path(std::to_string(k)), "field", kVersion, {{data.data(), data.size()}});
+      }
+    }
+    usleep(1000 * (3 + i));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    for (const auto& entry : fs::directory_iterator(directory_)) {
+      EXPECT_EQ(entry.path().extension(), "") << entry.path() << " was left";
+      EXPECT_NO_THROW(CheckedFile::open(entry.path(), "field", kVersion));
+      fs::remove(entry.path());
+    }
+  }
 }
 
 TEST_F(FieldFile, TwoProcessesBuildOnce) {

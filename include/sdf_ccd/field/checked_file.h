@@ -22,7 +22,7 @@ FileSection sectionOf(const View<T>& view) {
 }
 
 /// Writes sections as one little-endian file with kind, version and a checksum over everything. The file appears
-/// under `path` complete or not at all: it is written to a temporary name beside it, synced and renamed.
+/// under `path` complete or not at all: it gets its name when it is written and synced.
 /// @param kind  what the file holds, up to 15 characters: "field", "shell".
 /// @throws std::runtime_error naming the path and the reason.
 void writeCheckedFile(const std::string& path, const std::string& kind, std::uint32_t version,

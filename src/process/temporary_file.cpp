@@ -1,4 +1,4 @@
-#include "temporary_file.h"
+#include "process/temporary_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace sdf_ccd::tools {
+namespace sdf_ccd {
 namespace {
 
 constexpr mode_t kMode = 0644;
@@ -73,4 +73,4 @@ void TemporaryFile::giveName() {
   fail();
 }
 
-}  // namespace sdf_ccd::tools
+}  // namespace sdf_ccd

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace sdf_ccd::tools {
+namespace sdf_ccd {
 
 /// A file that is written before it gets its name. It has none until then, so that whatever ends the program leaves
 /// nothing of it; where the file system has no such files, it has a random name beside its place, which stays after
@@ -19,6 +19,9 @@ class TemporaryFile {
   /// What this process, and others of the same user while it lives, open to write it.
   const std::string& path() const { return path_; }
 
+  /// It itself, open for writing.
+  int descriptor() const { return descriptor_; }
+
   /// Puts it where it belongs, instead of what is there. Whoever writes it must have closed it.
   /// @throws std::system_error if that fails.
   void place();
@@ -33,4 +36,4 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
-}  // namespace sdf_ccd::tools
+}  // namespace sdf_ccd
