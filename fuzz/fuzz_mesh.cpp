@@ -1,0 +1,13 @@
+// A mesh file, in the format that the target is built for.
+#include "fuzz_input.h"
+#include "reader/parse_mesh.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace sdf_ccd;
+  fuzz::attempt([&] {
+    const TriangleMesh mesh = parseMeshHere(fuzz::toText(data, size), SDF_CCD_FUZZ_FORMAT);
+    validate(mesh);
+    fuzz::require(!mesh.triangles.empty(), "a mesh has triangles");
+  });
+  return 0;
+}

@@ -1,0 +1,11 @@
+// The monitor's parameters, as check-bag reads them from a file.
+#include "fuzz_input.h"
+#include "ros/parameters.h"
+#include "ros/yaml_parameters.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace sdf_ccd;
+  static const fuzz::InputFile file(".yaml");
+  fuzz::attempt([&] { parseParameters(loadYamlParameters(file.write(fuzz::toText(data, size))), "~"); });
+  return 0;
+}

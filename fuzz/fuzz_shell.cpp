@@ -1,0 +1,21 @@
+// The sections of a shell file, then the tree over its points.
+#include <cmath>
+
+#include "mended.h"
+#include "sdf_ccd/shell/shell_file.h"
+#include "sdf_ccd/shell/sphere_tree.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace sdf_ccd;
+  static const fuzz::InputFile file(".shell");
+  fuzz::attempt([&] {
+    fuzz::writeMended(data, size, file, "shell", fuzz::kShellVersion);
+    PointShell shell = loadShell(file.path());
+    const SphereTree tree = buildSphereTree(shell);
+    for (const SphereTree::Node& node : tree.nodes) {
+      fuzz::require(node.center.allFinite() && std::isfinite(node.radius), "spheres are finite");
+      fuzz::require(0 <= node.begin && node.begin <= node.end && node.end <= int(shell.size()), "points are there");
+    }
+  });
+  return 0;
+}

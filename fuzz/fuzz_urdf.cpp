@@ -1,0 +1,17 @@
+// A robot's description, then where its links are.
+#include "fuzz_input.h"
+#include "sdf_ccd/robot/robot_model.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace sdf_ccd;
+  fuzz::attempt([&] {
+    const RobotModel robot(fuzz::toText(data, size), "fuzz");
+    robot.forwardKinematics({});
+    for (const std::string& link : robot.links()) {
+      const RobotModel::Reach reach = robot.reach(robot.root(), link);
+      fuzz::require(!(reach.nearest > reach.farthest), "a reach is in order");
+      robot.adjacent(robot.root(), link);
+    }
+  });
+  return 0;
+}

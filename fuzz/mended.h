@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "fuzz_input.h"
+#include "sdf_ccd/field/checked_file.h"
+
+namespace sdf_ccd::fuzz {
+
+// Of the present files; where they have grown, make_seeds says so.
+constexpr std::uint32_t kFieldVersion = 6, kShellVersion = 3;
+
+/// Writes an input as a checked file whose checksum fits, so that what is behind it is read. The input is the
+/// concatenation of sections, each after its size (four bytes); what is missing at the end is left out.
+inline void writeMended(const std::uint8_t* data, std::size_t size, const InputFile& file, const char* kind,
+                        std::uint32_t version) {
+  constexpr std::size_t kMaxSections = 32;
+  std::vector<FileSection> sections;
+  while (size >= sizeof(std::uint32_t) && sections.size() < kMaxSections) {
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, data, sizeof bytes);
+    data += sizeof bytes;
+    size -= sizeof bytes;
+    sections.push_back({data, std::min<std::size_t>(bytes, size)});
+    data += sections.back().bytes;
+    size -= sections.back().bytes;
+  }
+  writeCheckedFile(file.path(), kind, version, sections);
+}
+
+/// The input that writeMended() makes a file of.
+inline std::string inputOf(const std::string& path, const char* kind, std::uint32_t version) {
+  const auto file = CheckedFile::open(path, kind, version);
+  std::string input;
+  for (std::size_t i = 0; i < file->sectionCount(); ++i) {
+    std::size_t count = 0;
+    const char* bytes = file->section<char>(i, count);
+    const auto size = static_cast<std::uint32_t>(count);
+    input.append(reinterpret_cast<const char*>(&size), sizeof size);
+    input.append(bytes, count);
+  }
+  return input;
+}
+
+}  // namespace sdf_ccd::fuzz

@@ -1,0 +1,35 @@
+// Gives files, and those of folders, to a fuzz target, one after the other: where there is no libFuzzer, and in the
+// tests. usage: fuzz_TARGET FILE_OR_FOLDER ...
+
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+
+#include "fuzz_input.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+int replay(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  std::fprintf(stderr, "%s\n", path.c_str());  // the last one is that of a crash
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int files = 0;
+  for (int i = 1; i < argc; ++i) {
+    if (!fs::is_directory(argv[i])) {
+      files += replay(argv[i]);
+      continue;
+    }
+    for (const auto& entry : fs::directory_iterator(argv[i])) files += replay(entry.path());
+  }
+  std::printf("%d inputs\n", files);
+  return files > 0 ? 0 : 1;
+}
