@@ -37,6 +37,7 @@ std::vector<GeometryDescription> LinkGeometryLoader::load(const urdf::Link& link
         const auto& file = static_cast<const urdf::Mesh&>(*collision->geometry);
         element.shape = mesh(file.filename, file.scale);
         element.source = file.filename;
+        if (!renamed_.count(file.filename)) element.scale = toEigen(file.scale);
         break;
       }
       default:
@@ -67,7 +68,10 @@ LinkGeometryLoader::Mesh LinkGeometryLoader::unscaledMesh(const std::string& uri
   if (found) return found;
   try {
     const Resource resource = loader_(uri);
-    if (!resource.warning.empty()) warnings_.push_back(resource.warning);
+    if (!resource.warning.empty()) {
+      warnings_.push_back(resource.warning);
+      renamed_.insert(uri);
+    }
     found = std::make_shared<TriangleMesh>(parseMesh(resource.bytes, resource.name));
     validate(*found);
   } catch (const std::exception& error) {

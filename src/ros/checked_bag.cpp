@@ -22,8 +22,9 @@ std::set<int> touching(const CycleResult& result) {
 
 }  // namespace
 
-CheckedBag::CheckedBag(BagWriter& bag, const MonitorLoop& loop, const MarkerOptions& markers)
-    : loop_(loop), drawer_(loop.fixedFrame(), markers), bag_(bag) {}
+CheckedBag::CheckedBag(BagWriter& bag, const MonitorLoop& loop, const SceneDescription& scene,
+                       const MarkerOptions& markers)
+    : loop_(loop), drawer_(loop.fixedFrame(), markers), link_markers_(scene), bag_(bag) {}
 
 void CheckedBag::addScene(const SceneDescription& description, const ros::Time& begin) {
   std_msgs::String plan;
@@ -50,14 +51,20 @@ void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
     const Body& link = loop_.scene().bodies[body];
     if (!link.is_world) bag_.write(kMonitor + wrenchTopic(link), now, toWrenchStamped(loop_, body));
   }
-  const visualization_msgs::MarkerArray markers = drawer_.draw(loop_.result(), contextOf(loop_));
-  if (!markers.markers.empty()) bag_.write(kMonitor + "markers", now, markers);
+  bag_.write(kMonitor + "markers", now, drawer_.draw(loop_.result(), contextOf(loop_), now));
+  addLinks(now);
+}
+
+void CheckedBag::addLinks(const ros::Time& now) {
+  const auto links = link_markers_.draw(drawer_.states().ofBodies(loop_.scene()));
+  if (links) writeLatched(kMonitor + "links", now, *links);
 }
 
 void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {
   bag_.write(kMonitor + "contacts", now, toUncheckedContacts(loop_, reason));
   writeLatched(kMonitor + "state", now, toUncheckedState(loop_.fixedFrame(), reason, now));
-  bag_.write(kMonitor + "markers", now, drawer_.clear());
+  bag_.write(kMonitor + "markers", now, drawer_.clear(reason));
+  addLinks(now);
 }
 
 template <class Message>

@@ -5,6 +5,7 @@
 
 #include "ros/bag_writer.h"
 #include "ros/cycle_messages.h"
+#include "ros/link_markers.h"
 #include "ros/markers.h"
 #include "ros/recorded_motion.h"
 
@@ -17,15 +18,17 @@ namespace sdf_ccd {
 ///   contacts         sdf_ccd/ContactArray            every cycle, and when there begin to be none
 ///   state            sdf_ccd/MonitorState            the same
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle in which the link is in contact
-///   markers          visualization_msgs/MarkerArray  contacts to look at
+///   markers          visualization_msgs/MarkerArray  contacts and status to look at
+///   links            visualization_msgs/MarkerArray  when a link's verdict changes
 ///   plan, world      once
 class CheckedBag {
  public:
-  /// @param bag   open, and empty; closed by whoever opened it. It throws where it cannot be written.
-  /// @param loop  is asked for each cycle. Both must outlive this.
-  CheckedBag(BagWriter& bag, const MonitorLoop& loop, const MarkerOptions& markers);
+  /// @param bag    open, and empty; closed by whoever opened it. It throws where it cannot be written.
+  /// @param loop   is asked for each cycle. Both must outlive this.
+  /// @param scene  what the loop's was built from.
+  CheckedBag(BagWriter& bag, const MonitorLoop& loop, const SceneDescription& scene, const MarkerOptions& markers);
 
-  /// The scene, at the bag's begin.
+  /// The plan and the world, at the bag's begin.
   void addScene(const SceneDescription& description, const ros::Time& begin);
 
   void addTransforms(const RecordedTransforms& transforms);
@@ -37,11 +40,13 @@ class CheckedBag {
   void addUnchecked(const std::string& reason, const ros::Time& now);
 
  private:
+  void addLinks(const ros::Time& now);
   template <class Message>
   void writeLatched(const std::string& topic, const ros::Time& now, const Message& message);
 
   const MonitorLoop& loop_;
   MarkerDrawer drawer_;
+  LinkMarkers link_markers_;
   BagWriter& bag_;
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;     // by child frame
   std::map<std::string, boost::shared_ptr<ros::M_string>> latched_connections_;  // by topic

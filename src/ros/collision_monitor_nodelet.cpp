@@ -131,14 +131,14 @@ void CollisionMonitor::setUp() {
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
   described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
-  world_publisher_.publish(toWorldMarkers(described_.scene));
   joint_watch_ = std::make_unique<JointWatch>(*described_.robot);
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
-  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, parameters_.markers);
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, described_.scene, parameters_.markers);
   listen();
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
+  queries_->drawOn(getPrivateNodeHandle().advertise<visualization_msgs::MarkerArray>("planned", 2), described_.scene);
   health_.building.clear();
   forget("waiting for transforms");
   const std::lock_guard<std::mutex> lock(ready_mutex_);
@@ -255,6 +255,7 @@ void CollisionMonitor::cycle() {
       break;
   }
   outputs_->publish();
+  publishWorld();
   publishState();
 }
 
@@ -316,7 +317,15 @@ std::string CollisionMonitor::contradicted() {
   return is_old ? "" : late_;
 }
 
+/// Large maps take a while to be drawn: not before somebody looks at them.
+void CollisionMonitor::publishWorld() {
+  if (is_world_drawn_ || world_publisher_.getNumSubscribers() == 0 || described_.fixed_frame.empty()) return;
+  world_publisher_.publish(toWorldMarkers(described_.scene));
+  is_world_drawn_ = true;
+}
+
 void CollisionMonitor::idle(const std::string& reason) {
+  publishWorld();
   {
     const std::lock_guard<std::mutex> lock(ready_mutex_);
     not_ready_ = reason;
@@ -335,6 +344,7 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
 }
 
 void CollisionMonitor::forget(const std::string& reason) {
+  is_world_drawn_ = false;  // rviz drops what it shows when time jumps back
   health_.missing.clear();
   last_cycle_ = ros::WallTime();
   last_step_ = ros::WallTime::now();

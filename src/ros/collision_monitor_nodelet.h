@@ -34,6 +34,7 @@ namespace sdf_ccd {
 ///                                latched
 ///   plan   std_msgs/String       what is checked against what, and what is left out and why; latched
 ///   world  visualization_msgs/MarkerArray  the world's objects as they are checked; latched
+///   planned  visualization_msgs/MarkerArray  the last motion that query_motion was asked about
 ///
 /// Serves, below the node's name:
 ///   query_motion  sdf_ccd/QueryMotion
@@ -62,6 +63,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void sayWhatIsDropped();
   void cycle();
   bool isSilent() const;
+  void publishWorld();
   void idle(const std::string& reason);
   void publishUnchecked(const std::string& reason);
   void forget(const std::string& reason);
@@ -78,6 +80,7 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   // Set while setting up, in this order; then only the cycles' thread changes them.
   MonitorParameters parameters_;
+  bool is_world_drawn_ = false;
   DescribedScene described_;
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<MonitorLoop> loop_;

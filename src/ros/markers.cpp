@@ -1,6 +1,9 @@
 #include "ros/markers.h"
 
-#include <cstdio>
+#include <algorithm>
+
+#include "ros/shape_marker.h"
+#include "ros/status_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -8,24 +11,21 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
+constexpr const char* kStatus = "status";
 constexpr const char* kPoints = "points";
 constexpr const char* kNormals = "normals";
 constexpr const char* kDepth = "depth";
 constexpr const char* kSwept = "swept";
-constexpr const char* kText = "text";
+constexpr const char* kNumbers = "numbers";
 
-std_msgs::ColorRGBA color(float r, float g, float b, float a) {
-  std_msgs::ColorRGBA result;
-  result.r = r;
-  result.g = g;
-  result.b = b;
-  result.a = a;
-  return result;
-}
+constexpr double kLetter = 1.0 / 26.0;  // of the robot's size
+constexpr double kLineSpacing = 1.25;   // of a letter's height
+constexpr double kNumberOffset = 2.0;   // above the contact, in letters
 
-// Red for what a check at the recorded transforms would not have seen, orange for what it would.
+// Magenta for what a check at the recorded transforms would not have seen, white for what it would: both stand out from
+// the links in any verdict's colour.
 std_msgs::ColorRGBA contactColor(bool seen_at_samples) {
-  return seen_at_samples ? color(1.0f, 0.6f, 0.0f, 1.0f) : color(1.0f, 0.0f, 0.1f, 1.0f);
+  return seen_at_samples ? toColor(1.0F, 1.0F, 1.0F, 1.0F) : toColor(1.0F, 0.15F, 0.85F, 1.0F);
 }
 
 /// Where the body's point that is at p_W at the time of its deepest contact was at every time of the span.
@@ -49,94 +49,148 @@ void addPath(const std::vector<Vector3d>& path, Marker& lines) {
 
 }  // namespace
 
-/// Its time is 0, so that rviz draws it with its latest transforms.
-Marker MarkerDrawer::marker(const char* name, int id, int type) const {
-  Marker marker;
-  marker.header.frame_id = fixed_frame_;
-  marker.ns = name;
-  marker.id = id;
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  return marker;
+std::vector<Vector3d> staggered(std::vector<Vector3d> places, double height) {
+  std::vector<Vector3d*> upwards;
+  for (Vector3d& place : places) upwards.push_back(&place);
+  std::stable_sort(upwards.begin(), upwards.end(), [](auto* a, auto* b) { return a->z() < b->z(); });
+  for (std::size_t i = 1; i < upwards.size(); ++i) {
+    upwards[i]->z() = std::max(upwards[i]->z(), upwards[i - 1]->z() + height);
+  }
+  return places;
 }
 
-MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cycle) {
+Marker MarkerDrawer::marker(const char* name, int id, int type) const {
+  return makeMarker(fixed_frame_, name, id, type);
+}
+
+/// The height of a letter [m].
+double MarkerDrawer::letter() const {
+  return kLetter * options_.scale * box_.size();
+}
+
+MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now) {
   MarkerArray markers;
+  states_.update(result, cycle);
+  box_.update(result, cycle);
   const ros::Time end = cycle.start + ros::Duration(cycle.motion.times.back());
   for (std::size_t id = 0; id < result.pairs.size(); ++id) {
     const PairResult& pair = result.pairs[id];
-    if (pair.intervals.empty()) continue;
-    drawPair(static_cast<int>(id), pair, cycle, markers);
-    shown_until_[static_cast<int>(id)] = end + ros::Duration(options_.hold);
+    if (!pair.intervals.empty()) drawPair(static_cast<int>(id), pair, cycle, markers);
   }
-  for (auto shown = shown_until_.begin(); shown != shown_until_.end();) {
-    if (shown->second > end) {
-      ++shown;
-      continue;
-    }
-    for (const char* name : {kPoints, kNormals, kDepth, kSwept, kText}) {
-      markers.markers.push_back(marker(name, shown->first, Marker::SPHERE));
-      markers.markers.back().action = Marker::DELETE;
-    }
-    shown = shown_until_.erase(shown);
+  deleteOld(end, markers);
+  const std::vector<const Shown*> listed = deepest();
+  drawNumbers(listed, markers);
+
+  ros::Time known_until = end;
+  for (const PairState& pair : states_.pairs()) {
+    if (pair.verdict != Verdict::kNotChecked) known_until = std::min(known_until, pair.until);
   }
+  std::string text = statusText(states_, result, cycle, (now - known_until).toSec());
+  for (std::size_t i = 0; i < listed.size(); ++i) text += "\n" + std::to_string(i + 1) + "  " + listed[i]->text;
+  if (shown_.size() > listed.size()) text += "\nand " + std::to_string(shown_.size() - listed.size()) + " more";
+  markers.markers.push_back(statusMarker(text, states_.verdict()));
   return markers;
 }
 
-MarkerArray MarkerDrawer::clear() {
-  shown_until_.clear();
+MarkerArray MarkerDrawer::clear(const std::string& reason) {
+  shown_.clear();
+  numbers_ = 0;
+  states_.clear();
   MarkerArray markers;
   markers.markers.push_back(marker("", 0, Marker::SPHERE));
   markers.markers.back().action = Marker::DELETEALL;
+  markers.markers.push_back(statusMarker(uncheckedText(reason), Verdict::kNotChecked));
   return markers;
 }
 
+void MarkerDrawer::deleteOld(const ros::Time& end, MarkerArray& markers) {
+  for (auto shown = shown_.begin(); shown != shown_.end();) {
+    if (shown->second.until > end) {
+      ++shown;
+      continue;
+    }
+    for (const char* name : {kPoints, kNormals, kDepth, kSwept}) {
+      markers.markers.push_back(marker(name, shown->first, Marker::SPHERE));
+      markers.markers.back().action = Marker::DELETE;
+    }
+    shown = shown_.erase(shown);
+  }
+}
+
+std::vector<const MarkerDrawer::Shown*> MarkerDrawer::deepest() const {
+  std::vector<const Shown*> listed;
+  for (const auto& [id, shown] : shown_) listed.push_back(&shown);
+  std::stable_sort(listed.begin(), listed.end(), [](auto* a, auto* b) { return a->depth > b->depth; });
+  if (listed.size() > kListed) listed.resize(kListed);
+  return listed;
+}
+
+void MarkerDrawer::drawNumbers(const std::vector<const Shown*>& listed, MarkerArray& markers) {
+  std::vector<Vector3d> places;
+  for (const Shown* shown : listed) places.push_back(shown->p_W + kNumberOffset * letter() * Vector3d::UnitZ());
+  places = staggered(std::move(places), kLineSpacing * letter());
+  for (int i = 0; i < std::max(numbers_, static_cast<int>(places.size())); ++i) {
+    Marker number = marker(kNumbers, i, Marker::TEXT_VIEW_FACING);
+    if (i < static_cast<int>(places.size())) {
+      number.text = std::to_string(i + 1);
+      number.pose.position = toPoint(places[i]);
+      number.scale.z = letter();
+      number.color = toColor(1.0F, 1.0F, 1.0F, 1.0F);
+    } else {
+      number.action = Marker::DELETE;
+    }
+    markers.markers.push_back(number);
+  }
+  numbers_ = static_cast<int>(places.size());
+}
+
+/// Its lowest line above the robot; rviz centres texts at their place.
+Marker MarkerDrawer::statusMarker(const std::string& text, Verdict verdict) const {
+  Marker status = marker(kStatus, 0, Marker::TEXT_VIEW_FACING);
+  status.text = text;
+  status.scale.z = letter();
+  status.color = verdictColor(verdict, 1.0F);
+  const double above = (0.5 * lineCount(text) + 2.5) * kLineSpacing * letter();
+  status.pose.position = toPoint(box_.top() + above * Vector3d::UnitZ());
+  return status;
+}
+
 void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& cycle, MarkerArray& markers) {
+  const double unit = options_.scale * box_.size();
+  const bool seen = toPairContact(pair, cycle).in_contact_at_samples;
   Marker points = marker(kPoints, id, Marker::SPHERE_LIST);
   Marker normals = marker(kNormals, id, Marker::LINE_LIST);
   Marker depth = marker(kDepth, id, Marker::ARROW);
   Marker swept = marker(kSwept, id, Marker::LINE_LIST);
-  points.scale.x = points.scale.y = points.scale.z = 0.007 * options_.scale;
-  normals.scale.x = 0.001 * options_.scale;
-  depth.scale.x = 0.006 * options_.scale;
-  depth.scale.y = 0.014 * options_.scale;
-  swept.scale.x = 0.0015 * options_.scale;
-  points.color = contactColor(toPairContact(pair, cycle).in_contact_at_samples);
-  normals.color = color(1.0f, 1.0f, 1.0f, 0.9f);
-  depth.color = color(1.0f, 0.9f, 0.0f, 1.0f);
-  swept.color = color(0.1f, 0.5f, 1.0f, 0.9f);
+  points.scale.x = points.scale.y = points.scale.z = unit / 130.0;
+  normals.scale.x = unit / 1000.0;
+  depth.scale.x = unit / 220.0;
+  depth.scale.y = unit / 90.0;
+  swept.scale.x = unit / 500.0;
+  points.color = depth.color = contactColor(seen);
+  normals.color = toColor(1.0F, 1.0F, 1.0F, 0.9F);
+  swept.color = toColor(0.0F, 0.75F, 0.55F, 0.9F);
 
   for (const ContactPoint& point : pair.points) {
     points.points.push_back(toPoint(point.p_W));
     normals.points.push_back(toPoint(point.p_W));
-    normals.points.push_back(toPoint(point.p_W + 0.02 * options_.scale * point.normal_W));
+    normals.points.push_back(toPoint(point.p_W + unit / 60.0 * point.normal_W));
     for (const int body : {pair.body_a, pair.body_b}) {
       if (!cycle.scene.bodies[body].is_world) addPath(pathOf(body, point, cycle.motion, pair.span), swept);
     }
   }
   // From the surface's deepest point out to where it would be free, and far enough to be seen.
   depth.points.push_back(toPoint(pair.deepest.p_W));
-  depth.points.push_back(
-      toPoint(pair.deepest.p_W - (pair.deepest.depth + 0.05 * options_.scale) * pair.deepest.normal_W));
+  depth.points.push_back(toPoint(pair.deepest.p_W - (pair.deepest.depth + unit / 25.0) * pair.deepest.normal_W));
   if (!points.points.empty()) {
     markers.markers.insert(markers.markers.end(), {points, normals, swept});
   }
   markers.markers.push_back(depth);
-  drawText(id, pair, cycle, markers);
-}
 
-void MarkerDrawer::drawText(int id, const PairResult& pair, const CycleContext& cycle, MarkerArray& markers) {
-  Marker text = marker(kText, id, Marker::TEXT_VIEW_FACING);
-  char depth[32];
-  std::snprintf(depth, sizeof(depth), "%.1f mm", 1e3 * pair.deepest.depth);
-  const bool seen = toPairContact(pair, cycle).in_contact_at_samples;
-  text.text = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + "\n" + depth +
-              (seen ? "" : ", between samples");
-  text.pose.position = toPoint(pair.deepest.p_W + Vector3d(0.0, 0.0, 0.15 * options_.scale));
-  text.scale.z = 0.03 * options_.scale;
-  text.color = seen ? color(1.0f, 1.0f, 1.0f, 1.0f) : color(1.0f, 0.4f, 0.4f, 1.0f);
-  markers.markers.push_back(text);
+  const std::string text = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + ": " +
+                           lengthText(pair.deepest.depth) + (seen ? "" : ", between samples");
+  const ros::Time end = cycle.start + ros::Duration(cycle.motion.times.back());
+  shown_[id] = {end + ros::Duration(options_.hold), pair.deepest.p_W, text, pair.deepest.depth};
 }
 
 }  // namespace sdf_ccd

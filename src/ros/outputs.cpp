@@ -6,10 +6,12 @@
 
 namespace sdf_ccd {
 
-Outputs::Outputs(ros::NodeHandle private_node, const MonitorLoop& loop, const MarkerOptions& options)
-    : loop_(loop), drawer_(loop.fixedFrame(), options) {
+Outputs::Outputs(ros::NodeHandle private_node, const MonitorLoop& loop, const SceneDescription& scene,
+                 const MarkerOptions& options)
+    : loop_(loop), drawer_(loop.fixedFrame(), options), link_markers_(scene) {
   contacts_ = private_node.advertise<ContactArray>("contacts", 100);
   markers_ = private_node.advertise<visualization_msgs::MarkerArray>("markers", 10);
+  links_ = private_node.advertise<visualization_msgs::MarkerArray>("links", 10, true);
   const std::vector<Body>& bodies = loop_.scene().bodies;
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     if (bodies[body].is_world) continue;
@@ -31,10 +33,16 @@ CycleRequest Outputs::request(int max_points) const {
 void Outputs::publish() {
   if (contacts_.getNumSubscribers() > 0) contacts_.publish(toContactArray(loop_));
   publishWrenches();
-  if (markers_.getNumSubscribers() > 0) {
-    const visualization_msgs::MarkerArray markers = drawer_.draw(loop_.result(), contextOf(loop_));
-    if (!markers.markers.empty()) markers_.publish(markers);
-  }
+  publishMarkers();
+}
+
+void Outputs::publishMarkers() {
+  const bool links = links_.getNumSubscribers() > 0, contacts = markers_.getNumSubscribers() > 0;
+  if (!links && !contacts) return;
+  const visualization_msgs::MarkerArray markers = drawer_.draw(loop_.result(), contextOf(loop_), ros::Time::now());
+  if (contacts) markers_.publish(markers);
+  if (!links) return;
+  if (const auto drawn = link_markers_.draw(drawer_.states().ofBodies(loop_.scene()))) links_.publish(*drawn);
 }
 
 void Outputs::publishWrenches() const {
@@ -46,7 +54,9 @@ void Outputs::publishWrenches() const {
 
 void Outputs::publishUnchecked(const std::string& reason) {
   if (contacts_.getNumSubscribers() > 0) contacts_.publish(toUncheckedContacts(loop_, reason));
-  markers_.publish(drawer_.clear());
+  markers_.publish(drawer_.clear(reason));
+  if (links_.getNumSubscribers() == 0) return;
+  if (const auto drawn = link_markers_.draw(drawer_.states().ofBodies(loop_.scene()))) links_.publish(*drawn);
 }
 
 }  // namespace sdf_ccd

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "ros/conversions.h"
+#include "ros/planned_markers.h"
 #include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/scene/join_results.h"
@@ -73,6 +74,11 @@ Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& descr
       turns_(limits.queries),
       arena_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)) {}
 
+void Queries::drawOn(const ros::Publisher& publisher, const SceneDescription& description) {
+  drawn_ = publisher;
+  description_ = &description;
+}
+
 void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
   lowerPriority();
   try {
@@ -107,12 +113,15 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   CycleRequest wanted;
   wanted.max_points = max_points_;
   ResultJoiner joiner(max_points_);
+  std::unique_ptr<PlannedMarkers> markers;
+  if (description_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(*description_);
   CycleMotion motion;
   for (std::size_t first = 0, last = 0; first + 1 < planned.knots.size(); first = last) {
     last = std::min(first + kKnotsPerPiece, planned.knots.size() - 1);
     const Piece piece(*this, spent);
     planned.piece(first, last, motion);
     arena_.execute([&] { joiner.add(motion, monitor.run(motion, wanted)); });
+    if (markers) markers->add(motion);
   }
   CycleResult result = joiner.result();
   response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
@@ -123,7 +132,9 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   }
   response.verdict = static_cast<std::uint8_t>(result.verdict);
   response.error_bound = result.error_bound;
-  response.pairs = toPairContacts(result, {*scene_, joiner.motion(), planned.samples, ros::Time()});
+  const CycleContext context{*scene_, joiner.motion(), planned.samples, ros::Time()};
+  response.pairs = toPairContacts(result, context);
+  if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
   response.not_checked = result.not_checked;
   response.success = true;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include <ros/publisher.h>
 #include <tbb/task_arena.h>
 
 #include "ros/describe_scene.h"
@@ -33,6 +34,10 @@ class Queries {
   Queries(std::shared_ptr<const Scene> scene, const DescribedScene& described, const MonitorParameters& parameters,
           const TfHistory& history, const TfTracker& tracker, const QueryLimits& limits = {});
 
+  /// Draws each motion that is asked for, while somebody looks at it (PlannedMarkers). To be called before answer().
+  /// @param description  what the scene was built from; must outlive this.
+  void drawOn(const ros::Publisher& publisher, const SceneDescription& description);
+
   void answer(const QueryMotion::Request& request, QueryMotion::Response& response);
   void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
 
@@ -53,6 +58,8 @@ class Queries {
   int max_points_;
   const TfHistory& history_;
   const TfTracker& tracker_;
+  ros::Publisher drawn_;  // nothing is drawn without
+  const SceneDescription* description_ = nullptr;
   QueryLimits limits_;
   WorkTurns turns_;
   tbb::task_arena arena_;

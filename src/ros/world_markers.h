@@ -6,8 +6,11 @@
 
 namespace sdf_ccd {
 
-/// The world's objects as they are checked, to look at; half-spaces as a thin square of 4 m. Without voxel maps,
-/// which rviz has better displays for.
+/// The world's objects as they are checked, to look at; of a voxel map the occupied voxels that have a free neighbour,
+/// coloured by height.
 visualization_msgs::MarkerArray toWorldMarkers(const SceneDescription& scene);
+
+/// Centres of the voxels at the surface of a map (see loadOctomapSurface()), each once, and their size [m].
+std::vector<Vector3d> surfaceVoxels(const TriangleMesh& surface, double& size);
 
 }  // namespace sdf_ccd

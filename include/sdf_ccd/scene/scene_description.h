@@ -19,6 +19,7 @@ struct GeometryDescription {
   std::string source;                        ///< for people: "box" or the mesh's URI
   bool watertight_voxels = false;            ///< boundary of whole voxels: no shell, only a field
   std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: as SceneOptions::field says
+  std::optional<Vector3d> scale = {};        ///< that made a mesh of what `source` names; none: that is another name
 };
 
 /// A rigid body: a robot's link or an object of the world.

@@ -121,7 +121,7 @@ std::string planText(const Scene& scene, const std::vector<std::string>& warning
 double check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
              MonitorLoop& loop, CheckFiles& files) {
   const auto start = std::chrono::steady_clock::now();
-  CheckedBag bag(files.bag, loop, parameters.markers);
+  CheckedBag bag(files.bag, loop, described.scene, parameters.markers);
   bag.addScene(described.scene, motion.begin());
   Recorder recorder(motion, loop, bag, files);
   checkBag(motion, parameters, loop, recorder);
