@@ -13,7 +13,7 @@ namespace sdf_ccd {
 
 struct MarkerOptions {
   double scale =
-      1.0;            ///< of all markers; at 1 a contact point is a ball of 1/130 of the robot's size, a letter 1/26 high
+      1.0;  ///< of all markers; at 1 a contact point is a ball of 1/130 of the robot's size, a letter 1/26 high
   double hold = 0.5;  ///< how long a contact stays visible after the cycle that found it [s]
 };
 
