@@ -42,7 +42,7 @@ struct DisabledPair {
 struct SceneDescription {
   std::vector<BodyDescription> bodies;  ///< names are unique
   std::vector<DisabledPair> disabled;
-  std::vector<std::string> visual_only;  ///< links that are no bodies: they have a visual, but no collision shape
+  std::vector<std::string> visual_only = {};  ///< links that are no bodies: they have a visual, but no collision shape
 };
 
 }  // namespace sdf_ccd
