@@ -1,6 +1,7 @@
 #include "sdf_ccd/geometry/mesh_file.h"
 
 #include <functional>
+#include <ostream>
 #include <random>
 #include <stdexcept>
 
@@ -220,6 +221,10 @@ struct RobotMesh {
   std::size_t triangles;
   double longest_side;
 };
+
+std::ostream& operator<<(std::ostream& stream, const RobotMesh& mesh) {
+  return stream << mesh.name;
+}
 
 class RobotMeshes : public ::testing::TestWithParam<RobotMesh> {};
 

@@ -1,5 +1,6 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 
+#include <ostream>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -194,6 +195,10 @@ struct Expected {
   bool trusted;
   double volume;
 };
+
+std::ostream& operator<<(std::ostream& stream, const Expected& expected) {
+  return stream << expected.name;
+}
 
 class RealMeshes : public ::testing::TestWithParam<Expected> {};
 
