@@ -1,133 +1,18 @@
-#include <fcntl.h>
-#include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
-#include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include "ros/check_bag_case.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/MonitorState.h"
-#include "tools/tool_run.h"
 
 namespace sdf_ccd {
 namespace {
 
-using test::kBadInput;
-using test::kDone;
-using test::kPartlyDone;
-using test::readText;
-using test::ToolRun;
-
-namespace fs = std::filesystem;
-
-using Row = std::map<std::string, std::string>;  // by the column's name
-
-constexpr double kBegin = 100.0, kPeriod = 1.0 / 30.0;  // [s]
-constexpr int kBefore = 20, kAfter = 20;                // samples at rest
-// config/demo/arm.urdf, with the hand pointing down: the finger stands upright, this far from the axis of yaw.
-constexpr double kReach = 0.5, kTipHeight = 0.31, kFinger = 0.008;        // [m]
-constexpr double kPlateY = 0.18, kPlateHalf = 0.0005;                     // config/demo/world.yaml [m]
-constexpr double kFirstYaw = 0.2, kYawStep = 0.1, kLastYaw = 0.6 + 1e-9;  // [rad]
-
-double timeOfYaw(double yaw) {
-  return kBegin + kPeriod * (kBefore - 1 + (yaw - kFirstYaw) / kYawStep);
-}
-
-std::vector<Row> readCsv(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line, cell;
-  std::vector<std::string> names;
-  std::vector<Row> rows;
-  while (std::getline(lines, line)) {
-    std::istringstream cells(line + ",");
-    std::vector<std::string> values;
-    while (std::getline(cells, cell, ',')) values.push_back(cell);
-    if (names.empty()) {
-      names = values;
-      continue;
-    }
-    rows.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i) rows.back()[names[i]] = values.at(i);
-  }
-  return rows;
-}
-
-/// The demo's arm swings its finger through the demo's plate, so fast that no sample sees it there.
-class CheckBag : public test::ToolTest {
- protected:
-  void SetUp() override {
-    ToolTest::SetUp();
-    ::setenv("ROS_PACKAGE_PATH", SDF_CCD_SOURCE_DIR, 1);
-    const std::string world = readText(SDF_CCD_SOURCE_DIR "/config/demo/world.yaml");
-    write("arm.yaml", world + "cache_directory: cache\nfield: {cell_size: 0.006}\nshell: {spacing: 0.003}\n");
-    writeJointStates();
-  }
-
-  struct Pose {
-    double shoulder, elbow, wrist;
-  };
-
-  /// With the hand pointing down at kReach.
-  static Pose downwards() {
-    constexpr double kUpperArm = 0.4, kForearm = 0.35, kHand = 0.212, kShoulderHeight = 0.35;
-    const double h = kTipHeight + kHand - kShoulderHeight, d = std::hypot(kReach, h);
-    const double lift = std::acos((kUpperArm * kUpperArm + d * d - kForearm * kForearm) / (2.0 * kUpperArm * d));
-    const double shoulder = -(std::atan2(h, kReach) + lift);
-    const double elbow =
-        M_PI - std::acos((kUpperArm * kUpperArm + kForearm * kForearm - d * d) / (2.0 * kUpperArm * kForearm));
-    return {shoulder, elbow, M_PI_2 - shoulder - elbow};
-  }
-
-  /// Eight seconds with the finger in the plate, as held.bag.
-  /// @param is_silent  of the elbow, by the time [s]; all say nothing between `from` and `until`.
-  void writeHeldContact(const std::function<bool(double)>& is_silent, double from = 9.0, double until = 9.0) {
-    rosbag::Bag bag(path("held.bag").string(), rosbag::bagmode::Write);
-    const Pose pose = downwards();
-    for (int i = 0; i < 240; ++i) {
-      const double time = kPeriod * i;
-      if (time > from && time < until) continue;
-      sensor_msgs::JointState state;
-      state.header.stamp = ros::Time(kBegin + time);
-      state.name = {"yaw", "shoulder", "wrist", "roll"};
-      state.position = {std::asin(kPlateY / kReach) + 0.002 * std::sin(i), pose.shoulder, pose.wrist, 0.0};
-      if (!is_silent(time)) {
-        state.name.push_back("elbow");
-        state.position.push_back(pose.elbow);
-      }
-      bag.write("joint_states", state.header.stamp + ros::Duration(0.005), state);
-    }
-  }
-
-  /// Joint states of the sweep, stamped 5 ms before they are recorded.
-  /// @param later  adds them again to the bag, recorded so much later [s].
-  void writeJointStates(double later = 0.0) {
-    const Pose pose = downwards();
-    std::vector<double> yaws(kBefore - 1, kFirstYaw);
-    for (double yaw = kFirstYaw; yaw < kLastYaw; yaw += kYawStep) yaws.push_back(yaw);
-    yaws.insert(yaws.end(), kAfter, yaws.back());
-    rosbag::Bag bag(path("arm.bag").string(), later > 0.0 ? rosbag::bagmode::Append : rosbag::bagmode::Write);
-    for (std::size_t i = 0; i < yaws.size(); ++i) {
-      sensor_msgs::JointState state;
-      state.header.stamp = ros::Time(kBegin + kPeriod * double(i));
-      state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
-      state.position = {yaws[i], pose.shoulder, pose.elbow, pose.wrist, 0.0, 1.0};
-      bag.write("joint_states", state.header.stamp + ros::Duration(0.005 + later), state);
-    }
-  }
-
-  /// The command line, with a configuration unless the options name one.
-  std::string check(const std::string& bag, const std::string& out, const std::string& options = "") const {
-    const std::string config = options.find("--config") == std::string::npos ? "--config arm.yaml " : "";
-    return "check-bag " + bag + " --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf " + config + options + " --out " +
-           out;
-  }
-  std::vector<Row> table(const std::string& name) const { return readCsv(readText(path(name))); }
-};
+using namespace test;
 
 TEST_F(CheckBag, FindsTheContactBetweenTwoSamples) {
   const ToolRun result = run(check("arm.bag", "made"));
@@ -413,44 +298,6 @@ TEST_F(CheckBag, StartAndDurationChooseAPart) {
   EXPECT_TRUE(table("part/contacts.csv").empty());
 }
 
-TEST_F(CheckBag, BadBagsAreRefused) {
-  const std::string bytes = readText(path("arm.bag"));
-  write("cut.bag", bytes.substr(0, bytes.size() / 2));
-  write("empty.bag", "");
-  write("text.bag", "not a bag");
-  rosbag::Bag(path("none.bag").string(), rosbag::bagmode::Write).close();
-  const std::map<std::string, std::string> reasons = {{"cut.bag", "try `rosbag reindex cut.bag`"},
-                                                      {"empty.bag", ": is not a bag"},
-                                                      {"text.bag", ": is not a bag"},
-                                                      {"none.bag", "none.bag"},
-                                                      {"missing.bag", ": cannot be opened: No such file"},
-                                                      {".", ": is a directory, not a bag"}};
-  for (const auto& [bag, reason] : reasons) {
-    expectRefused(check(bag, "no"), reason);
-    expectRefused("plot-bag " + bag + " --out no", reason);
-  }
-  expectRefused("plot-bag arm.bag --out no", "holds no sdf_ccd/ContactArray");
-  expectRefused(check("arm.bag", "no", "--start 1000"), "nothing is left after the start at 1000 s");
-  for (const char* option : {"--rate -1", "--max-error 0", "--threads -1", "--start nan", "--duration 0"}) {
-    expectRefused(check("arm.bag", "no", option), std::string(option).substr(0, std::string(option).find(' ')));
-  }
-  write("bad.yaml", "rate: fast\n");
-  expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: parameter ~/rate is fast");
-  write("bad.yaml", "filed: {cell_size: 0.01}\n");
-  expectRefused(check("arm.bag", "no", "--config bad.yaml"),
-                "bad.yaml: nothing reads parameter ~/filed, did you mean field?");
-  write("bad.yaml", "world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]\n");
-  expectRefused(check("arm.bag", "no", "--config bad.yaml"),
-                "bad.yaml: nothing reads parameter ~/world[0]/xzy, did you mean xyz?");
-  write("bad.yaml", "rate: fast\n");
-  expectRefused(check("arm.bag", "no", "--srdf missing.srdf"), "missing.srdf");
-  expectRefused(check("arm.bag", "no", "--srdf bad.yaml"), "bad.yaml: the SRDF cannot be parsed: line 1");
-  for (const char* text : {"arm", "<robot name='arm'><link name='a'/><link", "<robot name='arm'><joint/></robot>"}) {
-    write("bad.urdf", text);
-    expectRefused("check-bag arm.bag --urdf bad.urdf --out no", "bad.urdf: the URDF cannot be parsed: ");
-  }
-}
-
 TEST_F(CheckBag, MaxErrorIsKeptByABodyOfSeveralElements) {
   const ToolRun result = run(check("arm.bag", "made", "--max-error 0.005"));
   EXPECT_EQ(result.exit_code, kDone) << result.error;
@@ -469,157 +316,6 @@ TEST_F(CheckBag, ABoundAboveMaxErrorIsAWarning) {
       << result.error;
 }
 
-TEST_F(CheckBag, WhatCannotBeMeantIsRefusedBeforeItIsBuilt) {
-  expectRefused(check("arm.bag", "no", "--max-error 1e-6"), "a max_error of 1e-06 m would take about ");
-  expectRefused(check("arm.bag", "no", "--max-error 1e-300"), "max_error must be at least 1e-09 m, not 1e-300 m");
-  expectRefused(check("arm.bag", "no", "--max-error 1e9"), "a max_error of 1e+09 m is larger than every body: ");
-  expectRefused(check("arm.bag", "no", "--rate 1e9"), "a rate of 1e+09 Hz is above the largest, 10000 Hz");
-}
-
-TEST_F(CheckBag, InterruptedItLeavesNothing) {
-  write("fine.yaml", "cache: false\nfield: {cell_size: 0.0007}\n");
-  const std::string script = "cd '" + path("").string() + "' && { '" SDF_CCD_TOOL "' " +
-                             check("arm.bag", "no", "--config fine.yaml") +
-                             " > /dev/null 2> ../error.txt & "
-                             "for i in $(seq 300); do [ -d no ] && break; sleep 0.02; done; "
-                             "kill -INT $!; wait $!; }";
-  const int status = std::system(script.c_str());
-  EXPECT_EQ(WEXITSTATUS(status), kBadInput);
-  EXPECT_NE(readText(path("../error.txt")).find("interrupted: nothing is written to no"), std::string::npos);
-  EXPECT_FALSE(fs::exists(path("no")));
-}
-
-TEST_F(CheckBag, KilledItLeavesNoFiles) {
-  {
-    const int unnamed = ::open(path("").c_str(), O_TMPFILE | O_RDWR, 0600);
-    if (unnamed < 0) GTEST_SKIP() << "this file system has no files without a name";
-    ::close(unnamed);
-  }
-  write("fine.yaml", "cache: false\nfield: {cell_size: 0.0007}\n");
-  const std::string script = "cd '" + path("").string() + "' && { '" SDF_CCD_TOOL "' " +
-                             check("arm.bag", "no", "--config fine.yaml") +
-                             " > /dev/null 2>&1 & "
-                             "for i in $(seq 300); do [ -d no ] && break; sleep 0.02; done; sleep 0.1; "
-                             "kill -KILL $!; wait $!; }";
-  const int status = std::system((script + " 2> /dev/null").c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGKILL);
-  ASSERT_TRUE(fs::exists(path("no")));
-  EXPECT_TRUE(fs::is_empty(path("no"))) << fs::directory_iterator(path("no"))->path();
-}
-
-TEST_F(CheckBag, OnAFullDiskItLeavesNothing) {
-  write("arm.yaml", readText(path("arm.yaml")) + "cache: false\n");
-  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
-  const auto kilobytes = fs::file_size(path("made/checked.bag")) / 1024;
-  const std::size_t files = countFiles();
-  for (const std::string& limit : {std::to_string(kilobytes - 1), std::to_string(kilobytes / 2), std::string("1")}) {
-    // A limit on the size of files: their writer is told as of a full disk, that no more can be written.
-    const std::string script = "cd '" + path("").string() + "' && ulimit -f " + limit + " && trap '' XFSZ && '" +
-                               SDF_CCD_TOOL "' " + check("arm.bag", "no") + " > /dev/null 2> ../error.txt";
-    const int status = std::system(("bash -c \"" + script + "\"").c_str());
-    const std::string error = test::withoutProgress(readText(path("../error.txt")));
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), kBadInput) << error;
-    EXPECT_NE(error.find(": cannot write: File too large"), std::string::npos) << error;
-    EXPECT_EQ(error.find('/'), 0u + std::string("sdf_ccd: no").size()) << error;
-    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
-    EXPECT_EQ(countFiles(), files);
-    EXPECT_FALSE(fs::exists(path("no")));
-  }
-}
-
-/// A base, two links on it that can touch, and others, whose transforms nobody sends.
-std::string robotOfManyLinks(int others) {
-  const std::string shape =
-      "<collision><origin xyz='0 0.05 0'/><geometry><sphere radius='0.01'/></geometry></collision>";
-  std::string urdf = "<robot name='many'><link name='base'>" + shape + "</link>";
-  const auto add = [&](const std::string& name) {
-    urdf += "<link name='" + name + "'>" + shape + "</link><joint name='to_" + name +
-            "' type='continuous'><parent link='base'/><child link='" + name + "'/><origin xyz='0.05 0 0'/></joint>";
-  };
-  add("known");
-  add("known2");
-  for (int i = 0; i < others; ++i) add(std::string("lost_") + char('a' + i));
-  return urdf + "</robot>";
-}
-
-TEST_F(CheckBag, WhyNothingWasCheckedIsSaidFirst) {
-  write("many.urdf", robotOfManyLinks(16));
-  write("many.yaml", "check_adjacent: true\ncache: false\n");
-  const std::string options = " --urdf many.urdf --config many.yaml --out ";
-  const auto writeTf = [&](const std::string& file, const std::map<std::string, std::string>& parents) {
-    rosbag::Bag bag(path(file).string(), rosbag::bagmode::Write);
-    tf2_msgs::TFMessage message;
-    for (const auto& [child, parent] : parents) {
-      message.transforms.emplace_back();
-      message.transforms.back().header.frame_id = parent;
-      message.transforms.back().child_frame_id = child;
-      message.transforms.back().transform.translation.z = 0.2 * double(message.transforms.size());
-    }
-    for (auto& transform : message.transforms) transform.transform.rotation.w = 1.0;
-    for (int i = 0; i < 60; ++i) {
-      for (auto& transform : message.transforms) transform.header.stamp = ros::Time(kBegin + kPeriod * i);
-      bag.write("/tf", message.transforms[0].header.stamp, message);
-    }
-  };
-  // Links whose transforms do not come: one reason, of whatever many links.
-  writeTf("some.bag", {{"known", "base"}, {"known2", "base"}});
-  const ToolRun some = run("check-bag some.bag" + options + "some");
-  EXPECT_EQ(some.exit_code, kPartlyDone) << some.error;
-  EXPECT_EQ(
-      some.error.find("sdf_ccd: no cycle was checked as a whole, as known - lost_a: no transform from lost_a to "), 0u)
-      << some.error;
-  const std::size_t not_checked = some.out.find("\nnot checked ");
-  EXPECT_LT(not_checked, some.out.find("\ncontact "));
-  EXPECT_EQ(some.out.find(" more\n", not_checked), std::string::npos) << some.out;
-  EXPECT_NE(some.out.find("as known - lost_a: no transform from lost_a to base: none of lost_a has come", not_checked),
-            std::string::npos)
-      << some.out;
-
-  // A fixed frame that the robot's transforms do not lead to.
-  writeTf("apart.bag", {{"known", "base"},
-                        {"known2", "base"},
-                        {"lost_a", "base"},
-                        {"lost_b", "base"},
-                        {"lost_c", "base"},
-                        {"odom", "world"}});
-  write("many.urdf", robotOfManyLinks(3));
-  write("many.yaml", "check_adjacent: true\ncache: false\nfixed_frame: world\n");
-  expectRefused("check-bag apart.bag" + options + "no",
-                "apart.bag: nothing could be checked, as known - known2: no transform from known to world: tf's tree "
-                "is rooted at base, not world");
-}
-
-TEST_F(CheckBag, JointStatesThatAreNotFiniteAreCounted) {
-  {
-    rosbag::Bag bag(path("nan.bag").string(), rosbag::bagmode::Write);
-    const Pose pose = downwards();
-    for (int i = 0; i < 60; ++i) {
-      sensor_msgs::JointState state;
-      state.header.stamp = ros::Time(kBegin + kPeriod * i);
-      state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
-      const double nan = std::nan("");
-      state.position = {kFirstYaw, pose.shoulder, nan, pose.wrist, 0.0, nan};
-      bag.write("joint_states", state.header.stamp, state);
-    }
-  }
-  const ToolRun result = run(check("nan.bag", "made"));
-  EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("60 positions of joint elbow in joint_states are not finite"), std::string::npos)
-      << result.error;
-  EXPECT_EQ(result.error.find("unknown"), std::string::npos) << result.error;
-}
-
-TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
-  writeHeldContact([](double) { return true; });  // of the elbow
-  const ToolRun result = run(check("held.bag", "made"));
-  EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("joint_states names nowhere these joints of the robot: elbow\n"), std::string::npos)
-      << result.error;
-  const ToolRun complete = run(check("arm.bag", "whole"));
-  EXPECT_EQ(complete.error.find("names nowhere"), std::string::npos) << complete.error;
-}
-
 TEST_F(CheckBag, PairsAreLearnedFromABag) {
   const std::string command = "learn-pairs --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf --max-error 0.02 ";
   // The arm only swings about, with its hand far from itself.
@@ -631,24 +327,6 @@ TEST_F(CheckBag, PairsAreLearnedFromABag) {
   expectRefused(command + "--states 0 --bag missing.bag --out no.srdf", "missing.bag: cannot be opened");
   expectRefused(command + "--states 0 --bag arm.bag --joint-states /else --out no.srdf",
                 "arm.bag: holds no joint states of the robot's joints on /else");
-}
-
-TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
-  const std::string link = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
-  write("other.urdf", "<robot name='other'><link name='a'>" + link + "</link><link name='b'>" + link +
-                          "</link><joint name='ab' type='continuous'><parent link='a'/><child link='b'/><origin "
-                          "xyz='1 0 0'/></joint></robot>");
-  expectRefused("check-bag arm.bag --urdf other.urdf --out no", "neither tf nor joint_states is about the robot");
-  write("map.yaml", "fixed_frame: map\n");
-  expectRefused(check("arm.bag", "no", "--config map.yaml"), "the fixed frame map is neither in tf nor a link");
-}
-
-TEST_F(CheckBag, WhatCannotBeCheckedIsNamed) {
-  ::setenv("ROS_PACKAGE_PATH", path("").c_str(), 1);
-  const ToolRun result = run(check("arm.bag", "made"));
-  EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("not checked: link hand: package://sdf_ccd/"), std::string::npos) << result.error;
-  EXPECT_EQ(table("made/cycles.csv")[0]["verdict"], "NOT_CHECKED");
 }
 
 }  // namespace

@@ -1,0 +1,226 @@
+#include <fcntl.h>
+#include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "ros/check_bag_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFine = "cache: false\nfield: {cell_size: 0.0007}\n";  // takes long to build
+
+TEST_F(CheckBag, BadBagsAreRefused) {
+  const std::string bytes = readText(path("arm.bag"));
+  write("cut.bag", bytes.substr(0, bytes.size() / 2));
+  write("empty.bag", "");
+  write("text.bag", "not a bag");
+  rosbag::Bag(path("none.bag").string(), rosbag::bagmode::Write).close();
+  const std::map<std::string, std::string> reasons = {{"cut.bag", "try `rosbag reindex cut.bag`"},
+                                                      {"empty.bag", ": is not a bag"},
+                                                      {"text.bag", ": is not a bag"},
+                                                      {"none.bag", "none.bag"},
+                                                      {"missing.bag", ": cannot be opened: No such file"},
+                                                      {".", ": is a directory, not a bag"}};
+  for (const auto& [bag, reason] : reasons) {
+    expectRefused(check(bag, "no"), reason);
+    expectRefused("plot-bag " + bag + " --out no", reason);
+  }
+  expectRefused("plot-bag arm.bag --out no", "holds no sdf_ccd/ContactArray");
+  expectRefused(check("arm.bag", "no", "--start 1000"), "nothing is left after the start at 1000 s");
+  for (const char* option : {"--rate -1", "--max-error 0", "--threads -1", "--start nan", "--duration 0"}) {
+    expectRefused(check("arm.bag", "no", option), std::string(option).substr(0, std::string(option).find(' ')));
+  }
+  write("bad.yaml", "rate: fast\n");
+  expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: parameter ~/rate is fast");
+  write("bad.yaml", "filed: {cell_size: 0.01}\n");
+  expectRefused(check("arm.bag", "no", "--config bad.yaml"),
+                "bad.yaml: nothing reads parameter ~/filed, did you mean field?");
+  write("bad.yaml", "world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]\n");
+  expectRefused(check("arm.bag", "no", "--config bad.yaml"),
+                "bad.yaml: nothing reads parameter ~/world[0]/xzy, did you mean xyz?");
+  write("bad.yaml", "rate: fast\n");
+  expectRefused(check("arm.bag", "no", "--srdf missing.srdf"), "missing.srdf");
+  expectRefused(check("arm.bag", "no", "--srdf bad.yaml"), "bad.yaml: the SRDF cannot be parsed: line 1");
+  for (const char* text : {"arm", "<robot name='arm'><link name='a'/><link", "<robot name='arm'><joint/></robot>"}) {
+    write("bad.urdf", text);
+    expectRefused("check-bag arm.bag --urdf bad.urdf --out no", "bad.urdf: the URDF cannot be parsed: ");
+  }
+}
+
+TEST_F(CheckBag, WhatCannotBeMeantIsRefusedBeforeItIsBuilt) {
+  expectRefused(check("arm.bag", "no", "--max-error 1e-6"), "a max_error of 1e-06 m would take about ");
+  expectRefused(check("arm.bag", "no", "--max-error 1e-300"), "max_error must be at least 1e-09 m, not 1e-300 m");
+  expectRefused(check("arm.bag", "no", "--max-error 1e9"), "a max_error of 1e+09 m is larger than every body: ");
+  expectRefused(check("arm.bag", "no", "--rate 1e9"), "a rate of 1e+09 Hz is above the largest, 10000 Hz");
+}
+
+/// Sends the tool a signal while it builds, and gives its exit status.
+/// @param what  a command line that builds for long.
+int statusAfter(const std::string& signal, const std::string& folder, const std::string& what) {
+  const std::string script = "cd '" + folder + "' && { '" SDF_CCD_TOOL "' " + what +
+                             " > /dev/null 2> ../error.txt & "
+                             "for i in $(seq 300); do [ -d no ] && break; sleep 0.02; done; sleep 0.1; "
+                             "kill -" +
+                             signal + " $!; wait $!; } 2> /dev/null";
+  return WEXITSTATUS(std::system(script.c_str()));
+}
+
+TEST_F(CheckBag, InterruptedItLeavesNothing) {
+  write("fine.yaml", kFine);
+  EXPECT_EQ(statusAfter("INT", path("").string(), check("arm.bag", "no", "--config fine.yaml")), kBadInput);
+  EXPECT_NE(readText(path("../error.txt")).find("interrupted: nothing is written to no"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("no")));
+}
+
+TEST_F(CheckBag, KilledItLeavesNoFiles) {
+  {
+    const int unnamed = ::open(path("").c_str(), O_TMPFILE | O_RDWR, 0600);
+    if (unnamed < 0) GTEST_SKIP() << "this file system has no files without a name";
+    ::close(unnamed);
+  }
+  write("fine.yaml", kFine);
+  EXPECT_EQ(statusAfter("KILL", path("").string(), check("arm.bag", "no", "--config fine.yaml")), 128 + SIGKILL);
+  ASSERT_TRUE(fs::exists(path("no")));
+  EXPECT_TRUE(fs::is_empty(path("no"))) << fs::directory_iterator(path("no"))->path();
+}
+
+TEST_F(CheckBag, OnAFullDiskItLeavesNothing) {
+  write("arm.yaml", readText(path("arm.yaml")) + "cache: false\n");
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  const auto kilobytes = fs::file_size(path("made/checked.bag")) / 1024;
+  const std::size_t files = countFiles();
+  for (const std::string& limit : {std::to_string(kilobytes - 1), std::to_string(kilobytes / 2), std::string("1")}) {
+    // A limit on the size of files: their writer is told as of a full disk, that no more can be written.
+    const std::string script = "cd '" + path("").string() + "' && ulimit -f " + limit + " && trap '' XFSZ && '" +
+                               SDF_CCD_TOOL "' " + check("arm.bag", "no") + " > /dev/null 2> ../error.txt";
+    const int status = std::system(("bash -c \"" + script + "\"").c_str());
+    const std::string error = test::withoutProgress(readText(path("../error.txt")));
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), kBadInput) << error;
+    EXPECT_NE(error.find(": cannot write: File too large"), std::string::npos) << error;
+    EXPECT_EQ(error.find('/'), 0u + std::string("sdf_ccd: no").size()) << error;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+    EXPECT_EQ(countFiles(), files);
+    EXPECT_FALSE(fs::exists(path("no")));
+  }
+}
+
+/// A base, two links on it that can touch, and others, whose transforms nobody sends.
+std::string robotOfManyLinks(int others) {
+  const std::string shape =
+      "<collision><origin xyz='0 0.05 0'/><geometry><sphere radius='0.01'/></geometry></collision>";
+  std::string urdf = "<robot name='many'><link name='base'>" + shape + "</link>";
+  const auto add = [&](const std::string& name) {
+    urdf += "<link name='" + name + "'>" + shape + "</link><joint name='to_" + name +
+            "' type='continuous'><parent link='base'/><child link='" + name + "'/><origin xyz='0.05 0 0'/></joint>";
+  };
+  add("known");
+  add("known2");
+  for (int i = 0; i < others; ++i) add(std::string("lost_") + char('a' + i));
+  return urdf + "</robot>";
+}
+
+TEST_F(CheckBag, WhyNothingWasCheckedIsSaidFirst) {
+  write("many.urdf", robotOfManyLinks(16));
+  write("many.yaml", "check_adjacent: true\ncache: false\n");
+  const std::string options = " --urdf many.urdf --config many.yaml --out ";
+  const auto writeTf = [&](const std::string& file, const std::map<std::string, std::string>& parents) {
+    rosbag::Bag bag(path(file).string(), rosbag::bagmode::Write);
+    tf2_msgs::TFMessage message;
+    for (const auto& [child, parent] : parents) {
+      message.transforms.emplace_back();
+      message.transforms.back().header.frame_id = parent;
+      message.transforms.back().child_frame_id = child;
+      message.transforms.back().transform.translation.z = 0.2 * double(message.transforms.size());
+    }
+    for (auto& transform : message.transforms) transform.transform.rotation.w = 1.0;
+    for (int i = 0; i < 60; ++i) {
+      for (auto& transform : message.transforms) transform.header.stamp = ros::Time(kBegin + kPeriod * i);
+      bag.write("/tf", message.transforms[0].header.stamp, message);
+    }
+  };
+  // Links whose transforms do not come: one reason, of whatever many links.
+  writeTf("some.bag", {{"known", "base"}, {"known2", "base"}});
+  const ToolRun some = run("check-bag some.bag" + options + "some");
+  EXPECT_EQ(some.exit_code, kPartlyDone) << some.error;
+  EXPECT_EQ(
+      some.error.find("sdf_ccd: no cycle was checked as a whole, as known - lost_a: no transform from lost_a to "), 0u)
+      << some.error;
+  const std::size_t not_checked = some.out.find("\nnot checked ");
+  EXPECT_LT(not_checked, some.out.find("\ncontact "));
+  EXPECT_EQ(some.out.find(" more\n", not_checked), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("as known - lost_a: no transform from lost_a to base: none of lost_a has come", not_checked),
+            std::string::npos)
+      << some.out;
+
+  // A fixed frame that the robot's transforms do not lead to.
+  writeTf("apart.bag", {{"known", "base"},
+                        {"known2", "base"},
+                        {"lost_a", "base"},
+                        {"lost_b", "base"},
+                        {"lost_c", "base"},
+                        {"odom", "world"}});
+  write("many.urdf", robotOfManyLinks(3));
+  write("many.yaml", "check_adjacent: true\ncache: false\nfixed_frame: world\n");
+  expectRefused("check-bag apart.bag" + options + "no",
+                "apart.bag: nothing could be checked, as known - known2: no transform from known to world: tf's tree "
+                "is rooted at base, not world");
+}
+
+TEST_F(CheckBag, JointStatesThatAreNotFiniteAreCounted) {
+  {
+    rosbag::Bag bag(path("nan.bag").string(), rosbag::bagmode::Write);
+    const Pose pose = downwards();
+    for (int i = 0; i < 60; ++i) {
+      sensor_msgs::JointState state;
+      state.header.stamp = ros::Time(kBegin + kPeriod * i);
+      state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
+      const double nan = std::nan("");
+      state.position = {kFirstYaw, pose.shoulder, nan, pose.wrist, 0.0, nan};
+      bag.write("joint_states", state.header.stamp, state);
+    }
+  }
+  const ToolRun result = run(check("nan.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("60 positions of joint elbow in joint_states are not finite"), std::string::npos)
+      << result.error;
+  EXPECT_EQ(result.error.find("unknown"), std::string::npos) << result.error;
+}
+
+TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
+  writeHeldContact([](double) { return true; });  // of the elbow
+  const ToolRun result = run(check("held.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("joint_states names nowhere these joints of the robot: elbow\n"), std::string::npos)
+      << result.error;
+  const ToolRun complete = run(check("arm.bag", "whole"));
+  EXPECT_EQ(complete.error.find("names nowhere"), std::string::npos) << complete.error;
+}
+
+TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
+  const std::string link = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+  write("other.urdf", "<robot name='other'><link name='a'>" + link + "</link><link name='b'>" + link +
+                          "</link><joint name='ab' type='continuous'><parent link='a'/><child link='b'/><origin "
+                          "xyz='1 0 0'/></joint></robot>");
+  expectRefused("check-bag arm.bag --urdf other.urdf --out no", "neither tf nor joint_states is about the robot");
+  write("map.yaml", "fixed_frame: map\n");
+  expectRefused(check("arm.bag", "no", "--config map.yaml"), "the fixed frame map is neither in tf nor a link");
+}
+
+TEST_F(CheckBag, WhatCannotBeCheckedIsNamed) {
+  ::setenv("ROS_PACKAGE_PATH", path("").c_str(), 1);
+  const ToolRun result = run(check("arm.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("not checked: link hand: package://sdf_ccd/"), std::string::npos) << result.error;
+  EXPECT_EQ(table("made/cycles.csv")[0]["verdict"], "NOT_CHECKED");
+}
+
+}  // namespace
+}  // namespace sdf_ccd
