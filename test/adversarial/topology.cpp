@@ -1,6 +1,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <stdexcept>
 
@@ -14,6 +15,7 @@ namespace {
 constexpr long kCasesPerPair = 150;  // scenes take longer to build than that many cases to run
 constexpr double kReach = 0.5;       ///< of places in a body that is larger, and of ways [m]
 constexpr std::size_t kSurePairs = 11;
+constexpr std::array<double, 3> kCoarse = {1.0, 2.0, 4.0};
 
 struct Pairing {
   std::size_t a, b;
@@ -48,11 +50,12 @@ class ScratchDirectory {
   std::string path_;
 };
 
-Duel makeDuel(const Actor& a, const Actor& b, const std::string& cache) {
+/// @param coarse  1: as fine as a robot is checked; more: larger errors, which are as hard to keep and cheaper.
+Duel makeDuel(const Actor& a, const Actor& b, double coarse, const std::string& cache) {
   SceneOptions scene;
-  scene.field.max_error = 2e-3;
-  scene.shell.spacing = 0.02;
-  scene.shell.edge_gap = 4e-3;
+  scene.field.max_error = coarse * 2e-3;
+  scene.shell.spacing = coarse * 0.02;
+  scene.shell.edge_gap = coarse * 4e-3;
   scene.cache_directory = cache;
   MonitorOptions monitor;
   monitor.chords.tolerance = 2e-4;
@@ -118,7 +121,8 @@ Tally topology(std::uint64_t seed, long cases) {
   const ScratchDirectory cache;
   Tally tally;
   for (long i = 0; i < used; ++i) {
-    Duel duel = makeDuel(actors[all[std::size_t(i)].a], actors[all[std::size_t(i)].b], cache.path());
+    const auto [a, b] = all[std::size_t(i)];
+    Duel duel = makeDuel(actors[a], actors[b], kCoarse[random() % kCoarse.size()], cache.path());
     play(duel, cases * (i + 1) / used - cases * i / used, random, tally);
   }
   return tally;
