@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "ros/conversions.h"
+#include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
@@ -159,11 +160,11 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
     if (is_carried) missing[body] = root_missing.empty() ? plan.missing[carrier.link] : root_missing;
   }
   const auto along = std::make_shared<TrajectoryMotion>(planned.robot, plan.trajectory, bodies);
-  result.knots = along->knots();
-  result.piece = [along, knots = result.knots, missing, balls, sampling = planned.sampling](
+  result.waypoints = along->waypoints();
+  result.piece = [along, waypoints = result.waypoints, missing, balls, sampling = planned.sampling](
                      std::size_t first, std::size_t last, CycleMotion& motion) {
     motion.missing = missing;
-    sampleMotion({knots.begin() + first, knots.begin() + last + 1}, along->source(), balls, sampling, motion);
+    sampleMotion({waypoints.begin() + first, waypoints.begin() + last + 1}, along->source(), balls, sampling, motion);
     startAtZero(motion);
   };
   return result;
@@ -195,7 +196,7 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
   result.samples = timesOf(request.poses, request.poses.front().time_from_start, "poses");
   const auto whole = std::make_shared<CycleMotion>();
   CycleMotion& motion = *whole;
-  motion.times = result.knots = result.samples;
+  motion.times = result.waypoints = result.samples;
   motion.missing = now.missing;
   for (const Isometry3d& X_WB : now.X_WB) motion.X_WB.emplace_back(motion.times.size(), X_WB);
   const std::vector<std::string>& links = planned.robot.links();
@@ -254,6 +255,12 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
   std::map<std::string, int> links;
   for (int link = 0; link < static_cast<int>(robot.links().size()); ++link) {
     links[frames(link)] = link;
+    const TfHistory::Span span = history.span(frames(link));
+    const bool moves = span.problem.empty() && !span.is_static;
+    if (moves && (now.oldest.isZero() || span.last < now.oldest)) {
+      now.oldest = span.last;
+      now.oldest_frame = frames(link);
+    }
     if (link == 0) continue;
     const std::string& joint = robot.jointAbove(link).name;
     Isometry3d X_PL;
@@ -277,6 +284,12 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
     now.carriers.push_back(carrier);
   }
   return now;
+}
+
+std::string oldTransformsNote(const CurrentPoses& now, const ros::Time& time, double max_age) {
+  const double age = (time - now.oldest).toSec();
+  if (now.oldest.isZero() || age <= max_age) return {};
+  return "the newest transform of " + now.oldest_frame + " is " + numberText(age) + " s old";
 }
 
 PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& planned) {

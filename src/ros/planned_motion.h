@@ -25,6 +25,9 @@ struct CurrentPoses {
   std::vector<std::string> missing;  ///< per body: why that is not known
   std::vector<Carrier> carriers;     ///< per body
 
+  ros::Time oldest;          ///< of the newest transforms of the robot's moving links, the oldest; 0 if none is known
+  std::string oldest_frame;  ///< that link's
+
   Isometry3d X_WM = Isometry3d::Identity();  ///< of the frame that the plan's root poses are given in
   std::string plan_frame_missing;
 };
@@ -41,9 +44,9 @@ struct PlannedScene {
 
 /// A motion that is made piece by piece: all samples of a long one would take gigabytes.
 struct PlannedMotion {
-  std::vector<double> knots;  ///< where it may be cut, times from the first point on [s]
+  std::vector<double> waypoints;  ///< where it may be cut, times from the first point on [s]
 
-  /// Sets the motion of all bodies from one of the knots to a later one, times counting from the first of them.
+  /// Sets the motion of all bodies from one of the waypoints to a later one, times counting from the first of them.
   std::function<void(std::size_t first, std::size_t last, CycleMotion& motion)> piece;
 
   std::vector<double> samples;           ///< times of the request's points [s], from the first
@@ -62,6 +65,9 @@ struct RobotFrames {
 
 /// From the newest transform of each frame, whatever its age. Bodies' own poses are left to the caller.
 CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const Scene& scene);
+
+/// What a user should know of transforms that are older than `max_age` [s] at the time `time`; empty if none are.
+std::string oldTransformsNote(const CurrentPoses& now, const ros::Time& time, double max_age);
 
 /// The motion of all bodies along the request's joint trajectory or link poses. A body whose frame is not a link's but
 /// hangs below one moves with it.

@@ -16,8 +16,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kNiceness = 5;                // of answers: cycles have 0
-constexpr std::size_t kKnotsPerPiece = 16;  // some milliseconds
+constexpr int kNiceness = 5;                    // of answers: cycles have 0
+constexpr std::size_t kWaypointsPerPiece = 16;  // some milliseconds
 constexpr std::size_t kPointsPerPiece = 500;
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -68,6 +68,7 @@ Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& descr
       sampling_(parameters.tf.sampling),
       options_(parameters.monitor),
       max_points_(parameters.max_points),
+      max_age_(parameters.tf.max_latency),
       history_(history),
       tracker_(tracker),
       limits_(limits),
@@ -96,7 +97,10 @@ PlannedMotion Queries::plan(const QueryMotion::Request& request) const {
   tracker_.posesAt(ros::Time(), now.X_WB, now.missing);
   const std::string frame = withoutLeadingSlash(request.multi_dof_trajectory.header.frame_id);
   history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
-  return toPlannedMotion(request, {*scene_, *robot_, base_joint_, unreachable_, now, sampling_});
+  PlannedMotion planned = toPlannedMotion(request, {*scene_, *robot_, base_joint_, unreachable_, now, sampling_});
+  const std::string old = ros::Time::isValid() ? oldTransformsNote(now, ros::Time::now(), max_age_) : "";
+  if (!old.empty()) planned.notes += (planned.notes.empty() ? "" : "; ") + old;
+  return planned;
 }
 
 void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response) {
@@ -116,8 +120,8 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   std::unique_ptr<PlannedMarkers> markers;
   if (description_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(*description_);
   CycleMotion motion;
-  for (std::size_t first = 0, last = 0; first + 1 < planned.knots.size(); first = last) {
-    last = std::min(first + kKnotsPerPiece, planned.knots.size() - 1);
+  for (std::size_t first = 0, last = 0; first + 1 < planned.waypoints.size(); first = last) {
+    last = std::min(first + kWaypointsPerPiece, planned.waypoints.size() - 1);
     const Piece piece(*this, spent);
     planned.piece(first, last, motion);
     arena_.execute([&] { joiner.add(motion, monitor.run(motion, wanted)); });

@@ -56,6 +56,7 @@ class Queries {
   MotionSampling sampling_;
   MonitorOptions options_;
   int max_points_;
+  double max_age_;  // of transforms that need no note [s]
   const TfHistory& history_;
   const TfTracker& tracker_;
   ros::Publisher drawn_;  // nothing is drawn without

@@ -233,6 +233,10 @@ class MonitorTest(unittest.TestCase):
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
         diagnostics = Recorder('/diagnostics', DiagnosticArray)
         self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'transforms') == DiagnosticStatus.ERROR))
+        # A plan that starts from poses as old as that is answered, and says so.
+        answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
+        self.assertTrue(answer.success, answer.message)
+        self.assertRegex(answer.message, r'the newest transform of \w+ is [0-9.]+ s old')
         for _ in range(10):
             self.send(0.0)
         self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
@@ -282,6 +286,7 @@ class MonitorTest(unittest.TestCase):
         self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
 
     def test_query_motion(self):
+        self.send(0.0)
         answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.verdict, answer.CLEAR)

@@ -49,7 +49,7 @@ class PlannedMotionTest : public ::testing::Test {
     planned_ = toPlannedMotion(request, {scene_, robot_, "virtual", unreachable_, now_, MotionSampling()});
     samples_ = planned_.samples;
     CycleMotion motion;
-    planned_.piece(0, planned_.knots.size() - 1, motion);
+    planned_.piece(0, planned_.waypoints.size() - 1, motion);
     return motion;
   }
 
@@ -99,6 +99,16 @@ TEST_F(PlannedMotionTest, WholeRevolutionsAreNotTakenForRest) {
   }
   EXPECT_NE(refusal(swing({0.0, 1e9})).find("turns a link by 1e+09 rad up to point 1"), std::string::npos);
   EXPECT_NE(refusal(swing({0.0, 1e300})).find("1e+300"), std::string::npos);
+}
+
+TEST_F(PlannedMotionTest, OldTransformsAreSaid) {
+  now_.oldest = ros::Time(100.0);
+  now_.oldest_frame = "rod";
+  EXPECT_EQ(oldTransformsNote(now_, ros::Time(100.4), 0.5), "");
+  EXPECT_EQ(oldTransformsNote(now_, ros::Time(90.0), 0.5), "");
+  EXPECT_EQ(oldTransformsNote(now_, ros::Time(112.5), 0.5), "the newest transform of rod is 12.5 s old");
+  now_.oldest = ros::Time();
+  EXPECT_EQ(oldTransformsNote(now_, ros::Time(112.5), 0.5), "");
 }
 
 TEST_F(PlannedMotionTest, UnknownRootMakesAllLinksMissing) {
