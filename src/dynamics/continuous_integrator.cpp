@@ -60,9 +60,9 @@ class ContinuousIntegrator : public Integrator {
     };
     X_CF_.assign(1, poseInC(X_OF.front().linear(), role.path.chords.front().X_FP_start));
     for (const Chord& chord : role.path.chords) {
-      const double t0 = motion_.times[chord.knot], t1 = motion_.times[chord.knot + 1];
-      const Matrix3d R_start = X_OF[chord.knot].linear();
-      const Eigen::AngleAxisd turn(Matrix3d(R_start.transpose() * X_OF[chord.knot + 1].linear()));
+      const double t0 = motion_.times[chord.interval], t1 = motion_.times[chord.interval + 1];
+      const Matrix3d R_start = X_OF[chord.interval].linear();
+      const Eigen::AngleAxisd turn(Matrix3d(R_start.transpose() * X_OF[chord.interval + 1].linear()));
       const double s = (chord.t_end - t0) / (t1 - t0);
       const Matrix3d R_OF = R_start * Eigen::AngleAxisd(s * turn.angle(), turn.axis()).toRotationMatrix();
       X_CF_.push_back(poseInC(R_OF, chord.X_FP_end));

@@ -19,7 +19,7 @@ void validate(const ChordOptions& options) {
 /// Times of an interval between two recorded poses.
 struct Span {
   double t_start, t_end;
-  int knot;
+  int interval;
 };
 
 /// @param poseAt  X_FP at s from 0 to 1.
@@ -35,7 +35,7 @@ void addChords(const Span& span, double acceleration, const PoseAt& poseAt, cons
     const bool first = i == 0, last = i + 1 == n;
     const Isometry3d X_start = first ? poseAt(0.0) : path.chords.back().X_FP_end;
     path.chords.push_back({span.t_start + s0 * length, last ? span.t_end : span.t_start + s1 * length, X_start,
-                           poseAt(last ? 1.0 : s1), span.knot});
+                           poseAt(last ? 1.0 : s1), span.interval});
   }
 }
 
@@ -61,9 +61,9 @@ void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const C
   }
 }
 
-void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int knot, ChordPath& path) {
+void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int interval, ChordPath& path) {
   const auto poseAt = [&](double s) { return relativePose(motion.X_WF.pose(s), motion.X_WP.pose(s)); };
-  addChords(Span{motion.t_start, motion.t_end, knot}, motion.acceleration, poseAt, options, path);
+  addChords(Span{motion.t_start, motion.t_end, interval}, motion.acceleration, poseAt, options, path);
 }
 
 }  // namespace sdf_ccd

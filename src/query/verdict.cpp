@@ -6,12 +6,12 @@ const char* toString(Verdict verdict) {
   switch (verdict) {
     case Verdict::kClear:
       return "CLEAR";
-    case Verdict::kContact:
-      return "CONTACT";
-    case Verdict::kUncertain:
-      return "UNCERTAIN";
     case Verdict::kNotChecked:
       return "NOT_CHECKED";
+    case Verdict::kUncertain:
+      return "UNCERTAIN";
+    case Verdict::kContact:
+      return "CONTACT";
   }
   return "?";
 }

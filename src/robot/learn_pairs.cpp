@@ -6,10 +6,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "pair_states.h"
 #include "sdf_ccd/robot/joint_sampler.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
 #include "sdf_ccd/scene/error_budget.h"
+#include "state_verdicts.h"
 
 namespace sdf_ccd {
 namespace {

@@ -16,8 +16,8 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTurn = 1.0;                  // at most that a link turns between two knots [rad]
-constexpr std::size_t kMostAddedKnots = 2000;  // about 300 revolutions
+constexpr double kTurn = 1.0;                     // at most that a link turns between two waypoints [rad]
+constexpr std::size_t kMaxAddedWaypoints = 2000;  // about 300 revolutions
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
@@ -144,9 +144,9 @@ TrajectoryMotion::TrajectoryMotion(const RobotModel& robot, const RobotTrajector
   }
 }
 
-std::vector<double> TrajectoryMotion::knots() const {
+std::vector<double> TrajectoryMotion::waypoints() const {
   const std::vector<double>& times = trajectory_.times;
-  std::vector<double> knots = {times.front()};
+  std::vector<double> waypoints = {times.front()};
   std::size_t added = 0;
   std::vector<FrameMove> moves;
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -158,21 +158,21 @@ std::vector<double> TrajectoryMotion::knots() const {
       turn = std::max(turn, turns[link]);
     }
     const double pieces = std::max(1.0, std::ceil(turn / kTurn));
-    if (!(pieces - 1.0 <= static_cast<double>(kMostAddedKnots - added))) {
+    if (!(pieces - 1.0 <= static_cast<double>(kMaxAddedWaypoints - added))) {
       char text[160];
       std::snprintf(text, sizeof(text),
                     "the trajectory turns a link by %.3g rad up to point %zu: more than %zu rad "
                     "beside one per point are not checked",
-                    turn, i, kMostAddedKnots);
+                    turn, i, kMaxAddedWaypoints);
       refuse(text);
     }
     added += static_cast<std::size_t>(pieces) - 1;
     for (double piece = 1.0; piece < pieces; ++piece) {
-      knots.push_back(times[i - 1] + piece / pieces * (times[i] - times[i - 1]));
+      waypoints.push_back(times[i - 1] + piece / pieces * (times[i] - times[i - 1]));
     }
-    knots.push_back(times[i]);
+    waypoints.push_back(times[i]);
   }
-  return knots;
+  return waypoints;
 }
 
 MotionSource TrajectoryMotion::source() {

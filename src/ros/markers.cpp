@@ -29,7 +29,7 @@ std_msgs::ColorRGBA contactColor(bool seen_at_samples) {
 }
 
 /// Where the body's point that is at p_W at the time of its deepest contact was at every time of the span.
-std::vector<Vector3d> pathOf(int body, const ContactPoint& point, const CycleMotion& motion, const KnotSpan& span) {
+std::vector<Vector3d> pathOf(int body, const ContactPoint& point, const CycleMotion& motion, const WaypointSpan& span) {
   std::size_t next = span.first + 1;
   while (next < span.last && motion.times[next] < point.time) ++next;
   const double length = motion.times[next] - motion.times[next - 1];

@@ -5,22 +5,8 @@
 namespace sdf_ccd {
 namespace {
 
-int rank(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kClear:
-      return 0;
-    case Verdict::kNotChecked:
-      return 1;
-    case Verdict::kUncertain:
-      return 2;
-    case Verdict::kContact:
-      return 3;
-  }
-  return 1;
-}
-
 bool isHeld(Verdict verdict) {
-  return verdict == Verdict::kContact || verdict == Verdict::kUncertain;
+  return verdict >= Verdict::kUncertain;
 }
 
 }  // namespace
@@ -34,7 +20,7 @@ void PairStates::update(const CycleResult& result, const CycleContext& cycle) {
     state.until = cycle.start + ros::Duration(cycle.motion.times[pair.span.last]);
     state.clearance = pair.verdict == Verdict::kClear ? pair.clearance : -1.0;
     const bool holds = isHeld(state.verdict) && state.until < state.holds_until;
-    if (holds && rank(pair.verdict) < rank(state.verdict)) continue;
+    if (holds && pair.verdict < state.verdict) continue;
     const double depth = pair.intervals.empty() ? 0.0 : pair.deepest.depth;
     state.depth = holds && pair.verdict == state.verdict ? std::max(state.depth, depth) : depth;
     state.verdict = pair.verdict;
@@ -46,14 +32,10 @@ void PairStates::clear() {
   pairs_.assign(pairs_.size(), {});
 }
 
-Verdict PairStates::worse(Verdict a, Verdict b) {
-  return rank(a) < rank(b) ? b : a;
-}
-
 Verdict PairStates::verdict() const {
   if (pairs_.empty()) return Verdict::kNotChecked;
   Verdict worst = Verdict::kClear;
-  for (const PairState& pair : pairs_) worst = worse(worst, pair.verdict);
+  for (const PairState& pair : pairs_) worst = std::max(worst, pair.verdict);
   return worst;
 }
 
@@ -62,7 +44,7 @@ std::vector<std::optional<Verdict>> PairStates::ofBodies(const Scene& scene) con
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const Verdict verdict = i < pairs_.size() ? pairs_[i].verdict : Verdict::kNotChecked;
     for (const int body : {scene.pairs[i].body_a, scene.pairs[i].body_b}) {
-      verdicts[body] = verdicts[body] ? worse(*verdicts[body], verdict) : verdict;
+      verdicts[body] = std::max(verdicts[body].value_or(verdict), verdict);
     }
   }
   return verdicts;

@@ -32,10 +32,7 @@ class PairStates {
 
   const std::vector<PairState>& pairs() const { return pairs_; }
 
-  /// The one to be shown of a number of pairs: the first that occurs of CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR.
-  static Verdict worse(Verdict a, Verdict b);
-
-  /// Of all pairs; NOT_CHECKED if there are none.
+  /// The worst of all pairs; NOT_CHECKED if there are none.
   Verdict verdict() const;
 
   /// Per body; none of those that are in no pair.

@@ -386,12 +386,12 @@ void TfTracker::boundJerks(double start, double end, std::vector<double>& jerk) 
 
 void TfTracker::setSpans(TrackedCycle& cycle) const {
   const std::vector<double>& times = cycle.motion.times;
-  const auto knotAt = [&](const ros::Time& time) {
-    const auto knot = std::lower_bound(times.begin(), times.end(), (time - cycle.origin).toSec());
-    return static_cast<std::size_t>(knot - times.begin());
+  const auto waypointAt = [&](const ros::Time& time) {
+    const auto waypoint = std::lower_bound(times.begin(), times.end(), (time - cycle.origin).toSec());
+    return static_cast<std::size_t>(waypoint - times.begin());
   };
   cycle.motion.spans.clear();
-  for (const TimePart& pair : times_) cycle.motion.spans.push_back({knotAt(pair.from), knotAt(pair.until)});
+  for (const TimePart& pair : times_) cycle.motion.spans.push_back({waypointAt(pair.from), waypointAt(pair.until)});
 }
 
 void TfTracker::posesAt(const ros::Time& time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) const {

@@ -35,11 +35,11 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
   X_CF_.assign(1, inC(X_WF[span_.first]));
   const std::vector<Chord>& chords = role.path().chords;
   for (std::size_t c = 0; c < chords.size();) {
-    const int chords_knot = chords[c].knot;
-    const std::size_t knot = span_.first + chords_knot;
-    const double t0 = motion_->times[knot], t1 = motion_->times[knot + 1];
-    const ScrewMotion screw(inC(X_WF[knot]), inC(X_WF[knot + 1]));
-    for (; c < chords.size() && chords[c].knot == chords_knot; ++c)
+    const int interval = chords[c].interval;
+    const std::size_t waypoint = span_.first + interval;
+    const double t0 = motion_->times[waypoint], t1 = motion_->times[waypoint + 1];
+    const ScrewMotion screw(inC(X_WF[waypoint]), inC(X_WF[waypoint + 1]));
+    for (; c < chords.size() && chords[c].interval == interval; ++c)
       X_CF_.push_back(screw.pose(chords[c].t_end == t1 ? 1.0 : (chords[c].t_end - t0) / (t1 - t0)));
   }
 }

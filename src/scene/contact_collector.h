@@ -50,7 +50,7 @@ class ContactCollector {
   double duration() const { return motion_->times[span_.last] - motion_->times[span_.first]; }
 
   const CycleMotion* motion_ = nullptr;
-  KnotSpan span_;
+  WaypointSpan span_;
   int body_a_ = -1, body_b_ = -1;
   Vector3d p_WC_ = Vector3d::Zero();
   Wrench impulse_on_a_C_;

@@ -52,7 +52,7 @@ void ResultJoiner::add(const CycleMotion& motion, const CycleResult& result) {
 
 void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair) const {
   const double start = ends_.times[1], length = motion.times.back();
-  if (severity(piece.verdict) > severity(pair.verdict)) pair.verdict = piece.verdict;
+  pair.verdict = std::max(pair.verdict, piece.verdict);
   if (pair.reason.empty()) pair.reason = piece.reason;
   if (piece.error.total() > pair.error.total()) pair.error = piece.error;
   pair.skipped &= piece.skipped;

@@ -41,7 +41,7 @@ void validate(const CycleMotion& motion, const Scene& scene) {
   const std::size_t pairs = scene.pairs.size();
   if (!motion.spans.empty() && motion.spans.size() != pairs)
     refuse(std::to_string(motion.spans.size()) + " spans, the scene has " + std::to_string(pairs) + " pairs");
-  for (const KnotSpan& span : motion.spans)
+  for (const WaypointSpan& span : motion.spans)
     if (span.first > span.last || span.last >= motion.times.size())
       refuse("a span from time " + std::to_string(span.first) + " to " + std::to_string(span.last));
   const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
@@ -95,7 +95,7 @@ Monitor::~Monitor() = default;
 const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   validate(motion, *impl_->scene);
-  const KnotSpan whole{0, motion.times.size() - 1};
+  const WaypointSpan whole{0, motion.times.size() - 1};
   std::vector<PairResult>& pairs = impl_->result.pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].span = motion.spans.empty() ? whole : motion.spans[i];
   impl_->bodies->take(motion, pairs);

@@ -83,7 +83,7 @@ void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, cons
 }
 
 /// Takes the motion, and what it may have used up of the clearance.
-void PairChecker::setMotion(const SweptBodies& bodies, const KnotSpan& span) {
+void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
   travel_ = std::numeric_limits<double>::infinity();
   double pose_error = 0.0;
   for (PairRole& role : roles_) {
@@ -158,18 +158,18 @@ void PairChecker::cutRoles(PairResult& result) {
 }
 
 /// Where the bodies' surfaces cross at one of the recorded times, the last first.
-std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& motion, const KnotSpan& span) const {
+std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const {
   const bool b_has_fields = !scene_.bodies[pair_.body_b].parts.empty();
   const int a = b_has_fields ? pair_.body_a : pair_.body_b, b = b_has_fields ? pair_.body_b : pair_.body_a;
   constexpr std::size_t kMostTimes = 8;
   const std::size_t stride = (span.last - span.first) / kMostTimes + 1;
   for (std::size_t back = 0; back <= span.last - span.first; back += stride) {
-    const std::size_t knot = span.last - back;
-    const Isometry3d &X_WA = motion.X_WB[a][knot], &X_WB = motion.X_WB[b][knot];
+    const std::size_t waypoint = span.last - back;
+    const Isometry3d &X_WA = motion.X_WB[a][waypoint], &X_WB = motion.X_WB[b][waypoint];
     const auto found = surfacesCross(scene_.bodies[a], scene_.bodies[b], relativePose(X_WB, X_WA), motion_error_);
     if (!found) continue;
     ContactPoint contact;
-    contact.enter = contact.exit = contact.time = motion.times[knot];
+    contact.enter = contact.exit = contact.time = motion.times[waypoint];
     contact.p_W = X_WB * found->p_B;
     contact.normal_W = (b_has_fields ? -1.0 : 1.0) * (X_WB.linear() * found->normal_B);
     return contact;

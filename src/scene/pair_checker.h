@@ -27,10 +27,10 @@ class PairChecker {
   static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
   void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
-  void setMotion(const SweptBodies& bodies, const KnotSpan& span);
+  void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);
-  std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const KnotSpan& span) const;
+  std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const;
   void findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result);
 
   const Scene& scene_;

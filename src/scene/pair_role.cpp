@@ -16,7 +16,7 @@ PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurp
       field_(field_body),
       purpose_(purpose) {}
 
-void PairRole::setMotion(const SweptBodies& bodies, const KnotSpan& span) {
+void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
   bodies_ = &bodies;
   span_ = span;
   X_FP_start_ = relativePose(bodies.screw(field_, span.first).start(), bodies.screw(body_, span.first).start());

@@ -27,7 +27,7 @@ class PairRole {
   bool bearsForce() const { return purpose_ == ShellPurpose::kSurface; }
 
   /// Takes the relative motion over a part of a cycle, of bodies that can be followed.
-  void setMotion(const SweptBodies& bodies, const KnotSpan& span);
+  void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
 
   /// No point of the shell's body goes farther than this in the field's frame, as setMotion() has it [m].
   double travel() const { return travel_; }
@@ -75,7 +75,7 @@ class PairRole {
   int field_;
   ShellPurpose purpose_;
   const SweptBodies* bodies_ = nullptr;
-  KnotSpan span_;
+  WaypointSpan span_;
   std::vector<double> accelerations_;  ///< per interval of the span
   Isometry3d X_FP_start_, X_FP_end_;
   double travel_ = 0.0;

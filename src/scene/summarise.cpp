@@ -4,20 +4,6 @@
 
 namespace sdf_ccd {
 
-int severity(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kClear:
-      return 0;
-    case Verdict::kNotChecked:
-      return 1;
-    case Verdict::kUncertain:
-      return 2;
-    case Verdict::kContact:
-      return 3;
-  }
-  return 1;
-}
-
 void summarise(CycleResult& result) {
   const auto advanced = [](const PairResult& pair) { return !pair.span.empty(); };
   const bool any = std::any_of(result.pairs.begin(), result.pairs.end(), advanced);
@@ -30,7 +16,7 @@ void summarise(CycleResult& result) {
       ++result.delayed;
       continue;
     }
-    if (severity(pair.verdict) > severity(result.verdict)) result.verdict = pair.verdict;
+    result.verdict = std::max(result.verdict, pair.verdict);
     if (pair.verdict == Verdict::kNotChecked) {
       ++result.not_checked;
       continue;

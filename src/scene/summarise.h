@@ -4,9 +4,6 @@
 
 namespace sdf_ccd {
 
-/// Worse verdicts are larger.
-int severity(Verdict verdict);
-
 /// Sets what a result says of all its pairs from what it says of each: verdict, error bound and counts.
 void summarise(CycleResult& result);
 

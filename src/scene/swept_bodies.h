@@ -22,9 +22,9 @@ class SweptBodies {
 
   const std::vector<double>& times() const { return *times_; }
 
-  /// Between times `knot` and knot + 1, of a body that can be followed.
-  const ScrewMotion& screw(int body, std::size_t knot) const { return at(body, knot).screw; }
-  const WorldTwist& twist(int body, std::size_t knot) const { return at(body, knot).twist; }
+  /// Between times `waypoint` and waypoint + 1, of a body that can be followed.
+  const ScrewMotion& screw(int body, std::size_t waypoint) const { return at(body, waypoint).screw; }
+  const WorldTwist& twist(int body, std::size_t waypoint) const { return at(body, waypoint).twist; }
 
   /// What computing with the body's poses adds to the error of a point [m]: by rotations that are none to rounding
   /// (at a distance `lever` [m] from the body's origin), and by the size of its coordinates.
@@ -44,7 +44,9 @@ class SweptBodies {
   };
 
   void sweep(const CycleMotion& motion, int body);
-  const Interval& at(int body, std::size_t knot) const { return bodies_[body].intervals[knot - bodies_[body].first]; }
+  const Interval& at(int body, std::size_t waypoint) const {
+    return bodies_[body].intervals[waypoint - bodies_[body].first];
+  }
 
   const Scene& scene_;
   std::vector<SweptBody> bodies_;

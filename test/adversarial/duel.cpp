@@ -75,7 +75,7 @@ const PairResult& Duel::play(const CycleMotion& motion, Tally& tally) {
   return result;
 }
 
-PairMotion Duel::motionOf(const CycleMotion& motion, const KnotSpan& span, bool outer) const {
+PairMotion Duel::motionOf(const CycleMotion& motion, const WaypointSpan& span, bool outer) const {
   const auto part = [&](const auto& all) { return std::vector(all.begin() + span.first, all.begin() + span.last + 1); };
   return {outer ? a_.outer() : a_.solid, outer ? b_.outer() : b_.solid, part(motion.times), part(motion.X_WB[0]),
           part(motion.X_WB[1])};
@@ -159,12 +159,12 @@ void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const s
   tally.fail(what + ": depth", text("off by %.3g m, reported %.3g m", double(error), double(bound)));
 }
 
-LeastValue Duel::least(const CycleMotion& motion, const KnotSpan& span, const LeastOptions& options) const {
+LeastValue Duel::least(const CycleMotion& motion, const WaypointSpan& span, const LeastOptions& options) const {
   return motionOf(motion, span, false).least(options);
 }
 
 Vector3d Duel::aim(double wanted, CycleMotion& motion) const {
-  const KnotSpan span{0, motion.times.size() - 1};
+  const WaypointSpan span{0, motion.times.size() - 1};
   return aim(
       wanted, [&] { return motionOf(motion, span, false); }, [&](const Vector3d& by) { shiftB(by, motion); });
 }

@@ -57,7 +57,7 @@ class Duel {
              Tally& tally) const;
 
   /// Least separation of the solids over the pair's span [m], as near as wanted.
-  LeastValue least(const CycleMotion& motion, const KnotSpan& span, const LeastOptions& options) const;
+  LeastValue least(const CycleMotion& motion, const WaypointSpan& span, const LeastOptions& options) const;
 
   /// Moves body B so that the least separation is `wanted` [m], to about a tenth of the bound.
   /// @return the direction that it was moved along, the way from A to B where they are nearest.
@@ -66,7 +66,7 @@ class Duel {
                const std::function<void(const Vector3d&)>& shift) const;
 
  private:
-  PairMotion motionOf(const CycleMotion& motion, const KnotSpan& span, bool outer) const;
+  PairMotion motionOf(const CycleMotion& motion, const WaypointSpan& span, bool outer) const;
   void judgeClear(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
   void judgeContact(const PairMotion& outer, const PairResult& result, const std::string& what, Tally& tally) const;
   void judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;

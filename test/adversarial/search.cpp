@@ -76,7 +76,7 @@ std::vector<CycleMotion> cyclesOf(const Genes& genes, double reach) {
     }
     CycleMotion motion = pairCycle(poses[0], poses[1]);
     const std::size_t last = motion.times.size() - 1;
-    KnotSpan span{0, last};
+    WaypointSpan span{0, last};
     if (arrival == Arrival::kNone) span.last = 0;
     if (arrival == Arrival::kFirstStep) span.last = 1;
     if (arrival == Arrival::kLastSteps) span.first = last - 1;  // as after a gap

@@ -31,7 +31,7 @@ struct Errors {
 CycleMotion sampled(const RobotModel& robot, const Case& a_case) {
   TrajectoryMotion motion(robot, a_case.trajectory, {a_case.body});
   CycleMotion result;
-  sampleMotion(motion.knots(), motion.source(), {a_case.body.ball_B}, a_case.sampling, result);
+  sampleMotion(motion.waypoints(), motion.source(), {a_case.body.ball_B}, a_case.sampling, result);
   return result;
 }
 
@@ -190,14 +190,14 @@ RobotTrajectory twoArms(const JointPositions& from, const JointPositions& to) {
 TEST(TrajectoryMotion, TurnsAddUpAlongAChainAndCountWholeRevolutions) {
   const RobotModel robot(kTwoArms);
   const auto pieces = [&](const JointPositions& from, const JointPositions& to) {
-    return TrajectoryMotion(robot, twoArms(from, to), {}).knots().size() - 1;
+    return TrajectoryMotion(robot, twoArms(from, to), {}).waypoints().size() - 1;
   };
   EXPECT_EQ(pieces({{"l", 0.0}, {"t", 0.0}}, {{"l", 1.0}, {"t", 9.0}}), 1u);
   EXPECT_EQ(pieces({{"l", 0.0}, {"r", 0.0}}, {{"l", 0.9}, {"r", -0.9}}), 1u);  // on two branches
   EXPECT_EQ(pieces({{"r", 0.0}}, {{"r", 8.0 * kPi}}), 26u);
   RobotTrajectory trajectory = twoArms({{"l", 0.0}}, {{"l", 0.9}});
   trajectory.states[1].X_WR = Isometry3d(Eigen::AngleAxisd(0.9, Vector3d::UnitX()));
-  EXPECT_EQ(TrajectoryMotion(robot, trajectory, {}).knots().size(), 3u);
+  EXPECT_EQ(TrajectoryMotion(robot, trajectory, {}).waypoints().size(), 3u);
   EXPECT_THROW(pieces({{"r", 0.0}}, {{"r", 1e9}}), std::invalid_argument);
 }
 
@@ -210,7 +210,7 @@ TEST(TrajectoryMotion, WhatRestsOrSlidesHasNoError) {
                                            {3, Isometry3d::Identity(), kUnitBall}};
   TrajectoryMotion motion(robot, twoArms({{"l", 0.5}, {"t", 0.0}}, {{"l", 0.5}, {"t", 0.3}}), bodies);
   CycleMotion result;
-  sampleMotion(motion.knots(), motion.source(), {kUnitBall, kUnitBall, kUnitBall, kUnitBall}, {}, result);
+  sampleMotion(motion.waypoints(), motion.source(), {kUnitBall, kUnitBall, kUnitBall, kUnitBall}, {}, result);
   EXPECT_EQ(result.times.size(), 2u);
   EXPECT_EQ(result.motion_error[0], 0.0);
   EXPECT_EQ(result.motion_error[1], 0.0);

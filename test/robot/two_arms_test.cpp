@@ -46,7 +46,7 @@ class TwoArmsTest : public ::testing::Test {
   Verdict verdict(const RobotTrajectory& trajectory) {
     TrajectoryMotion motion(robot_, trajectory, bodies_);
     CycleMotion cycle;
-    sampleMotion(motion.knots(), motion.source(), balls_, {}, cycle);
+    sampleMotion(motion.waypoints(), motion.source(), balls_, {}, cycle);
     monitor_->reset();
     return monitor_->run(cycle, {}).verdict;
   }

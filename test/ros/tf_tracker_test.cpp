@@ -25,7 +25,9 @@ class TfTrackerTest : public ::testing::Test {
   /// When the pair's span begins and ends in the current cycle.
   double spanStart(int pair) const { return spanTime(cycle_.motion.spans[pair].first); }
   double spanEnd(int pair) const { return spanTime(cycle_.motion.spans[pair].last); }
-  double spanTime(std::size_t knot) const { return (cycle_.origin + ros::Duration(cycle_.motion.times[knot])).toSec(); }
+  double spanTime(std::size_t waypoint) const {
+    return (cycle_.origin + ros::Duration(cycle_.motion.times[waypoint])).toSec();
+  }
 
   Step next(double now) { return tracker_.next(ros::Time(now), cycle_); }
 

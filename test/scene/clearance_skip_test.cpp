@@ -21,14 +21,14 @@ class Wanderers {
     std::vector<std::vector<Isometry3d>> poses;
     for (Isometry3d& X : X_) {
       const double speed = u(random_) > 0.8 ? 0.2 : 0.02;
-      std::vector<Isometry3d> knots = {X};
+      std::vector<Isometry3d> waypoints = {X};
       for (int k = 0; k < 2; ++k) {
         const Vector3d to_middle = -0.1 * X.translation();
         X = translation(speed * (Vector3d(u(random_), u(random_), u(random_)) + to_middle)) * X *
             pose(Vector3d::Zero(), speed * u(random_), Vector3d(u(random_), u(random_), 2.0));
-        knots.push_back(X);
+        waypoints.push_back(X);
       }
-      poses.push_back(knots);
+      poses.push_back(waypoints);
     }
     return cycle(0.1, poses);
   }

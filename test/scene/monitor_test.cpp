@@ -273,8 +273,8 @@ TEST(Monitor, RefusesMotionsThatDoNotFit) {
   EXPECT_THROW(monitor.run(cycle(0.1, {still2, {}}), {}), std::invalid_argument);
   EXPECT_THROW(monitor.run(cycle(-0.1, {still2, still2}), {}), std::invalid_argument);
   CycleMotion odd = cycle(0.1, {still2, still2});
-  for (const std::vector<KnotSpan>& spans :
-       {std::vector<KnotSpan>{{1, 0}}, std::vector<KnotSpan>{{0, 2}}, std::vector<KnotSpan>{{0, 1}, {0, 1}}}) {
+  for (const std::vector<WaypointSpan>& spans : {std::vector<WaypointSpan>{{1, 0}}, std::vector<WaypointSpan>{{0, 2}},
+                                                 std::vector<WaypointSpan>{{0, 1}, {0, 1}}}) {
     odd.spans = spans;
     EXPECT_THROW(monitor.run(odd, {}), std::invalid_argument);
   }

@@ -52,14 +52,14 @@ inline std::shared_ptr<const Scene> build(std::vector<BodyDescription> bodies, c
 /// Poses per body at times evenly spread over the cycle.
 inline CycleMotion cycle(double length, std::vector<std::vector<Isometry3d>> X_WB) {
   CycleMotion motion;
-  const std::size_t knots = X_WB.front().size();
-  for (std::size_t k = 0; k < knots; ++k) motion.times.push_back(length * double(k) / double(knots - 1));
+  const std::size_t waypoints = X_WB.front().size();
+  for (std::size_t k = 0; k < waypoints; ++k) motion.times.push_back(length * double(k) / double(waypoints - 1));
   motion.X_WB = std::move(X_WB);
   return motion;
 }
 
-inline std::vector<Isometry3d> still(const Isometry3d& X, std::size_t knots = 2) {
-  return {knots, X};
+inline std::vector<Isometry3d> still(const Isometry3d& X, std::size_t waypoints = 2) {
+  return {waypoints, X};
 }
 
 }  // namespace sdf_ccd::test

@@ -12,7 +12,7 @@ struct Chord {
   double t_end;    ///< [s]
   Isometry3d X_FP_start;
   Isometry3d X_FP_end;
-  int knot;  ///< which interval between recorded poses it is a piece of
+  int interval;  ///< which interval between recorded poses it is a piece of
 };
 
 /// A relative motion as chords.
@@ -49,7 +49,7 @@ struct TwoBodyMotion {
 
 /// Adds the chords of one interval to the path, whose last chord ends where this begins, and its error. Chords end at
 /// the true relative poses X_WF(s)⁻¹ X_WP(s): design §3.12.
-/// @param knot  Chord::knot of the chords added.
-void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int knot, ChordPath& path);
+/// @param interval  Chord::interval of the chords added.
+void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int interval, ChordPath& path);
 
 }  // namespace sdf_ccd

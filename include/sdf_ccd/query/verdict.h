@@ -2,11 +2,12 @@
 
 namespace sdf_ccd {
 
+/// Worse ones are larger, and count for a number of pairs.
 enum class Verdict {
   kClear,       ///< nowhere nearer than the error bound
-  kContact,     ///< somewhere deeper than the error bound
-  kUncertain,   ///< within the error bound
   kNotChecked,  ///< could not be checked, and why
+  kUncertain,   ///< within the error bound
+  kContact,     ///< somewhere deeper than the error bound
 };
 
 const char* toString(Verdict verdict);

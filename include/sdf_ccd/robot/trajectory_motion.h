@@ -54,10 +54,10 @@ class TrajectoryMotion {
   /// The waypoints' times, and so many between them that no link turns by more than 1 rad from one to the next, so that
   /// its poses there tell which way it turned. Whole revolutions of joints count.
   /// @throws std::invalid_argument if that takes more than 2000 added times, some 300 revolutions.
-  std::vector<double> knots() const;
+  std::vector<double> waypoints() const;
 
-  /// For sampleMotion(), at knots(); poses are those of CarriedBody, in the world. It refers to this object. Between
-  /// times on both sides of a waypoint nothing is bounded: the jerk is infinite.
+  /// For sampleMotion(), at waypoints(); poses are those of CarriedBody, in the world. It refers to this object.
+  /// Between times on both sides of a waypoint nothing is bounded: the jerk is infinite.
   MotionSource source();
 
  private:

@@ -11,7 +11,7 @@
 namespace sdf_ccd {
 
 /// A part of a motion, by the indices of its first and last time.
-struct KnotSpan {
+struct WaypointSpan {
   std::size_t first = 0;
   std::size_t last = 0;
 
@@ -33,7 +33,7 @@ struct CycleMotion {
 
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
   /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs may be anything.
-  std::vector<KnotSpan> spans;
+  std::vector<WaypointSpan> spans;
 };
 
 /// What a cycle is asked for; what nobody reads is not computed.
@@ -59,7 +59,7 @@ struct PairResult {
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
   std::string reason;    ///< why it was not checked; empty if it was
-  KnotSpan span;         ///< the part of the motion that this is about; empty if the pair is delayed
+  WaypointSpan span;     ///< the part of the motion that this is about; empty if the pair is delayed
   bool skipped = false;  ///< clear by the clearance left from an earlier cycle
   ErrorBound error;
   double clearance = 0.0;           ///< a lower bound of the distance at the span's end [m]; negative if not known

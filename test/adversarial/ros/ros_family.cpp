@@ -130,7 +130,9 @@ class Play {
         ++tally_.not_checked;
     }
     for (const PairResult& pair : result.pairs) {
-      const auto time = [&](std::size_t knot) { return cycle.origin + ros::Duration(cycle.motion.times[knot]); };
+      const auto time = [&](std::size_t waypoint) {
+        return cycle.origin + ros::Duration(cycle.motion.times[waypoint]);
+      };
       if (!pair.span.empty()) judge(pair, time(pair.span.first), time(pair.span.last));
       if (!pair.span.empty() && tally_.cases % 8 == 0) place(pair, time(pair.span.first), time(pair.span.last));
       if (result.verdict != Verdict::kClear) continue;

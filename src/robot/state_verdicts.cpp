@@ -1,4 +1,4 @@
-#include "pair_states.h"
+#include "state_verdicts.h"
 
 #include <algorithm>
 #include <memory>
