@@ -26,7 +26,8 @@ class SmallMonitor {
       parameters_.world.push_back(wall);
     }
     described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
-    scene_ = buildDescribed(described_, parameters_.scene, {});
+    const ScenePlan plan = planScene(described_.scene, planOptions(parameters_.scene));
+    scene_ = buildDescribed(described_, plan, parameters_.scene, {});
     begin();
   }
 

@@ -3,89 +3,38 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <tbb/concurrent_vector.h>
 
-#include "cell_fit.h"
-#include "cube_corner.h"
+#include "adaptive_shape.h"
+#include "block_builder.h"
 #include "far_ball_search.h"
-#include "near_triangles.h"
 #include "progress_counter.h"
-#include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/parallel_for.h"
+#include "spread_order.h"
 
 namespace sdf_ccd {
 namespace {
 
-/// What stands in a cell's place.
-struct BuiltCell {
-  enum Kind { kFar, kLeaf, kWide, kSplit, kNode } kind = kFar;
-  double distance = 0.0;  ///< far: at the centre
-  FittedLeaf leaf;        ///< wide: of the octant that the cell is one eighth of
-  std::array<FittedLeaf, 8> split;
-  std::unique_ptr<std::array<BuiltCell, 64>> children;
-};
-
-/// Leaves in the places of a cell's octants, where they are proved; the first ones that were tried.
-struct OctantLeaves {
-  std::array<std::optional<FittedLeaf>, 8> leaf;
-  int tried = 0;
-};
-
-/// In a node, of the k-th cell in an octant.
-int childIndex(int octant, int k) {
-  const Vector3i c = 2 * cubeCorner(octant) + cubeCorner(k);
-  return c.x() + 4 * (c.y() + 4 * c.z());
-}
-
-class AdaptiveBuilder {
+class AdaptiveBuilder : private CellTaker {
  public:
-  AdaptiveBuilder(const Solid& solid, const AdaptiveShape& shape, std::size_t max_bytes, const Progress& progress)
-      : surface_(solid),
-        shape_(shape),
-        error_(shape.error_bound),
-        max_bytes_(max_bytes),
-        counter_(progress, shape.count()) {}
+  AdaptiveBuilder(const Solid& solid, const AdaptiveShape& shape, std::size_t max_bytes)
+      : surface_(solid), shape_(shape), error_(shape.error_bound), max_bytes_(max_bytes), blocks_(surface_, shape_) {}
 
-  AdaptiveGrid build();
+  AdaptiveGrid build(const Progress& progress);
 
  private:
-  /// A cube of top cells: first cell and side, in cells. The last ones may end beyond the grid.
-  struct Block {
-    Vector3i low;
-    int side;
+  void count(std::size_t bytes) override;
+  void takeDistance(std::size_t index, double distance) override {
+    centers_[index] = static_cast<float>(distance / shape_.cell);
+  }
+  void take(std::size_t index, BuiltCell&& cell) override { built_.emplace_back(index, std::move(cell)); }
 
-    Block octant(int k) const { return {low + side / 2 * cubeCorner(k), side / 2}; }
-  };
-  Vector3d center(const Block& block) const {
-    return shape_.origin + shape_.cell * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
-  }
-  bool withinGrid(const Vector3i& cell) const { return (cell.array() < shape_.size.array()).all(); }
-  std::size_t index(const Vector3i& cell) const {
-    return (std::size_t(cell.z()) * shape_.size.y() + cell.y()) * shape_.size.x() + cell.x();
-  }
-  /// Whether |φ| > band in all of a cube of this side.
-  bool isFar(double center_distance, double side) const {
-    return std::abs(center_distance) > shape_.band + kHalfSqrt3 * side * (1.0 + 1e-9);
-  }
-
-  /// Measures a block's cells, and builds those that are near the surface.
-  void measure(const Block& block, const SignedSurface::Nearest& at_center);
-  void measureNear(const Block& block, const NearTriangles& near);
-  /// Cells that are all far: one by one, each starting from what the last one found.
-  void measureFar(const Block& block, SignedSurface::Nearest last);
-  BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth);
-  /// Whether a proved leaf shows that |φ| exceeds the band all over it, on the side that its cell's centre is on.
-  bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
-  /// Whether a far cell at this depth can tell its side: the rounded distance of its centre is not zero.
-  bool holdsFar(double center_distance, int depth) const;
+  void buildBlocks(const Progress& progress);
   /// For all top cells; those near the surface get other words.
   void setFarBalls();
-  BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants);
-  void count(std::size_t bytes);
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
   void addLeaf(const FittedLeaf& leaf);
   void addSplit(const std::array<FittedLeaf, 8>& split);
@@ -94,12 +43,11 @@ class AdaptiveBuilder {
   AdaptiveShape shape_;
   double error_;
   std::size_t max_bytes_;
+  BlockBuilder blocks_;
   std::vector<float> centers_;  ///< distances at the top cells' centres [top cells]
   tbb::concurrent_vector<std::pair<std::size_t, BuiltCell>> built_;  ///< top cells near the surface, in no order
-  ProgressCounter counter_;
   const CancelPoint cancel_;
   std::atomic<std::size_t> bytes_{0};
-  std::atomic<bool> capped_{false};  ///< a leaf at the last depth is not proved
   AdaptiveData data_;
   std::vector<std::uint8_t> split_errors_;  ///< those of the splits' leaves; in the data they follow the others
 };
@@ -111,135 +59,29 @@ void AdaptiveBuilder::count(std::size_t bytes) {
   }
 }
 
-void AdaptiveBuilder::measure(const Block& block, const SignedSurface::Nearest& at_center) {
-  const SpaceCube cube{center(block), block.side * shape_.cell};
-  if (isFar(at_center.distance, cube.side)) return measureFar(block, at_center);
-  const NearCube near(surface_, cube, at_center);
-  measureNear(block, near.near());
-}
-
-void AdaptiveBuilder::measureFar(const Block& block, SignedSurface::Nearest last) {
-  Vector3d last_place = center(block);
-  for (int i = 0; i < block.side * block.side * block.side; ++i) {
-    // To and fro, so that each cell is next to the last one.
-    const int row = i / block.side, layer = row / block.side, x = i % block.side, y = row % block.side;
-    const auto turned = [&](int k, int turns) { return turns % 2 == 0 ? k : block.side - 1 - k; };
-    const Vector3i cell = block.low + Vector3i(turned(x, row), turned(y, layer), layer);
-    if (!withinGrid(cell)) continue;
-    const Vector3d place = center({cell, 1});
-    last = surface_.exact().next(place, last, (place - last_place).norm());
-    last_place = place;
-    centers_[index(cell)] = static_cast<float>(last.distance / shape_.cell);
-    counter_.add();
-  }
-}
-
-void AdaptiveBuilder::measureNear(const Block& block, const NearTriangles& near) {
-  NearOctants octants(near);
-  for (int k = 0; k < 8; ++k) {
-    const Block part = block.octant(k);
-    if (!withinGrid(part.low)) continue;
-    const bool far = isFar(octants.centerDistance(k), part.side * shape_.cell);
-    if (part.side > 1 && far) {
-      measureFar(part, octants.nearest(k));
-    } else if (part.side > 1) {
-      measureNear(part, octants[k]);
-    } else {
-      const std::size_t cell_index = index(part.low);
-      centers_[cell_index] = static_cast<float>(octants.centerDistance(k) / shape_.cell);
-      if (!far) {
-        CellFit fit(octants[k]);
-        built_.emplace_back(cell_index, cell(fit, octants[k], 0));
-      }
-      counter_.add();
-    }
-  }
-}
-
-bool AdaptiveBuilder::provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const {
-  const double beyond = shape_.band + error_;
-  const std::array<double, 8> corners = scale.decode(leaf);
-  const auto [low, high] = std::minmax_element(corners.begin(), corners.end());
-  return center_distance > 0.0 ? *low > beyond : *high < -beyond;
-}
-
-bool AdaptiveBuilder::holdsFar(double center_distance, int depth) const {
-  if (depth == 0) return true;
-  const double parent = shape_.cell / double(1 << (2 * depth - 2));
-  return node_code::steps(node_code::far(center_distance / AdaptiveGrid::farStepFor(parent, shape_.band))) != 0.0;
-}
-
-BuiltCell AdaptiveBuilder::cell(CellFit& fit, const NearTriangles& near, int depth) {
-  cancel_.check();
-  const double side = near.cube().side;
-  BuiltCell built;
-  built.distance = near.centerDistance();
-  const LeafScale scale = AdaptiveGrid::leafScaleFor(side, shape_.band);
-  if (const auto leaf = fit.leaf(scale, error_)) {
-    if (provedFar(scale, leaf->word, built.distance) && holdsFar(built.distance, depth)) return built;
-    built.kind = BuiltCell::kLeaf;
-    built.leaf = *leaf;
-    count(sizeof(LeafWord) + sizeof(std::uint8_t));
-    return built;
-  }
-  const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * side, shape_.band);
-  const bool last = depth == AdaptiveShape::kMaxDepth;
-  bool fits = true;
-  OctantLeaves octants;
-  for (int& k = octants.tried; k < 8 && (fits || last); ++k) {
-    octants.leaf[k] = fit.octantLeaf(k, half_scale, error_);
-    fits = fits && octants.leaf[k];
-  }
-  if (!fits && !last) return divide(fit, near, depth, octants);
-  for (int k = 0; k < 8; ++k) built.split[k] = octants.leaf[k] ? *octants.leaf[k] : fit.roundedLeaf(k, half_scale);
-  const auto far = [&](const FittedLeaf& leaf) { return provedFar(half_scale, leaf.word, built.distance); };
-  if (fits && std::all_of(built.split.begin(), built.split.end(), far) && holdsFar(built.distance, depth)) return built;
-  if (!fits) capped_ = true;
-  built.kind = BuiltCell::kSplit;
-  count(sizeof(SplitLeaves) + 8 * sizeof(std::uint8_t));
-  return built;
-}
-
-BuiltCell AdaptiveBuilder::divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants) {
-  BuiltCell built;
-  built.kind = BuiltCell::kNode;
-  built.children = std::make_unique<std::array<BuiltCell, 64>>();
-  count(sizeof(AdaptiveNode) + sizeof(NodeBases));
-  const double half_side = 0.5 * near.cube().side, child_side = 0.5 * half_side;
-  const LeafScale half_scale = AdaptiveGrid::leafScaleFor(half_side, shape_.band);
-  for (int half = 0; half < 8; ++half) {
-    const double distance = fit.octants().centerDistance(half);
-    std::optional<FittedLeaf>& leaf = octants.leaf[half];
-    if (half >= octants.tried && !isFar(distance, half_side)) leaf = fit.octantLeaf(half, half_scale, error_);
-    const bool far = leaf && provedFar(half_scale, leaf->word, distance);
-    if (leaf && !far) {
-      count(sizeof(LeafWord) + sizeof(std::uint8_t));
-      for (int k = 0; k < 8; ++k) {
-        BuiltCell& child = (*built.children)[childIndex(half, k)];
-        child.kind = BuiltCell::kWide;
-        child.leaf = *leaf;
-      }
-      continue;
-    }
-    NearOctants quarters(fit.octants()[half]);
-    for (int k = 0; k < 8; ++k) {
-      BuiltCell& child = (*built.children)[childIndex(half, k)];
-      child.distance = quarters.centerDistance(k);
-      if (isFar(child.distance, child_side) || (far && holdsFar(child.distance, depth + 1))) continue;
-      const NearTriangles& child_near = quarters[k];
-      CellFit child_fit(child_near, fit, 2 * cubeCorner(half) + cubeCorner(k));
-      child = cell(child_fit, child_near, depth + 1);
-    }
-  }
-  const auto far = [&](const BuiltCell& child) {
-    return child.kind == BuiltCell::kFar && (child.distance < 0.0) == (near.centerDistance() < 0.0);
+void AdaptiveBuilder::buildBlocks(const Progress& progress) {
+  const Vector3i blocks = blocks_.blocks();
+  const auto at = [&](std::size_t i) {
+    const int row = static_cast<int>(i) / blocks.x();
+    return Vector3i(static_cast<int>(i) % blocks.x(), row % blocks.y(), row / blocks.y());
   };
-  if (std::all_of(built.children->begin(), built.children->end(), far) && holdsFar(near.centerDistance(), depth)) {
-    built.kind = BuiltCell::kFar;
-    built.distance = near.centerDistance();
-    built.children.reset();
-  }
-  return built;
+  std::vector<SignedSurface::Nearest> nearest(std::size_t(blocks.x()) * blocks.y() * blocks.z());
+  parallelFor(0, blocks.y() * blocks.z(), [&](int row) {
+    const SignedSurface& exact = surface_.exact();
+    for (int x = 0; x < blocks.x(); ++x) {
+      const std::size_t i = std::size_t(row) * blocks.x() + x;
+      const Vector3d center = blocks_.center(at(i));
+      nearest[i] = x == 0 ? exact.nearest(center) : exact.next(center, nearest[i - 1], blocks_.side());
+    }
+  });
+  // Spread over the grid: what is done at any time is a fair sample of what there is to do.
+  const SpreadOrder order(nearest.size());
+  ProgressCounter counter(progress, nearest.size());
+  parallelFor(std::size_t{0}, nearest.size(), [&](std::size_t k) {
+    const std::size_t i = order[k];
+    blocks_.build(at(i), nearest[i], *this);
+    counter.add();
+  });
 }
 
 void AdaptiveBuilder::addLeaf(const FittedLeaf& leaf) {
@@ -310,23 +152,12 @@ void AdaptiveBuilder::setFarBalls() {
   });
 }
 
-AdaptiveGrid AdaptiveBuilder::build() {
+AdaptiveGrid AdaptiveBuilder::build(const Progress& progress) {
   count(shape_.count() * sizeof(std::uint32_t));
   centers_.resize(shape_.count());
-  // Blocks of so many cells along a side share a search for the triangles near them.
-  constexpr int kBlock = 4;
-  const Vector3i blocks = (shape_.size.array() + (kBlock - 1)) / kBlock;
-  parallelFor(0, blocks.y() * blocks.z(), [&](int row) {
-    const SignedSurface& exact = surface_.exact();
-    SignedSurface::Nearest nearest{};
-    for (int x = 0; x < blocks.x(); ++x) {
-      const Block block{kBlock * Vector3i(x, row % blocks.y(), row / blocks.y()), kBlock};
-      nearest = x == 0 ? exact.nearest(center(block)) : exact.next(center(block), nearest, kBlock * shape_.cell);
-      measure(block, nearest);
-    }
-  });
+  buildBlocks(progress);
 
-  if (capped_) {
+  if (blocks_.capped()) {
     // Leaves of the last depth that are not proved: what holds for any 1-Lipschitz function.
     const double side = shape_.unit();
     shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
@@ -361,32 +192,12 @@ AdaptiveGrid AdaptiveBuilder::build() {
   return {shape_, std::move(data_)};
 }
 
-/// Top cells along the longest side. More of them shorten a query's way through far cells and spare it nodes; up to
-/// these they cost less memory than that is worth (measured on scans and links).
-int topCells(double relative_error) {
-  return static_cast<int>(std::clamp(std::round(2.0 / std::sqrt(relative_error)), 8.0, 64.0));
-}
-
 }  // namespace
 
 std::shared_ptr<const AdaptiveGrid> buildAdaptive(const Solid& solid, const FieldOptions& options,
                                                   const Progress& progress) {
-  AdaptiveShape shape;
-  shape.surface_box = boundingBox(solid.boundary());
-  const double longest = shape.surface_box.sizes().maxCoeff();
-  shape.error_bound = *options.max_error;
-  shape.cell = longest / topCells(*options.max_error / longest);
-  shape.band = std::max(options.band, 2.0 * *options.max_error);
-  // Padded so that no place with |φ| ≤ band lies on the grid's boundary, where a query would miss what is beyond it.
-  const double padding = 1.01 * shape.band + 0.01 * shape.cell;
-  const Vector3d cells = ((shape.surface_box.sizes().array() + 2.0 * padding) / shape.cell).ceil();
-  if (cells.maxCoeff() > 1024.0) {
-    throw std::length_error("field: a band of " + std::to_string(shape.band) +
-                            " m is too wide for a maximum error of " + std::to_string(*options.max_error) + " m");
-  }
-  shape.size = cells.cast<int>();
-  shape.origin = shape.surface_box.center() - 0.5 * shape.cell * cells;
-  return std::make_shared<const AdaptiveGrid>(AdaptiveBuilder(solid, shape, options.max_bytes, progress).build());
+  const AdaptiveShape shape = adaptiveShape(boundingBox(solid.boundary()), options);
+  return std::make_shared<const AdaptiveGrid>(AdaptiveBuilder(solid, shape, options.max_bytes).build(progress));
 }
 
 }  // namespace sdf_ccd

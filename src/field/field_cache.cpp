@@ -43,7 +43,7 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
     doubt = firstLine(path + kDoubt);
   };
   const auto make = [&] {
-    field = buildField(source.solid(), options, progress);
+    field = buildField(source.closed(), options, progress);
     doubt = warning(source.solid().report());
   };
   const auto save = [&](const std::string& path) {

@@ -147,8 +147,9 @@ void CollisionMonitor::setUp() {
 
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
-  NODELET_INFO("Expected: %s", summary(affordableCost(described_, parameters_.scene)).c_str());
-  scene_ = buildDescribed(described_, parameters_.scene, [this](const std::string& body, double share) {
+  const ScenePlan plan = affordablePlan(described_, parameters_.scene);
+  NODELET_INFO("Expected: %s", summary(*plan.expected).c_str());
+  scene_ = buildDescribed(described_, plan, parameters_.scene, [this](const std::string& body, double share) {
     checkCancelled();
     const std::string progress = "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
     idle(progress);

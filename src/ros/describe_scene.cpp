@@ -119,13 +119,15 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   return described;
 }
 
-SceneCost affordableCost(const DescribedScene& described, const SceneOptions& options) {
-  return affordableCost(described.scene, planScene(described.scene, planOptions(options)), options);
+ScenePlan affordablePlan(const DescribedScene& described, const SceneOptions& options) {
+  ScenePlan plan = planScene(described.scene, planOptions(options));
+  plan.expected = std::make_shared<const SceneCost>(affordableCost(described.scene, plan, options));
+  return plan;
 }
 
-std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const SceneOptions& options,
+std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
+                                            const SceneOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {
-  const ScenePlan plan = planScene(described.scene, planOptions(options));
   return std::make_shared<const Scene>(buildScene(described.scene, plan, options, progress));
 }
 

@@ -33,12 +33,13 @@ ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::stri
 /// @throws std::exception if the URDF or the SRDF cannot be read, or two bodies share a name.
 DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader);
 
-/// What building the scene is expected to cost. @throws as affordableCost() of the core.
-SceneCost affordableCost(const DescribedScene& described, const SceneOptions& options);
+/// What the scene needs, and what building that is expected to cost. @throws as affordableCost() of the core.
+ScenePlan affordablePlan(const DescribedScene& described, const SceneOptions& options);
 
-/// Plans and builds what the scene needs.
+/// Builds what is planned with the same options.
 /// @param progress  called with the body's name and the share of all bodies done.
-std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const SceneOptions& options,
+std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
+                                            const SceneOptions& options,
                                             const std::function<void(const std::string&, double)>& progress);
 
 }  // namespace sdf_ccd

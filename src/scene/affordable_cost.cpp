@@ -11,7 +11,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kSurely = 3.0;  // estimates are within this factor
+constexpr double kSurely = 2.0;  // estimates are within this factor
 
 /// Of a body's largest element [m]; 0 for one without bounds.
 double sizeOf(const BodyDescription& body) {

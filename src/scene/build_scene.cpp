@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "body_shell.h"
 #include "coarsen.h"
@@ -14,6 +15,7 @@
 #include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/scene/sample_motion.h"
 #include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene/scene_cost.h"
 #include "sdf_ccd/shell/contact_gap.h"
 #include "sdf_ccd/shell/witness_points.h"
 #include "surface_crossing.h"
@@ -79,7 +81,7 @@ class BodyBuilder {
       report_.field_error = std::max(report_.field_error, field.errorBound());
       note(made.outcome);
       noteCaps(geometry, *meshes_[i]);
-      const std::string left_out = made.now && meshes_[i]->solid ? summary(meshes_[i]->solid->report()) : "";
+      const std::string left_out = made.now && meshes_[i]->made.solid ? summary(meshes_[i]->made.solid->report()) : "";
       if (!left_out.empty()) report_.solid += (report_.solid.empty() ? "" : "; ") + left_out;
     }
     char text[32];
@@ -200,6 +202,31 @@ BoundingBall surfaceBall(const Body& body) {
   return ball;
 }
 
+/// How far building all bodies has come, by what each is expected to take.
+class Pace {
+ public:
+  Pace(const SceneDescription& description, const SceneCost* expected) {
+    constexpr double kLeast = 1e-3;  // of any body [s]
+    std::unordered_map<std::string, const BodyCost*> costs;
+    if (expected)
+      for (const BodyCost& cost : expected->bodies) costs[cost.name] = &cost;
+    for (const BodyDescription& body : description.bodies) {
+      const auto found = costs.find(body.name);
+      const bool known = found != costs.end();
+      fields_.push_back(known ? found->second->field_seconds : expected ? 0.0 : 1.0);
+      before_.push_back(all_);
+      all_ += (known ? found->second->seconds : fields_.back()) + kLeast;
+    }
+  }
+
+  /// When this share of a body's fields is done.
+  double done(std::size_t body, double share) const { return (before_[body] + share * fields_[body]) / all_; }
+
+ private:
+  std::vector<double> fields_, before_;  ///< per body [s]
+  double all_ = 0.0;
+};
+
 void build(const Needs& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
   body.warning = builder.warning();
   if (needs.field) body.parts = builder.makeParts(progress);
@@ -240,8 +267,10 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   scene.pairs = plan.pairs;
   scene.left_out = plan.left_out;
   scene.visual_only = description.visual_only;
-  MeshPool pool(options);
+  const std::shared_ptr<MeshPool> pool =
+      plan.expected && plan.expected->meshes ? plan.expected->meshes : std::make_shared<MeshPool>(options);
   const std::size_t count = description.bodies.size();
+  const Pace pace(description, plan.expected.get());
   for (std::size_t i = 0; i < count; ++i) {
     const BodyDescription& described = description.bodies[i];
     Body body;
@@ -258,13 +287,13 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     });
     checkCancelled();
     const auto report_progress = [&](double share) {
-      if (progress) progress(described.name, (double(i) + share) / double(count));
+      if (progress) progress(described.name, pace.done(i, share));
     };
     report_progress(0.0);
     if (body.failure.empty() && (plan.needs_field[i] || plan.needs_shell[i] || plan.needs_witnesses[i])) {
       try {
         build({plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], plan.needs_witnesses[i]},
-              BodyBuilder(described, options, pool, report), report_progress, body, report);
+              BodyBuilder(described, options, *pool, report), report_progress, body, report);
       } catch (const std::exception& error) {
         body.failure = error.what();
         body.parts.clear();
@@ -280,7 +309,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     if (!hasOpenings(scene.bodies[pair.body_a]) && !hasOpenings(scene.bodies[pair.body_b])) continue;
     for (const int i : {pair.body_a, pair.body_b}) {
       Body& body = scene.bodies[i];
-      if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], pool);
+      if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
     }
   }
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);

@@ -64,7 +64,7 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   const bool one_knob = options_.max_error && options.max_error;
   const auto make = [&](double error) {
     if (options.max_error) options.max_error = error;
-    return cachedField(cache_, {mesh.mesh, mesh.solid}, options, progress);
+    return cachedField(cache_, {mesh.mesh, mesh.made}, options, progress);
   };
   CachedField made = makeCoarser(options.max_error.value_or(0.0), one_knob, make, warning);
   mesh.field = std::move(made.field);
@@ -84,7 +84,7 @@ MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
   const auto make = [&](double gap) {
     options.edge_gap = gap;
     options.spacing = std::max(options.spacing, gap);
-    return cachedShell(cache_, {mesh.mesh, mesh.solid}, options);
+    return cachedShell(cache_, {mesh.mesh, mesh.made}, options);
   };
   CachedShell made = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
   if (!warning.empty()) made.outcome.warning = warning;

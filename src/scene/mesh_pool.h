@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "sdf_ccd/field/file_cache.h"
+#include "sdf_ccd/geometry/closed_solid.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/scene/scene.h"
 
@@ -17,7 +18,7 @@ struct PooledMesh {
   std::optional<double> cell_size;  ///< of its field [m]; none: as the scene's options say
   MeshQuality quality;              ///< empty for voxels
   std::optional<DistanceField> field;
-  std::shared_ptr<const Solid> solid;   ///< null until it is needed
+  MadeSolid made;                       ///< the solid, and that closed by caps
   std::optional<PointShell> shells[2];  ///< of a body of its own, and beside siblings
 };
 
@@ -42,7 +43,7 @@ class MeshPool {
   Made makeShell(PooledMesh& mesh, bool has_siblings);
 
  private:
-  const SceneOptions& options_;
+  const SceneOptions options_;
   FileCache cache_;
   std::unordered_map<std::string, PooledMesh> meshes_;  // by the content's hash
 };

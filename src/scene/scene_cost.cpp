@@ -10,42 +10,19 @@
 
 #include "mesh_pool.h"
 #include "sdf_ccd/field/field_cache.h"
+#include "sdf_ccd/field/field_cost.h"
 
 namespace sdf_ccd {
 namespace {
 
-// Measured on 77 meshes of UR5, Kinova, Fanuc and PR2 at 1e-3 of their sizes, one thread (the study `meshes`). Flat
-// surfaces take a third of these bytes, those with many edges and curves up to three times as many. Where the sides of
-// triangles are not certain, a winding number is asked for at each sample.
-constexpr double kBytesPerCell = 0.66;                                  // a cell: of the surface, error²
-constexpr double kSecondsPerByte = 0.7e-6, kSecondsPerCutByte = 40e-6;  // the latter where all triangles are doubtful
-constexpr double kLeastBytes = 5e4;
-constexpr double kSecondsPerSample = 0.5e-6;  // of a grid of even cells
-constexpr double kSecondsPerPoint = 3.5e-5;   // of a shell
-constexpr double kBytesPerPoint = 88.0;       // with its share of the sphere tree
-constexpr double kFinestOfSize = 2e-3;        // gap that a curved primitive is tessellated for, over its size
+constexpr double kSecondsPerPoint = 3.5e-5;  // of a shell, on one thread; measured on robots' links
+constexpr double kBytesPerPoint = 88.0;      // with its share of the sphere tree
+constexpr double kFinestOfSize = 2e-3;       // gap that a curved primitive is tessellated for, over its size
+constexpr double kUncertain = 0.35;          // two such standard errors are less than a factor of two
+constexpr double kHopeless = 2.0;            // affordableCost() refuses what is this much too large
 
 double seconds(double one_thread) {
   return one_thread / std::max(1, tbb::this_task_arena::max_concurrency());
-}
-
-/// Whole bricks that a band about a surface meets.
-double evenSamples(const TriangleMesh& mesh, double cell, double band) {
-  const double brick = GridShape::kBrick * cell;
-  const double layers = 2.0 * (std::max(band, 2.0 * cell) + cell) + brick;
-  return surfaceArea(mesh) * layers / (brick * brick * brick) * GridShape::kSamples;
-}
-
-/// Share of the surface whose triangles do not tell the inside from the outside by themselves.
-/// Of an open mesh, whose field is that of the mesh closed by caps, none.
-double doubtfulShare(const Solid& solid) {
-  if (!solid.closed()) return 0.0;
-  const TriangleMesh& mesh = solid.boundary();
-  const std::vector<std::uint8_t>& separates = solid.separates();
-  double area = 0.0;
-  for (std::size_t i = 0; i < separates.size(); ++i)
-    if (!separates[i]) area += 0.5 * areaNormal(mesh, static_cast<int>(i)).norm();
-  return area / surfaceArea(mesh);
 }
 
 /// Of a field that the cache has; 0 if it has not [bytes].
@@ -58,7 +35,9 @@ double cachedBytes(const SceneOptions& options, const TriangleMesh& mesh, const 
 
 class CostEstimate {
  public:
-  explicit CostEstimate(const SceneOptions& options) : options_(options), pool_(options) {}
+  explicit CostEstimate(const SceneOptions& options) : options_(options), pool_(std::make_shared<MeshPool>(options)) {}
+
+  std::shared_ptr<MeshPool> meshes() const { return pool_; }
 
   BodyCost of(const BodyDescription& body, bool needs_field, bool needs_shell, bool edges_only) {
     BodyCost cost;
@@ -70,7 +49,7 @@ class CostEstimate {
         if (needs_shell) addShell(*primitive, edges_only, cost);
         continue;
       }
-      PooledMesh& mesh = pool_.find(geometry);
+      PooledMesh& mesh = pool_->find(geometry);
       const bool is_new = seen_.insert(&mesh).second;
       if (needs_field && is_new) addField(mesh, cost);
       if (needs_shell) addPoints(expectedPoints(mesh.mesh, options_.shell), cost);
@@ -83,26 +62,26 @@ class CostEstimate {
   double finest() const { return options_.shell.edge_gap > 0.0 ? options_.shell.edge_gap : options_.shell.spacing; }
 
   void addField(PooledMesh& mesh, BodyCost& cost) {
-    const FieldOptions field = pool_.fieldOptions(mesh);
+    FieldOptions field = pool_->fieldOptions(mesh);
     const double cached = cachedBytes(options_, mesh.mesh, field);
     cost.in_cache = cost.in_cache && cached > 0.0;
     cost.field_bytes += cached;
     if (cached > 0.0) return;
-    double bytes = 0.0, one_thread = 0.0;
-    if (field.max_error) {
-      const Solid& solid = SolidSource(mesh.mesh, mesh.solid).solid();
-      const double doubtful = doubtfulShare(solid);
-      const double cells = surfaceArea(solid.boundary()) / (*field.max_error * *field.max_error);
-      bytes = kLeastBytes + kBytesPerCell * cells;
-      one_thread = (kSecondsPerByte + doubtful * kSecondsPerCutByte) * bytes;
-    } else {
-      const double cell = field.cell_size ? *field.cell_size : boundingBox(mesh.mesh).sizes().maxCoeff() / *field.cells;
-      const double samples = evenSamples(mesh.mesh, cell, field.band);
-      bytes = samples * field.sample_bits / 8.0;
-      one_thread = kSecondsPerSample * samples;
+    const ClosedSolid& closed = SolidSource(mesh.mesh, mesh.made).closed();
+    FieldCost expected = expectedCost(closed, field);
+    cost.largest_field = std::max(cost.largest_field, expected.bytes);
+    // What is too large ends when it is, and a coarser one is made.
+    const auto most = static_cast<double>(field.max_bytes);
+    double one_thread = 0.0;
+    while (options_.max_error && field.max_error && expected.bytes > most && expected.bytes < kHopeless * most) {
+      one_thread += expected.seconds * most / expected.bytes;
+      *field.max_error *= 2.0;
+      expected = expectedCost(closed, field);
     }
-    cost.field_bytes += bytes;
-    cost.largest_field = std::max(cost.largest_field, bytes);
+    one_thread += expected.seconds;
+    cost.uncertain |= std::max(expected.bytes_error, expected.seconds_error) > kUncertain;
+    cost.field_bytes += expected.bytes;
+    cost.field_seconds += seconds(one_thread);
     cost.seconds += seconds(one_thread);
   }
 
@@ -128,7 +107,7 @@ class CostEstimate {
   }
 
   const SceneOptions& options_;
-  MeshPool pool_;
+  std::shared_ptr<MeshPool> pool_;
   std::set<const PooledMesh*> seen_;
 };
 
@@ -155,6 +134,7 @@ SceneCost expectedCost(const SceneDescription& description, const ScenePlan& pla
       // Building the body will say what is wrong with it.
     }
   }
+  scene.meshes = estimate.meshes();
   return scene;
 }
 
@@ -165,8 +145,11 @@ std::string summary(const SceneCost& cost) {
         return a.field_bytes + a.shell_bytes < b.field_bytes + b.shell_bytes;
       });
   if (largest == cost.bodies.end()) return text;
-  return text + "; most for " + largest->name + ": " +
-         about(largest->field_bytes + largest->shell_bytes, largest->seconds);
+  text += "; most for " + largest->name + ": " + about(largest->field_bytes + largest->shell_bytes, largest->seconds);
+  std::string uncertain;
+  for (const BodyCost& body : cost.bodies)
+    if (body.uncertain) uncertain += (uncertain.empty() ? "" : ", ") + body.name;
+  return uncertain.empty() ? text : text + "; may be off by more than a factor of two for " + uncertain;
 }
 
 }  // namespace sdf_ccd

@@ -2,7 +2,7 @@
 
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/field/field_options.h"
-#include "sdf_ccd/geometry/solid_boundary.h"
+#include "sdf_ccd/geometry/closed_solid.h"
 
 namespace sdf_ccd {
 
@@ -19,5 +19,6 @@ DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, 
 
 /// The same for a solid that is there already.
 DistanceField buildField(const Solid& solid, const FieldOptions& options, const Progress& progress = {});
+DistanceField buildField(const ClosedSolid& closed, const FieldOptions& options, const Progress& progress = {});
 
 }  // namespace sdf_ccd

@@ -80,26 +80,4 @@ class Solid {
   SolidReport report_;
 };
 
-/// A mesh whose solid is made when it is first asked for, for what is mostly found in a cache.
-class SolidSource {
- public:
-  /// @param mesh  must outlive this.
-  SolidSource(const TriangleMesh& mesh) : mesh_(mesh), made_(&own_) {}  // NOLINT: a mesh is enough for most
-  /// @param made  where the solid is kept for other sources; null until it is made. Must outlive this.
-  SolidSource(const TriangleMesh& mesh, std::shared_ptr<const Solid>& made) : mesh_(mesh), made_(&made) {}
-  SolidSource(const SolidSource&) = delete;
-  SolidSource& operator=(const SolidSource&) = delete;
-
-  const TriangleMesh& mesh() const { return mesh_; }
-  const Solid& solid() const {
-    if (!*made_) *made_ = std::make_shared<const Solid>(mesh_);
-    return **made_;
-  }
-
- private:
-  const TriangleMesh& mesh_;
-  mutable std::shared_ptr<const Solid> own_;
-  std::shared_ptr<const Solid>* made_;
-};
-
 }  // namespace sdf_ccd

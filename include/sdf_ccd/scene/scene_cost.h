@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,9 @@
 
 namespace sdf_ccd {
 
-/// What building a body is expected to cost. Estimates: on robots' links most are within a factor of three.
+class MeshPool;
+
+/// What building a body is expected to cost.
 struct BodyCost {
   std::string name;
   double field_bytes = 0.0;
@@ -16,23 +19,27 @@ struct BodyCost {
   double shell_points = 0.0;
   double largest_shell = 0.0;  ///< of the elements' shells [points]
   double shell_bytes = 0.0;
-  double seconds = 0.0;   ///< on the threads of the caller's TBB arena; 0 for what the cache has
-  bool in_cache = false;  ///< all of its meshes' fields
+  double seconds = 0.0;        ///< on the threads of the caller's TBB arena; 0 for what the cache has
+  double field_seconds = 0.0;  ///< of these, for fields
+  bool uncertain = false;      ///< a field may take more than twice, or less than half, of what is expected
+  bool in_cache = false;       ///< all of its meshes' fields
 };
 
 struct SceneCost {
   std::vector<BodyCost> bodies;  ///< those of which something is built
   double bytes = 0.0;
   double seconds = 0.0;
+  std::shared_ptr<MeshPool> meshes;  ///< made ready, for the first buildScene() that has them
 };
 
-/// Expects the cost of buildScene() with the same arguments, from areas, edges and errors alone; meshes of equal
-/// content count once. What buildScene() would refuse costs nothing here.
+/// Expects the cost of buildScene() with the same arguments: of fields by building a sample of their cells (see the
+/// fields' expectedCost()), of shells from areas and edges. Meshes of equal content count once. What buildScene() would
+/// refuse costs nothing here.
 SceneCost expectedCost(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options);
 
 /// expectedCost(), where it can be meant.
 /// @throws std::invalid_argument if max_error is larger than every body; std::length_error if a field or shell is
-/// expected to be over three times what the options allow for one (a little more makes it coarser), or all of them
+/// expected to be over twice what the options allow for one (a little more makes it coarser), or all of them
 /// together more than this machine's memory. The message names max_error, the cost and the limit.
 SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options);
 

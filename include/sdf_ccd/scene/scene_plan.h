@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct LeftOut {
   std::string reason;
 };
 
+struct SceneCost;
+
 /// What a scene needs, decided before anything is built (design §4).
 struct ScenePlan {
   std::vector<PlannedPair> pairs;
@@ -33,6 +36,10 @@ struct ScenePlan {
   std::vector<bool> edges_only;       ///< per body: of its shell no pair needs more
   std::vector<bool> needs_witnesses;  ///< per body
   std::vector<LeftOut> left_out;
+
+  /// What expectedCost() said for the same scene and options; null if it was not called. With it, buildScene() need not
+  /// prepare the meshes again, and its progress goes on at an even pace.
+  std::shared_ptr<const SceneCost> expected;
 };
 
 struct PlanOptions {

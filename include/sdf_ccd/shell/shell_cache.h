@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sdf_ccd/field/file_cache.h"
+#include "sdf_ccd/geometry/closed_solid.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
 namespace sdf_ccd {

@@ -102,10 +102,10 @@ class Recorder : public BagObserver {
   CycleReport& report_;
 };
 
-std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const SceneOptions& options,
-                                          const Interrupt& interrupt) {
+std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const ScenePlan& plan,
+                                          const SceneOptions& options, const Interrupt& interrupt) {
   ProgressBar bar("fields and shells");
-  return buildDescribed(described, options, [&](const std::string&, double share) {
+  return buildDescribed(described, plan, options, [&](const std::string&, double share) {
     if (interrupt.asked()) throw Interrupted();
     bar(share);
   });
@@ -163,10 +163,11 @@ void run(const Arguments& arguments) {
   const DescribedScene described =
       describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), urdf_directory, parameters.allow_http));
   const RecordedMotion motion(arguments.bag, described, arguments.motion);
-  const std::string expected = "expected         " + summary(affordableCost(described, parameters.scene)) + "\n";
+  const ScenePlan plan = affordablePlan(described, parameters.scene);
+  const std::string expected = "expected         " + summary(*plan.expected) + "\n";
   std::cout << expected << std::flush;
   CheckFiles files(arguments.out);
-  const std::shared_ptr<const Scene> scene = buildWithBar(described, parameters.scene, files.interrupt);
+  const std::shared_ptr<const Scene> scene = buildWithBar(described, plan, parameters.scene, files.interrupt);
   const std::string over = overBudget(*scene, parameters.scene);
   std::vector<std::string> warnings = described.warnings;
   if (!over.empty()) {

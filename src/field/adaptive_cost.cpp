@@ -1,0 +1,208 @@
+#include "adaptive_cost.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "adaptive_shape.h"
+#include "block_builder.h"
+#include "processor_time.h"
+#include "sample_mean.h"
+#include "spread_order.h"
+#include "thinned_cells.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Blocks that are likely to be alike, and what was found in those that were built.
+struct Stratum {
+  std::vector<std::size_t> blocks;
+  SampleMean bytes, seconds;
+
+  double size() const { return double(blocks.size()); }
+  std::size_t built() const { return bytes.count(); }
+};
+
+/// Sums over all blocks near the surface, from some of them.
+struct Sum {
+  double value = 0.0, variance = 0.0;
+
+  double relativeError() const { return value > 0.0 ? std::sqrt(variance) / value : 1.0; }
+};
+
+class BlockSample {
+ public:
+  BlockSample(const SurfaceIndex& surface, const AdaptiveShape& shape)
+      : surface_(surface),
+        shape_(shape),
+        builder_(surface, shape),
+        blocks_(builder_.blocks()),
+        order_(count(blocks_)) {}
+
+  FieldCost run() {
+    markBlocks();
+    const double start = threadSeconds();
+    findNear(start);
+    const double found = threadSeconds();
+    buildNear(found);
+    buildFar();
+    const double all = double(order_.size()), tested = double(tested_), scale = all / tested;
+    const double near = tested - double(far_.size());
+    const double share_error = tested_ < order_.size() ? std::sqrt((1.0 - near / tested) / std::max(near, 1.0)) : 0.0;
+    const Sum bytes = sum(&Stratum::bytes), seconds = sum(&Stratum::seconds);
+    const double far_seconds = double(far_.size()) * far_seconds_.mean();
+    FieldCost cost;
+    cost.bytes = scale * bytes.value;
+    cost.seconds = scale * (seconds.value + far_seconds + (found - start));
+    cost.bytes_error = std::hypot(bytes.relativeError(), share_error);
+    cost.seconds_error = std::hypot(seconds.relativeError(), share_error) * scale * seconds.value / cost.seconds;
+    return cost;
+  }
+
+ private:
+  static constexpr std::size_t kFewest = 6;  ///< of a stratum
+
+  enum Kind : std::uint8_t { kPlain, kVertices, kDoubtful };
+
+  static std::size_t count(const Vector3i& blocks) { return std::size_t(blocks.x()) * blocks.y() * blocks.z(); }
+
+  Vector3i at(std::size_t i) const {
+    const std::size_t row = i / blocks_.x();
+    return {int(i % blocks_.x()), int(row % blocks_.y()), int(row / blocks_.y())};
+  }
+
+  SignedSurface::Nearest nearest(std::size_t i) const { return surface_.exact().nearest(builder_.center(at(i))); }
+
+  void mark(const AlignedBox3d& box, Kind kind) {
+    const auto blockOf = [&](const Vector3d& p) -> Vector3i {
+      return ((p - shape_.origin) / builder_.side()).array().floor().cast<int>().max(0).min(blocks_.array() - 1);
+    };
+    const Vector3i low = blockOf(box.min()), high = blockOf(box.max());
+    for (int z = low.z(); z <= high.z(); ++z)
+      for (int y = low.y(); y <= high.y(); ++y)
+        for (int x = low.x(); x <= high.x(); ++x) {
+          Kind& of = kinds_[(std::size_t(z) * blocks_.y() + y) * blocks_.x() + x];
+          of = std::max(of, kind);
+        }
+  }
+
+  /// Cells divide most where triangles do not tell the inside from the outside, and more where vertices are, as the
+  /// surface bends there, than elsewhere.
+  void markBlocks() {
+    kinds_.assign(order_.size(), kPlain);
+    const Solid& solid = surface_.exact().solid();
+    const TriangleMesh& mesh = solid.boundary();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      AlignedBox3d box;
+      for (int k = 0; k < 3; ++k) {
+        const Vector3d& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])];
+        mark({vertex, vertex}, kVertices);
+        box.extend(vertex);
+      }
+      if (!solid.separates()[t]) mark(box, kDoubtful);
+    }
+  }
+
+  /// Which of the blocks are near the surface, as far as the time for that goes.
+  void findNear(double start) {
+    constexpr double kSeconds = 5e-3;
+    constexpr std::size_t kFewest = 64, kChecked = 16;
+    for (; tested_ < order_.size(); ++tested_) {
+      if (tested_ >= kFewest && tested_ % kChecked == 0 && threadSeconds() - start > kSeconds) break;
+      const std::size_t i = order_[tested_];
+      const bool far = builder_.isFar(surface_.exact().tree().closestPoint(builder_.center(at(i))).distance);
+      (far ? far_ : strata_[kinds_[i]].blocks).push_back(i);
+    }
+  }
+
+  Sum sum(SampleMean Stratum::*quantity) const {
+    Sum sum;
+    for (const Stratum& stratum : strata_) {
+      const SampleMean& mean = stratum.*quantity;
+      sum.value += stratum.size() * mean.mean();
+      if (mean.count() > 0) sum.variance += stratum.size() * stratum.size() * mean.variance() / double(mean.count());
+    }
+    return sum;
+  }
+
+  /// Where the next block lessens the squared errors of both sums most, as soon as each has a few; null if nothing
+  /// would.
+  Stratum* next(const Sum& bytes, const Sum& seconds) {
+    Stratum* best = nullptr;
+    double most = 0.0;
+    for (Stratum& stratum : strata_) {
+      if (stratum.blocks.empty()) continue;
+      if (stratum.built() < kFewest) return &stratum;
+      const double weight = stratum.size() / double(stratum.built() + 1);
+      const double gain = weight * weight *
+                          (stratum.bytes.variance() / std::max(bytes.value * bytes.value, 1.0) +
+                           stratum.seconds.variance() / (seconds.value * seconds.value));
+      if (gain <= most) continue;
+      best = &stratum;
+      most = gain;
+    }
+    return best;
+  }
+
+  /// Comes back to a block, and to other cells of it, if there are few.
+  void buildNear(double start) {
+    constexpr double kSeconds = 15e-3, kShare = 0.03, kShareOfFew = 0.2, kSure = 0.07;
+    const double scale = double(order_.size()) / double(tested_);
+    ThinnedCells cells;
+    for (;;) {
+      const Sum bytes = sum(&Stratum::bytes), seconds = sum(&Stratum::seconds);
+      Stratum* const stratum = next(bytes, seconds);
+      if (!stratum) return;
+      if (stratum->built() >= kFewest) {
+        const double all = scale * seconds.value;
+        if (threadSeconds() - start > std::max(kShare * all, std::min(kSeconds, kShareOfFew * all))) return;
+        if (std::max(bytes.relativeError(), seconds.relativeError()) < kSure) return;
+      }
+      const SpreadOrder order(stratum->blocks.size());
+      const std::size_t i = stratum->blocks[order[stratum->built()]];
+      cells.start();
+      builder_.build(at(i), nearest(i), cells);
+      const ThinnedCells::Counted counted = cells.stop();
+      stratum->bytes.add(counted.bytes);
+      stratum->seconds.add(counted.seconds);
+    }
+  }
+
+  void buildFar() {
+    constexpr std::size_t kMost = 64;
+    ThinnedCells cells;
+    for (std::size_t k = 0; k < std::min(far_.size(), kMost); ++k) {
+      cells.start();
+      builder_.build(at(far_[k]), nearest(far_[k]), cells);
+      far_seconds_.add(cells.stop().seconds);
+    }
+  }
+
+  const SurfaceIndex& surface_;
+  const AdaptiveShape& shape_;
+  const BlockBuilder builder_;
+  const Vector3i blocks_;
+  const SpreadOrder order_;
+  std::vector<Kind> kinds_;  ///< per block
+  std::size_t tested_ = 0;   ///< blocks; of these:
+  std::array<Stratum, 3> strata_;
+  std::vector<std::size_t> far_;
+  SampleMean far_seconds_;
+};
+
+}  // namespace
+
+FieldCost expectedAdaptive(const Solid& solid, const FieldOptions& options) {
+  const AdaptiveShape shape = adaptiveShape(boundingBox(solid.boundary()), options);
+  const double start = threadSeconds();
+  const SurfaceIndex surface(solid);
+  const double indexed = threadSeconds() - start;
+  FieldCost cost = BlockSample(surface, shape).run();
+  cost.bytes += double(sizeof(std::uint32_t)) * double(shape.count());
+  cost.seconds += indexed;
+  return cost;
+}
+
+}  // namespace sdf_ccd

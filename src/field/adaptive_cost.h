@@ -1,0 +1,11 @@
+#pragma once
+
+#include "sdf_ccd/field/field_cost.h"
+#include "sdf_ccd/geometry/solid_boundary.h"
+
+namespace sdf_ccd {
+
+/// What buildAdaptive() is expected to take; see expectedCost().
+FieldCost expectedAdaptive(const Solid& solid, const FieldOptions& options);
+
+}  // namespace sdf_ccd

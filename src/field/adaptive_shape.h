@@ -1,0 +1,12 @@
+#pragma once
+
+#include "sdf_ccd/field/adaptive_grid.h"
+#include "sdf_ccd/field/field_options.h"
+
+namespace sdf_ccd {
+
+/// The grid about a surface in this box for options that have a max_error, which is taken for its error bound.
+/// @throws std::length_error if the band is too wide for it.
+AdaptiveShape adaptiveShape(const AlignedBox3d& surface_box, const FieldOptions& options);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "cell_fit.h"
+#include "cube_corner.h"
+#include "near_triangles.h"
+#include "sdf_ccd/field/adaptive_grid.h"
+#include "sdf_ccd/geometry/cancel.h"
+
+namespace sdf_ccd {
+
+/// What stands in a cell's place.
+struct BuiltCell {
+  enum Kind { kFar, kLeaf, kWide, kSplit, kNode } kind = kFar;
+  double distance = 0.0;  ///< far: at the centre
+  FittedLeaf leaf;        ///< wide: of the octant that the cell is one eighth of
+  std::array<FittedLeaf, 8> split;
+  std::unique_ptr<std::array<BuiltCell, 64>> children;
+};
+
+/// In a node, of the k-th cell in an octant.
+inline int childIndex(int octant, int k) {
+  const Vector3i c = 2 * cubeCorner(octant) + cubeCorner(k);
+  return c.x() + 4 * (c.y() + 4 * c.z());
+}
+
+/// Who has cells built: takes what was made of the top ones, counts, and may leave cells out.
+class CellTaker {
+ public:
+  static constexpr int kFarCell = -1, kCube = -2;  ///< in the place of a depth; a cube of top cells near the surface
+
+  virtual ~CellTaker() = default;
+
+  /// Of the field [bytes]; also those of cells that turn out to be far as a whole.
+  virtual void count(std::size_t bytes) = 0;
+  /// Whether a cell of this depth is wanted. If it is, end() follows when it has been built.
+  virtual bool begin(int /*depth*/) { return true; }
+  virtual void end() {}
+  /// A top cell's distance at its centre, for those that are wanted [m].
+  virtual void takeDistance(std::size_t /*index*/, double /*distance*/) {}
+  virtual void take(std::size_t /*index*/, BuiltCell&& /*cell*/) {}
+};
+
+/// Builds the cells of an adaptive grid, in cubes of top cells that share a search for the triangles near them.
+class BlockBuilder {
+ public:
+  static constexpr int kSide = 4;  ///< of a block, in top cells
+
+  /// What is handed over must outlive this.
+  BlockBuilder(const SurfaceIndex& surface, const AdaptiveShape& shape)
+      : surface_(surface), shape_(shape), error_(shape.error_bound) {}
+
+  Vector3i blocks() const { return (shape_.size.array() + (kSide - 1)) / kSide; }
+  Vector3d center(const Vector3i& block) const { return center(Block{kSide * block, kSide}); }
+  double side() const { return kSide * shape_.cell; }
+  /// Whether all of a block is far, as its centre is this far from the surface [m].
+  bool isFar(double center_distance) const { return isFar(center_distance, side()); }
+
+  /// May be called from several threads at once.
+  void build(const Vector3i& block, const SignedSurface::Nearest& at_center, CellTaker& taker) const;
+
+  /// Whether a leaf at the last depth was not proved.
+  bool capped() const { return capped_; }
+
+ private:
+  /// A cube of top cells: first cell and side, in cells. The last ones may end beyond the grid.
+  struct Block {
+    Vector3i low;
+    int side;
+
+    Block octant(int k) const { return {low + side / 2 * cubeCorner(k), side / 2}; }
+  };
+  struct OctantLeaves;
+
+  Vector3d center(const Block& block) const {
+    return shape_.origin + shape_.cell * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
+  }
+  bool withinGrid(const Vector3i& cell) const { return (cell.array() < shape_.size.array()).all(); }
+  std::size_t index(const Vector3i& cell) const {
+    return (std::size_t(cell.z()) * shape_.size.y() + cell.y()) * shape_.size.x() + cell.x();
+  }
+  /// Whether |φ| > band in all of a cube of this side.
+  bool isFar(double center_distance, double side) const {
+    return std::abs(center_distance) > shape_.band + kHalfSqrt3 * side * (1.0 + 1e-9);
+  }
+
+  void buildNear(const Block& block, const NearTriangles& near, CellTaker& taker) const;
+  /// Cells that are all far: one by one, each starting from what the last one found.
+  void measureFar(const Block& block, SignedSurface::Nearest last, CellTaker& taker) const;
+  BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth, CellTaker& taker) const;
+  BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants, CellTaker& taker) const;
+  /// Whether a proved leaf shows that |φ| exceeds the band all over it, on the side that its cell's centre is on.
+  bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
+  /// Whether a far cell at this depth can tell its side: the rounded distance of its centre is not zero.
+  bool holdsFar(double center_distance, int depth) const;
+
+  const SurfaceIndex& surface_;
+  const AdaptiveShape& shape_;
+  const double error_;
+  const CancelPoint cancel_;
+  mutable std::atomic<bool> capped_{false};
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "near_triangles.h"
+#include "sdf_ccd/field/sparse_grid.h"
+#include "signed_surface.h"
+
+namespace sdf_ccd {
+
+/// Signed distances at grid points: of a brick, its halves, their halves, each with the triangles that may be nearest
+/// to its places, until those are few.
+class BrickSampler {
+ public:
+  BrickSampler(const Solid& solid, const GridShape& shape);
+
+  const SignedSurface& surface() const { return index_ ? index_->exact() : *surface_; }
+
+  /// All samples of a brick.
+  void fill(const Vector3i& brick, float* samples) const;
+
+ private:
+  /// A cube of a brick: first cell and side, in cells.
+  struct Block {
+    Vector3i low;
+    int side;
+  };
+
+  Vector3d place(const Vector3i& brick, const Vector3d& cells) const {
+    return shape_.origin + shape_.cell * ((GridShape::kBrick * brick).cast<double>() + cells);
+  }
+
+  SpaceCube cubeOf(const Vector3i& brick, const Block& block) const {
+    const Vector3d center = block.low.cast<double>().array() + 0.5 * block.side;
+    return {place(brick, center), block.side * shape_.cell};
+  }
+
+  void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, float* samples) const;
+  /// Where triangles are small beside cells lists of them are long: each sample starts from its neighbour's triangle.
+  void fillFromTree(const Vector3i& brick, float* samples) const;
+
+  std::optional<SurfaceIndex> index_;  ///< where triangles are not small beside cells
+  std::optional<SignedSurface> surface_;
+  GridShape shape_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "block_builder.h"
+#include "processor_time.h"
+
+namespace sdf_ccd {
+
+/// Has some of the cells built that a builder comes to, and counts each of them for those that it stands for (Knuth
+/// 1975, "Estimating the efficiency of backtrack programs", with several branches taken). What is counted is right on
+/// average.
+class ThinnedCells : public CellTaker {
+ public:
+  struct Counted {
+    double bytes = 0.0, seconds = 0.0;
+  };
+
+  void start() { last_ = threadSeconds(); }
+
+  /// What was counted since start().
+  Counted stop() {
+    mark();
+    return std::exchange(counted_, {});
+  }
+
+  void count(std::size_t bytes) override { counted_.bytes += weights_.back() * double(bytes); }
+
+  bool begin(int depth) override {
+    const double share = shareOf(depth);
+    double& phase = phases_[depth - kCube];
+    phase += share;
+    if (phase < 1.0) return false;
+    phase -= 1.0;
+    mark();
+    weights_.push_back(weights_.back() / share);
+    return true;
+  }
+
+  void end() override {
+    mark();
+    weights_.pop_back();
+  }
+
+ private:
+  /// Powers of the golden section, so that not the same children of all cells are met. Measured on 9 meshes: with fewer
+  /// cells of more blocks the error is smaller in the same time, down to these.
+  static double shareOf(int depth) {
+    if (depth == kFarCell) return 0.0901699437494745;
+    return depth <= 0 ? 0.3819660112501051 : 0.2360679774997897;
+  }
+
+  void mark() {
+    const double now = threadSeconds();
+    counted_.seconds += weights_.back() * (now - last_);
+    last_ = now;
+  }
+
+  std::array<double, AdaptiveShape::kMaxDepth + 1 - kCube> phases_{};  ///< per depth
+  std::vector<double> weights_{1.0};
+  Counted counted_;
+  double last_ = 0.0;
+};
+
+}  // namespace sdf_ccd

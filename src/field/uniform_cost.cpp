@@ -1,0 +1,108 @@
+#include "uniform_cost.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "brick_sampler.h"
+#include "processor_time.h"
+#include "sample_mean.h"
+#include "spread_order.h"
+#include "uniform_shape.h"
+
+namespace sdf_ccd {
+namespace {
+
+class BrickSample {
+ public:
+  BrickSample(const Solid& solid, const GridShape& shape)
+      : shape_(shape), start_(threadSeconds()), sampler_(solid, shape), prepared_(threadSeconds() - start_) {}
+
+  FieldCost run(double bytes_per_sample) {
+    findNeeded();
+    measureCorners();
+    measureNeeded();
+    const double all = double(shape_.brickCount()), share = double(needed_.size()) / double(tested_);
+    const double share_error =
+        double(tested_) < all ? std::sqrt((1.0 - share) / std::max<double>(1.0, needed_.size())) : 0;
+    const double coarse = double(shape_.cornerCount()) * sizeof(float) + all * sizeof(std::int32_t);
+    FieldCost cost;
+    cost.bytes = coarse + share * all * GridShape::kSamples * bytes_per_sample;
+    const double samples = share * all * brick_seconds_.mean();
+    cost.seconds = prepared_ + double(shape_.cornerCount()) * corner_seconds_.mean() + all * test_seconds_ + samples;
+    cost.bytes_error = share_error * (1.0 - coarse / cost.bytes);
+    cost.seconds_error = std::hypot(brick_seconds_.relativeError(), share_error) * samples / cost.seconds;
+    return cost;
+  }
+
+ private:
+  double side() const { return GridShape::kBrick * shape_.cell; }
+
+  Vector3i at(std::size_t i) const {
+    const std::size_t row = i / shape_.bricks.x();
+    return {int(i % shape_.bricks.x()), int(row % shape_.bricks.y()), int(row / shape_.bricks.y())};
+  }
+
+  /// Which of the bricks need samples, as far as the time for that goes.
+  void findNeeded() {
+    constexpr double kSeconds = 5e-3;
+    constexpr std::size_t kFewest = 256;
+    const SpreadOrder order(shape_.brickCount());
+    const double reach = shape_.band + shape_.cell + kHalfSqrt3 * side(), start = threadSeconds();
+    for (; tested_ < order.size(); ++tested_) {
+      if (tested_ >= kFewest && tested_ % 16 == 0 && threadSeconds() - start > kSeconds) break;
+      const Vector3i brick = at(order[tested_]);
+      const Vector3d center = shape_.origin + side() * (brick.cast<double>().array() + 0.5).matrix();
+      if (sampler_.surface().tree().closestPoint(center, reach).distance < reach) needed_.push_back(brick);
+    }
+    test_seconds_ = (threadSeconds() - start) / double(tested_);
+  }
+
+  /// Distances at bricks' corners, each but the first in a row from the one before.
+  void measureCorners() {
+    constexpr std::size_t kMost = 128;
+    const SpreadOrder order(shape_.brickCount());
+    for (std::size_t k = 0; k < std::min(order.size(), kMost); ++k) {
+      const Vector3d p = shape_.origin + side() * at(order[k]).cast<double>();
+      const SignedSurface::Nearest before = sampler_.surface().nearest(p);
+      const double start = threadSeconds();
+      sampler_.surface().next(p + side() * Vector3d::UnitX(), before, side());
+      corner_seconds_.add(threadSeconds() - start);
+    }
+  }
+
+  void measureNeeded() {
+    constexpr double kSeconds = 15e-3, kShareOfAll = 0.03, kSure = 0.05;
+    constexpr std::size_t kFewest = 8;
+    std::array<float, GridShape::kSamples> samples;
+    const SpreadOrder order(needed_.size());
+    const double whole = double(needed_.size()) / double(tested_) * double(shape_.brickCount());
+    const double start = threadSeconds();
+    for (std::size_t k = 0; k < needed_.size(); ++k) {
+      const double begin = threadSeconds();
+      if (k >= kFewest && begin - start > std::max(kSeconds, kShareOfAll * whole * brick_seconds_.mean())) break;
+      if (k >= 4 * kFewest && brick_seconds_.relativeError() < kSure) break;
+      sampler_.fill(needed_[order[k]], samples.data());
+      brick_seconds_.add(threadSeconds() - begin);
+    }
+  }
+
+  const GridShape shape_;
+  const double start_;
+  const BrickSampler sampler_;
+  const double prepared_;  ///< [s]
+  std::size_t tested_ = 0;
+  double test_seconds_ = 0.0;  ///< for each brick
+  std::vector<Vector3i> needed_;
+  SampleMean corner_seconds_, brick_seconds_;
+};
+
+}  // namespace
+
+FieldCost expectedUniform(const Solid& solid, const FieldOptions& options) {
+  const GridShape shape = uniformShape(boundingBox(solid.boundary()), options);
+  return BrickSample(solid, shape).run(options.sample_bits / 8.0);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "sdf_ccd/field/field_cost.h"
+#include "sdf_ccd/geometry/solid_boundary.h"
+
+namespace sdf_ccd {
+
+/// What a field with cells of one size is expected to take; see expectedCost().
+FieldCost expectedUniform(const Solid& solid, const FieldOptions& options);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,36 @@
+#include "uniform_shape.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace sdf_ccd {
+namespace {
+
+double cellSize(const FieldOptions& options, const AlignedBox3d& surface_box) {
+  if (options.cell_size) return *options.cell_size;
+  return surface_box.sizes().maxCoeff() / *options.cells;
+}
+
+}  // namespace
+
+GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& options) {
+  GridShape shape;
+  shape.surface_box = surface_box;
+  shape.exact = true;
+  shape.cell = cellSize(options, shape.surface_box);
+  shape.band = std::max(options.band, 2.0 * shape.cell);
+  // Padded so that no value within the band, nor its interpolation, reaches the grid's boundary.
+  const double padding = shape.band + 2.0 * shape.cell;
+  const Vector3d extent = shape.surface_box.sizes().array() + 2.0 * padding;
+  const Vector3d bricks = (extent / (GridShape::kBrick * shape.cell)).array().ceil();
+  if (bricks.maxCoeff() > 4096.0) {
+    throw std::length_error("field: " + std::to_string(shape.cell) + " m cells need " +
+                            std::to_string(bricks.maxCoeff() * GridShape::kBrick) + " along one side, at most 32768");
+  }
+  shape.bricks = bricks.cast<int>();
+  shape.origin = shape.surface_box.center() - 0.5 * shape.cell * shape.cells().cast<double>();
+  return shape;
+}
+
+}  // namespace sdf_ccd

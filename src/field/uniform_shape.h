@@ -1,0 +1,12 @@
+#pragma once
+
+#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/field/sparse_grid.h"
+
+namespace sdf_ccd {
+
+/// The grid about a surface in this box for options that have cells or a cell_size.
+/// @throws std::length_error if it would have too many cells along one side.
+GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& options);
+
+}  // namespace sdf_ccd

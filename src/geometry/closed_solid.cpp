@@ -1,0 +1,25 @@
+#include "sdf_ccd/geometry/closed_solid.h"
+
+#include <utility>
+
+namespace sdf_ccd {
+
+ClosedSolid::ClosedSolid(std::shared_ptr<const Solid> solid) : solid_(std::move(solid)) {
+  if (solid_->closed()) return;
+  openings_ = findOpenings(solid_->boundary());
+  if (openings_.reach.empty()) return;
+  solid_ = std::make_shared<const Solid>(welded(merged(solid_->boundary(), openings_.caps)));
+}
+
+const Solid& SolidSource::solid() const {
+  if (!made_->solid) made_->solid = std::make_shared<const Solid>(mesh_);
+  return *made_->solid;
+}
+
+const ClosedSolid& SolidSource::closed() const {
+  solid();
+  if (!made_->closed) made_->closed = std::make_shared<const ClosedSolid>(made_->solid);
+  return *made_->closed;
+}
+
+}  // namespace sdf_ccd
