@@ -9,6 +9,7 @@
 
 #include "chord_frame.h"
 #include "deepest.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/query/segment_query.h"
 
@@ -206,7 +207,11 @@ void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hi
   result.on_shell_body = {};
   result.depths.clear();
   Integrator integrator(input, options, with_impulse, result);
-  for (const ShellHit& hit : hits) integrator.add(hit);
+  CancelTicks<> cancel;
+  for (const ShellHit& hit : hits) {
+    cancel.check();
+    integrator.add(hit);
+  }
 }
 
 }  // namespace sdf_ccd

@@ -21,7 +21,9 @@ std::vector<Key> sortedKeys(const TriangleMesh& mesh) {
     std::sort(t.data(), t.data() + 3);
     keys.push_back({t, static_cast<std::int32_t>(i)});
   }
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+  CancelTicks<4096> cancel;
+  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    cancel.check();
     return std::tie(a.corners[0], a.corners[1], a.corners[2], a.triangle) <
            std::tie(b.corners[0], b.corners[1], b.corners[2], b.triangle);
   });

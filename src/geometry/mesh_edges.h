@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {
@@ -20,8 +21,10 @@ std::vector<EdgeUse> edgeUses(const TriangleMesh& mesh);
 /// Calls visit(first, last) for every edge, with the range of its uses.
 template <typename Visit>
 void forEachEdge(const std::vector<EdgeUse>& uses, Visit visit) {
+  CancelTicks<4096> cancel;
   const EdgeUse* const end = uses.data() + uses.size();
   for (const EdgeUse* first = uses.data(); first != end;) {
+    cancel.check();
     const EdgeUse* last = first + 1;
     while (last != end && last->low == first->low && last->high == first->high) ++last;
     visit(first, last);

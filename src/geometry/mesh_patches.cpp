@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
 namespace sdf_ccd {
 namespace {
@@ -34,12 +35,14 @@ std::vector<std::int32_t> turnBySets(TriangleMesh& mesh, const std::vector<EdgeU
   std::vector<char> turned(mesh.triangles.size(), 0);
   std::vector<std::int32_t> set;
   std::int32_t sets = 0;
+  CancelTicks<4096> cancel;
   for (std::size_t seed = 0; seed < label.size(); ++seed) {
     if (label[seed] >= 0) continue;
     set.assign(1, static_cast<std::int32_t>(seed));
     label[seed] = sets;
     double area = 0, turned_area = 0;
     for (std::size_t next = 0; next < set.size(); ++next) {
+      cancel.check();
       const std::int32_t triangle = set[next];
       const double weight = areaNormal(mesh, triangle).norm();
       area += weight;
@@ -118,8 +121,10 @@ std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
 TriangleMesh extract(const TriangleMesh& mesh, const Patch& patch) {
   TriangleMesh part;
   part.triangles.reserve(patch.triangles.size());
-  std::map<std::int32_t, std::int32_t> vertices;
+  std::unordered_map<std::int32_t, std::int32_t> vertices;
+  CancelTicks<4096> cancel;
   for (const std::int32_t triangle : patch.triangles) {
+    cancel.check();
     Vector3i corners;
     for (int i = 0; i < 3; ++i) {
       const std::int32_t vertex = mesh.triangles[triangle][i];

@@ -1,7 +1,6 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 
 #include <cmath>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -26,9 +25,9 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
     if (count > 2) ++quality.non_manifold_edges;
     for (const EdgeUse* use = first + 1; use < last; ++use) sets.join(first->triangle, use->triangle);
   });
-  std::set<std::int32_t> roots;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) roots.insert(sets.find(static_cast<std::int32_t>(i)));
-  quality.components = static_cast<int>(roots.size());
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
+    quality.components += sets.find(i) == i;
+  }
 }
 
 /// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `walls`.

@@ -4,8 +4,9 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
+#include <utility>
 
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
@@ -15,17 +16,46 @@ std::string text(const Vector3d& p) {
   return "(" + numberText(p.x()) + ", " + numberText(p.y()) + ", " + numberText(p.z()) + ")";
 }
 
-struct PointHash {
-  std::size_t operator()(const Vector3d& p) const {
-    std::uint64_t hash = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      std::uint64_t bits;
-      std::memcpy(&bits, &p[axis], sizeof bits);
-      hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;  // 2^64 / golden ratio: spreads every bit upwards
-      hash ^= hash >> 32;
-    }
-    return hash;
+std::size_t hashOf(const Vector3d& p) {
+  std::uint64_t hash = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &p[axis], sizeof bits);
+    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;  // 2^64 / golden ratio: spreads every bit upwards
+    hash ^= hash >> 32;
   }
+  return hash;
+}
+
+/// Different points, numbered as they come. Open addressing: a map of nodes takes as long to give back as to fill, and
+/// nothing can end that.
+class PointNumbers {
+ public:
+  /// @param most  points there may be.
+  explicit PointNumbers(std::size_t most) {
+    std::size_t size = 16;
+    while (size < 2 * most) size *= 2;
+    numbers_.assign(size, kNone);
+  }
+
+  int numberOf(const Vector3d& p) {
+    for (std::size_t place = hashOf(p);; ++place) {
+      int& number = numbers_[place & (numbers_.size() - 1)];
+      if (number != kNone && points[number] != p) continue;
+      if (number == kNone) {
+        number = static_cast<int>(points.size());
+        points.push_back(p);
+      }
+      return number;
+    }
+  }
+
+  std::vector<Vector3d> points;
+
+ private:
+  static constexpr int kNone = -1;
+
+  std::vector<int> numbers_;
 };
 
 }  // namespace
@@ -114,19 +144,17 @@ TriangleMesh merged(TriangleMesh first, const TriangleMesh& second) {
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   result.triangles.reserve(mesh.triangles.size());
-  std::unordered_map<Vector3d, int, PointHash> places;
-  places.reserve(mesh.vertices.size());
+  PointNumbers numbers(mesh.vertices.size());
+  CancelTicks<4096> cancel;
   for (const Vector3i& t : mesh.triangles) {
+    cancel.check();
     const auto corner = [&](int i) -> Vector3d { return mesh.vertices[t[i]] + Vector3d::Zero(); };  // -0 becomes +0
     if (corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0)) continue;
     Vector3i indices;
-    for (int i = 0; i < 3; ++i) {
-      const auto [place, is_new] = places.try_emplace(corner(i), static_cast<int>(result.vertices.size()));
-      if (is_new) result.vertices.push_back(place->first);
-      indices[i] = place->second;
-    }
+    for (int i = 0; i < 3; ++i) indices[i] = numbers.numberOf(corner(i));
     result.triangles.push_back(indices);
   }
+  result.vertices = std::move(numbers.points);
   return result;
 }
 

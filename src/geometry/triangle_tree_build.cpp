@@ -35,6 +35,7 @@ class TriangleTree::Builder {
     boxes_.resize(count);
     centers_.resize(count);
     for (int i = 0; i < count; ++i) {
+      checkNowAndThen(i);
       for (int corner = 0; corner < 3; ++corner) boxes_[i].extend(mesh_.vertices[mesh_.triangles[i][corner]]);
       centers_[i] = boxes_[i].center();
     }
@@ -47,6 +48,7 @@ class TriangleTree::Builder {
 
     tree_.triangles_.reserve(count);
     for (const std::int32_t id : tree_.ids_) {
+      checkNowAndThen(tree_.triangles_.size());
       const Vector3i& t = mesh_.triangles[id];
       tree_.triangles_.emplace_back(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
     }
@@ -71,6 +73,11 @@ class TriangleTree::Builder {
     std::int32_t begin, end;
     int depth;
   };
+
+  /// In loops over all triangles, of which a mesh may have millions.
+  void checkNowAndThen(std::size_t i) const {
+    if (i % 4096 == 0) cancel_.check();
+  }
 
   void divide(std::size_t index) {
     cancel_.check();
@@ -141,9 +148,10 @@ class TriangleTree::Builder {
   }
 
   /// About a node's triangles, its axis their mean normal.
-  static FlatCylinder cylinder(const Triangle* begin, const Triangle* end, const Expansion& expansion) {
+  FlatCylinder cylinder(const Triangle* begin, const Triangle* end, const Expansion& expansion) const {
     FlatCylinder result{expansion.center, expansion.dipole.normalized()};
     for (const Triangle* t = begin; t != end; ++t) {
+      checkNowAndThen(t - begin);
       for (const Vector3d& corner : {t->a(), t->b(), t->c()}) result.extend(corner);
     }
     return result;
@@ -153,6 +161,7 @@ class TriangleTree::Builder {
     if (isLeaf(0)) return;
     std::vector<std::int32_t> parents = {0};  // of each quad
     for (std::size_t i = 0; i < parents.size(); ++i) {
+      checkNowAndThen(i);
       Quad& quad = tree_.quads_.emplace_back();
       for (auto& lane : quad.low) lane.fill(std::numeric_limits<double>::infinity());
       int lane = 0;

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 
+#include "sdf_ccd/geometry/cancel.h"
+
 namespace sdf_ccd {
 
 void mergeIntervals(Intervals& intervals, double gap) {
   if (intervals.empty()) return;
-  std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) { return a.enter < b.enter; });
+  CancelTicks<1024> cancel;
+  std::sort(intervals.begin(), intervals.end(), [&](const Interval& a, const Interval& b) {
+    cancel.check();
+    return a.enter < b.enter;
+  });
   std::size_t last = 0;
   for (std::size_t i = 1; i < intervals.size(); ++i) {
     if (intervals[i].enter <= intervals[last].exit + gap) {

@@ -13,6 +13,7 @@
 #include "segment_lanes.h"
 #endif
 #include "representation_queries.h"
+#include "sdf_ccd/geometry/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -127,11 +128,18 @@ void askInChunks(std::size_t count, const Ask& ask, Hits& hits) {
 #endif
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   if (chunks <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
-    for (std::size_t i = 0; i < chunks; ++i) ask(i * kChunk, std::min(count, (i + 1) * kChunk), hits);
+    for (std::size_t i = 0; i < chunks; ++i) {
+      checkCancelled();
+      ask(i * kChunk, std::min(count, (i + 1) * kChunk), hits);
+    }
     return;
   }
   std::vector<Hits> found(chunks);
-  const auto askChunk = [&](std::size_t i) { ask(i * kChunk, std::min(count, (i + 1) * kChunk), found[i]); };
+  const CancelPoint cancel;
+  const auto askChunk = [&](std::size_t i) {
+    cancel.check();
+    ask(i * kChunk, std::min(count, (i + 1) * kChunk), found[i]);
+  };
   // Isolated: while it waits, this thread must not begin other work of the caller's that shares its memory.
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, chunks, askChunk); });
   for (const Hits& some : found) hits.insert(hits.end(), some.begin(), some.end());

@@ -5,6 +5,7 @@
 
 #include "prefetch.h"
 #include "representation_queries.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "shell_points.h"
 #include "sphere_sides.h"
 
@@ -48,6 +49,7 @@ class ShellSearch {
   bool done() const { return options_.any && result_.touches(); }
 
   void follow(const Chord& chord, int index) {
+    cancel_.check();
     index_ = index;
     sides_.begin(chord);
     points_.begin(chord, index);
@@ -55,6 +57,7 @@ class ShellSearch {
     work_.pending.clear();
     askNode();  // bodies apart need no more
     while (!done()) {
+      cancel_.check();
       if (!work_.pending.empty() && (options_.any || work_.stack.empty())) {
         sides_.sortsPoints() ? sortPoints() : askPoints();
       } else if (!work_.stack.empty()) {
@@ -167,6 +170,7 @@ class ShellSearch {
   SearchWork& work_;
   SphereSides sides_;
   ShellPoints points_;
+  CancelTicks<> cancel_;
   int index_ = 0;
 };
 
@@ -209,7 +213,9 @@ double clearance(const DistanceField& field, const SphereTree& tree, const Point
   if (tree.nodes.empty()) return bound;
   std::vector<std::int32_t>& stack = searchWork().stack;
   stack.push_back(0);
+  CancelTicks<> cancel;
   while (!stack.empty()) {
+    cancel.check();
     const SphereTree::Node& node = tree.nodes[stack.back()];
     stack.pop_back();
     const double low = field.lowerBound(X_FP * node.center) - node.radius;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/query/shell_query.h"
 
 namespace sdf_ccd {
@@ -14,11 +15,13 @@ inline bool mayApproach(const DistanceField& field, const PointShell& shell, con
     const SphereTree& tree;
     const Chord& chord;
     double distance;
+    CancelTicks<>& cancel;
 
     bool near(const Vector3d& p_P, double radius) const {
       return mayTouch(field, {chord.X_FP_start * p_P, chord.X_FP_end * p_P}, radius + distance);
     }
     bool below(const SphereTree::Node& node) const {
+      cancel.check();
       if (!near(node.center, node.radius)) return false;
       for (int i = 0; node.first_child >= 0 && i < node.child_count; ++i)
         if (below(tree.nodes[node.first_child + i])) return true;
@@ -28,8 +31,9 @@ inline bool mayApproach(const DistanceField& field, const PointShell& shell, con
     }
   };
   if (tree.nodes.empty()) return false;
+  CancelTicks<> cancel;
   for (const Chord& chord : path.chords)
-    if (Walk{field, shell, tree, chord, distance}.below(tree.nodes.front())) return true;
+    if (Walk{field, shell, tree, chord, distance, cancel}.below(tree.nodes.front())) return true;
   return false;
 }
 

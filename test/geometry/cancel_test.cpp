@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "sdf_ccd/geometry/parallel_for.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -34,6 +36,36 @@ TEST(Cancel, TheInnerScopeCounts) {
     EXPECT_NO_THROW(checkCancelled());
   }
   EXPECT_THROW(checkCancelled(), Cancelled);
+}
+
+TEST(Cancel, ComesWithTheEarlierDeadline) {
+  using Clock = CancelRequest::Clock;
+  const std::atomic<bool> not_asked{false};
+  const CancelScope outer(Clock::now() - std::chrono::seconds(1));
+  const CancelScope flag(not_asked), later(Clock::now() + std::chrono::hours(1));
+  EXPECT_THROW(checkCancelled(), Cancelled);
+}
+
+TEST(Cancel, NoDeadlineBeforeItsTime) {
+  const CancelScope scope(CancelRequest::Clock::now() + std::chrono::hours(1));
+  EXPECT_NO_THROW(checkCancelled());
+}
+
+TEST(Cancel, ReachesWhatTasksOnOtherThreadsCall) {
+  std::atomic<bool> asked{false};
+  const CancelScope scope(asked);
+  std::atomic<int> done{0};
+  const auto work = [&] {
+    parallelFor(0, 8, [&](int) {
+      for (int i = 0; i < 100000000; ++i) {
+        checkCancelled();
+        if (++done == 100) asked = true;
+      }
+    });
+  };
+  EXPECT_THROW(work(), Cancelled);
+  EXPECT_LT(done, 100000000);
+  EXPECT_THROW(checkCancelled(), Cancelled) << "the caller's own request is as it was";
 }
 
 TEST(Cancel, ReachesTasksOnOtherThreads) {

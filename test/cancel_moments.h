@@ -1,0 +1,56 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "sdf_ccd/geometry/cancel.h"
+
+namespace sdf_ccd::test {
+
+/// Seconds that work takes.
+inline double secondsOf(const std::function<void()>& work) {
+  const auto start = CancelRequest::Clock::now();
+  work();
+  return std::chrono::duration<double>(CancelRequest::Clock::now() - start).count();
+}
+
+/// Seconds until work ends that is cancelled after so many.
+inline double secondsToEnd(const std::function<void()>& work, double cancelled_after) {
+  using Clock = CancelRequest::Clock;
+  std::atomic<bool> asked{false};
+  Clock::time_point end;
+  std::thread worker([&] {
+    const CancelScope scope(asked);
+    try {
+      work();
+    } catch (const Cancelled&) {
+    }
+    end = Clock::now();
+  });
+  std::this_thread::sleep_for(std::chrono::duration<double>(cancelled_after));
+  const Clock::time_point start = Clock::now();
+  asked = true;
+  worker.join();
+  return std::chrono::duration<double>(end - start).count();
+}
+
+/// Cancels work at moments all through it.
+/// @param soon  how long it may go on then [s].
+inline void expectEndsSoon(const std::function<void()>& work, int moments, double soon) {
+  const double whole = secondsOf(work);
+  double worst = 0.0, when = 0.0;
+  for (int i = 0; i < moments; ++i) {
+    const double after = whole * i / moments, took = secondsToEnd(work, after);
+    if (took > worst) when = after;
+    worst = std::max(worst, took);
+  }
+  EXPECT_GT(whole, 2.0 * soon) << "what ends by itself shows nothing";
+  EXPECT_LT(worst, soon) << "cancelled after " << when << " of " << whole << " s";
+}
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,48 @@
+// Meshes that a robot should not have, but may: unloading while one is looked at must not wait for it.
+#include "cancel_moments.h"
+#include "oracle/shapes.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+constexpr double kSoon = 0.1;  // of the 0.2 s that unloading may take [s]
+
+/// Each triangle with vertices of its own, as STL files have them.
+TriangleMesh soupOf(const TriangleMesh& mesh) {
+  TriangleMesh soup;
+  for (const Vector3i& t : mesh.triangles) {
+    const int first = static_cast<int>(soup.vertices.size());
+    for (int i = 0; i < 3; ++i) soup.vertices.push_back(mesh.vertices[t[i]]);
+    soup.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return soup;
+}
+
+TEST(CancelMesh, WeldingEndsSoon) {
+  const TriangleMesh soup = soupOf(torusMesh(0.3, 0.1, 2000, 500));
+  ASSERT_EQ(soup.triangles.size(), 2000000u);
+  expectEndsSoon([&] { welded(soup); }, 10, kSoon);
+}
+
+TEST(CancelMesh, OrientingEndsSoon) {
+  const TriangleMesh soup = soupOf(torusMesh(0.3, 0.1, 800, 250));
+  ASSERT_EQ(soup.triangles.size(), 400000u);
+  expectEndsSoon([&] { orientOutward(soup); }, 8, kSoon);
+}
+
+TEST(CancelMesh, OrientingLoosePartsEndsSoon) {
+  TriangleMesh soup = soupOf(torusMesh(0.3, 0.1, 400, 250));
+  // A gap about each triangle, so that none has a neighbour.
+  for (const Vector3i& t : soup.triangles) {
+    const Vector3d center = (soup.vertices[t[0]] + soup.vertices[t[1]] + soup.vertices[t[2]]) / 3.0;
+    for (int i = 0; i < 3; ++i) soup.vertices[t[i]] += 0.01 * (center - soup.vertices[t[i]]);
+  }
+  ASSERT_EQ(soup.triangles.size(), 200000u);
+  expectEndsSoon([&] { orientOutward(soup); }, 8, kSoon);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
