@@ -113,7 +113,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
     const Piece piece(*this, spent);
     planned = plan(request);
   }
-  Monitor monitor(scene_, options_);
+  Monitor monitor(scene_, options_, memory_);
   CycleRequest wanted;
   wanted.max_points = max_points_;
   ResultJoiner joiner(max_points_);

@@ -63,6 +63,7 @@ class Queries {
   const SceneDescription* description_ = nullptr;
   QueryLimits limits_;
   WorkTurns turns_;
+  std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // of all answers, as one works at a time
   tbb::task_arena arena_;
 };
 

@@ -3,12 +3,20 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sdf_ccd/geometry/cancel.h"
 #include "surface_crossing.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr double kJoin = 1e-9;  // of the span: times that differ by rounding are the same
+
+// What is held at a time: some megabytes. More of them cost no less each.
+constexpr std::size_t kBlockHits = 1 << 17;  // that a block of chords may have, unless one chord alone has more
+constexpr std::size_t kSomeHits = 1 << 14;   // that are integrated together
+constexpr std::size_t kManyFound = 1 << 15;  // beyond twice what is left after putting together
+
+constexpr std::size_t kWalks = 64;  // of hits that may pass through a mesh, per part
 
 }  // namespace
 
@@ -24,6 +32,7 @@ void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, 
   impulse_on_a_C_ = {};
   intervals_.clear();
   found_.clear();
+  most_found_ = most_intervals_ = kManyFound;
 }
 
 void ContactCollector::setFieldPoses(const PairRole& role) {
@@ -47,42 +56,87 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
 void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
                            const ContactOptions& options, bool with_impulse) {
   bool have_poses = false;
+  const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
     const BodyPart& part = role.field().parts[p];
     const ChordPath& path = role.partPath(part);
-    shellIntervals(part.field, role.shell(), role.tree(), path, {}, query_);
-    if (!query_.touches()) continue;
-    const bool certain = !part.field.openings();
-    if (!certain && !crosses_) crosses_ = passesThroughMesh(part.field, role.shell(), path, query_.hits, path_error_);
-    listHits(query_, hits_);
-    if (!have_poses) setFieldPoses(role);
-    have_poses = true;
-    X_CG_.clear();
-    for (const Isometry3d& X_CF : X_CF_) X_CG_.push_back(X_CF * part.X_BG);
-    const ContactInput input{part.field, role.shell(), path, X_CG_, siblings[p]};
-    integrate(input, options, with_impulse);
-    impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
-
-    for (std::size_t h = 0; h < hits_.size(); ++h) {
-      const ShellHit& hit = hits_[h];
-      const HitDepth& depth = impulse_.depths[h];
-      const Chord& chord = path.chords[hit.chord];
-      const auto timeAt = [&](double s) {
-        return s == 1.0 ? chord.t_end : chord.t_start + s * (chord.t_end - chord.t_start);
-      };
-      const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
-      intervals_.push_back(times);
-      if (depth.siblings) continue;
-      Found found{shell_is_a ? 0 : 1,
-                  hit.point,
-                  certain,
-                  {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
-      found.contact.p_W = depth.p_C + p_WC_;
-      // Out of the field's body: that is B if the shell is A's.
-      found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
-      found_.push_back(found);
+    const std::size_t chords = path.chords.size(), blocks = (chords + size - 1) / size;
+    std::size_t asked = chords;
+    const auto ask = [&](std::size_t first) -> const ChordPath& {
+      const ChordPath& block = blockOf(path, first, size);
+      if (asked != first) shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
+      asked = first;
+      return block;
+    };
+    // What bears a force depends on whether the surfaces cross at any time.
+    for (std::size_t first = 0; part.field.openings() && !crosses_ && first < chords; first += size) {
+      ask(first);
+      crosses_ = passesThrough(part.field, role, path, first, std::max<std::size_t>(1, kWalks / blocks));
+    }
+    for (std::size_t first = 0; first < chords; first += size) {
+      const ChordPath& block = ask(first);
+      if (!query_.touches()) continue;
+      if (!have_poses) setFieldPoses(role);
+      have_poses = true;
+      X_CG_.clear();
+      for (std::size_t i = 0; i <= block.chords.size(); ++i) X_CG_.push_back(X_CF_[first + i] * part.X_BG);
+      const ContactInput input{part.field, role.shell(), block, X_CG_, siblings[p]};
+      listHits(query_, listed_);
+      for (std::size_t done = 0; done < listed_.size(); done += kSomeHits) {
+        hits_.assign(listed_.begin() + done, listed_.begin() + std::min(done + kSomeHits, listed_.size()));
+        integrate(input, options, with_impulse);
+        impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
+        addHits(input, shell_is_a);
+      }
     }
   }
+}
+
+/// Chords [first, first + size) of a path.
+const ChordPath& ContactCollector::blockOf(const ChordPath& path, std::size_t first, std::size_t size) {
+  if (size >= path.chords.size()) return path;
+  const auto begin = path.chords.begin() + first;
+  block_.chords.assign(begin, begin + std::min(size, path.chords.size() - first));
+  block_.error = path.error;
+  return block_;
+}
+
+/// Whether a hit of the block that begins at a chord passes through the mesh; of many, some are looked at, as contacts
+/// have many points.
+bool ContactCollector::passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path,
+                                     std::size_t first, std::size_t most) const {
+  const std::size_t stride = query_.hits.size() / most + 1;
+  for (std::size_t h = 0; h < query_.hits.size(); h += stride) {
+    ShellHit hit = query_.hits[h];
+    hit.chord += static_cast<int>(first);
+    if (passesThroughMesh(field, path, role.shell().points[hit.point], hit, path_error_)) return true;
+  }
+  return false;
+}
+
+/// Takes over what integrate() has found of the hits.
+void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
+  const bool certain = !input.field.openings();
+  for (std::size_t h = 0; h < hits_.size(); ++h) {
+    const ShellHit& hit = hits_[h];
+    const HitDepth& depth = impulse_.depths[h];
+    const Chord& chord = input.path.chords[hit.chord];
+    const auto timeAt = [&](double s) {
+      return s == 1.0 ? chord.t_end : chord.t_start + s * (chord.t_end - chord.t_start);
+    };
+    const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
+    intervals_.push_back(times);
+    if (depth.siblings) continue;
+    Found found{shell_is_a ? 0 : 1,
+                hit.point,
+                certain,
+                {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
+    found.contact.p_W = depth.p_C + p_WC_;
+    // Out of the field's body: that is B if the shell is A's.
+    found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
+    found_.push_back(found);
+  }
+  joinWhereMany();
 }
 
 /// As integrateContact() over all hits; of a field with openings only over those that may bear a force.
@@ -114,10 +168,29 @@ bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) co
   return !input.field.openings()->isWithin(p_F, depth.depth + depth.error);
 }
 
+/// Times that differ by less are the same [s].
+double ContactCollector::tolerance() const {
+  return kJoin * duration();
+}
+
+/// As finish() does, before there is too much. A point's next chord goes on where the last one ended, so few are left.
+void ContactCollector::joinWhereMany() {
+  if (found_.size() > most_found_) {
+    join();
+    most_found_ = 2 * found_.size() + kManyFound;
+  }
+  if (intervals_.size() > most_intervals_) {
+    mergeIntervals(intervals_, tolerance());
+    most_intervals_ = 2 * intervals_.size() + kManyFound;
+  }
+}
+
 /// Makes one contact of what chords and parts have cut of one point's stay inside.
 void ContactCollector::join() {
   if (found_.empty()) return;
-  std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+  CancelTicks<1024> cancel;
+  std::sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) {
+    cancel.check();
     return std::tie(a.role, a.point, a.contact.enter, a.contact.exit, a.contact.depth) <
            std::tie(b.role, b.point, b.contact.enter, b.contact.exit, b.contact.depth);
   });
@@ -126,7 +199,7 @@ void ContactCollector::join() {
     ContactPoint& kept = found_[last].contact;
     const ContactPoint& next = found_[i].contact;
     const bool same = found_[i].role == found_[last].role && found_[i].point == found_[last].point &&
-                      next.enter <= kept.exit + kJoin * duration();
+                      next.enter <= kept.exit + tolerance();
     if (!same) {
       found_[++last] = found_[i];
       continue;
@@ -140,14 +213,13 @@ void ContactCollector::join() {
 }
 
 void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
-  const double same = kJoin * duration();
-  mergeIntervals(intervals_, same);
+  mergeIntervals(intervals_, tolerance());
   result.intervals = intervals_;
   result.touches_at_sample = false;
   for (std::size_t k = span_.first; k <= span_.last; ++k)
     for (const Interval& interval : intervals_)
       result.touches_at_sample |=
-          motion_->times[k] >= interval.enter - same && motion_->times[k] <= interval.exit + same;
+          motion_->times[k] >= interval.enter - tolerance() && motion_->times[k] <= interval.exit + tolerance();
 
   join();
   for (const Found& found : found_)

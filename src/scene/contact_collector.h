@@ -9,6 +9,9 @@ namespace sdf_ccd {
 
 /// Collects the contacts of a pair over both roles and all parts: intervals, points, impulse.
 ///
+/// Chords are taken in blocks, and what they find is put together as it comes, so that memory is as that of the points of
+/// one shell, however many chords they are inside on.
+///
 /// Works in frame C: the world's axes about body A's origin at the span's end. Far from the world's origin, moments
 /// about that would lose what the lever about the bodies still has.
 class ContactCollector {
@@ -43,10 +46,16 @@ class ContactCollector {
   };
 
   void setFieldPoses(const PairRole& role);
+  const ChordPath& blockOf(const ChordPath& path, std::size_t first, std::size_t size);
+  bool passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path, std::size_t first,
+                     std::size_t most) const;
+  void addHits(const ContactInput& input, bool shell_is_a);
   void join();
+  void joinWhereMany();
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
   bool bearsForce(const ContactInput& input, std::size_t hit) const;
 
+  double tolerance() const;
   double duration() const { return motion_->times[span_.last] - motion_->times[span_.first]; }
 
   const CycleMotion* motion_ = nullptr;
@@ -57,9 +66,12 @@ class ContactCollector {
   Intervals intervals_;
   std::vector<Found> found_;
   std::vector<Isometry3d> X_CF_;  // per end of a chord, of the field's body
-  std::vector<Isometry3d> X_CG_;  // the same of a part
+  std::vector<Isometry3d> X_CG_;  // the same of a part and a block
+  ChordPath block_;
   ShellQueryResult query_;
-  std::vector<ShellHit> hits_;
+  std::vector<ShellHit> listed_;  // of a block
+  std::vector<ShellHit> hits_;    // some of them
+  std::size_t most_found_ = 0, most_intervals_ = 0;  // before they are put together
   ContactImpulse impulse_;
   bool crosses_ = false;
   double path_error_ = 0.0;  // [m]

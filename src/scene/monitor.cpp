@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 
 #include "pair_checker.h"
@@ -61,16 +62,42 @@ void validate(const CycleMotion& motion, const Scene& scene) {
 
 }  // namespace
 
+/// Taken for a pair and given back, so there are as many as pairs are checked at a time; the last one given back is
+/// taken first.
+struct MonitorMemory {
+  std::unique_ptr<PairMemory> take() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (idle.empty()) return std::make_unique<PairMemory>();
+    std::unique_ptr<PairMemory> last = std::move(idle.back());
+    idle.pop_back();
+    return last;
+  }
+  void giveBack(std::unique_ptr<PairMemory> memory) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    idle.push_back(std::move(memory));
+  }
+
+  std::mutex mutex;
+  std::vector<std::unique_ptr<PairMemory>> idle;
+};
+
+std::shared_ptr<MonitorMemory> makeMonitorMemory() {
+  return std::make_shared<MonitorMemory>();
+}
+
 struct Monitor::Impl {
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
   std::vector<ContactCollector::Siblings> siblings;
   std::vector<PairChecker> checkers;
   std::unique_ptr<SweptBodies> bodies;
+  std::shared_ptr<MonitorMemory> memory;
   CycleResult result;
 };
 
-Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options) : impl_(new Impl) {
+Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
+                 std::shared_ptr<MonitorMemory> memory)
+    : impl_(new Impl) {
   validate(options.contact);
   if (!(options.chords.tolerance > 0.0) || !std::isfinite(options.chords.tolerance))
     throw std::invalid_argument("monitor: chord tolerance " + numberText(options.chords.tolerance) + " m");
@@ -79,6 +106,7 @@ Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& optio
   if (!scene) throw std::invalid_argument("monitor: no scene");
   impl_->scene = std::move(scene);
   impl_->options = options;
+  impl_->memory = memory ? std::move(memory) : makeMonitorMemory();
   impl_->siblings = siblingsOf(*impl_->scene);
   impl_->bodies = std::make_unique<SweptBodies>(*impl_->scene);
   for (const PlannedPair& pair : impl_->scene->pairs) {
@@ -99,9 +127,12 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
   std::vector<PairResult>& pairs = impl_->result.pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].span = motion.spans.empty() ? whole : motion.spans[i];
   impl_->bodies->take(motion, pairs);
-  // A pair has its own memory and state, so its result is the same whichever thread it meets.
-  parallelFor(std::size_t{0}, impl_->checkers.size(),
-              [&](std::size_t i) { impl_->checkers[i].run(motion, *impl_->bodies, request, pairs[i]); });
+  // A pair has its own state, so its result is the same whichever thread it meets.
+  parallelFor(std::size_t{0}, impl_->checkers.size(), [&](std::size_t i) {
+    std::unique_ptr<PairMemory> memory = impl_->memory->take();
+    impl_->checkers[i].run(motion, *impl_->bodies, request, *memory, pairs[i]);
+    impl_->memory->giveBack(std::move(memory));
+  });
   summarise(impl_->result);
   impl_->result.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return impl_->result;

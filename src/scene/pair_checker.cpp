@@ -58,7 +58,8 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
 }
 
 void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
-                      PairResult& result) {
+                      PairMemory& memory, PairResult& result) {
+  memory_ = &memory;
   clear(result);
   if (result.span.empty()) return setNotChecked("its transforms have not come yet", result);
   for (const int body : {pair_.body_a, pair_.body_b}) {
@@ -86,8 +87,9 @@ void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, cons
 void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
   travel_ = std::numeric_limits<double>::infinity();
   double pose_error = 0.0;
-  for (PairRole& role : roles_) {
-    role.setMotion(bodies, span);
+  for (std::size_t i = 0; i < roles_.size(); ++i) {
+    PairRole& role = roles_[i];
+    role.setMotion(bodies, span, memory_->roles[i]);
     travel_ = std::min(travel_, role.travel());
     pose_error = std::max(pose_error, role.poseError());
   }
@@ -179,23 +181,24 @@ std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& moti
 
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
   const std::optional<ContactPoint> crossing = open_ ? crossingAtATime(motion, result.span) : std::nullopt;
-  collector_.begin(motion, result, crossing.has_value());
+  ContactCollector& collector = memory_->collector;
+  collector.begin(motion, result, crossing.has_value());
   const auto bears = [](const PairRole& role) { return role.bearsForce(); };
   const double weight = 1.0 / double(std::count_if(roles_.begin(), roles_.end(), bears));
   for (PairRole& role : roles_) {
     const bool shell_is_a = role.fieldBody() == pair_.body_b;
-    collector_.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact,
-                   request.wrenches && role.bearsForce());
+    collector.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact,
+                  request.wrenches && role.bearsForce());
   }
-  collector_.finish(request, result);
+  collector.finish(request, result);
   if (crossing && result.intervals.empty()) {
     result.intervals.push_back({crossing->time, crossing->time});
     result.touches_at_sample = true;
     result.deepest = *crossing;
   }
-  const ContactPoint* deepest = collector_.deepestCertain();
+  const ContactPoint* deepest = collector.deepestCertain();
   const bool deep = deepest && result.error.provesContact(deepest->depth, deepest->depth_error);
-  result.verdict = deep || collector_.crosses() ? Verdict::kContact : Verdict::kUncertain;
+  result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;
 }
 
 }  // namespace sdf_ccd

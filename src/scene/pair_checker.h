@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -9,7 +10,14 @@
 
 namespace sdf_ccd {
 
-/// Checks one pair, cycle after cycle. Owns the memory that needs, so that a cycle like the last allocates nothing.
+/// What checking a pair needs meanwhile. It is used again for the next one, so that a cycle like the last allocates
+/// nothing, and memory does not grow with the number of pairs.
+struct PairMemory {
+  std::array<RoleMemory, 4> roles;
+  ContactCollector collector;
+};
+
+/// Checks one pair, cycle after cycle, and knows between them how far apart it was.
 class PairChecker {
  public:
   PairChecker(const Scene& scene, const PlannedPair& pair, const std::vector<ContactCollector::Siblings>& siblings,
@@ -18,7 +26,9 @@ class PairChecker {
   /// Checks the pair over `result.span`, and keeps what it knows if that is empty. Never throws for a motion that
   /// cannot be followed: the pair is NOT_CHECKED then.
   /// @param bodies  have taken the motion.
-  void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
+  /// @param memory  this call's alone.
+  void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
+           PairResult& result);
 
   /// Forgets how far apart the bodies were.
   void forget() { clearance_ = kUnknown; }
@@ -37,14 +47,14 @@ class PairChecker {
   const PlannedPair& pair_;
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
-  std::vector<PairRole> roles_;  // one or two
+  std::vector<PairRole> roles_;  // one to four
   bool open_;                    // some field has openings
   ErrorBound bound_;             // of field and gap
   double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
   Isometry3d X_FP_last_;         // of the first role, at the last cycle's end; valid if the clearance is known
   double travel_ = 0.0;          // no point of either body goes farther against the other in this cycle [m]
   double motion_error_ = 0.0;    // of the modelled motion, and of computing with its poses [m]
-  ContactCollector collector_;
+  PairMemory* memory_ = nullptr;  // during a check
 };
 
 }  // namespace sdf_ccd

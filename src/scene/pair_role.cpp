@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "may_approach.h"
+#include "sdf_ccd/geometry/cancel.h"
 
 namespace sdf_ccd {
 
@@ -16,16 +17,17 @@ PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurp
       field_(field_body),
       purpose_(purpose) {}
 
-void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
+void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory) {
+  memory_ = &memory;
   bodies_ = &bodies;
   span_ = span;
   X_FP_start_ = relativePose(bodies.screw(field_, span.first).start(), bodies.screw(body_, span.first).start());
   X_FP_end_ = relativePose(bodies.screw(field_, span.last - 1).end(), bodies.screw(body_, span.last - 1).end());
-  accelerations_.clear();
+  memory_->accelerations.clear();
   travel_ = 0.0;
   for (std::size_t k = span.first; k < span.last; ++k) {
     const RelativeMotionBounds bounds = relativeMotionBounds(bodies.twist(field_, k), bodies.twist(body_, k));
-    accelerations_.push_back(bounds.acceleration);
+    memory_->accelerations.push_back(bounds.acceleration);
     travel_ += bounds.travel;
   }
   const BoundingBall& ball = shell_body_->ball;
@@ -44,25 +46,28 @@ double PairRole::fieldErrorScale() const {
 }
 
 void PairRole::cut(const ChordOptions& options) {
-  path_.chords.clear();
-  path_.error = 0.0;
+  ChordPath& path = memory_->path;
+  path.chords.clear();
+  path.error = 0.0;
   const std::vector<double>& times = bodies_->times();
-  for (std::size_t i = 0; i < accelerations_.size(); ++i) {
+  for (std::size_t i = 0; i < memory_->accelerations.size(); ++i) {
+    checkCancelled();  // an interval may have a thousand
     const std::size_t k = span_.first + i;
     const TwoBodyMotion motion{times[k], times[k + 1], bodies_->screw(field_, k), bodies_->screw(body_, k),
-                               accelerations_[i]};
-    addChords(motion, options, static_cast<int>(i), path_);
+                               memory_->accelerations[i]};
+    addChords(motion, options, static_cast<int>(i), path);
   }
 }
 
 const ChordPath& PairRole::partPath(const BodyPart& part) {
   const Isometry3d X_GB = part.X_BG.inverse();
-  part_path_ = path_;
-  for (Chord& chord : part_path_.chords) {
+  ChordPath& part_path = memory_->part_path;
+  part_path = memory_->path;
+  for (Chord& chord : part_path.chords) {
     chord.X_FP_start = X_GB * chord.X_FP_start;
     chord.X_FP_end = X_GB * chord.X_FP_end;
   }
-  return part_path_;
+  return part_path;
 }
 
 double PairRole::ballClearance(const Isometry3d& X_FP) const {
@@ -89,8 +94,8 @@ bool PairRole::mayComeNearer(double distance) {
       if (mayApproach(part.field, *shell_, *tree_, path, distance)) return true;
       continue;
     }
-    shellIntervals(part.field, *shell_, *tree_, path, {distance, true}, query_);
-    if (query_.touches()) return true;
+    shellIntervals(part.field, *shell_, *tree_, path, {distance, true}, memory_->query);
+    if (memory_->query.touches()) return true;
   }
   return false;
 }

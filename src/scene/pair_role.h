@@ -15,6 +15,14 @@ enum class ShellPurpose {
   kWitnesses,  ///< whether a component of the surface lies wholly inside (design §3.15)
 };
 
+/// What following a role's motion needs while its pair is checked, and nobody afterwards.
+struct RoleMemory {
+  std::vector<double> accelerations;  ///< per interval of the span
+  ChordPath path;
+  ChordPath part_path;
+  ShellQueryResult query;
+};
+
 /// One way to test a pair: the shell of one body (frame P) against the field of the other (frame F).
 class PairRole {
  public:
@@ -27,7 +35,8 @@ class PairRole {
   bool bearsForce() const { return purpose_ == ShellPurpose::kSurface; }
 
   /// Takes the relative motion over a part of a cycle, of bodies that can be followed.
-  void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
+  /// @param memory  this role's alone as long as it has the motion.
+  void setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory);
 
   /// No point of the shell's body goes farther than this in the field's frame, as setMotion() has it [m].
   double travel() const { return travel_; }
@@ -48,7 +57,7 @@ class PairRole {
 
   /// Cuts the motion into chords, for path() and partPath().
   void cut(const ChordOptions& options);
-  const ChordPath& path() const { return path_; }
+  const ChordPath& path() const { return memory_->path; }
 
   /// The same path seen from a part's frame G. The reference is good until the next call.
   const ChordPath& partPath(const BodyPart& part);
@@ -76,13 +85,10 @@ class PairRole {
   ShellPurpose purpose_;
   const SweptBodies* bodies_ = nullptr;
   WaypointSpan span_;
-  std::vector<double> accelerations_;  ///< per interval of the span
+  RoleMemory* memory_ = nullptr;
   Isometry3d X_FP_start_, X_FP_end_;
   double travel_ = 0.0;
   double pose_error_ = 0.0;
-  ChordPath path_;
-  ChordPath part_path_;
-  ShellQueryResult query_;
 };
 
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../geometry/triangle_cut.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -92,19 +93,12 @@ bool mayMeet(const Body& b, const Vector3d& center_B, double radius) {
 
 }  // namespace
 
-bool passesThroughMesh(const DistanceField& field, const PointShell& shell, const ChordPath& path,
-                       const std::vector<ShellHit>& hits, double path_error) {
-  // Of many, some are enough: contacts have many points.
-  constexpr std::size_t kMostHits = 64;
-  const std::size_t stride = hits.size() / kMostHits + 1;
-  for (std::size_t h = 0; h < hits.size(); h += stride) {
-    const ShellHit& hit = hits[h];
-    PointWalk walk(field, path, shell.points[hit.point], path_error);
-    const auto [enter, exit] = hit.interval;
-    if (enter > 0.0 && walk.reaches(1, hit.chord, enter, -1) && walk.reaches(-1, hit.chord, enter, 1)) return true;
-    if (exit < 1.0 && walk.reaches(1, hit.chord, exit, 1) && walk.reaches(-1, hit.chord, exit, -1)) return true;
-  }
-  return false;
+bool passesThroughMesh(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, const ShellHit& hit,
+                       double path_error) {
+  PointWalk walk(field, path, p_P, path_error);
+  const auto [enter, exit] = hit.interval;
+  return (enter > 0.0 && walk.reaches(1, hit.chord, enter, -1) && walk.reaches(-1, hit.chord, enter, 1)) ||
+         (exit < 1.0 && walk.reaches(1, hit.chord, exit, 1) && walk.reaches(-1, hit.chord, exit, -1));
 }
 
 std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const Isometry3d& X_BA, double pose_error) {
@@ -116,6 +110,7 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
   const double error = pose_error + a.surface->deviation + b.surface->deviation + 1e-12 * size;
   constexpr int kMostTests = 100000;
   int tests = 0;
+  CancelTicks<> cancel;
   std::optional<SurfaceCrossing> found;
   const auto done = [&] { return found || tests > kMostTests; };
   const auto test = [&](const Corners& t_A, int triangle_b) {
@@ -128,12 +123,14 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
     }
   };
   const auto near_b = [&](const Vector3d& center_A, double radius) {
+    cancel.check();
     return !done() && mayMeet(b, X_BA * center_A, radius);
   };
   a.surface->tree.forEachTriangle(near_b, [&](int triangle_a) {
     Corners t_A = cornersOf(a.surface->mesh, triangle_a);
     for (Vector3d& p : t_A) p = X_BA * p;
     const auto near_a = [&](const Vector3d& center_B, double radius) {
+      cancel.check();
       return !done() && (closestOnTriangle(t_A[0], t_A[1], t_A[2], center_B) - center_B).norm() <= radius;
     };
     b.surface->tree.forEachTriangle(near_a, [&](int triangle_b) { test(t_A, triangle_b); });

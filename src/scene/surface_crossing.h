@@ -10,14 +10,14 @@
 /// proves a contact there is that surfaces cross (design §3.14).
 namespace sdf_ccd {
 
-/// Whether a point of the shell surely passes through the mesh on its path, in or out: it is outside and inside by more
-/// than the errors, and no cap comes nearer than the path's error on its way from one to the other.
+/// Whether a point surely passes through the mesh on its path, in or out: it is outside and inside by more than the
+/// errors, and no cap comes nearer than the path's error on its way from one to the other.
 /// @param field       with openings.
 /// @param path        X_FP; the chords' ends meet.
-/// @param hits        of the points [shell.points], as shellIntervals() has them.
-/// @param path_error  no point is farther than this from its true place at the same time [m].
-bool passesThroughMesh(const DistanceField& field, const PointShell& shell, const ChordPath& path,
-                       const std::vector<ShellHit>& hits, double path_error);
+/// @param hit         of the point, as shellIntervals() has it.
+/// @param path_error  the point is no farther than this from its true place at the same time [m].
+bool passesThroughMesh(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, const ShellHit& hit,
+                       double path_error);
 
 /// A place where the surfaces of two bodies cross.
 struct SurfaceCrossing {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <atomic>
@@ -8,19 +9,28 @@
 #include "scene/scene_case.h"
 
 namespace {
-std::atomic<long> allocations{0};
+std::atomic<long> allocations{0}, held{0}, most_held{0};
+
+void hold(long bytes) {
+  const long now = held += bytes;
+  for (long most = most_held; now > most && !most_held.compare_exchange_weak(most, now);) {
+  }
 }
+}  // namespace
 
 void* operator new(std::size_t size) {
   ++allocations;
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
+  void* const memory = std::malloc(size ? size : 1);
+  if (!memory) throw std::bad_alloc();
+  hold(static_cast<long>(malloc_usable_size(memory)));
+  return memory;
 }
 void operator delete(void* memory) noexcept {
+  hold(-static_cast<long>(malloc_usable_size(memory)));
   std::free(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
+  operator delete(memory);
 }
 
 namespace sdf_ccd {
@@ -72,6 +82,45 @@ TEST(Allocation, NoneForAContactLikeTheLast) {
                                          still(translation({0, 0, 0.095})),
                                          {translation({0.19, 0, 0.1}), translation({0.19, 0, 0.12})}});
   EXPECT_EQ(steadyAllocations([&] { ASSERT_EQ(monitor.run(motion, {true, 10}).verdict, Verdict::kContact); }), 0);
+}
+
+/// The most that is held at a time more than before, while a new monitor checks the motion [MB].
+double peakOf(const std::shared_ptr<const Scene>& scene, const CycleMotion& motion) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const long before = held;
+  most_held = before;
+  Monitor(scene, {}).run(motion, {true, 20});
+  return 1e-6 * static_cast<double>(most_held - before);
+}
+
+/// A ball that rolls on the spot, pressed into the ground, by half a radian between two times.
+CycleMotion rolling(std::size_t knots) {
+  std::vector<Isometry3d> X_WB;
+  for (std::size_t k = 0; k < knots; ++k) X_WB.push_back(pose({0, 0, 0.05}, 0.5 * double(k), {1, 0, 0}));
+  return cycle(1.0, {still(Isometry3d::Identity(), knots), X_WB});
+}
+
+TEST(Allocation, DoesNotGrowWithHowLongPointsTouch) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.004));
+  const double few = peakOf(scene, rolling(3)), many = peakOf(scene, rolling(30));
+  EXPECT_GT(few, 0.1);
+  EXPECT_LT(many, 40.0) << few << " MB over two steps";
+}
+
+TEST(Allocation, DoesNotGrowWithTheNumberOfPairs) {
+  const auto peak = [](int balls) {
+    std::vector<BodyDescription> bodies = {body("ground", ground(), true)};
+    for (int i = 0; i < balls; ++i) bodies.push_back(body("ball " + std::to_string(i), Primitive(Sphere{0.1})));
+    CycleMotion motion = rolling(30);
+    const std::vector<Isometry3d> first = motion.X_WB[1];
+    for (int i = 1; i < balls; ++i) {
+      motion.X_WB.push_back(first);
+      for (Isometry3d& X : motion.X_WB.back()) X.translation().x() += i;
+    }
+    return peakOf(build(bodies, fine(0.004)), motion);
+  };
+  const double one = peak(1), six = peak(6);  // the six balls are far from each other
+  EXPECT_LT(six, 1.5 * one) << one << " MB of one";
 }
 
 }  // namespace

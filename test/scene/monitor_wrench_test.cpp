@@ -28,6 +28,32 @@ TEST(MonitorWrench, BothRolesDoNotDouble) {
   EXPECT_LT(pair.deepest.normal_W.z(), -0.9);  // from A, above, to B
 }
 
+/// More chords, and points on them, than are looked at together: the contact is still one, and bears the same force.
+TEST(MonitorWrench, HowFarABallRollsDoesNotMatter) {
+  const Pressed press{0.1, 0.05};
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{press.R}))}, fine(0.003));
+  Monitor monitor(scene, soft());
+  std::vector<Isometry3d> X_WB;
+  constexpr std::size_t kKnots = 20;
+  for (std::size_t k = 0; k < kKnots; ++k)
+    X_WB.push_back(pose({0, 0, press.R - press.delta}, 0.5 * double(k), {1, 0.2, 0}));
+  const CycleMotion motion = cycle(0.5, {still(Isometry3d::Identity(), kKnots), X_WB});
+  const PairResult pair = monitor.run(motion, {true, 1000000}).pairs[0];
+  ASSERT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_NEAR(pair.on_b_W.force.z(), press.force(), 0.02 * press.force());
+  ASSERT_EQ(pair.intervals.size(), 1u);
+  EXPECT_NEAR(pair.intervals[0].enter, 0.0, 1e-6);
+  EXPECT_NEAR(pair.intervals[0].exit, 0.5, 1e-6);
+  EXPECT_NEAR(pair.deepest.depth, press.delta, 1e-4);
+  // 9.5 rad: every point that comes down is below the ground for the third of a revolution, in one piece.
+  std::size_t long_ones = 0;
+  for (const ContactPoint& point : pair.points) {
+    EXPECT_LT(point.exit - point.enter, 0.5 * 2.2 / 9.5);
+    long_ones += point.exit - point.enter > 0.5 * 1.8 / 9.5;
+  }
+  EXPECT_GT(long_ones, 100u);
+}
+
 TEST(MonitorWrench, OrderOfTheBodiesDoesNotMatter) {
   const Pressed press;
   const BodyDescription ball = body("ball", Primitive(Sphere{press.R})),

@@ -89,6 +89,11 @@ struct MonitorOptions {
   ChordOptions chords;
 };
 
+/// What checks need while they run, to be used again. Monitors of which several run at a time may share one; there is as
+/// much of it as there are pairs that are checked at the same time.
+struct MonitorMemory;
+std::shared_ptr<MonitorMemory> makeMonitorMemory();
+
 /// Runs cycles over all pairs of a scene and remembers how far apart they were.
 ///
 /// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if the deepest one is deeper
@@ -111,12 +116,15 @@ struct MonitorOptions {
 /// point of each of its components. Such a contact of a voxel map has a depth, but bears no force.
 ///
 /// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
-/// the arena (it makes its scratch memory once). Pairs run in parallel on the caller's TBB arena; results do not depend
+/// the arena (it makes its scratch memory once). However many chords touch however many points, what is known of them
+/// is put together as it comes: memory is as that of a few chords. Pairs run in parallel on the caller's TBB arena; results do not depend
 /// on the number of threads. Not thread-safe: one cycle at a time.
 class Monitor {
  public:
+  /// @param memory  to be shared with other monitors; null: its own.
   /// @throws std::invalid_argument if the options are not valid.
-  Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options);
+  Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
+          std::shared_ptr<MonitorMemory> memory = nullptr);
   ~Monitor();
 
   /// @throws std::invalid_argument if the motion's sizes do not fit the scene or its times do not increase.
