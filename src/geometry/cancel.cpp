@@ -10,8 +10,7 @@ thread_local CancelRequest current;
 
 }  // namespace
 
-CancelScope::CancelScope(const std::atomic<bool>& asked)
-    : outer_(std::exchange(current, {&asked, current.deadline})) {}
+CancelScope::CancelScope(const std::atomic<bool>& asked) : outer_(std::exchange(current, {&asked, current.deadline})) {}
 
 CancelScope::CancelScope(CancelRequest::Clock::time_point deadline)
     : outer_(std::exchange(current, {current.asked, std::min(current.deadline, deadline)})) {}

@@ -40,22 +40,46 @@ void requireAtMost(std::size_t most, std::size_t given, const std::string& what)
 class Queries::Piece {
  public:
   /// @param spent  by the answer so far [s].
-  /// @throws Cancelled, and std::runtime_error if that is too long.
-  Piece(Queries& queries, double& spent) : turn_(queries.turns_), spent_(spent), start_(Clock::now()) {
+  /// @throws Cancelled, as does the work of the piece, also when the answer has taken too long.
+  Piece(Queries& queries, double& spent)
+      : turn_(queries.turns_),
+        spent_(spent),
+        start_(Clock::now()),
+        deadline_(start_ + std::chrono::duration_cast<Clock::duration>(
+                               std::chrono::duration<double>(queries.limits_.seconds - spent))) {
     checkCancelled();
-    if (spent <= queries.limits_.seconds) return;
-    throw std::runtime_error("this takes more than " + numberText(queries.limits_.seconds) +
-                             " s of computing: ask for it in parts");
   }
   ~Piece() { spent_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = CancelRequest::Clock;
 
   WorkTurns::Turn turn_;
   double& spent_;
   Clock::time_point start_;
+  CancelScope deadline_;
 };
+
+/// Answers with `work`, or with the reason why there is no answer.
+template <class Response, class Work>
+void Queries::answerWith(const Work& work, Response& response) {
+  lowerPriority();
+  const CancelPoint caller;
+  const auto fail = [&](const std::string& why) {
+    response = {};
+    response.message = why;
+  };
+  try {
+    const WorkTurns::Caller place(turns_);
+    work();
+    response.success = true;
+  } catch (const Cancelled&) {
+    if (caller.asked()) throw;
+    fail("this takes more than " + numberText(limits_.seconds) + " s of computing: ask for it in parts");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
 
 Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& described,
                  const MonitorParameters& parameters, const TfHistory& history, const TfTracker& tracker,
@@ -81,15 +105,8 @@ void Queries::drawOn(const ros::Publisher& publisher, const SceneDescription& de
 }
 
 void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
-  lowerPriority();
-  try {
-    const WorkTurns::Caller caller(turns_);
-    checkMotion(request, response);
-  } catch (const std::exception& error) {
-    response = {};
-    response.verdict = QueryMotion::Response::NOT_CHECKED;
-    response.message = error.what();
-  }
+  answerWith([&] { checkMotion(request, response); }, response);
+  if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
 }
 
 PlannedMotion Queries::plan(const QueryMotion::Request& request) const {
@@ -124,7 +141,11 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
     last = std::min(first + kWaypointsPerPiece, planned.waypoints.size() - 1);
     const Piece piece(*this, spent);
     planned.piece(first, last, motion);
-    arena_.execute([&] { joiner.add(motion, monitor.run(motion, wanted)); });
+    const CancelPoint cancel;
+    arena_.execute([&] {
+      const CancelScope scope(cancel);  // it may be another thread
+      joiner.add(motion, monitor.run(motion, wanted));
+    });
     if (markers) markers->add(motion);
   }
   CycleResult result = joiner.result();
@@ -141,19 +162,10 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
   response.not_checked = result.not_checked;
-  response.success = true;
 }
 
 void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response& response) {
-  lowerPriority();
-  try {
-    const WorkTurns::Caller caller(turns_);
-    findDistances(request, response);
-    response.success = true;
-  } catch (const std::exception& error) {
-    response = {};
-    response.message = error.what();
-  }
+  answerWith([&] { findDistances(request, response); }, response);
 }
 
 void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Response& response) {
@@ -180,7 +192,9 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   for (std::size_t first = 0; first < request.points.size(); first += kPointsPerPiece) {
     const Piece piece(*this, spent);
     const std::size_t end = std::min(first + kPointsPerPiece, request.points.size());
+    const CancelPoint cancel;
     for (std::size_t i = first; i < end; ++i) {
+      cancel.check();
       const Vector3d p_W = X_WQ * toEigen(request.points[i]);
       if (!p_W.allFinite()) refuse("point " + std::to_string(i) + " is not finite");
       if (!(p_W.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {

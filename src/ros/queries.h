@@ -20,7 +20,7 @@ namespace sdf_ccd {
 struct QueryLimits {
   std::size_t waypoints = 2000;  ///< of all trajectories of a motion
   std::size_t points = 20000;
-  double seconds = 2.0;  ///< of computing
+  double seconds = 2.0;  ///< of computing; the answer comes within milliseconds after
   int queries = 4;       ///< at a time
 };
 
@@ -44,6 +44,9 @@ class Queries {
  private:
   /// One piece of an answer: takes its turn, and counts the time.
   class Piece;
+
+  template <class Response, class Work>
+  void answerWith(const Work& work, Response& response);
 
   PlannedMotion plan(const QueryMotion::Request& request) const;
   void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response);

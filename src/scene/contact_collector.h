@@ -9,8 +9,8 @@ namespace sdf_ccd {
 
 /// Collects the contacts of a pair over both roles and all parts: intervals, points, impulse.
 ///
-/// Chords are taken in blocks, and what they find is put together as it comes, so that memory is as that of the points of
-/// one shell, however many chords they are inside on.
+/// Chords are taken in blocks, and what they find is put together as it comes, so that memory is as that of the points
+/// of one shell, however many chords they are inside on.
 ///
 /// Works in frame C: the world's axes about body A's origin at the span's end. Far from the world's origin, moments
 /// about that would lose what the lever about the bodies still has.
@@ -69,8 +69,8 @@ class ContactCollector {
   std::vector<Isometry3d> X_CG_;  // the same of a part and a block
   ChordPath block_;
   ShellQueryResult query_;
-  std::vector<ShellHit> listed_;  // of a block
-  std::vector<ShellHit> hits_;    // some of them
+  std::vector<ShellHit> listed_;                     // of a block
+  std::vector<ShellHit> hits_;                       // some of them
   std::size_t most_found_ = 0, most_intervals_ = 0;  // before they are put together
   ContactImpulse impulse_;
   bool crosses_ = false;

@@ -47,13 +47,13 @@ class PairChecker {
   const PlannedPair& pair_;
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
-  std::vector<PairRole> roles_;  // one to four
-  bool open_;                    // some field has openings
-  ErrorBound bound_;             // of field and gap
-  double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
-  Isometry3d X_FP_last_;         // of the first role, at the last cycle's end; valid if the clearance is known
-  double travel_ = 0.0;          // no point of either body goes farther against the other in this cycle [m]
-  double motion_error_ = 0.0;    // of the modelled motion, and of computing with its poses [m]
+  std::vector<PairRole> roles_;   // one to four
+  bool open_;                     // some field has openings
+  ErrorBound bound_;              // of field and gap
+  double clearance_ = kUnknown;   // lower bound of the surfaces' distance at the last cycle's end [m]
+  Isometry3d X_FP_last_;          // of the first role, at the last cycle's end; valid if the clearance is known
+  double travel_ = 0.0;           // no point of either body goes farther against the other in this cycle [m]
+  double motion_error_ = 0.0;     // of the modelled motion, and of computing with its poses [m]
   PairMemory* memory_ = nullptr;  // during a check
 };
 

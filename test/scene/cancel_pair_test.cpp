@@ -48,14 +48,14 @@ TEST(CancelPair, EndsSoonWhereItIsNearAllTheTime) {
 
 TEST(CancelPair, EndsSoonAtPrimitives) {
   expectPairEndsSoon(build({body("a", Box{{0.3, 0.3, 0.3}}), body("b", meshShape(icosphere(0.2, 4)))}, fine(0.008)),
-                 shaken(0.2, 2));
+                     shaken(0.2, 2));
 }
 
 TEST(CancelPair, EndsSoonAtOpenMeshes) {
   TriangleMesh bowl = icosphere(0.2, 4);
   bowl.triangles.resize(bowl.triangles.size() * 3 / 4);
   expectPairEndsSoon(build({body("a", meshShape(bowl)), body("b", meshShape(icosphere(0.2, 4)))}, fine(0.008)),
-                 shaken(0.1, 2));
+                     shaken(0.1, 2));
 }
 
 TEST(CancelPair, EndsSoonAfterItsDeadline) {

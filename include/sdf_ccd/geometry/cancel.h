@@ -18,8 +18,8 @@ struct CancelRequest {
 };
 
 /// The request of the thread that makes it, also for the tasks that this thread hands to others. Long work makes one
-/// and checks it every few milliseconds: a check costs as much as reading a variable and, where there is a deadline, the
-/// clock (25 ns), so that loops of cheap steps do it every so many (CancelTicks).
+/// and checks it every few milliseconds: a check costs as much as reading a variable and, where there is a deadline,
+/// the clock (25 ns), so that loops of cheap steps do it every so many (CancelTicks).
 class CancelPoint {
  public:
   CancelPoint();

@@ -89,8 +89,8 @@ struct MonitorOptions {
   ChordOptions chords;
 };
 
-/// What checks need while they run, to be used again. Monitors of which several run at a time may share one; there is as
-/// much of it as there are pairs that are checked at the same time.
+/// What checks need while they run, to be used again. Monitors of which several run at a time may share one; there is
+/// as much of it as there are pairs that are checked at the same time.
 struct MonitorMemory;
 std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
@@ -117,8 +117,8 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory();
 ///
 /// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
 /// the arena (it makes its scratch memory once). However many chords touch however many points, what is known of them
-/// is put together as it comes: memory is as that of a few chords. Pairs run in parallel on the caller's TBB arena; results do not depend
-/// on the number of threads. Not thread-safe: one cycle at a time.
+/// is put together as it comes: memory is as that of a few chords. Pairs run in parallel on the caller's TBB arena;
+/// results do not depend on the number of threads. Not thread-safe: one cycle at a time.
 class Monitor {
  public:
   /// @param memory  to be shared with other monitors; null: its own.
