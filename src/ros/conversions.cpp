@@ -86,6 +86,11 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
   return message;
 }
 
+bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle) {
+  return std::any_of(pair.intervals.begin(), pair.intervals.end(),
+                     [&](const Interval& interval) { return holdsAny(interval, cycle.samples); });
+}
+
 PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
   PairContact message;
   message.body_a = cycle.scene.bodies[pair.body_a].name;
@@ -99,8 +104,8 @@ PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
     times.start = cycle.start + ros::Duration(interval.enter);
     times.end = cycle.start + ros::Duration(interval.exit);
     message.intervals.push_back(times);
-    message.in_contact_at_samples |= holdsAny(interval, cycle.samples);
   }
+  message.in_contact_at_samples = touchesAtSamples(pair, cycle);
   if (!pair.intervals.empty()) {
     message.first_contact = message.intervals.front().start;
     message.deepest = toPointContact(pair.deepest, cycle.start);

@@ -41,6 +41,9 @@ struct CycleContext {
   ros::Time start;                     ///< of the motion
 };
 
+/// Whether the pair touches at one of the recorded times.
+bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
+
 PairContact toPairContact(const PairResult& pair, const CycleContext& cycle);
 
 /// The pairs that are neither clear nor delayed.

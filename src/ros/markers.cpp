@@ -157,7 +157,7 @@ Marker MarkerDrawer::statusMarker(const std::string& text, Verdict verdict) cons
 
 void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& cycle, MarkerArray& markers) {
   const double unit = options_.scale * box_.size();
-  const bool seen = toPairContact(pair, cycle).in_contact_at_samples;
+  const bool seen = touchesAtSamples(pair, cycle);
   Marker points = marker(kPoints, id, Marker::SPHERE_LIST);
   Marker normals = marker(kNormals, id, Marker::LINE_LIST);
   Marker depth = marker(kDepth, id, Marker::ARROW);
@@ -183,7 +183,7 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
   depth.points.push_back(toPoint(pair.deepest.p_W));
   depth.points.push_back(toPoint(pair.deepest.p_W - (pair.deepest.depth + unit / 25.0) * pair.deepest.normal_W));
   if (!points.points.empty()) {
-    markers.markers.insert(markers.markers.end(), {points, normals, swept});
+    for (Marker* filled : {&points, &normals, &swept}) markers.markers.push_back(std::move(*filled));
   }
   markers.markers.push_back(depth);
 
