@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pair_checker.h"
+#include "sdf_ccd/geometry/cancel.h"
 #include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/geometry/parallel_for.h"
 #include "summarise.h"
@@ -62,8 +63,8 @@ void validate(const CycleMotion& motion, const Scene& scene) {
 
 }  // namespace
 
-/// Taken for a pair and given back, so there are as many as pairs are checked at a time; the last one given back is
-/// taken first.
+/// Taken for some pairs and given back, so there are as many as threads check pairs at a time; the last one given back
+/// is taken first.
 struct MonitorMemory {
   std::unique_ptr<PairMemory> take() {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -128,9 +129,12 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].span = motion.spans.empty() ? whole : motion.spans[i];
   impl_->bodies->take(motion, pairs);
   // A pair has its own state, so its result is the same whichever thread it meets.
-  parallelFor(std::size_t{0}, impl_->checkers.size(), [&](std::size_t i) {
+  parallelRanges(std::size_t{0}, impl_->checkers.size(), [&](std::size_t first, std::size_t last) {
     std::unique_ptr<PairMemory> memory = impl_->memory->take();
-    impl_->checkers[i].run(motion, *impl_->bodies, request, *memory, pairs[i]);
+    for (std::size_t i = first; i < last; ++i) {
+      checkCancelled();
+      impl_->checkers[i].run(motion, *impl_->bodies, request, *memory, pairs[i]);
+    }
     impl_->memory->giveBack(std::move(memory));
   });
   summarise(impl_->result);

@@ -28,7 +28,8 @@ class QueriesTest : public ::testing::Test {
     wall.shape = Primitive(Box{Vector3d(0.3, 0.3, 0.3)});
     parameters.world.push_back(wall);
     described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
-    scene_ = buildDescribed(described_, parameters.scene, {});
+    const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
+    scene_ = buildDescribed(described_, plan, parameters.scene, {});
     loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters);
     loop_->history().add(message({stampedTransform("base", "ball", kStart, 1.0)}), false);
     limits_.seconds = 0.1;

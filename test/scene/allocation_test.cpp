@@ -94,10 +94,10 @@ double peakOf(const std::shared_ptr<const Scene>& scene, const CycleMotion& moti
 }
 
 /// A ball that rolls on the spot, pressed into the ground, by half a radian between two times.
-CycleMotion rolling(std::size_t knots) {
+CycleMotion rolling(std::size_t waypoints) {
   std::vector<Isometry3d> X_WB;
-  for (std::size_t k = 0; k < knots; ++k) X_WB.push_back(pose({0, 0, 0.05}, 0.5 * double(k), {1, 0, 0}));
-  return cycle(1.0, {still(Isometry3d::Identity(), knots), X_WB});
+  for (std::size_t k = 0; k < waypoints; ++k) X_WB.push_back(pose({0, 0, 0.05}, 0.5 * double(k), {1, 0, 0}));
+  return cycle(1.0, {still(Isometry3d::Identity(), waypoints), X_WB});
 }
 
 TEST(Allocation, DoesNotGrowWithHowLongPointsTouch) {

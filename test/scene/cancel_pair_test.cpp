@@ -19,15 +19,15 @@ void expectPairEndsSoon(const std::shared_ptr<const Scene>& scene, const CycleMo
 }
 
 /// A ball deep in another that turns and shakes, in many chords.
-CycleMotion shaken(double depth, std::size_t knots) {
+CycleMotion shaken(double depth, std::size_t waypoints) {
   std::vector<Isometry3d> X_WB;
-  for (std::size_t k = 0; k < knots; ++k) {
+  for (std::size_t k = 0; k < waypoints; ++k) {
     Isometry3d X = Isometry3d::Identity();
     X.rotate(Eigen::AngleAxisd(2.5 * double(k % 2), Vector3d(1, 2, 3).normalized()));
     X.translation() = Vector3d(depth, 0.02 * double(k % 3), 0.0);
     X_WB.push_back(X);
   }
-  return cycle(1.0, {still(Isometry3d::Identity(), knots), X_WB});
+  return cycle(1.0, {still(Isometry3d::Identity(), waypoints), X_WB});
 }
 
 std::shared_ptr<const Scene> twoBalls() {
