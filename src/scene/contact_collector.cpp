@@ -127,13 +127,12 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
     intervals_.push_back(times);
     if (depth.siblings) continue;
-    Found found{shell_is_a ? 0 : 1,
-                hit.point,
-                certain,
-                {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
+    Found found{shell_is_a ? 0 : 1, hit.point, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
     found.contact.p_W = depth.p_C + p_WC_;
     // Out of the field's body: that is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
+    // Before it is joined with what the same point does in other parts, whose depths may be none.
+    if (certain && found.contact.depth > certain_.depth) certain_ = found.contact;
     found_.push_back(found);
   }
   joinWhereMany();
@@ -222,8 +221,6 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
           motion_->times[k] >= interval.enter - tolerance() && motion_->times[k] <= interval.exit + tolerance();
 
   join();
-  for (const Found& found : found_)
-    if (found.certain && found.contact.depth > certain_.depth) certain_ = found.contact;
   const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 1)));
   std::partial_sort(found_.begin(), found_.begin() + listed, found_.end(), [](const Found& a, const Found& b) {
     return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <

@@ -31,7 +31,7 @@ class ContactCollector {
   /// Whether it is known, from begin() or since, that the bodies' surfaces cross.
   bool crosses() const { return crosses_; }
 
-  /// After finish(): the deepest contact in a field without openings; null if there is none.
+  /// The deepest contact in a field without openings, within one chord; null if there is none.
   const ContactPoint* deepestCertain() const { return certain_.depth > 0.0 ? &certain_ : nullptr; }
 
   /// Writes intervals, deepest point, points and wrenches.
@@ -41,7 +41,6 @@ class ContactCollector {
   struct Found {
     int role;
     int point;
-    bool certain;  ///< the field has no openings
     ContactPoint contact;
   };
 

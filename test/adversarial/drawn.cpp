@@ -147,6 +147,17 @@ Actor openBin() {
   return ofFaces("open bin", binFaces());
 }
 
+Actor paddedBin() {
+  Actor bin = openBin();
+  bin.kind = "padded bin";
+  const Vector3d half(0.1, 0.08, 0.01), place(0.0, 0.0, -0.09);
+  Isometry3d X_BG = Isometry3d::Identity();
+  X_BG.translation() = place;
+  bin.geometry.push_back({Primitive(Box{half}), X_BG, "pad"});
+  bin.solid.push_back(convexOf(translated(boxMesh(half), place)));
+  return bin;
+}
+
 Actor thickBin() {
   // The outer box and the inner one turned inside out, without their lids, and a rim between them.
   const Vector3d inner(kInner.x(), kInner.y(), kOuter.z());
@@ -269,7 +280,7 @@ std::vector<Actor> drawnActors() {
   return {voxel(),        link(),       bead(),        bowTie(),      openBin(),  wheel(),          rod(),
           voxels(),       hollowBox(),  nestedBoxes(), invertedBox(), membrane(), doubleMembrane(), thickBin(),
           sharedEdge(),   sharedFace(), overlapping(), fins(),        clusters(), beads(),          overlaidLobe(),
-          coveredBlock(), ground()};
+          coveredBlock(), paddedBin(),  ground()};
 }
 
 }  // namespace sdf_ccd::test

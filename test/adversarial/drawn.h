@@ -17,6 +17,7 @@ Actor membrane();        ///< one square, drawn from one side
 Actor doubleMembrane();  ///< drawn from both
 Actor wheel();           ///< an open rim, with a web drawn from both sides whose border lies on the rim's triangles
 Actor openBin();         ///< five walls without thickness, no lid
+Actor paddedBin();       ///< the same in two parts: with a pad on its floor, which is a box
 Actor thickBin();        ///< a closed mesh
 Actor sharedEdge();      ///< two boxes of one mesh with an edge in common
 Actor sharedFace();      ///< two boxes of one mesh, each with a wall where they meet

@@ -71,6 +71,28 @@ TEST(OpenMesh, ABallAtRestInTheOpeningIsNoContact) {
   EXPECT_EQ(ballAndBin({0, 0, kHalf}, {0, 0, kHalf}).verdict, Verdict::kUncertain);
 }
 
+/// On the bin's floor lies a thin pad, which the ball dips into by less than it may be off, and leaves for the middle
+/// of the bin. Neither proves a contact, and nor do both, although the ball is far inside the one and was inside the
+/// other.
+TEST(OpenMesh, ABallFreeInALidlessBinFromItsPadIsNoContact) {
+  constexpr double kPad = 0.006, kDip = 0.004, kError = 0.005;
+  for (const bool with_bin : {false, true}) {
+    BodyDescription padded = test::body("bin", Primitive(Box{{0.03, 0.03, 0.5 * kPad}}));
+    padded.geometry[0].X_BG = translation({0, 0, -kHalf + 0.5 * kPad});
+    if (with_bin) padded.geometry.push_back({test::meshShape(test::binMesh(kHalf)), Isometry3d::Identity(), "bin.stl"});
+    SceneOptions options = coarse();
+    options.field.max_error = 1e-3;
+    const auto scene = test::build({test::body("ball", Primitive(Sphere{kBall})), padded}, options);
+    Monitor monitor(scene, test::soft());
+    CycleMotion motion = test::cycle(0.1, {{translation({0, 0, -kHalf + kPad - kDip + kBall}), translation({0, 0, 0})},
+                                           test::still(Isometry3d::Identity())});
+    motion.motion_error = {kError, 0.0};
+    const PairResult result = monitor.run(motion, {}).pairs.front();
+    EXPECT_EQ(result.verdict, Verdict::kUncertain) << with_bin;
+    EXPECT_FALSE(result.intervals.empty()) << with_bin;
+  }
+}
+
 /// A mere sheet has no inside, so nothing is ever deep in it; a rod through it crosses it all the same.
 TEST(OpenMesh, ARodThroughASheetIsAContact) {
   TriangleMesh sheet;
