@@ -46,7 +46,7 @@ class BlockSample {
     const double start = threadSeconds();
     findNear(start);
     const double found = threadSeconds();
-    buildNear(found);
+    buildNear();
     buildFar();
     const double all = double(order_.size()), tested = double(tested_), scale = all / tested;
     const double near = tested - double(far_.size());
@@ -122,19 +122,40 @@ class BlockSample {
     for (const Stratum& stratum : strata_) {
       const SampleMean& mean = stratum.*quantity;
       sum.value += stratum.size() * mean.mean();
-      if (mean.count() > 0) sum.variance += stratum.size() * stratum.size() * mean.variance() / double(mean.count());
+      if (mean.count() > 0) sum.variance += stratum.size() * stratum.size() * variance(mean) / double(mean.count());
     }
     return sum;
   }
 
-  /// Where the next block lessens the squared errors of both sums most, as soon as each has a few; null if nothing
-  /// would.
+  /// What is known of a stratum's spread: until it has a few blocks, at least that of an exponential distribution, as
+  /// most blocks take little and a few take much.
+  static double variance(const SampleMean& mean) {
+    return mean.count() < kFewest ? std::max(mean.variance(), mean.mean() * mean.mean()) : mean.variance();
+  }
+
+  /// Of the strata that have less than a few blocks the one that has the least: two for each first, then by the square
+  /// root of its size. Null if there is none.
+  Stratum* nextOfFew() {
+    Stratum* best = nullptr;
+    double least = 0.0;
+    for (Stratum& stratum : strata_) {
+      if (stratum.blocks.empty() || stratum.built() >= kFewest) continue;
+      const double has =
+          stratum.built() < 2 ? -2.0 + double(stratum.built()) : double(stratum.built()) / std::sqrt(stratum.size());
+      if (best && has >= least) continue;
+      best = &stratum;
+      least = has;
+    }
+    return best;
+  }
+
+  /// Where the next block lessens the squared errors of both sums most; null if nothing would.
   Stratum* next(const Sum& bytes, const Sum& seconds) {
+    if (Stratum* const stratum = nextOfFew()) return stratum;
     Stratum* best = nullptr;
     double most = 0.0;
     for (Stratum& stratum : strata_) {
       if (stratum.blocks.empty()) continue;
-      if (stratum.built() < kFewest) return &stratum;
       const double weight = stratum.size() / double(stratum.built() + 1);
       const double gain = weight * weight *
                           (stratum.bytes.variance() / std::max(bytes.value * bytes.value, 1.0) +
@@ -146,20 +167,31 @@ class BlockSample {
     return best;
   }
 
-  /// Comes back to a block, and to other cells of it, if there are few.
-  void buildNear(double start) {
-    constexpr double kSeconds = 15e-3, kShare = 0.03, kShareOfFew = 0.2, kSure = 0.07;
-    const double scale = double(order_.size()) / double(tested_);
-    ThinnedCells cells;
+  /// Whether few blocks with long lists of triangles are all there is.
+  bool isDense(double near) const {
+    constexpr double kFewBlocks = 64.0, kTriangles = 64.0;
+    const auto triangles = double(surface_.exact().solid().boundary().triangles.size());
+    return near < kFewBlocks && triangles > kTriangles * near;
+  }
+
+  /// Comes back to a block, and to other cells of it, if there are few. Until each stratum has some, what is expected
+  /// is too little to end it by where the few blocks that take long have not been met.
+  void buildNear() {
+    constexpr double kSecondsForFew = 18e-3, kSeconds = 15e-3, kShare = 0.03, kShareOfFew = 0.2, kSure = 0.07;
+    const double scale = double(order_.size()) / double(tested_), start = threadSeconds();
+    std::size_t near = 0;
+    for (const Stratum& stratum : strata_) near += stratum.blocks.size();
+    ThinnedCells cells(isDense(scale * double(near)) ? ThinnedCells::kFewer : ThinnedCells::kMore);
     for (;;) {
       const Sum bytes = sum(&Stratum::bytes), seconds = sum(&Stratum::seconds);
       Stratum* const stratum = next(bytes, seconds);
       if (!stratum) return;
-      if (stratum->built() >= kFewest) {
-        const double all = scale * seconds.value;
-        if (threadSeconds() - start > std::max(kShare * all, std::min(kSeconds, kShareOfFew * all))) return;
-        if (std::max(bytes.relativeError(), seconds.relativeError()) < kSure) return;
+      const bool few = stratum->built() < kFewest;
+      if (stratum->built() > 0) {
+        const double all = scale * seconds.value, least = few ? kSecondsForFew : std::min(kSeconds, kShareOfFew * all);
+        if (threadSeconds() - start > std::max(kShare * all, least)) return;
       }
+      if (!few && std::max(bytes.relativeError(), seconds.relativeError()) < kSure) return;
       const SpreadOrder order(stratum->blocks.size());
       const std::size_t i = stratum->blocks[order[stratum->built()]];
       cells.start();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -76,6 +78,20 @@ TEST(FieldCost, BytesOfAnOctomapAreExpectedWithinAFifth) {
   double voxel = 0.0;
   const TriangleMesh mesh = loadOctomapSurface(test::dataPath("octomaps/simple_2010.bt"), voxel);
   expectBytes(mesh, withCell(0.5 * voxel), 1.2);
+}
+
+/// Of few blocks with long lists of triangles each is much of all work.
+TEST(FieldCost, ASampleOfADenseMeshIsLittleOfTheBuild) {
+  const std::string file = "robots/example-robot-data/robots/ur_description/meshes/ur5/visual/forearm.dae";
+  SDF_CCD_NEEDS_DATA(file);
+  const ClosedSolid closed(std::make_shared<const Solid>(orientOutward(loadMesh(test::dataPath(file))).mesh));
+  const auto seconds = [](const auto& work) {
+    const std::clock_t start = std::clock();
+    work();
+    return double(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  const double sample = seconds([&] { expectedCost(closed, withError(0.01)); });
+  EXPECT_LT(sample, 0.15 * seconds([&] { buildField(closed, withError(0.01)); }));
 }
 
 TEST(FieldCost, WhatNoFieldCanHaveIsRefused) {
