@@ -67,14 +67,19 @@ std::string exceededLimit(const SceneCost& cost, const SceneOptions& options) {
 
 }  // namespace
 
-SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options) {
-  if (options.max_error) requireSmallerThanBodies(description, *options.max_error);
-  const SceneCost cost = expectedCost(description, plan, options);
+void requireAffordable(const SceneCost& cost, const SceneOptions& options) {
   const std::string limit = exceededLimit(cost, options);
-  if (limit.empty()) return cost;
+  if (limit.empty()) return;
   const std::string what =
       options.max_error ? "a max_error of " + numberText(*options.max_error) + " m" : "such fine fields and shells";
   throw std::length_error(what + " would take " + summary(cost) + "; " + limit);
+}
+
+SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options) {
+  if (options.max_error) requireSmallerThanBodies(description, *options.max_error);
+  const SceneCost cost = expectedCost(description, plan, options);
+  requireAffordable(cost, options);
+  return cost;
 }
 
 }  // namespace sdf_ccd

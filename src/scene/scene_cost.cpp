@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "mesh_pool.h"
@@ -21,8 +22,11 @@ constexpr double kFinestOfSize = 2e-3;       // gap that a curved primitive is t
 constexpr double kUncertain = 0.35;          // two such standard errors are less than a factor of two
 constexpr double kHopeless = 2.0;            // affordableCost() refuses what is this much too large
 
-double seconds(double one_thread) {
-  return one_thread / std::max(1, tbb::this_task_arena::max_concurrency());
+/// On the threads of the caller's TBB arena, as far as there may be so many.
+double onThreads(double one_thread) {
+  using tbb::global_control;
+  const auto most = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+  return one_thread / std::max(1, std::min(most, tbb::this_task_arena::max_concurrency()));
 }
 
 /// Of a field that the cache has; 0 if it has not [bytes].
@@ -52,7 +56,7 @@ class CostEstimate {
       PooledMesh& mesh = pool_->find(geometry);
       const bool is_new = seen_.insert(&mesh).second;
       if (needs_field && is_new) addField(mesh, cost);
-      if (needs_shell) addPoints(expectedPoints(mesh.mesh, options_.shell), cost);
+      if (needs_shell) cost.addShell(expectedPoints(mesh.mesh, options_.shell));
     }
     cost.in_cache = cost.in_cache && cost.field_bytes > 0.0;
     return cost;
@@ -78,11 +82,8 @@ class CostEstimate {
       *field.max_error *= 2.0;
       expected = expectedCost(closed, field);
     }
-    one_thread += expected.seconds;
-    cost.uncertain |= std::max(expected.bytes_error, expected.seconds_error) > kUncertain;
-    cost.field_bytes += expected.bytes;
-    cost.field_seconds += seconds(one_thread);
-    cost.seconds += seconds(one_thread);
+    expected.seconds += one_thread;
+    cost.addField(expected);
   }
 
   /// A finely tessellated curve would cost more than its shell: points of a coarser one stand for it, and grow as they
@@ -96,14 +97,7 @@ class CostEstimate {
     shell.spacing = edges_only ? size : coarser * shell.spacing;
     shell.edge_gap *= coarser;
     const double points = expectedPoints(tessellate(primitive, 0.05 * coarser * finest()), shell);
-    addPoints(points * std::pow(coarser, has_rims ? 1.5 : 2.0), cost);
-  }
-
-  void addPoints(double points, BodyCost& cost) {
-    cost.shell_points += points;
-    cost.largest_shell = std::max(cost.largest_shell, points);
-    cost.shell_bytes += kBytesPerPoint * points;
-    if (!cost.in_cache || cost.field_bytes == 0.0) cost.seconds += kSecondsPerPoint * points;
+    cost.addShell(points * std::pow(coarser, has_rims ? 1.5 : 2.0));
   }
 
   const SceneOptions& options_;
@@ -119,6 +113,28 @@ std::string about(double bytes, double seconds) {
 
 }  // namespace
 
+void BodyCost::addField(const FieldCost& field) {
+  const double taken = onThreads(field.seconds);
+  uncertain |= std::max(field.bytes_error, field.seconds_error) > kUncertain;
+  field_bytes += field.bytes;
+  largest_field = std::max(largest_field, field.bytes);
+  field_seconds += taken;
+  seconds += taken;
+}
+
+void BodyCost::addShell(double points) {
+  shell_points += points;
+  largest_shell = std::max(largest_shell, points);
+  shell_bytes += kBytesPerPoint * points;
+  if (!in_cache || field_bytes == 0.0) seconds += kSecondsPerPoint * points;
+}
+
+void SceneCost::add(const BodyCost& body) {
+  bytes += body.field_bytes + body.shell_bytes;
+  seconds += body.seconds;
+  bodies.push_back(body);
+}
+
 SceneCost expectedCost(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options) {
   SceneCost scene;
   CostEstimate estimate(options);
@@ -126,10 +142,7 @@ SceneCost expectedCost(const SceneDescription& description, const ScenePlan& pla
     const BodyDescription& body = description.bodies[i];
     if (!body.failure.empty() || !(plan.needs_field[i] || plan.needs_shell[i])) continue;
     try {
-      const BodyCost cost = estimate.of(body, plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i]);
-      scene.bytes += cost.field_bytes + cost.shell_bytes;
-      scene.seconds += cost.seconds;
-      scene.bodies.push_back(cost);
+      scene.add(estimate.of(body, plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i]));
     } catch (const std::exception&) {
       // Building the body will say what is wrong with it.
     }

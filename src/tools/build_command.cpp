@@ -109,10 +109,22 @@ bool buildLink(const BodyDescription& body, FileNames& names, FieldBuilder& buil
   }
 }
 
+/// Of all links, before the first is built. What is wrong with one is said when its turn comes.
+void expectLinks(const std::vector<BodyDescription>& bodies, FieldBuilder& builder) {
+  for (const BodyDescription& body : bodies) {
+    for (const GeometryDescription& element : body.geometry) {
+      const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&element.shape);
+      if (mesh && *mesh && body.failure.empty()) builder.expectMesh(body.name, *mesh);
+    }
+  }
+  builder.requireAffordable();
+}
+
 void buildRobot(const Arguments& arguments) {
   const Robot robot = loadRobot(arguments);
   OutputDirectory out(arguments.out);
   FieldBuilder builder(out, arguments.resolution, arguments.spacing);
+  expectLinks(robot.scene.bodies, builder);
   FileNames names(robot.scene.bodies);
   std::size_t failed = 0;
   for (const BodyDescription& body : robot.scene.bodies) failed += !buildLink(body, names, builder);
@@ -136,12 +148,19 @@ void run(Arguments& arguments) {
   const bool is_mesh = !arguments.mesh.empty();
   const std::string& file = is_mesh ? arguments.mesh : arguments.octomap;
   double voxel_size = 0.0;
-  const TriangleMesh mesh = is_mesh ? loadMesh(file) : loadOctomapSurface(file, voxel_size);
+  const auto mesh =
+      std::make_shared<const TriangleMesh>(is_mesh ? loadMesh(file) : loadOctomapSurface(file, voxel_size));
   OutputDirectory out(arguments.out);
   FieldBuilder builder(out, arguments.resolution, arguments.spacing);
   std::cout << stemOf(file) << ": " << file << "\n";
   if (is_mesh) {
-    builder.addMesh(stemOf(file), std::make_shared<TriangleMesh>(mesh));
+    builder.expectMesh(stemOf(file), mesh);
+  } else {
+    builder.expectVoxels(stemOf(file), mesh, voxel_size);
+  }
+  builder.requireAffordable();
+  if (is_mesh) {
+    builder.addMesh(stemOf(file), mesh);
   } else {
     builder.addVoxels(stemOf(file), mesh, voxel_size);
   }

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <iostream>
+#include <stdexcept>
+#include <utility>
 
 #include "print.h"
 #include "progress_bar.h"
@@ -21,12 +23,16 @@ std::string time(double seconds) {
   return rounded(seconds, 2) + " s";
 }
 
+void warnOf(const MeshQuality& quality, const std::string& source) {
+  const std::string warning = warningOf(quality);
+  if (!warning.empty()) std::cerr << "sdf_ccd: " << source << ": " << warning << std::endl;
+}
+
 }  // namespace
 
 OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& mesh) {
   OrientedMesh oriented = orientOutward(mesh);
-  const std::string warning = warningOf(oriented.quality);
-  if (!warning.empty()) std::cerr << "sdf_ccd: " << source << ": " << warning << std::endl;
+  warnOf(oriented.quality, source);
   return oriented;
 }
 
@@ -41,24 +47,71 @@ DistanceField buildWithBar(const std::string& title, const Solid& solid, const F
   return buildField(solid, options, [&](double share) { bar(share); });
 }
 
-FieldBuilder::Made FieldBuilder::make(const std::string& name, const TriangleMesh& mesh) const {
-  const OrientedMesh oriented = orientWithWarning(name, mesh);
+DistanceField buildWithBar(const std::string& title, const ClosedSolid& closed, const FieldOptions& options) {
+  ProgressBar bar(title);
+  return buildField(closed, options, [&](double share) { bar(share); });
+}
+
+PreparedMesh& FieldBuilder::prepared(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh,
+                                     bool voxels) {
+  const auto known = prepared_.find(mesh);
+  if (known != prepared_.end()) return known->second;
+  PreparedMesh made;
+  made.name = name;
+  made.voxels = voxels;
+  if (voxels) {
+    made.oriented.mesh = *mesh;
+  } else {
+    made.oriented = orientOutward(*mesh);
+  }
+  return prepared_.emplace(mesh, std::move(made)).first->second;
+}
+
+void FieldBuilder::expectMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
+  if (prepared_.count(mesh)) return;
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    cost_.add(prepared(name, mesh, false), resolution_.fieldOptions());
+    seconds_ += secondsSince(start);
+  } catch (const std::exception&) {
+    // addMesh() says so.
+  }
+}
+
+void FieldBuilder::expectVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh,
+                                double voxel_size) {
   const auto start = std::chrono::steady_clock::now();
-  const Solid solid(oriented.mesh);
-  DistanceField field = buildWithBar("field of " + name, solid, resolution_.fieldOptions());
+  cost_.add(prepared(name, mesh, true), resolution_.fieldOptions(voxel_size / 2.0));
+  seconds_ += secondsSince(start);
+}
+
+void FieldBuilder::requireAffordable() const {
+  constexpr double kWorthSaying = 1.0;  // [s]
+  cost_.requireAffordable();
+  if (cost_.cost().seconds > kWorthSaying) std::cout << "expected " << summary(cost_.cost()) << std::endl;
+}
+
+FieldBuilder::Made FieldBuilder::make(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
+  PreparedMesh& ready = prepared(name, mesh, false);
+  warnOf(ready.oriented.quality, name);
+  const auto start = std::chrono::steady_clock::now();
+  const Solid& solid = ready.solid();
+  DistanceField field = buildWithBar("field of " + name, ready.closed(), resolution_.fieldOptions());
   const double field_seconds = secondsSince(start);
   ShellOptions options;
-  options.spacing = spacing_.value_or(2.3 * field.errorBound());
+  options.spacing = spacing_.value_or(shellSpacing(field.errorBound()));
   PointShell shell = sampleSurface(solid, options);
-  return {field,          std::move(shell), summary(oriented.quality),
-          solid.report(), field_seconds,    secondsSince(start) - field_seconds};
+  Made made{field,          std::move(shell), summary(ready.oriented.quality),
+            solid.report(), field_seconds,    secondsSince(start) - field_seconds};
+  ready.made = {};
+  return made;
 }
 
 void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
   auto found = made_.find(mesh);
   const bool is_new = found == made_.end();
   if (is_new) {
-    found = made_.emplace(mesh, make(name, *mesh)).first;
+    found = made_.emplace(mesh, make(name, mesh)).first;
     seconds_ += found->second.field_seconds + found->second.shell_seconds;
   }
   const Made& made = found->second;
@@ -68,11 +121,13 @@ void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const 
   writeShell(name, made.shell, is_new ? time(made.shell_seconds) : "made above");
 }
 
-void FieldBuilder::addVoxels(const std::string& name, const TriangleMesh& mesh, double voxel_size) {
-  std::cout << "  voxels " << voxel_size << " m, " << mesh.triangles.size() << " triangles, volume "
-            << signedVolume(mesh) << " m^3\n";
+void FieldBuilder::addVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh,
+                             double voxel_size) {
+  std::cout << "  voxels " << voxel_size << " m, " << mesh->triangles.size() << " triangles, volume "
+            << signedVolume(*mesh) << " m^3\n";
   const auto start = std::chrono::steady_clock::now();
-  const DistanceField field = buildWithBar("field of " + name, Solid(mesh), resolution_.fieldOptions(voxel_size / 2.0));
+  const DistanceField field =
+      buildWithBar("field of " + name, prepared(name, mesh, true).closed(), resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
   writeField(name, field, time(secondsSince(start)));
 }

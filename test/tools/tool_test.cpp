@@ -60,6 +60,21 @@ TEST_F(Tool, BuildWritesAFieldAndAShellOfAMesh) {
   EXPECT_LE(loadShell(path("made/ball.shell").string()).covering_radius, 0.05);
 }
 
+TEST_F(Tool, BuildSaysWhatItIsExpectedToTakeAndRefusesTooMuch) {
+  EXPECT_EQ(run("build --mesh ball.off --out made --max-error 0.01").out.find("expected about"), std::string::npos);
+  const ToolRun longer = run("build --mesh ball.off --out made --max-error 2e-5 --spacing 0.05 --threads 1");
+  EXPECT_EQ(longer.exit_code, kDone) << longer.error;
+  const std::size_t expected = longer.out.find("expected about "), built = longer.out.find("ball.field");
+  EXPECT_LT(expected, built) << longer.out;
+  EXPECT_NE(longer.out.find(" s to build; most for ball: "), std::string::npos) << longer.out;
+  const ToolRun refused = run("build --mesh ball.off --out none --max-error 1e-7");
+  EXPECT_EQ(refused.exit_code, kBadInput);
+  EXPECT_EQ(refused.error.find("sdf_ccd: a max_error of 1e-07 m would take about "), 0u) << refused.error;
+  EXPECT_NE(refused.error.find(" would fit\n"), std::string::npos) << refused.error;
+  EXPECT_NE(refused.error.find("; --max-error "), std::string::npos) << refused.error;
+  EXPECT_FALSE(fs::exists(path("none")));
+}
+
 TEST_F(Tool, SamplesHaveSixteenBitsUnlessToldOtherwise) {
   ASSERT_EQ(run("build --mesh ball.off --out made --resolution 32").exit_code, kDone);
   ASSERT_EQ(run("build --mesh ball.off --out floats --resolution 32 --sample-bits 32").exit_code, kDone);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sdf_ccd/field/field_cost.h"
 #include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd {
@@ -23,6 +24,10 @@ struct BodyCost {
   double field_seconds = 0.0;  ///< of these, for fields
   bool uncertain = false;      ///< a field may take more than twice, or less than half, of what is expected
   bool in_cache = false;       ///< all of its meshes' fields
+
+  /// A field that is built, and a shell of so many points.
+  void addField(const FieldCost& field);
+  void addShell(double points);
 };
 
 struct SceneCost {
@@ -30,6 +35,8 @@ struct SceneCost {
   double bytes = 0.0;
   double seconds = 0.0;
   std::shared_ptr<MeshPool> meshes;  ///< made ready, for the first buildScene() that has them
+
+  void add(const BodyCost& body);
 };
 
 /// Expects the cost of buildScene() with the same arguments: of fields by building a sample of their cells (see the
@@ -37,10 +44,13 @@ struct SceneCost {
 /// refuse costs nothing here.
 SceneCost expectedCost(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options);
 
+/// @throws std::length_error if a field or shell is expected to be over twice what the options allow for one (a little
+/// more makes it coarser), where these have a max_error, or all of them together more than this machine's memory. The
+/// message names max_error, the cost and the limit.
+void requireAffordable(const SceneCost& cost, const SceneOptions& options);
+
 /// expectedCost(), where it can be meant.
-/// @throws std::invalid_argument if max_error is larger than every body; std::length_error if a field or shell is
-/// expected to be over twice what the options allow for one (a little more makes it coarser), or all of them
-/// together more than this machine's memory. The message names max_error, the cost and the limit.
+/// @throws std::invalid_argument if max_error is larger than every body; as requireAffordable().
 SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan, const SceneOptions& options);
 
 /// One line: "about 9 MB and 4 s; most for link5: 2 MB, 1 s".

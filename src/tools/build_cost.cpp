@@ -1,0 +1,88 @@
+#include "build_cost.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "print.h"
+#include "sdf_ccd/field/field_cost.h"
+#include "sdf_ccd/field/sparse_grid.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+double errorOf(const FieldOptions& options, const TriangleMesh& mesh) {
+  if (options.max_error) return *options.max_error;
+  if (options.cell_size) return kHalfSqrt3 * *options.cell_size;
+  return kHalfSqrt3 * boundingBox(mesh).sizes().maxCoeff() / *options.cells;
+}
+
+FieldOptions coarser(FieldOptions options, int times) {
+  if (options.max_error) *options.max_error *= times;
+  if (options.cell_size) *options.cell_size *= times;
+  if (options.cells) *options.cells = std::max(1, *options.cells / times);
+  return options;
+}
+
+/// As it is asked for on the command line.
+std::string asOption(const FieldOptions& options) {
+  if (options.max_error) return "--max-error " + shortly(*options.max_error);
+  if (options.cell_size) return "--cell " + shortly(*options.cell_size);
+  return "--resolution " + std::to_string(*options.cells);
+}
+
+/// The limits for fields of these options.
+SceneOptions limits(const FieldOptions& field) {
+  SceneOptions options;
+  options.field = field;
+  options.max_error = field.max_error;
+  return options;
+}
+
+}  // namespace
+
+BodyCost BuildCost::expected(const Wanted& wanted) const {
+  const TriangleMesh& mesh = wanted.mesh->oriented.mesh;
+  BodyCost cost;
+  cost.name = wanted.mesh->name;
+  cost.addField(sdf_ccd::expectedCost(wanted.mesh->closed(), wanted.options));
+  ShellOptions shell;
+  shell.spacing = spacing_.value_or(shellSpacing(errorOf(wanted.options, mesh)));
+  if (!wanted.mesh->voxels) cost.addShell(expectedPoints(mesh, shell));
+  return cost;
+}
+
+void BuildCost::add(PreparedMesh& mesh, const FieldOptions& options) {
+  try {
+    cost_.add(expected({&mesh, options}));
+    wanted_.push_back({&mesh, options});
+  } catch (const std::exception&) {
+    // Building it will say what is wrong with it.
+  }
+}
+
+std::string BuildCost::whatFits() const {
+  constexpr int kMost = 1024;
+  for (int times = 2; times <= kMost; times *= 2) {
+    SceneCost cost;
+    try {
+      for (const Wanted& wanted : wanted_) cost.add(expected({wanted.mesh, coarser(wanted.options, times)}));
+      sdf_ccd::requireAffordable(cost, limits(wanted_.front().options));
+      return asOption(coarser(wanted_.front().options, times));
+    } catch (const std::length_error&) {
+      continue;
+    }
+  }
+  return "";
+}
+
+void BuildCost::requireAffordable() const {
+  if (wanted_.empty()) return;
+  try {
+    sdf_ccd::requireAffordable(cost_, limits(wanted_.front().options));
+  } catch (const std::length_error& refused) {
+    const std::string fits = whatFits();
+    throw std::length_error(refused.what() + (fits.empty() ? "" : "; " + fits + " would fit"));
+  }
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/geometry/closed_solid.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/scene/scene_cost.h"
+
+namespace sdf_ccd::tools {
+
+/// A mesh made ready for its field and shell.
+struct PreparedMesh {
+  std::string name;
+  OrientedMesh oriented;
+  MadeSolid made;
+  bool voxels = false;  ///< oriented as they come; they get no shell
+
+  const Solid& solid() { return SolidSource(oriented.mesh, made).solid(); }
+  const ClosedSolid& closed() { return SolidSource(oriented.mesh, made).closed(); }
+};
+
+/// How far apart a shell's points are, whose field has this error bound: two cells of a uniform grid [m].
+inline double shellSpacing(double error_bound) {
+  return 2.3 * error_bound;
+}
+
+/// What building fields and shells is expected to take, in the words of the monitor and check-bag.
+class BuildCost {
+ public:
+  /// @param spacing  of the shells [m]; none: by the field's error.
+  explicit BuildCost(std::optional<double> spacing) : spacing_(spacing) {}
+
+  /// What building would refuse costs nothing here. The mesh must outlive this.
+  void add(PreparedMesh& mesh, const FieldOptions& options);
+
+  const SceneCost& cost() const { return cost_; }
+
+  /// @throws as requireAffordable() of scenes, with the option that would fit.
+  void requireAffordable() const;
+
+ private:
+  struct Wanted {
+    PreparedMesh* mesh;
+    FieldOptions options;
+  };
+
+  BodyCost expected(const Wanted& wanted) const;
+  /// How the same is asked for so coarsely that it is affordable; empty if that is much coarser.
+  std::string whatFits() const;
+
+  std::optional<double> spacing_;
+  std::vector<Wanted> wanted_;
+  SceneCost cost_;
+};
+
+}  // namespace sdf_ccd::tools
