@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 #include "scene/knob.h"
+#include "scene/mesh_pool.h"
 #include "scene/scene_case.h"
 #include "sdf_ccd/scene/error_budget.h"
 #include "sdf_ccd/scene/scene_cost.h"
@@ -168,6 +172,23 @@ TEST(MaxError, WhatWasExpectedIsNotMadeAgainAndChangesNothing) {
     EXPECT_EQ(scene.reports[i].field_bytes, alone.reports[i].field_bytes);
     EXPECT_EQ(scene.reports[i].shell_points, alone.reports[i].shell_points);
   }
+}
+
+TEST(MaxError, WhatTheCacheHasIsNotSampled) {
+  const SceneDescription description{
+      {body("a", meshShape(icosphere(0.1, 3))), body("b", meshShape(boxMesh({0.2, 0.1, 0.05})))}, {}};
+  SceneOptions options = knob(0.003);
+  options.cache_directory = testing::TempDir() + "sdf_ccd_max_error_test_" + std::to_string(getpid());
+  const ScenePlan plan = planScene(description, planOptions(options));
+  buildScene(description, plan, options);
+  const SceneCost cost = expectedCost(description, plan, options);
+  ASSERT_EQ(cost.bodies.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(cost.bodies[i].in_cache);
+    EXPECT_EQ(cost.bodies[i].seconds, 0.0);
+    EXPECT_FALSE(cost.meshes->find(description.bodies[i].geometry[0]).made.solid);  // which a sample needs
+  }
+  std::filesystem::remove_all(options.cache_directory);
 }
 
 SceneCost affordable(const SceneDescription& description, const SceneOptions& options) {
