@@ -1,11 +1,13 @@
-// What is found in meshes as people draw them, what building their fields costs, and which crossings these report that
-// the meshes do not have. Prints rows of results.csv.
+// What is found in meshes as people draw them, what building their fields is expected to cost and costs, and which
+// crossings these report that the meshes do not have. Prints rows of results.csv.
 #include <ctime>
+#include <memory>
 #include <stdexcept>
 
 #include "embree_scene.h"
 #include "results.h"
 #include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field/field_cost.h"
 #include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "segment_cases.h"
@@ -83,16 +85,24 @@ void study(const std::string& name, const TriangleMesh& mesh, const StudyOptions
   rows.add("orient_seconds", processorSeconds() - start, "s");
   addQuality(oriented.quality, rows);
   start = processorSeconds();
-  const Solid solid(oriented.mesh);
+  const auto solid = std::make_shared<const Solid>(oriented.mesh);
   rows.add("solid_seconds", processorSeconds() - start, "s");
-  addSolid(solid.report(), rows);
+  addSolid(solid->report(), rows);
+  start = processorSeconds();
+  const ClosedSolid closed(solid);
+  rows.add("closing_seconds", processorSeconds() - start, "s");
   const AlignedBox3d box = boundingBox(oriented.mesh);
   const EmbreeScene embree(oriented.mesh);
   for (const std::string& error : options.errors) {
     FieldOptions field;
     field.max_error = std::stod(error) * box.sizes().maxCoeff();
     start = processorSeconds();
-    const DistanceField built = buildField(solid, field);
+    const FieldCost expected = expectedCost(closed, field);
+    rows.add("sample_seconds_" + error, processorSeconds() - start, "s");
+    rows.add("expected_cpu_s_" + error, expected.seconds, "s");
+    rows.add("expected_mb_" + error, 1e-6 * expected.bytes, "MB");
+    start = processorSeconds();
+    const DistanceField built = buildField(closed, field);
     rows.add("build_seconds_" + error, processorSeconds() - start, "s");
     rows.add("cells_" + error, double(built.cells()), "");
     rows.add("megabytes_" + error, 1e-6 * double(built.bytes()), "MB");
