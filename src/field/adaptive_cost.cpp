@@ -177,7 +177,7 @@ class BlockSample {
   /// Comes back to a block, and to other cells of it, if there are few. Until each stratum has some, what is expected
   /// is too little to end it by where the few blocks that take long have not been met.
   void buildNear() {
-    constexpr double kSecondsForFew = 18e-3, kSeconds = 15e-3, kShare = 0.03, kShareOfFew = 0.2, kSure = 0.07;
+    constexpr double kSecondsForFew = 22e-3, kSeconds = 15e-3, kShare = 0.03, kSure = 0.07, kUnsure = 0.25;
     const double scale = double(order_.size()) / double(tested_), start = threadSeconds();
     std::size_t near = 0;
     for (const Stratum& stratum : strata_) near += stratum.blocks.size();
@@ -187,11 +187,14 @@ class BlockSample {
       Stratum* const stratum = next(bytes, seconds);
       if (!stratum) return;
       const bool few = stratum->built() < kFewest;
+      const double error = std::max(bytes.relativeError(), seconds.relativeError());
       if (stratum->built() > 0) {
-        const double all = scale * seconds.value, least = few ? kSecondsForFew : std::min(kSeconds, kShareOfFew * all);
+        const double all = scale * seconds.value;
+        double least = kSecondsForFew;
+        if (!few) least = error > kUnsure ? std::min(kSecondsForFew, 0.4 * all) : std::min(kSeconds, 0.2 * all);
         if (threadSeconds() - start > std::max(kShare * all, least)) return;
       }
-      if (!few && std::max(bytes.relativeError(), seconds.relativeError()) < kSure) return;
+      if (!few && error < kSure) return;
       const SpreadOrder order(stratum->blocks.size());
       const std::size_t i = stratum->blocks[order[stratum->built()]];
       cells.start();
