@@ -1,0 +1,32 @@
+// When a moving point is inside a mesh: a field of the mesh, and a segment against its surface.
+#include <cmath>
+#include <cstdio>
+
+#include <sdf_ccd/field/build_field.h>
+#include <sdf_ccd/geometry/mesh_file.h>
+#include <sdf_ccd/geometry/mesh_quality.h>
+#include <sdf_ccd/geometry/primitive.h>
+#include <sdf_ccd/query/segment_query.h>
+
+int main(int argc, char** argv) {
+  using namespace sdf_ccd;
+  constexpr double kRadius = 0.1;  // [m]
+  const TriangleMesh mesh = argc > 1 ? loadMesh(argv[1]) : tessellate(Sphere{kRadius}, 1e-4);
+
+  FieldOptions options;
+  options.max_error = 1e-4;  // [m]
+  const DistanceField field = buildField(orientOutward(mesh).mesh, options);
+  std::printf("%zu cells, %.2f MB, error at most %.3g m\n", field.cells(), 1e-6 * double(field.bytes()),
+              field.errorBound());
+
+  // Through the middle of the mesh, from half its size outside to as far on the other side.
+  const AlignedBox3d box = field.surfaceBox();
+  const Vector3d way(box.sizes().x(), 0.0, 0.0);
+  const Intervals inside = segmentIntervals(field, {box.center() - way, box.center() + way});
+  for (const Interval& interval : inside) std::printf("inside from %.6f to %.6f\n", interval.enter, interval.exit);
+
+  if (argc > 1) return 0;
+  const bool is_right = inside.size() == 1 && std::abs(inside[0].enter - 0.25) < 1e-3 &&
+                        std::abs(inside[0].exit - 0.75) < 1e-3;  // of a sphere, by symmetry
+  return is_right ? 0 : 1;
+}
