@@ -110,12 +110,13 @@ class BodyBuilder {
     return unionShell(shells);
   }
 
-  /// Of the voxels among the geometry.
+  /// Of all geometry but half-spaces, which lie inside no body.
   PointShell makeWitnesses() const {
     PointShell all;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
-      if (!meshes_[i] || !meshes_[i]->voxels) continue;
-      const PointShell part = witnessPoints(meshes_[i]->mesh);
+      if (!meshes_[i] && std::holds_alternative<HalfSpace>(primitiveOf(description_.geometry[i]))) continue;
+      const PointShell part =
+          witnessPoints(meshes_[i] ? meshes_[i]->mesh : coarse(primitiveOf(description_.geometry[i])));
       all.covering_radius = part.covering_radius;
       all.areas.insert(all.areas.end(), part.areas.begin(), part.areas.end());
       const Isometry3d& X_BG = description_.geometry[i].X_BG;
@@ -139,6 +140,11 @@ class BodyBuilder {
     PointShell shell = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
     if (!warning.empty()) report_.warnings.push_back(warning);
     return shell;
+  }
+
+  /// With vertices on its surface.
+  static TriangleMesh coarse(const Primitive& primitive) {
+    return tessellate(primitive, 0.1 * boundingBox(primitive).sizes().maxCoeff());
   }
 
   bool hasSiblings() const { return meshes_.size() > 1; }

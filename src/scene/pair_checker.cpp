@@ -90,7 +90,7 @@ void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span)
   for (std::size_t i = 0; i < roles_.size(); ++i) {
     PairRole& role = roles_[i];
     role.setMotion(bodies, span, memory_->roles[i]);
-    travel_ = std::min(travel_, role.travel());
+    if (role.ballHoldsBody()) travel_ = std::min(travel_, role.travel());
     pose_error = std::max(pose_error, role.poseError());
   }
   motion_error_ = pose_error;
@@ -143,7 +143,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
 /// Whether one role's ball alone shows that the bodies stay apart.
 bool PairChecker::clearFromAfar(double margin, PairResult& result) {
   for (const PairRole& role : roles_) {
-    if (!(role.ballClearance(role.start()) - role.travel() > margin)) continue;
+    if (!role.ballHoldsBody() || !(role.ballClearance(role.start()) - role.travel() > margin)) continue;
     clearance_ = role.ballClearance(role.end());
     result.verdict = Verdict::kClear;
     result.clearance = clearance_;

@@ -7,6 +7,15 @@
 #include "sdf_ccd/geometry/cancel.h"
 
 namespace sdf_ccd {
+namespace {
+
+/// Whether it has no half-space among its fields.
+bool isBounded(const Body& body) {
+  return std::all_of(body.parts.begin(), body.parts.end(),
+                     [](const BodyPart& part) { return part.field.surfaceBox().sizes().allFinite(); });
+}
+
+}  // namespace
 
 PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurpose purpose)
     : shell_body_(&scene.bodies[shell_body]),
@@ -15,7 +24,8 @@ PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurp
       tree_(purpose == ShellPurpose::kWitnesses ? &shell_body_->witness_tree : &shell_body_->tree),
       body_(shell_body),
       field_(field_body),
-      purpose_(purpose) {}
+      purpose_(purpose),
+      ball_holds_body_(isBounded(*shell_body_)) {}
 
 void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory) {
   memory_ = &memory;
@@ -40,8 +50,7 @@ double PairRole::reach() const {
 }
 
 double PairRole::fieldErrorScale() const {
-  const auto bounded = [](const BodyPart& part) { return part.field.surfaceBox().sizes().allFinite(); };
-  if (std::all_of(field_body_->parts.begin(), field_body_->parts.end(), bounded)) return 1.0;
+  if (isBounded(*field_body_)) return 1.0;
   return std::max(1.0, reach() / kHalfSpaceRadius);
 }
 

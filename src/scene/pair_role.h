@@ -34,6 +34,10 @@ class PairRole {
   int fieldBody() const { return field_; }
   bool bearsForce() const { return purpose_ == ShellPurpose::kSurface; }
 
+  /// Whether the shell's body's ball holds all of it: not of a half-space, which may have witnesses beside it. Only
+  /// then travel(), jumpFrom() and ballClearance() tell of all of its surface, else of the witnesses alone.
+  bool ballHoldsBody() const { return ball_holds_body_; }
+
   /// Takes the relative motion over a part of a cycle, of bodies that can be followed.
   /// @param memory  this role's alone as long as it has the motion.
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory);
@@ -83,6 +87,7 @@ class PairRole {
   int body_;
   int field_;
   ShellPurpose purpose_;
+  bool ball_holds_body_;
   const SweptBodies* bodies_ = nullptr;
   WaypointSpan span_;
   RoleMemory* memory_ = nullptr;

@@ -16,12 +16,16 @@ Names ordered(const std::string& a, const std::string& b) {
   return a < b ? Names{a, b} : Names{b, a};
 }
 
+bool isHalfSpace(const GeometryDescription& geometry) {
+  const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+  return primitive && std::holds_alternative<HalfSpace>(*primitive);
+}
+
 /// Why no shell can cover the body's surface; empty if one can.
 std::string whyNoShell(const BodyDescription& body) {
   for (const GeometryDescription& geometry : body.geometry) {
     if (geometry.watertight_voxels) return "a voxel map is only a field";
-    const auto* primitive = std::get_if<Primitive>(&geometry.shape);
-    if (primitive && std::holds_alternative<HalfSpace>(*primitive)) return "a half-space has no bounded surface";
+    if (isHalfSpace(geometry)) return "a half-space has no bounded surface";
   }
   return {};
 }
@@ -52,14 +56,14 @@ Extent extentOf(const BodyDescription& body) {
 bool isLarge(const BodyDescription& body, const PlanOptions& options) {
   if (body.geometry.size() != 1 || options.shell_spacing <= 0.0) return false;
   const auto* primitive = std::get_if<Primitive>(&body.geometry.front().shape);
-  if (!primitive || std::holds_alternative<HalfSpace>(*primitive)) return false;
+  if (!primitive || isHalfSpace(body.geometry.front())) return false;
   return surfaceArea(*primitive) / (options.shell_spacing * options.shell_spacing) > options.large_shell_points;
 }
 
-/// Whether it has voxels among its geometry: they have no shell, but may lie inside another body, in many pieces.
-bool hasVoxels(const BodyDescription& body) {
-  return std::any_of(body.geometry.begin(), body.geometry.end(),
-                     [](const GeometryDescription& geometry) { return geometry.watertight_voxels; });
+/// Whether it has no shell, for the sake of its voxels or half-spaces, and yet some geometry that may lie wholly inside
+/// another body, in many pieces.
+bool needsWitnesses(const BodyDescription& body) {
+  return !whyNoShell(body).empty() && !std::all_of(body.geometry.begin(), body.geometry.end(), isHalfSpace);
 }
 
 bool isBox(const BodyDescription& body) {
@@ -132,7 +136,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);
       const bool b_edges = !b_faces && b_can && options.edge_gap > 0.0 && isBox(b);
       const bool a_shell = a_faces || a_edges, b_shell = b_faces || b_edges;
-      const bool a_witnesses = b_shell && hasVoxels(a), b_witnesses = a_shell && hasVoxels(b);
+      const bool a_witnesses = b_shell && needsWitnesses(a), b_witnesses = a_shell && needsWitnesses(b);
       plan.pairs.push_back({i, k, a_shell, b_shell, a_edges, b_edges, a_witnesses, b_witnesses});
       if (a_witnesses) plan.needs_witnesses[i] = plan.needs_field[k] = true;
       if (b_witnesses) plan.needs_witnesses[k] = plan.needs_field[i] = true;

@@ -71,6 +71,14 @@ Actor ofFaces(const std::string& kind, const std::vector<Corners>& faces, bool f
   return actor(kind, welded(joined(meshes)), std::move(pieces));
 }
 
+/// A part of its own.
+void addBox(const Vector3d& half, const Vector3d& place, Actor& body) {
+  Isometry3d X_BG = Isometry3d::Identity();
+  X_BG.translation() = place;
+  body.geometry.push_back({Primitive(Box{half}), X_BG, "part"});
+  body.solid.push_back(convexOf(translated(boxMesh(half), place)));
+}
+
 const Vector3d kOuter(0.2, 0.15, 0.1), kInner(0.17, 0.12, 0.07);
 
 }  // namespace
@@ -150,11 +158,7 @@ Actor openBin() {
 Actor paddedBin() {
   Actor bin = openBin();
   bin.kind = "padded bin";
-  const Vector3d half(0.1, 0.08, 0.01), place(0.0, 0.0, -0.09);
-  Isometry3d X_BG = Isometry3d::Identity();
-  X_BG.translation() = place;
-  bin.geometry.push_back({Primitive(Box{half}), X_BG, "pad"});
-  bin.solid.push_back(convexOf(translated(boxMesh(half), place)));
+  addBox({0.1, 0.08, 0.01}, {0.0, 0.0, -0.09}, bin);
   return bin;
 }
 
@@ -264,6 +268,43 @@ Actor ground() {
           false,           true};
 }
 
+Actor groundAndPost() {
+  Actor body = ground();
+  body.kind = "ground and post";
+  std::get<HalfSpace>(std::get<Primitive>(body.geometry[0].shape)).offset = -1.0;
+  // Its middle is nearer to the plane than to the other faces, which are none.
+  body.solid = {convexOf({{{-20, -20, -1}, {20, -20, -1}, {20, 20, -1}, {-20, 20, -1}, {0, 0, -30}},
+                          {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}}})};
+  addBox({0.03, 0.02, 0.03}, Vector3d::Zero(), body);
+  return body;
+}
+
+Actor mapAndPost() {
+  Actor body = voxel();
+  body.kind = "map and post";
+  body.is_convex = false;
+  addBox({0.03, 0.02, 0.03}, {0.3, 0.0, 0.1}, body);
+  return body;
+}
+
+Actor groove() {
+  Actor body = ground();
+  body.kind = "groove";
+  const Isometry3d turned(Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitX()));
+  body.geometry.push_back({Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), turned, "wall"});
+  body.solid.push_back(convexOf(transformed(block({-10, -10, -10}, {10, 10, 0}), turned)));
+  return body;
+}
+
+Actor sleeve() {
+  Actor body = link();
+  body.kind = "sleeve";
+  body.is_convex = false;
+  addBox({0.05, 0.15, 0.04}, {0.1, 0.05, 0.02}, body);
+  addBox({0.03, 0.02, 0.03}, {-0.1, 0.0, 0.0}, body);
+  return body;
+}
+
 Actor link() {
   return convexActor("link", boxMesh({0.2, 0.1, 0.08}));
 }
@@ -277,10 +318,10 @@ Actor rod() {
 }
 
 std::vector<Actor> drawnActors() {
-  return {voxel(),        link(),       bead(),        bowTie(),      openBin(),  wheel(),          rod(),
-          voxels(),       hollowBox(),  nestedBoxes(), invertedBox(), membrane(), doubleMembrane(), thickBin(),
-          sharedEdge(),   sharedFace(), overlapping(), fins(),        clusters(), beads(),          overlaidLobe(),
-          coveredBlock(), paddedBin(),  ground()};
+  return {voxel(),        link(),       bead(),        bowTie(),        openBin(),    wheel(),          rod(),
+          voxels(),       hollowBox(),  nestedBoxes(), invertedBox(),   membrane(),   doubleMembrane(), thickBin(),
+          sharedEdge(),   sharedFace(), overlapping(), fins(),          clusters(),   beads(),          overlaidLobe(),
+          coveredBlock(), paddedBin(),  ground(),      groundAndPost(), mapAndPost(), groove(),         sleeve()};
 }
 
 }  // namespace sdf_ccd::test

@@ -28,6 +28,10 @@ Actor voxels();          ///< three of them, in an L
 Actor clusters();        ///< two voxels, far from each other; only a field
 Actor beads();           ///< two beads of one mesh, far from each other
 Actor ground();          ///< a half-space
+Actor groundAndPost();   ///< a half-space and a small box far above it in one body; only a field
+Actor mapAndPost();      ///< a voxel and a small box in one body; only a field
+Actor groove();          ///< two half-spaces, with a right angle between them; only a field
+Actor sleeve();          ///< a mesh, a box half in it and another one wholly in it, in three parts
 Actor link();            ///< 40 cm, a mesh
 Actor bead();            ///< 2 cm
 Actor rod();

@@ -112,8 +112,9 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory();
 /// triangles of both bodies surely cross at a recorded time (surface_crossing.h); then depths to the mesh, not to a
 /// cap, bear force. A crossing without any hit (of a sheet, which has no inside) is a contact of no length and depth.
 ///
-/// A body that lies wholly inside another touches no surface: points of its shell show that, or, of a voxel map, one
-/// point of each of its components. Such a contact of a voxel map has a depth, but bears no force.
+/// A body that lies wholly inside another touches no surface: points of its shell show that, or, of a body without one
+/// (a voxel map, whatever shares a body with one or with a half-space), one point of each of its components. Such a
+/// contact of a body without a shell has a depth, but bears no force.
 ///
 /// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
 /// the arena (it makes its scratch memory once). However many chords touch however many points, what is known of them

@@ -24,7 +24,8 @@ struct BodyPart {
   DistanceField field;
 };
 
-/// Of a half-space, what lies within this of its body's origin is taken for its ball [m].
+/// Of a half-space, what lies within this of its body's origin is taken for its ball, which holds all else that the
+/// body has [m].
 constexpr double kHalfSpaceRadius = 10.0;
 
 /// A body that is ready to be checked.
@@ -38,7 +39,7 @@ struct Body {
   std::vector<BodyPart> parts;  ///< empty if no pair needs its field
   PointShell shell;             ///< frame B; empty if no pair needs it. Points deep inside a sibling part are left out
   SphereTree tree;
-  PointShell witnesses;  ///< frame B; a point of each component of a voxel map's surface, if a pair needs them
+  PointShell witnesses;  ///< frame B; instead of a shell a point of each component of the surface, but of half-spaces
   SphereTree witness_tree;
   std::shared_ptr<const BodySurface> surface;  ///< where a pair has a field with openings; null for a half-space
   BoundingBall ball;                           ///< holds the body's surface, frame B; see kHalfSpaceRadius

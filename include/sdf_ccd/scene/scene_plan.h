@@ -16,7 +16,7 @@ struct PlannedPair {
   bool b_shell_a_field;
   bool a_edges_only = false;  ///< A's shell shows where its edges touch, and bears no force: B's does
   bool b_edges_only = false;
-  bool a_witnesses_b_field = false;  ///< A has no shell: a point of each of its components shows whether that lies
+  bool a_witnesses_b_field = false;  ///< A has no shell: a point of each of its components shows whether it lies
                                      ///< wholly inside B (design §3.15)
   bool b_witnesses_a_field = false;
 };
@@ -48,7 +48,8 @@ struct PlanOptions {
   double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled apart
 };
 
-/// A voxel map has witnesses instead of a shell, for bodies with a shell, whose fields then are needed.
+/// What has no shell but more than half-spaces has witnesses instead: a voxel map, and whatever else is of the same
+/// body as one or as a half-space. They are for bodies with a shell, whose fields then are needed.
 ///
 /// Leaves out pairs that are disabled, both of the world, in the same frame, or of a body without geometry; fields
 /// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (they cannot
