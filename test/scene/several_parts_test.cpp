@@ -75,5 +75,30 @@ TEST(SeveralParts, AHalfSpaceWithVoxelsThatTurnsInSmallSteps) {
   }
 }
 
+/// Three walls that meet in a corner, from where x, y and z > 0 is free; a little turned, off the field's cells.
+BodyDescription corner(const Isometry3d& turn) {
+  TriangleMesh walls;
+  for (int k = 0; k < 3; ++k) {
+    Vector3d low = Vector3d::Constant(-0.05), high = Vector3d::Constant(0.2);
+    high[k] = 0.0;
+    walls = merged(walls, translated(boxMesh(0.5 * (high - low)), 0.5 * (low + high)));
+  }
+  return body("corner", meshShape(transformed(walls, turn)));
+}
+
+/// The corner's field is the coarser one, and tells of the tip what it tells.
+TEST(SeveralParts, ATipThatDoesNotReachIntoACorner) {
+  const Isometry3d turn = pose({0, 0, 0}, 0.2, {1, 2, 3});
+  const double s = 0.02;
+  const TriangleMesh tip{{{0, 0, 0}, {s, 0, 0}, {0, s, 0}, {0, 0, s}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  BodyDescription fixture = body("fixture", Primitive(HalfSpace{{0, 0, 1}, -10.0}));
+  addPart(meshShape(tip), Isometry3d::Identity(), fixture);
+  const auto scene = build({fixture, corner(turn)});
+  for (double t = 1e-4; t < 0.02; t += 2e-4) {
+    const PairResult result = atRest(scene, turn * translation({t, t, t}), Isometry3d::Identity());
+    EXPECT_NE(result.verdict, Verdict::kContact) << t << " m apart, " << result.deepest.depth;
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd
