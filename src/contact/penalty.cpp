@@ -169,6 +169,8 @@ class Integrator {
     depth.p_C = X_CF * p_F;
     const FieldSample sample = input_.field.sample(p_F);
     depth.error = sample.error;
+    depth.least = depth.depth - depth.error;
+    if (depth.depth > input_.field.band()) depth.least = std::max(depth.least, -input_.field.bounds(p_F).high);
     depth.normal_C = X_CF.linear() * fieldNormal(point, s, sample.gradient);
     return depth;
   }

@@ -23,7 +23,7 @@ constexpr std::size_t kWalks = 64;  // of hits that may pass through a mesh, per
 void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, bool crosses) {
   crosses_ = crosses;
   path_error_ = pair.error.chord + pair.error.root;
-  certain_ = {};
+  certain_depth_ = 0.0;
   motion_ = &motion;
   span_ = pair.span;
   body_a_ = pair.body_a;
@@ -132,7 +132,7 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     // Out of the field's body: that is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
     // Before it is joined with what the same point does in other parts, whose depths may be none.
-    if (certain && found.contact.depth > certain_.depth) certain_ = found.contact;
+    if (certain) certain_depth_ = std::max(certain_depth_, depth.least);
     found_.push_back(found);
   }
   joinWhereMany();

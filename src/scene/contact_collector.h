@@ -31,8 +31,8 @@ class ContactCollector {
   /// Whether it is known, from begin() or since, that the bodies' surfaces cross.
   bool crosses() const { return crosses_; }
 
-  /// The deepest contact in a field without openings, within one chord; null if there is none.
-  const ContactPoint* deepestCertain() const { return certain_.depth > 0.0 ? &certain_ : nullptr; }
+  /// So deep is some point surely in a field without openings, but for the path's error [m]; 0 if none is.
+  double certainDepth() const { return certain_depth_; }
 
   /// Writes intervals, deepest point, points and wrenches.
   void finish(const CycleRequest& request, PairResult& result);
@@ -74,7 +74,7 @@ class ContactCollector {
   ContactImpulse impulse_;
   bool crosses_ = false;
   double path_error_ = 0.0;  // [m]
-  ContactPoint certain_;
+  double certain_depth_ = 0.0;
   std::vector<ShellHit> bearing_hits_;
   ContactImpulse bearing_impulse_;
 };

@@ -196,8 +196,8 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
     result.touches_at_sample = true;
     result.deepest = *crossing;
   }
-  const ContactPoint* deepest = collector.deepestCertain();
-  const bool deep = deepest && result.error.provesContact(deepest->depth, deepest->depth_error);
+  // Whatever lies between the points, and wherever in the band: one of the surface is deeper than the motion is off by.
+  const bool deep = collector.certainDepth() > result.error.chord + result.error.root;
   result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;
 }
 

@@ -122,6 +122,30 @@ TEST(Monitor, WithoutSubscribersNoWrenchAndNoPoints) {
   EXPECT_NEAR(pair.deepest.depth, 0.01, 1e-3);
 }
 
+/// Deep inside, a field knows the depth by far less than it does near the surface; a bead may be in the cavity.
+TEST(Monitor, MotionErrorBeyondTheBandNeverMakesContact) {
+  SceneOptions options = fine(0.004);
+  options.field.cells = 64;
+  TriangleMesh cavity = boxMesh({0.006, 0.006, 0.006});
+  for (Vector3i& t : cavity.triangles) std::swap(t[1], t[2]);
+  const auto scene = build({body("block", meshShape(merged(boxMesh({0.5, 0.5, 0.5}), cavity)), true),
+                            body("bead", Primitive(Sphere{0.005}))},
+                           options);
+  Monitor monitor(scene, soft());
+  std::mt19937 random(3);
+  int deep = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d p = randomPose(random, 0.25).translation();
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation(p))});
+    motion.motion_error = {0.0, p.norm()};
+    monitor.reset();
+    const PairResult& result = monitor.run(motion, {}).pairs[0];
+    EXPECT_NE(result.verdict, Verdict::kContact) << p.transpose() << ": " << result.deepest.depth << " m deep";
+    deep += result.deepest.depth > 0.05;
+  }
+  EXPECT_GT(deep, 50);
+}
+
 TEST(Monitor, BoundBeyondTheBandNeverMakesClear) {
   // Only a sampled field, with a narrow band, and a motion that is known to 20 cm.
   BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);

@@ -51,6 +51,7 @@ struct HitDepth {
   bool siblings = false;            ///< the contact is a sibling's all along: the rest is not set
   double depth = 0.0;               ///< [m], positive inside; of a place on the path; the deepest: leastDistance()
   double error = 0.0;               ///< of the depth: the field's there, larger beyond its band [m]
+  double least = 0.0;               ///< the depth is no less [m]: beyond the band the error alone would not tell that
   double time = 0.0;                ///< [s]
   Vector3d p_C = Vector3d::Zero();  ///< contact point [m], frame C
   Vector3d normal_C = Vector3d::Zero();  ///< unit, out of the field's body

@@ -22,7 +22,9 @@ struct ErrorBound {
   /// For "no contact": the surface between the points counts.
   double total() const { return field + chord + root + gap; }
   /// For "contact": whether a surface point of this depth is proof, whatever lies between the points. It has to be
-  /// deeper than the field's error, everywhere or, often much less, at its own location, and what the motion adds.
+  /// deeper than the field's error, everywhere or, often much less, at its own location, and what the motion adds. In
+  /// the band, that is: beyond it, the field's error everywhere says only that the point is as deep as the band, which
+  /// is proof as long as the motion adds less.
   /// @param depth_error  of the field at that location [m].
   bool provesContact(double depth, double depth_error) const {
     return depth > (depth_error < field ? depth_error : field) + chord + root;

@@ -96,8 +96,8 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
 /// Runs cycles over all pairs of a scene and remembers how far apart they were.
 ///
-/// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if the deepest one is deeper
-/// than what the bound says of points, or than its own depth_error and those of chord and root, else UNCERTAIN;
+/// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is surely deeper, by
+/// what the field knows where it is, than the errors of chord and root, else UNCERTAIN;
 /// NOT_CHECKED if a body is missing, beyond kFarthestPose, or the bound infinite. Both bodies' shells are tested where
 /// both exist, and their impulses halved, so that what both see counts once. Where the bound exceeds a field's band,
 /// the field's lower bounds decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the
