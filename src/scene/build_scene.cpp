@@ -175,14 +175,17 @@ class BodyBuilder {
 
 /// The triangles of a body's geometry; null where it has none.
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool) {
-  constexpr double kFineOfSize = 1e-3;  // deviation of a primitive's triangles, over its size
+  // Deviation of a primitive's triangles, over its least size, and over its largest: a disc of no thickness has one
+  // too.
+  constexpr double kFineOfSize = 1e-3, kFineOfLargest = 1e-6;
   TriangleMesh all;
   double deviation = 0.0;
   for (const GeometryDescription& geometry : description.geometry) {
     TriangleMesh part;
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       if (std::holds_alternative<HalfSpace>(*primitive)) continue;
-      const double fine = kFineOfSize * boundingBox(*primitive).sizes().minCoeff();
+      const Vector3d size = boundingBox(*primitive).sizes();
+      const double fine = std::max(kFineOfSize * size.minCoeff(), kFineOfLargest * size.maxCoeff());
       if (!std::holds_alternative<Box>(*primitive)) deviation = std::max(deviation, fine);
       part = tessellate(*primitive, fine);
     } else {

@@ -137,5 +137,19 @@ TEST(OpenMeshAttack, ClimbingFindsNoFalseVerdict) {
   }
 }
 
+/// Triangles as fine as the disc is thin would be too many.
+TEST(OpenMeshAttack, ADiscOfHardlyAnyThickness) {
+  const auto scene = test::build(
+      {test::body("bin", test::meshShape(test::binMesh(0.2))), test::body("disc", Primitive(Cylinder{0.5, 1e-12}))});
+  EXPECT_TRUE(scene->bodies[1].failure.empty()) << scene->bodies[1].failure;
+  Monitor monitor(scene, test::soft());
+  const auto verdictAt = [&](const Vector3d& p) {
+    return monitor.run(test::cycle(0.1, {test::still(Isometry3d::Identity()), test::still(test::translation(p))}), {})
+        .verdict;
+  };
+  EXPECT_EQ(verdictAt({0, 0, 0.5}), Verdict::kClear);
+  EXPECT_EQ(verdictAt({0, 0, 0}), Verdict::kContact);
+}
+
 }  // namespace
 }  // namespace sdf_ccd
