@@ -71,6 +71,12 @@ Actor ofFaces(const std::string& kind, const std::vector<Corners>& faces, bool f
   return actor(kind, welded(joined(meshes)), std::move(pieces));
 }
 
+/// Of a half-space below z = 0 what bodies get to: its middle is nearer to the plane than to the other faces.
+TriangleMesh solidBelow() {
+  return {{{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}, {0, 0, -30}},
+          {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}}};
+}
+
 /// A part of its own.
 void addBox(const Vector3d& half, const Vector3d& place, Actor& body) {
   Isometry3d X_BG = Isometry3d::Identity();
@@ -261,20 +267,19 @@ Actor beads() {
 }
 
 Actor ground() {
-  constexpr double kFar = 10.0;  // no body gets there
-  const TriangleMesh box = block({-kFar, -kFar, -kFar}, {kFar, kFar, 0.0});
-  return {"ground",        {{Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), Isometry3d::Identity(), "ground"}},
-          {convexOf(box)}, {},
-          false,           true};
+  return {"ground",
+          {{Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), Isometry3d::Identity(), "ground"}},
+          {convexOf(solidBelow())},
+          {},
+          false,
+          true};
 }
 
 Actor groundAndPost() {
   Actor body = ground();
   body.kind = "ground and post";
   std::get<HalfSpace>(std::get<Primitive>(body.geometry[0].shape)).offset = -1.0;
-  // Its middle is nearer to the plane than to the other faces, which are none.
-  body.solid = {convexOf({{{-20, -20, -1}, {20, -20, -1}, {20, 20, -1}, {-20, 20, -1}, {0, 0, -30}},
-                          {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}}})};
+  body.solid = {convexOf(translated(solidBelow(), {0, 0, -1}))};
   addBox({0.03, 0.02, 0.03}, Vector3d::Zero(), body);
   return body;
 }
@@ -292,7 +297,7 @@ Actor groove() {
   body.kind = "groove";
   const Isometry3d turned(Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitX()));
   body.geometry.push_back({Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), turned, "wall"});
-  body.solid.push_back(convexOf(transformed(block({-10, -10, -10}, {10, 10, 0}), turned)));
+  body.solid = {convexOf(solidBelow()), convexOf(transformed(solidBelow(), turned))};
   return body;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adversarial/drawn.h"
 #include "adversarial/duel.h"
 #include "oracle/shapes.h"
 
@@ -131,6 +132,8 @@ std::vector<Duel> duels() {
   std::vector<Duel> all;
   all.emplace_back(boxActor(arm, reach), boxActor(arm, reach), scene, options);
   all.emplace_back(convexActor("block", boxMesh({0.15, 0.1, 0.01})), boxActor({0.05, 0.04, 0.03}), scene, options);
+  all.emplace_back(sleeve(), mapAndPost(), scene, options);
+  all.emplace_back(paddedBin(), rod(), scene, options);
   return all;
 }
 
