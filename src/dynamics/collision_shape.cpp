@@ -40,7 +40,7 @@ CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const S
 CollisionShape makeShape(const Primitive& primitive, const ShellOptions& shell) {
   CollisionShape shape;
   shape.field = DistanceField(primitive);
-  if (!std::holds_alternative<HalfSpace>(primitive)) shape.shell = sampleSurface(primitive, shell);
+  if (!isHalfSpace(primitive)) shape.shell = sampleSurface(primitive, shell);
   return finished(std::move(shape));
 }
 

@@ -39,7 +39,7 @@ class BlockSample {
         shape_(shape),
         builder_(surface, shape),
         blocks_(builder_.blocks()),
-        order_(count(blocks_)) {}
+        order_(builder_.count()) {}
 
   FieldCost run() {
     markBlocks();
@@ -66,14 +66,10 @@ class BlockSample {
 
   enum Kind : std::uint8_t { kPlain, kVertices, kDoubtful };
 
-  static std::size_t count(const Vector3i& blocks) { return std::size_t(blocks.x()) * blocks.y() * blocks.z(); }
-
-  Vector3i at(std::size_t i) const {
-    const std::size_t row = i / blocks_.x();
-    return {int(i % blocks_.x()), int(row % blocks_.y()), int(row / blocks_.y())};
+  void build(std::size_t i, CellTaker& taker) const {
+    const Vector3i block = builder_.block(i);
+    builder_.build(block, surface_.exact().nearest(builder_.center(block)), taker);
   }
-
-  SignedSurface::Nearest nearest(std::size_t i) const { return surface_.exact().nearest(builder_.center(at(i))); }
 
   void mark(const AlignedBox3d& box, Kind kind) {
     const auto blockOf = [&](const Vector3d& p) -> Vector3i {
@@ -112,7 +108,7 @@ class BlockSample {
     for (; tested_ < order_.size(); ++tested_) {
       if (tested_ >= kFewest && tested_ % kChecked == 0 && threadSeconds() - start > kSeconds) break;
       const std::size_t i = order_[tested_];
-      const bool far = builder_.isFar(surface_.exact().tree().closestPoint(builder_.center(at(i))).distance);
+      const bool far = builder_.isFar(surface_.exact().tree().closestPoint(builder_.center(builder_.block(i))).distance);
       (far ? far_ : strata_[kinds_[i]].blocks).push_back(i);
     }
   }
@@ -198,7 +194,7 @@ class BlockSample {
       const SpreadOrder order(stratum->blocks.size());
       const std::size_t i = stratum->blocks[order[stratum->built()]];
       cells.start();
-      builder_.build(at(i), nearest(i), cells);
+      build(i, cells);
       const ThinnedCells::Counted counted = cells.stop();
       stratum->bytes.add(counted.bytes);
       stratum->seconds.add(counted.seconds);
@@ -210,7 +206,7 @@ class BlockSample {
     ThinnedCells cells;
     for (std::size_t k = 0; k < std::min(far_.size(), kMost); ++k) {
       cells.start();
-      builder_.build(at(far_[k]), nearest(far_[k]), cells);
+      build(far_[k], cells);
       far_seconds_.add(cells.stop().seconds);
     }
   }

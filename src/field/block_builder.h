@@ -56,6 +56,13 @@ class BlockBuilder {
       : surface_(surface), shape_(shape), error_(shape.error_bound) {}
 
   Vector3i blocks() const { return (shape_.size.array() + (kSide - 1)) / kSide; }
+  std::size_t count() const { return std::size_t(blocks().x()) * blocks().y() * blocks().z(); }
+  /// The i-th one, x first.
+  Vector3i block(std::size_t i) const {
+    const Vector3i blocks = this->blocks();
+    const std::size_t row = i / blocks.x();
+    return {int(i % blocks.x()), int(row % blocks.y()), int(row / blocks.y())};
+  }
   Vector3d center(const Vector3i& block) const { return center(Block{kSide * block, kSide}); }
   double side() const { return kSide * shape_.cell; }
   /// Whether all of a block is far, as its centre is this far from the surface [m].

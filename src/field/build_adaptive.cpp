@@ -61,16 +61,12 @@ void AdaptiveBuilder::count(std::size_t bytes) {
 
 void AdaptiveBuilder::buildBlocks(const Progress& progress) {
   const Vector3i blocks = blocks_.blocks();
-  const auto at = [&](std::size_t i) {
-    const int row = static_cast<int>(i) / blocks.x();
-    return Vector3i(static_cast<int>(i) % blocks.x(), row % blocks.y(), row / blocks.y());
-  };
-  std::vector<SignedSurface::Nearest> nearest(std::size_t(blocks.x()) * blocks.y() * blocks.z());
+  std::vector<SignedSurface::Nearest> nearest(blocks_.count());
   parallelFor(0, blocks.y() * blocks.z(), [&](int row) {
     const SignedSurface& exact = surface_.exact();
     for (int x = 0; x < blocks.x(); ++x) {
       const std::size_t i = std::size_t(row) * blocks.x() + x;
-      const Vector3d center = blocks_.center(at(i));
+      const Vector3d center = blocks_.center(blocks_.block(i));
       nearest[i] = x == 0 ? exact.nearest(center) : exact.next(center, nearest[i - 1], blocks_.side());
     }
   });
@@ -79,7 +75,7 @@ void AdaptiveBuilder::buildBlocks(const Progress& progress) {
   ProgressCounter counter(progress, nearest.size());
   parallelFor(std::size_t{0}, nearest.size(), [&](std::size_t k) {
     const std::size_t i = order[k];
-    blocks_.build(at(i), nearest[i], *this);
+    blocks_.build(blocks_.block(i), nearest[i], *this);
     counter.add();
   });
 }

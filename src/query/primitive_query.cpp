@@ -76,7 +76,7 @@ void primitiveIntervals(const Primitive& primitive, const Segment& segment, cons
 
 void primitivePieces(const Primitive& primitive, const Segment& segment, const Interval& interval,
                      std::vector<double>& breaks) {
-  if (std::holds_alternative<HalfSpace>(primitive)) return;
+  if (isHalfSpace(primitive)) return;
   const auto add = [&](double t) {
     if (t > interval.enter && t < interval.exit) breaks.push_back(t);
   };

@@ -13,11 +13,6 @@ AlignedBox3d boxOf(const GeometryDescription& element) {
   return boundingBox(std::get<Primitive>(element.shape));
 }
 
-bool isHalfSpace(const GeometryDescription& element) {
-  const Primitive* primitive = std::get_if<Primitive>(&element.shape);
-  return primitive && std::holds_alternative<HalfSpace>(*primitive);
-}
-
 /// Points whose convex hull holds the element, in the body's frame: a mesh's vertices, else the corners of its box.
 std::vector<Vector3d> hullPoints(const GeometryDescription& element) {
   std::vector<Vector3d> points;

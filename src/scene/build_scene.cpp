@@ -114,7 +114,7 @@ class BodyBuilder {
   PointShell makeWitnesses() const {
     PointShell all;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
-      if (!meshes_[i] && std::holds_alternative<HalfSpace>(primitiveOf(description_.geometry[i]))) continue;
+      if (isHalfSpace(description_.geometry[i])) continue;
       const PointShell part =
           witnessPoints(meshes_[i] ? meshes_[i]->mesh : coarse(primitiveOf(description_.geometry[i])));
       all.covering_radius = part.covering_radius;
@@ -183,7 +183,7 @@ std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description,
   for (const GeometryDescription& geometry : description.geometry) {
     TriangleMesh part;
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
-      if (std::holds_alternative<HalfSpace>(*primitive)) continue;
+      if (isHalfSpace(*primitive)) continue;
       const Vector3d size = boundingBox(*primitive).sizes();
       const double fine = std::max(kFineOfSize * size.minCoeff(), kFineOfLargest * size.maxCoeff());
       if (!std::holds_alternative<Box>(*primitive)) deviation = std::max(deviation, fine);

@@ -15,7 +15,7 @@ double fieldError(const Body& body) {
 
 bool isPlane(const Body& body) {
   return std::all_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
-    return part.field.primitive() && std::holds_alternative<HalfSpace>(*part.field.primitive());
+    return part.field.primitive() && isHalfSpace(*part.field.primitive());
   });
 }
 

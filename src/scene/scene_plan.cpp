@@ -16,11 +16,6 @@ Names ordered(const std::string& a, const std::string& b) {
   return a < b ? Names{a, b} : Names{b, a};
 }
 
-bool isHalfSpace(const GeometryDescription& geometry) {
-  const auto* primitive = std::get_if<Primitive>(&geometry.shape);
-  return primitive && std::holds_alternative<HalfSpace>(*primitive);
-}
-
 /// Why no shell can cover the body's surface; empty if one can.
 std::string whyNoShell(const BodyDescription& body) {
   for (const GeometryDescription& geometry : body.geometry) {
@@ -63,7 +58,8 @@ bool isLarge(const BodyDescription& body, const PlanOptions& options) {
 /// Whether it has no shell, for the sake of its voxels or half-spaces, and yet some geometry that may lie wholly inside
 /// another body, in many pieces.
 bool needsWitnesses(const BodyDescription& body) {
-  return !whyNoShell(body).empty() && !std::all_of(body.geometry.begin(), body.geometry.end(), isHalfSpace);
+  return !whyNoShell(body).empty() && !std::all_of(body.geometry.begin(), body.geometry.end(),
+                                                  [](const GeometryDescription& part) { return isHalfSpace(part); });
 }
 
 bool isBox(const BodyDescription& body) {

@@ -18,11 +18,15 @@ void hold(long bytes) {
 }
 }  // namespace
 
-void* operator new(std::size_t size) {
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   void* const memory = std::malloc(size ? size : 1);
+  if (memory) hold(static_cast<long>(malloc_usable_size(memory)));
+  return memory;
+}
+void* operator new(std::size_t size) {
+  void* const memory = operator new(size, std::nothrow);
   if (!memory) throw std::bad_alloc();
-  hold(static_cast<long>(malloc_usable_size(memory)));
   return memory;
 }
 void operator delete(void* memory) noexcept {

@@ -29,6 +29,11 @@ struct HalfSpace {
 /// A convex solid with an exact signed distance.
 using Primitive = std::variant<Sphere, Box, Cylinder, HalfSpace>;
 
+/// The only one without bounds, and so without a shell.
+inline bool isHalfSpace(const Primitive& primitive) {
+  return std::holds_alternative<HalfSpace>(primitive);
+}
+
 /// Throws std::invalid_argument, with the value, unless all sizes are finite and positive and normals are unit.
 void validate(const Primitive& primitive);
 

@@ -22,6 +22,11 @@ struct GeometryDescription {
   std::optional<Vector3d> scale = {};        ///< that made a mesh of what `source` names; none: that is another name
 };
 
+inline bool isHalfSpace(const GeometryDescription& geometry) {
+  const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+  return primitive && isHalfSpace(*primitive);
+}
+
 /// A rigid body: a robot's link or an object of the world.
 struct BodyDescription {
   std::string name;
