@@ -9,6 +9,8 @@
 #include "bound/reference.h"
 #include "bound/tally.h"
 #include "bound/verdicts.h"
+#include "field/adaptive_grid.h"
+#include "field/sparse_grid.h"
 #include "sdf_ccd/contact/penalty.h"
 #include "sdf_ccd/query/impact_window.h"
 #include "sdf_ccd/query/least_distance.h"

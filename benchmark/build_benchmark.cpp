@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "build_systems.h"
+#include "geometry/triangle_tree.h"
 #include "peak_memory.h"
 #include "precision/random_inputs.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
 #include "segment_cases.h"
 
 namespace sdf_ccd::benchmark {

@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "embree_scene.h"
+#include "field/field_cost.h"
 #include "results.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/field/field_cost.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/import/mesh_file.h"
 #include "segment_cases.h"
 #include "study.h"
 

@@ -95,7 +95,7 @@ def main():
             if '/verdict/' in case:
                 mesh, _, field = case.split('/')
                 x, share = (results.get('bound', case, 'sdf_ccd', m) for m in (metric, 'uncertain_share'))
-                kind = 'even cells' if field.isdigit() else 'max_error'
+                kind = 'uniform cells' if field.isdigit() else 'max_error'
                 uncertain.setdefault('%s, %s' % (mesh, kind), []).append((x, share, share, share))
         draw(path(name), 'Moving pairs that stay UNCERTAIN', (label, 'share of motions'), uncertain)
     if any(case.startswith('zeta=') for case in results.cases('stability')):

@@ -7,11 +7,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "monitor/scene_cost.h"
 #include "results.h"
+#include "sdf_ccd/model/error_budget.h"
+#include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
-#include "sdf_ccd/scene/error_budget.h"
-#include "sdf_ccd/scene/monitor.h"
-#include "sdf_ccd/scene/scene_cost.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {
@@ -52,23 +52,19 @@ Robot loadRobot(const std::string& argument) {
   return robot;
 }
 
-SceneOptions sceneOptions(double max_error, MonitorOptions& monitor) {
-  SceneOptions options;
-  options.shell.vertex_spacing = 0.002;
+BodyOptions sceneOptions(double max_error, MonitorOptions& monitor) {
   if (max_error == 0.0) {  // the monitor without its knob
+    BodyOptions options;
+    options.shell.vertex_spacing = 0.002;
     options.field.cell_size = 0.004;
     options.shell.spacing = 0.005;
     options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
     return options;
   }
-  const ErrorBudget budget = shareOut(max_error);
-  options.field.max_error = budget.field;
+  BodyOptions options = optionsFor({max_error});
   options.field.max_bytes = std::size_t{256} << 20;
-  options.shell.spacing = budget.face_spacing;
-  options.shell.edge_gap = budget.edge_gap;
-  options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
-  options.max_error = max_error;
-  monitor.chords.tolerance = budget.chord_tolerance;
+  options.shell.vertex_spacing = 0.002;
+  monitor.chords.tolerance = options.motion_margin / ErrorBudget::kChords;
   return options;
 }
 
@@ -103,7 +99,7 @@ CycleMotion shortCycle(const Robot& robot, const Scene& scene, const JointPositi
 
 void study(const Robot& robot, double max_error, const StudyOptions& options) {
   MonitorOptions monitor_options;
-  const SceneOptions scene_options = sceneOptions(max_error, monitor_options);
+  const BodyOptions scene_options = sceneOptions(max_error, monitor_options);
   const ScenePlan plan = planScene(robot.scene, planOptions(scene_options));
   const SceneCost expected = expectedCost(robot.scene, plan, scene_options);
   const auto start = Clock::now();

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/triangle_tree.h"
 #include "oracle/random.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd::benchmark {

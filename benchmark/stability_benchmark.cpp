@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "geometry/generated_mesh.h"
 #include "oracle/bodies.h"
 #include "oracle/persistent_contact.h"
 #include "results.h"
-#include "sdf_ccd/geometry/generated_mesh.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

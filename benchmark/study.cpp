@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "oracle/shapes.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -94,7 +94,7 @@ def against_embree(results):
 
 
 def sample_bits(results):
-    """Even fields of 16 bits a sample beside those of 32: both in turn."""
+    """Uniform fields of 16 bits a sample beside those of 32: both in turn."""
     questions = ('A/first', 'A/all', 'B2_outside/first')
     pairs = (('sdf_ccd', 'sdf_ccd_float'), ('sdf_ccd_batch', 'sdf_ccd_float_batch'))
 

@@ -20,7 +20,7 @@ add_dependencies(sdf_ccd_ros sdf_ccd_fetch)
 install(TARGETS sdf_ccd_fetch RUNTIME DESTINATION ${SDF_CCD_LIB_DIR}/sdf_ccd)
 
 # The command line tool reads and writes bags where ROS is there.
-file(GLOB SDF_CCD_BAG_SOURCES CONFIGURE_DEPENDS src/tools/bag/*.cpp)
+file(GLOB SDF_CCD_BAG_SOURCES CONFIGURE_DEPENDS src/tools/ros/*.cpp)
 target_sources(sdf_ccd_tool PRIVATE ${SDF_CCD_BAG_SOURCES})
 target_include_directories(sdf_ccd_tool PRIVATE src/tools)
 target_link_libraries(sdf_ccd_tool sdf_ccd_ros)

@@ -10,11 +10,11 @@
 #include <sstream>
 #endif
 
+#include "import/read_answer.h"
 #include "mended.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/shapes.h"
-#include "process/read_answer.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/field_file.h"
 #include "sdf_ccd/shell/sample_surface.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fuzz_input.h"
-#include "sdf_ccd/field/checked_file.h"
+#include "storage/checked_file.h"
 
 namespace sdf_ccd::fuzz {
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd::test {
 

@@ -1,4 +1,6 @@
 #include "places.h"
+#include "field/adaptive_grid.h"
+#include "field/sparse_grid.h"
 
 #include <cmath>
 

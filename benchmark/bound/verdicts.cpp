@@ -5,7 +5,7 @@
 
 #include <fcl/narrowphase/collision.h>
 
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd::benchmark {
 namespace {
@@ -106,7 +106,7 @@ bool VerdictStudy::sharesPlace(const Isometry3d& X_WB) const {
 }
 
 VerdictTally VerdictStudy::run(const FieldOptions& field) const {
-  SceneOptions options;
+  BodyOptions options;
   options.field = field;
   const double error = field.max_error ? *field.max_error : 0.87 * side_ / *field.cells;
   options.shell.spacing = std::max(1.5 * error, kFinestSpacing * side_);

@@ -7,7 +7,7 @@
 #include "fcl_model.h"
 #include "precision/exact_surface.h"
 #include "precision/random_inputs.h"
-#include "sdf_ccd/scene/monitor.h"
+#include "sdf_ccd/monitor/monitor.h"
 
 /// What a monitor says of two bodies that move, against what their meshes do.
 namespace sdf_ccd::benchmark {

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "chord_frame.h"
+#include "common/number_text.h"
 #include "deepest.h"
-#include "sdf_ccd/geometry/cancel.h"
-#include "sdf_ccd/geometry/number_text.h"
+#include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {

@@ -1,7 +1,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sdf_ccd/dynamics/rigid_body.h"
+#include "dynamics/rigid_body.h"
 #include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "sdf_ccd/dynamics/rigid_motion.h"
+#include "dynamics/rigid_motion.h"
 #include "sdf_ccd/query/shell_query.h"
 
 namespace sdf_ccd {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "dynamics/integrator.h"
 #include "end_contacts.h"
-#include "sdf_ccd/dynamics/integrator.h"
 
 namespace sdf_ccd {
 

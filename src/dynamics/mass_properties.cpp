@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/mass_properties.h"
+#include "dynamics/mass_properties.h"
 
 #include <cmath>
 #include <sstream>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/number_text.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,9 +1,9 @@
-#include "sdf_ccd/dynamics/rigid_world.h"
+#include "dynamics/rigid_world.h"
 
 #include <cmath>
 
-#include "sdf_ccd/dynamics/mass_properties.h"
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/number_text.h"
+#include "dynamics/mass_properties.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <map>
 
-#include "sdf_ccd/geometry/generated_mesh.h"
-#include "sdf_ccd/geometry/mesh_file.h"
+#include "geometry/generated_mesh.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "sdf_ccd/dynamics/mass_properties.h"
-#include "sdf_ccd/dynamics/rigid_body.h"
+#include "dynamics/mass_properties.h"
+#include "dynamics/rigid_body.h"
 #include "yaml_map.h"
 
 namespace sdf_ccd {

@@ -1,11 +1,11 @@
-#include "sdf_ccd/dynamics/simulation.h"
+#include "dynamics/simulation.h"
 
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "explicit_step.h"
-#include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
 namespace {

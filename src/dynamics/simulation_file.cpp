@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/simulation_file.h"
+#include "dynamics/simulation_file.h"
 
 #include <cmath>
 #include <filesystem>
@@ -6,9 +6,9 @@
 #include <random>
 #include <set>
 
-#include "geometry/text_limits.h"
-#include "process/regular_file.h"
+#include "common/text_limits.h"
 #include "scene_shape.h"
+#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "sdf_ccd/geometry/eigen_types.h"
-#include "sdf_ccd/geometry/nearest_name.h"
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/nearest_name.h"
+#include "common/number_text.h"
+#include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
 

@@ -8,7 +8,7 @@
 
 #include "adaptive_shape.h"
 #include "block_builder.h"
-#include "processor_time.h"
+#include "common/processor_time.h"
 #include "sample_mean.h"
 #include "spread_order.h"
 #include "thinned_cells.h"
@@ -108,7 +108,8 @@ class BlockSample {
     for (; tested_ < order_.size(); ++tested_) {
       if (tested_ >= kFewest && tested_ % kChecked == 0 && threadSeconds() - start > kSeconds) break;
       const std::size_t i = order_[tested_];
-      const bool far = builder_.isFar(surface_.exact().tree().closestPoint(builder_.center(builder_.block(i))).distance);
+      const bool far =
+          builder_.isFar(surface_.exact().tree().closestPoint(builder_.center(builder_.block(i))).distance);
       (far ? far_ : strata_[kinds_[i]].blocks).push_back(i);
     }
   }

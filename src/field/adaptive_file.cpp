@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "caps_file.h"
+#include "field/adaptive_grid.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,10 @@
 
 #include <string>
 
-#include "sdf_ccd/field/checked_file.h"
+#include "field/adaptive_grid.h"
+#include "field/opening_caps.h"
 #include "sdf_ccd/field/distance_field.h"
+#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 

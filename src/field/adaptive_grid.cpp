@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/adaptive_grid.h"
+#include "field/adaptive_grid.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -132,13 +132,13 @@ void AdaptiveGrid::check() const {
   }
 }
 
-AdaptiveBlock AdaptiveGrid::farTopBlock(const Vector3i& low, const FarBall& ball) const {
-  const double step = FarBall::step(shape_.size) * shape_.cell, radius = ball.steps * step;
+AdaptiveBlock AdaptiveGrid::farTopBlock(const Vector3i& low, const EmptySphere& ball) const {
+  const double step = EmptySphere::step(shape_.size) * shape_.cell, radius = ball.steps * step;
   const double out = ball.offset.cast<double>().norm() * shape_.cell;
   const Vector3d center =
       (low + AdaptiveShape::kUnits * ball.offset).cast<double>().array() + 0.5 * AdaptiveShape::kUnits;
   // Less than a step was rounded off; the rest is what single precision made of distances.
-  const double slack = (out > 0.0 ? FarBall::kSlack * shape_.cell : 0.0) + step + 1e-5 * radius;
+  const double slack = (out > 0.0 ? EmptySphere::kSlack * shape_.cell : 0.0) + step + 1e-5 * radius;
   return {low, AdaptiveShape::kUnits, false, 0, 0, center, radius, ball.inside, radius - out + slack};
 }
 
@@ -163,7 +163,7 @@ AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
   std::uint32_t index = word >> 2;
   switch (word & top_word::kKind) {
     case top_word::kFar:
-      return farTopBlock(lowOf(kTop), FarBall::of(word));
+      return farTopBlock(lowOf(kTop), EmptySphere::of(word));
     case top_word::kLeaf:
       return leaf(kTop, index);
     case top_word::kSplit:

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/field/sparse_grid.h"
+#include "field/sparse_grid.h"
 
 namespace sdf_ccd {
 

@@ -8,9 +8,9 @@
 
 #include "cell_fit.h"
 #include "cube_corner.h"
+#include "field/adaptive_grid.h"
 #include "near_triangles.h"
-#include "sdf_ccd/field/adaptive_grid.h"
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "field/sparse_grid.h"
 #include "near_triangles.h"
-#include "sdf_ccd/field/sparse_grid.h"
 #include "signed_surface.h"
 
 namespace sdf_ccd {

@@ -10,9 +10,9 @@
 
 #include "adaptive_shape.h"
 #include "block_builder.h"
-#include "far_ball_search.h"
-#include "progress_counter.h"
-#include "sdf_ccd/geometry/parallel_for.h"
+#include "common/parallel_for.h"
+#include "common/progress_counter.h"
+#include "empty_sphere_search.h"
 #include "spread_order.h"
 
 namespace sdf_ccd {
@@ -34,7 +34,7 @@ class AdaptiveBuilder : private CellTaker {
 
   void buildBlocks(const Progress& progress);
   /// For all top cells; those near the surface get other words.
-  void setFarBalls();
+  void setEmptySpheres();
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
   void addLeaf(const FittedLeaf& leaf);
   void addSplit(const std::array<FittedLeaf, 8>& split);
@@ -138,9 +138,9 @@ void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth
   }
 }
 
-void AdaptiveBuilder::setFarBalls() {
+void AdaptiveBuilder::setEmptySpheres() {
   data_.top.resize(shape_.count());
-  const FarBallSearch search(FarBallSearch::Lattice::kCenters, shape_.size, centers_);
+  const EmptySphereSearch search(EmptySphereSearch::Lattice::kCenters, shape_.size, centers_);
   parallelFor(0, shape_.size.z(), [&](int z) {
     std::size_t index = std::size_t(z) * shape_.size.x() * shape_.size.y();
     for (int y = 0; y < shape_.size.y(); ++y)
@@ -158,7 +158,7 @@ AdaptiveGrid AdaptiveBuilder::build(const Progress& progress) {
     const double side = shape_.unit();
     shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
   }
-  setFarBalls();
+  setEmptySpheres();
   std::sort(built_.begin(), built_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [index, cell] : built_) {
     cancel_.check();

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "sdf_ccd/field/adaptive_grid.h"
+#include "field/adaptive_grid.h"
+#include "geometry/solid_boundary.h"
 #include "sdf_ccd/field/field_options.h"
-#include "sdf_ccd/geometry/solid_boundary.h"
 
 namespace sdf_ccd {
 

@@ -8,9 +8,11 @@
 
 #include "brick_sampler.h"
 #include "build_adaptive.h"
+#include "common/parallel_for.h"
+#include "common/progress_counter.h"
 #include "cube_corner.h"
-#include "progress_counter.h"
-#include "sdf_ccd/geometry/parallel_for.h"
+#include "field/opening_caps.h"
+#include "geometry/closed_solid.h"
 #include "spread_order.h"
 #include "uniform_shape.h"
 

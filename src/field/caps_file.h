@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "sdf_ccd/field/checked_file.h"
-#include "sdf_ccd/field/opening_caps.h"
+#include "field/opening_caps.h"
+#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "cube_corner.h"
+#include "field/adaptive_grid.h"
 #include "gradient_bound.h"
 #include "near_triangles.h"
-#include "sdf_ccd/field/adaptive_grid.h"
 
 namespace sdf_ccd {
 

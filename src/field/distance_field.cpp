@@ -3,6 +3,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "field/adaptive_grid.h"
+#include "field/opening_caps.h"
+#include "field/sparse_grid.h"
 #include "grid_sample.h"
 
 namespace sdf_ccd {
@@ -80,6 +83,10 @@ FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
     known.error = far - known.value;
   }
   return known;
+}
+
+double DistanceField::openingDistance(const Vector3d& p_F) const {
+  return openings_ ? openings_->distance(p_F) : std::numeric_limits<double>::infinity();
 }
 
 FieldValue DistanceField::interpolate(const Vector3d& p_F) const {

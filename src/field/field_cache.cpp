@@ -1,10 +1,11 @@
-#include "sdf_ccd/field/field_cache.h"
+#include "field/field_cache.h"
 
 #include <fstream>
 #include <optional>
 
-#include "sdf_ccd/field/content_hash.h"
+#include "geometry/closed_solid.h"
 #include "sdf_ccd/field/field_file.h"
+#include "storage/content_hash.h"
 
 namespace sdf_ccd {
 

@@ -1,9 +1,9 @@
-#include "sdf_ccd/field/field_cost.h"
+#include "field/field_cost.h"
 
 #include <algorithm>
 
 #include "adaptive_cost.h"
-#include "sdf_ccd/field/sparse_grid.h"
+#include "field/sparse_grid.h"
 #include "uniform_cost.h"
 
 namespace sdf_ccd {

@@ -4,7 +4,9 @@
 
 #include "adaptive_file.h"
 #include "caps_file.h"
-#include "sdf_ccd/field/checked_file.h"
+#include "field/adaptive_grid.h"
+#include "field/sparse_grid.h"
+#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "../geometry/compiler_lanes.h"
+#include "common/compiler_lanes.h"
 
 namespace sdf_ccd {
 namespace {

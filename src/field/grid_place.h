@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 
 /// Whether the numbers of a grid's shape, which may come from a file, are those of a place.
 namespace sdf_ccd {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "sdf_ccd/field/adaptive_grid.h"
+#include "field/adaptive_grid.h"
+#include "field/sparse_grid.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/field/sparse_grid.h"
 
 /// What DistanceField asks of each kind of grid, at places within its box.
 namespace sdf_ccd {

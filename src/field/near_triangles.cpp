@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../geometry/compiler_lanes.h"
+#include "common/compiler_lanes.h"
 
 namespace sdf_ccd {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "../geometry/triangle_lanes.h"
-#include "sdf_ccd/field/sparse_grid.h"
-#include "sdf_ccd/geometry/triangle.h"
+#include "field/sparse_grid.h"
+#include "geometry/triangle.h"
 #include "signed_surface.h"
 
 namespace sdf_ccd {

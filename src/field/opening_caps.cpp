@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/opening_caps.h"
+#include "field/opening_caps.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,4 +1,5 @@
 #include "sample_bracket.h"
+#include "field/sparse_grid.h"
 
 #include <cmath>
 #include <limits>

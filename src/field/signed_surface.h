@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "sdf_ccd/geometry/solid_boundary.h"
+#include "geometry/solid_boundary.h"
 
 namespace sdf_ccd {
 

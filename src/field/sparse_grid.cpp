@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/sparse_grid.h"
+#include "field/sparse_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/parallel_for.h"
 #include "cube_corner.h"
-#include "far_ball_search.h"
+#include "empty_sphere_search.h"
 #include "grid_place.h"
-#include "sdf_ccd/geometry/parallel_for.h"
 
 namespace sdf_ccd {
 namespace {
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> brickWords(const GridShape& shape, const GridData& da
   const double bricks_per_metre = 1.0 / (GridShape::kBrick * shape.cell);
   corners.reserve(data.corners.size());
   for (const float metres : data.corners) corners.push_back(static_cast<float>(metres * bricks_per_metre));
-  const FarBallSearch search(FarBallSearch::Lattice::kCorners, shape.bricks, corners);
+  const EmptySphereSearch search(EmptySphereSearch::Lattice::kCorners, shape.bricks, corners);
   std::vector<std::uint32_t> words(data.slots.size());
   parallelFor(0, shape.bricks.z(), [&](int z) {
     for (int y = 0; y < shape.bricks.y(); ++y)
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> brickWords(const GridShape& shape, const GridData& da
         } else if (shape.exact) {
           words[i] = search.ball(brick).word();
         } else {
-          words[i] = FarBall{{}, 0, data.corners[shape.cornerIndex(brick)] < 0.0F}.word();
+          words[i] = EmptySphere{{}, 0, data.corners[shape.cornerIndex(brick)] < 0.0F}.word();
         }
       }
   });

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "block_builder.h"
-#include "processor_time.h"
+#include "common/processor_time.h"
 
 namespace sdf_ccd {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "brick_sampler.h"
-#include "processor_time.h"
+#include "common/processor_time.h"
 #include "sample_mean.h"
 #include "spread_order.h"
 #include "uniform_shape.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sdf_ccd/field/field_cost.h"
-#include "sdf_ccd/geometry/solid_boundary.h"
+#include "field/field_cost.h"
+#include "geometry/solid_boundary.h"
 
 namespace sdf_ccd {
 

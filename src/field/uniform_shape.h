@@ -1,7 +1,7 @@
 #pragma once
 
+#include "field/sparse_grid.h"
 #include "sdf_ccd/field/field_options.h"
-#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <set>
 
-#include "sdf_ccd/geometry/parallel_for.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "common/parallel_for.h"
+#include "geometry/triangle_tree.h"
 #include "triangle_cut.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/geometry/closed_solid.h"
+#include "geometry/closed_solid.h"
 
 #include <utility>
 

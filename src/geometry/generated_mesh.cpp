@@ -1,4 +1,4 @@
-#include "sdf_ccd/geometry/generated_mesh.h"
+#include "geometry/generated_mesh.h"
 
 #include <algorithm>
 #include <cmath>

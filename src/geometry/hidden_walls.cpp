@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "sdf_ccd/geometry/parallel_for.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "common/parallel_for.h"
+#include "geometry/triangle_tree.h"
 #include "triangle_cut.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/geometry/interior.h"
+#include "geometry/interior.h"
 
 #include <algorithm>
 

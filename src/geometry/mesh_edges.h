@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {

@@ -10,7 +10,7 @@
 #include "hidden_walls.h"
 #include "mesh_patches.h"
 #include "open_components.h"
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {

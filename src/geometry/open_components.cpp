@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "sdf_ccd/geometry/parallel_for.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "common/parallel_for.h"
+#include "geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

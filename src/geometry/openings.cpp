@@ -1,4 +1,4 @@
-#include "sdf_ccd/geometry/openings.h"
+#include "geometry/openings.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <map>
 #include <sstream>
 
+#include "geometry/triangle_tree.h"
 #include "loop_cap.h"
 #include "rim.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

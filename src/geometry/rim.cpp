@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/triangle_tree.h"
 #include "mesh_edges.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,9 +1,9 @@
-#include "sdf_ccd/geometry/solid_boundary.h"
+#include "geometry/solid_boundary.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "sdf_ccd/geometry/parallel_for.h"
+#include "common/parallel_for.h"
 #include "triangle_cutter.h"
 
 namespace sdf_ccd {

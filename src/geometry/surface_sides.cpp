@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "common/parallel_for.h"
+#include "geometry/triangle.h"
 #include "mesh_edges.h"
-#include "sdf_ccd/geometry/parallel_for.h"
-#include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {

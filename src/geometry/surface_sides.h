@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/geometry/interior.h"
+#include "geometry/interior.h"
 #include "triangle_cuts.h"
 
 namespace sdf_ccd {

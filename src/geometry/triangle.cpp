@@ -1,4 +1,4 @@
-#include "sdf_ccd/geometry/triangle.h"
+#include "geometry/triangle.h"
 
 #include <algorithm>
 #include <cmath>

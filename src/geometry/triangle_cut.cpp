@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/geometry/triangle.h"
+#include "geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {

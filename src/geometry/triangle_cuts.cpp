@@ -5,7 +5,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "sdf_ccd/geometry/parallel_for.h"
+#include "common/parallel_for.h"
 #include "triangle_cut.h"
 
 namespace sdf_ccd {

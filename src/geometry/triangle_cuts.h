@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 

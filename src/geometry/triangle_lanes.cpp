@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "compiler_lanes.h"
+#include "common/compiler_lanes.h"
 
 namespace sdf_ccd {
 namespace {

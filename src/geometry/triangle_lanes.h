@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/geometry/triangle.h"
+#include "geometry/triangle.h"
 
 namespace sdf_ccd {
 

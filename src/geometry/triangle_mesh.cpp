@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "sdf_ccd/geometry/cancel.h"
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/number_text.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,9 +1,9 @@
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "geometry/triangle_tree.h"
 
 #include <cmath>
 
-#include "compiler_lanes.h"
-#include "sdf_ccd/geometry/triangle.h"
+#include "common/compiler_lanes.h"
+#include "geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {

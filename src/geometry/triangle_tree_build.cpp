@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "geometry/triangle_tree.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {

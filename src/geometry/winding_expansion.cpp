@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/motion/chain_derivatives.h"
+#include "motion/chain_derivatives.h"
 
 namespace sdf_ccd {
 

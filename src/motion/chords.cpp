@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/number_text.h"
 
 namespace sdf_ccd {
 namespace {

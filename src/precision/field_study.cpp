@@ -200,7 +200,7 @@ std::string millimetres(double metres) {
 
 StudyResult cellStudy(const StudyInput& input) {
   StudyResult result{
-      "cell", "Even fields: error against the exact mesh over the cell size", "cell [m]", "segment or place", {}};
+      "cell", "Uniform fields: error against the exact mesh over the cell size", "cell [m]", "segment or place", {}};
   FieldStudy study(input);
   std::vector<int> counts{16, 32, 64, 128};
   if (!input.quick) counts.push_back(256);
@@ -214,7 +214,7 @@ StudyResult cellStudy(const StudyInput& input) {
     for (const int bits : {16, 32}) {
       const double after = before + 0.5 * double(cells) * cells / all;
       options.sample_bits = bits;
-      const std::string system = "sdf_ccd (even cells " + std::to_string(bits) + " bit)";
+      const std::string system = "sdf_ccd (uniform cells " + std::to_string(bits) + " bit)";
       study.addField({system, millimetres(cell), cell}, options, before, after);
       before = after;
     }

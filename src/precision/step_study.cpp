@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "dynamics/simulation.h"
 #include "random_inputs.h"
-#include "sdf_ccd/dynamics/simulation.h"
 #include "studies.h"
 #include "timing.h"
 

@@ -4,7 +4,7 @@ namespace sdf_ccd::precision {
 
 const std::vector<Study>& studies() {
   static const std::vector<Study> all = {
-      {"cell", "even fields: time of impact and depth over the cell size", &cellStudy},
+      {"cell", "uniform fields: time of impact and depth over the cell size", &cellStudy},
       {"max-error", "adaptive fields: time of impact and depth over the maximum error", &maxErrorStudy},
       {"chord", "turning bodies: time of impact over the chord tolerance", &chordStudy},
       {"spacing", "shells: force and missed depth over the spacing of the points", &spacingStudy},

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "cell_spans.h"
+#include "field/adaptive_grid.h"
 #include "grid_walk.h"
-#include "sdf_ccd/field/adaptive_grid.h"
 
 namespace sdf_ccd {
 
@@ -15,7 +15,7 @@ inline GridWalk walkThrough(const AdaptiveGrid& grid, const Segment& segment) {
 
 /// A far block's: the true distance exceeds `margin` [m] all over it, on one side. Less a little: the ball is measured
 /// in metres and the walk in units.
-inline FreeBall farBall(const AdaptiveGrid& grid, const AdaptiveBlock& block, double margin) {
+inline FreeBall emptySphere(const AdaptiveGrid& grid, const AdaptiveBlock& block, double margin) {
   const AdaptiveShape& shape = grid.shape();
   return {shape.origin + shape.unit() * block.ball_center, (block.ball_radius - margin) * (1.0 - 1e-9), block.inside};
 }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/query/interval.h"
 
 namespace sdf_ccd {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kBrick = GridShape::kBrick;
 
 /// Of a far brick.
-FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, const FarBall& ball, double sigma) {
+FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, const EmptySphere& ball, double sigma) {
   const GridShape& shape = grid.shape();
   return {shape.origin + kBrick * shape.cell * (brick + ball.offset).cast<double>(),
           ball.steps * grid.ballStep() - std::abs(sigma) - grid.errorBound(), ball.inside};
@@ -45,7 +45,7 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
     const Vector3i brick = walk.cell() / kBrick;
     const std::uint32_t word = grid.word(brick);
     if (brick_word::isFar(word)) {
-      const FreeBall ball = brickBall(grid, brick, FarBall::of(word), sigma);
+      const FreeBall ball = brickBall(grid, brick, EmptySphere::of(word), sigma);
       passFree(kBrick * brick, kBrick, ball, ball_exit, walk, intervals);
     } else {
       const std::int32_t slot = grid.slot(brick);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {

@@ -27,7 +27,7 @@ inline VI halfOf(const VI* cell, VI log_half) {
 inline void enterSplits(MI split, const VI* cell, Blocks& b) {
   if (hn::AllFalse(n, split)) return;
   b.log_side = hn::IfThenElse(split, hn::Sub(b.log_side, whole(1)), b.log_side);
-  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.place), halfOf(cell, b.log_side)), whole(FlightQueue::kSplit));
+  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.place), halfOf(cell, b.log_side)), whole(RayQueue::kSplit));
   b.place = hn::IfThenElse(split, leaf, b.place);
 }
 
@@ -37,7 +37,7 @@ inline Blocks locateTop(const AdaptiveLanes& g, VI word, const VI* cell) {
   Blocks b;
   b.far = hn::Eq(kind, whole(0));
   b.node = hn::Eq(kind, whole(3));
-  setFarBall(g, word, b);
+  setEmptySphere(g, word, b);
   b.log_side = whole(LaneBox::kLogUnits);
   const hn::RebindToUnsigned<I> bits;
   b.place = hn::BitCast(n, hn::ShiftRight<2>(hn::BitCast(bits, word)));
@@ -45,8 +45,8 @@ inline Blocks locateTop(const AdaptiveLanes& g, VI word, const VI* cell) {
   return b;
 }
 
-/// Reads the codes of the children that flights are in, and where the children of that kind begin.
-inline void fetchBelow(const AdaptiveLanes& g, const FlightQueue& queue, Fetched& fetched) {
+/// Reads the codes of the children that rays are in, and where the children of that kind begin.
+inline void fetchBelow(const AdaptiveLanes& g, const RayQueue& queue, Fetched& fetched) {
   const VI three = whole(3);
   for (int i = 0; i < queue.size; i += static_cast<int>(hn::Lanes(n))) {
     const VI log_child = hn::Max(hn::Sub(hn::LoadU(n, queue.log_side.data() + i), whole(2)), hn::Zero(n));
@@ -88,13 +88,13 @@ inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetc
   return b;
 }
 
-inline void fetchLeaves(const AdaptiveLanes& g, const FlightQueue& queue, Fetched& fetched) {
+inline void fetchLeaves(const AdaptiveLanes& g, const RayQueue& queue, Fetched& fetched) {
   // By index rather than by a branch: which of the two it is cannot be foreseen.
   const LeafWord* const leaves[] = {g.leaves, g.splits ? g.splits->leaves.data() : nullptr};
   const std::int32_t* place = queue.place.data();
   std::int32_t* pair = fetched.pairs[0].data();
   for (int i = 0, size = queue.size; i < size; ++i) {
-    const LeafWord* leaf = leaves[place[i] >= FlightQueue::kSplit] + (place[i] & (FlightQueue::kSplit - 1));
+    const LeafWord* leaf = leaves[place[i] >= RayQueue::kSplit] + (place[i] & (RayQueue::kSplit - 1));
     std::memcpy(pair + 2 * i, leaf, sizeof(LeafWord));
   }
 }

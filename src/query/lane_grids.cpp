@@ -13,7 +13,7 @@ void setBox(LaneBox& box, const Vector3d& origin, double unit, const Vector3i& s
   }
   box.top = top;
   box.units_per_metre = 1.0 / unit;
-  box.ball_step = static_cast<float>(FarBall::step(size) * LaneBox::kUnits);
+  box.ball_step = static_cast<float>(EmptySphere::step(size) * LaneBox::kUnits);
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
   corner = static_cast<float>((2.0 * one.corner - two.corner) * to_units);
 }
 
-EvenLanes::EvenLanes(const SparseGrid& grid, double sigma_metres) {
+UniformLanes::UniformLanes(const SparseGrid& grid, double sigma_metres) {
   const GridShape& shape = grid.shape();
   setBox(*this, shape.origin, GridShape::kBrick * shape.cell / kUnits, shape.bricks, grid.words().data);
   ball_place = 0.0F;

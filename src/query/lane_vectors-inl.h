@@ -8,7 +8,7 @@
 
 #include <hwy/highway.h>
 
-#include "lane_boarding-inl.h"
+#include "lane_box_entry-inl.h"
 #include "segment_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,7 +47,7 @@ inline MI none() {
   return hn::FirstN(n, 0);
 }
 
-/// The lanes' segments: a vector of a queue's flights.
+/// The lanes' segments: a vector of a queue's rays.
 struct Lanes {
   VF o[3], d[3];
   VI cell[3];
@@ -55,7 +55,7 @@ struct Lanes {
   VI id;
   VI place, log_side;
 
-  Lanes(const FlightQueue& queue, int first, MI used) {
+  Lanes(const RayQueue& queue, int first, MI used) {
     for (int k = 0; k < 3; ++k) {
       o[k] = hn::LoadU(f, queue.o[k].data() + first);
       d[k] = hn::LoadU(f, queue.d[k].data() + first);
@@ -68,16 +68,12 @@ struct Lanes {
     log_side = hn::IfThenElseZero(used, hn::LoadU(n, queue.log_side.data() + first));
   }
 
-  /// Those that board.
-  Lanes(const Boarding& boarding, int first, int first_id)
-      : t(real(0.0F)),
-        enter(real(-1.0F)),
-        id(countFrom(first_id + first)),
-        place(hn::Zero(n)),
-        log_side(hn::Zero(n)) {
+  /// Those that enter.
+  Lanes(const BoxEntry& entry, int first, int first_id)
+      : t(real(0.0F)), enter(real(-1.0F)), id(countFrom(first_id + first)), place(hn::Zero(n)), log_side(hn::Zero(n)) {
     for (int k = 0; k < 3; ++k) {
-      o[k] = hn::LoadU(f, boarding.o[k] + first);
-      d[k] = hn::LoadU(f, boarding.d[k] + first);
+      o[k] = hn::LoadU(f, entry.o[k] + first);
+      d[k] = hn::LoadU(f, entry.d[k] + first);
       cell[k] = hn::Zero(n);
     }
   }
@@ -115,12 +111,12 @@ class Front {
 
 /// Puts the lanes of a mask at the end of a queue.
 template <bool keeps_enter>
-HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
+HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, RayQueue& queue) {
   const int end = queue.size;
   const Front front(which);
   // Whole vectors: what stands beyond the end is written next.
-  const auto put = [&](VF v, FlightQueue::Column<float>& column) { hn::StoreU(front(v), f, column.data() + end); };
-  const auto putWhole = [&](VI v, FlightQueue::Column<std::int32_t>& column) {
+  const auto put = [&](VF v, RayQueue::Column<float>& column) { hn::StoreU(front(v), f, column.data() + end); };
+  const auto putWhole = [&](VI v, RayQueue::Column<std::int32_t>& column) {
     hn::StoreU(front(v), n, column.data() + end);
   };
   for (int k = 0; k < 3; ++k) {
@@ -137,7 +133,7 @@ HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, Flig
 }
 
 /// The same for hits.
-HWY_INLINE void append(MI which, VI id, VF enter, VF exit, FlightHits& hits) {
+HWY_INLINE void append(MI which, VI id, VF enter, VF exit, RayHits& hits) {
   hits.makeRoom();
   const Front front(which);
   hn::StoreU(front(id), n, hits.id.data() + hits.size);
@@ -160,8 +156,8 @@ struct Blocks {
   MI inside;
 };
 
-/// The balls that the words of far top cells say (see FarBall).
-inline void setFarBall(const LaneBox& g, VI word, Blocks& b) {
+/// The balls that the words of far top cells say (see EmptySphere).
+inline void setEmptySphere(const LaneBox& g, VI word, Blocks& b) {
   const auto offset = [&](VI high) {
     const VF cells = hn::ConvertTo(f, hn::ShiftRight<27>(high));
     return hn::MulAdd(cells, real(LaneBox::kUnits), real(g.ball_place));
@@ -169,7 +165,7 @@ inline void setFarBall(const LaneBox& g, VI word, Blocks& b) {
   b.ball[0] = offset(hn::ShiftLeft<25>(word));
   b.ball[1] = offset(hn::ShiftLeft<20>(word));
   b.ball[2] = offset(hn::ShiftLeft<15>(word));
-  const VI steps = hn::And(hn::ShiftRight<17>(word), whole(FarBall::kMostSteps));
+  const VI steps = hn::And(hn::ShiftRight<17>(word), whole(EmptySphere::kMostSteps));
   b.radius = hn::Mul(hn::ConvertTo(f, steps), real(g.ball_step));
   b.inside = hn::Lt(word, hn::Zero(n));
 }

@@ -8,6 +8,7 @@
 
 #include "../field/sample_bracket.h"
 #include "adaptive_walk.h"
+#include "field/sparse_grid.h"
 
 namespace sdf_ccd {
 namespace {
@@ -138,7 +139,7 @@ LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
     const AdaptiveBlock block = grid.block(walk.cell());
     if (!block.leaf) {
       if (block.inside) return {0.0, kInfinity, kInfinity, kInfinity};
-      passFree(block.low, block.side, farBall(grid, block, grid.shape().band), ball_exit, walk, no_intervals);
+      passFree(block.low, block.side, emptySphere(grid, block, grid.shape().band), ball_exit, walk, no_intervals);
       continue;
     }
     const WalkedCell cell{block.low, block.side, walk.exit(block.low, block.low.array() + block.side)};

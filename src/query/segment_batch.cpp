@@ -13,7 +13,7 @@
 #include "segment_lanes.h"
 #endif
 #include "representation_queries.h"
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -37,12 +37,12 @@ void askSingly(const DistanceField& field, const Segment* segments, std::size_t 
 /// One thread's segments on their way.
 class Chunk {
  public:
-  /// Asks segments [first, first + count), count ≤ FlightWork::kSegments.
+  /// Asks segments [first, first + count), count ≤ RayWork::kSegments.
   template <class Lanes>
   void ask(const DistanceField& field, const Lanes& lanes, const Segment* segments, std::size_t first, int count,
            const SegmentOptions& options, Hits& hits) {
     const bool first_only = stopsAtEnter(options.mode);
-    const int refused = followFlights(lanes, first_only, segments + first, count, work_);
+    const int refused = followRays(lanes, first_only, segments + first, count, work_);
     if (refused >= 0) {
       throw std::invalid_argument("segment query: segment " + std::to_string(first + refused) +
                                   " is not finite, or reaches farther than 1e12 m");
@@ -62,7 +62,7 @@ class Chunk {
 
   /// In the order of segments; those of one segment already are in order of time.
   void sortAll(std::size_t first, int count, SegmentHit* sorted) {
-    const FlightHits& found = work_.hits;
+    const RayHits& found = work_.hits;
     std::fill_n(place_.begin(), count + 1, 0);
     for (int i = 0; i < found.size; ++i) ++place_[found.id[i] + 1];
     for (int i = 0; i < count; ++i) place_[i + 1] += place_[i];
@@ -75,7 +75,7 @@ class Chunk {
 
   /// The same where no segment has two.
   void sortFirst(std::size_t first, SegmentHit* sorted) {
-    const FlightHits& found = work_.hits;
+    const RayHits& found = work_.hits;
     has_hit_.fill(0);
     for (int i = 0; i < found.size; ++i) {
       const std::int32_t id = found.id[i];
@@ -91,10 +91,10 @@ class Chunk {
     }
   }
 
-  /// A flight that did not end: its hits are replaced by those of the single query.
+  /// A ray that did not end: its hits are replaced by those of the single query.
   void retry(const DistanceField& field, const Segment* segments, std::size_t first, std::int32_t lost,
              const SegmentOptions& options) {
-    FlightHits& hits = work_.hits;
+    RayHits& hits = work_.hits;
     int kept = 0;
     for (int i = 0; i < hits.size; ++i) {
       if (hits.id[i] == lost) continue;
@@ -112,9 +112,9 @@ class Chunk {
     }
   }
 
-  FlightWork work_;
-  std::array<int, FlightWork::kSegments + 1> place_;
-  std::array<std::uint64_t, FlightWork::kSegments / 64> has_hit_;
+  RayWork work_;
+  std::array<int, RayWork::kSegments + 1> place_;
+  std::array<std::uint64_t, RayWork::kSegments / 64> has_hit_;
 };
 
 #endif
@@ -124,7 +124,7 @@ template <class Ask>
 void askInChunks(std::size_t count, const Ask& ask, Hits& hits) {
   constexpr std::size_t kChunk = 8192;
 #ifdef SDF_CCD_HIGHWAY
-  static_assert(kChunk == FlightWork::kSegments, "a chunk fills one thread's room");
+  static_assert(kChunk == RayWork::kSegments, "a chunk fills one thread's room");
 #endif
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   if (chunks <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
@@ -151,13 +151,13 @@ void askAll(const DistanceField& field, const Segment* segments, std::size_t cou
 #ifdef SDF_CCD_HIGHWAY
   const auto askLanes = [&](const auto& lanes) {
     const auto ask = [&](std::size_t first, std::size_t last, Hits& found) {
-      thread_local const std::unique_ptr<Chunk> flights = std::make_unique<Chunk>();
-      flights->ask(field, lanes, segments, first, static_cast<int>(last - first), options, found);
+      thread_local const std::unique_ptr<Chunk> rays = std::make_unique<Chunk>();
+      rays->ask(field, lanes, segments, first, static_cast<int>(last - first), options, found);
     };
     askInChunks(count, ask, hits);
   };
   if (const AdaptiveGrid* grid = field.adaptive()) return askLanes(AdaptiveLanes(*grid, options.sigma));
-  if (const SparseGrid* grid = field.grid()) return askLanes(EvenLanes(*grid, options.sigma));
+  if (const SparseGrid* grid = field.grid()) return askLanes(UniformLanes(*grid, options.sigma));
 #endif
   const auto ask = [&](std::size_t first, std::size_t last, Hits& found) {
     askSingly(field, segments, first, last, options, found);

@@ -13,7 +13,7 @@
 
 #include "cell_cubic.h"
 #include "lane_adaptive-inl.h"
-#include "lane_even-inl.h"
+#include "lane_uniform-inl.h"
 #include "prefetch.h"
 #include "segment_lanes.h"
 
@@ -23,30 +23,30 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// Segments wait in queues for the memory that their next step reads: a top cell's word, a node's code, a leaf. A pass
-/// reads it for all of a queue, then takes the queue's flights one step further in vectors.
+/// reads it for all of a queue, then takes the queue's rays one step further in vectors.
 /// @tparam first_only  a segment is done with where its first hit begins.
 template <class Grid, bool first_only>
 class Follower {
  public:
-  Follower(const Grid& grid, FlightWork& work) : g_(grid), work_(work) {}
+  Follower(const Grid& grid, RayWork& work) : g_(grid), work_(work) {}
 
   int run(const Segment* segments, int count) {
     work_.hits.size = 0;
     work_.lost.clear();
     for (Queues* queues : {&work_.top, &work_.node}) (*queues)[0].size = (*queues)[1].size = 0;
     work_.leaf.size = 0;
-    // Each pass takes each flight through a cell; none meets more than this.
+    // Each pass takes each ray through a cell; none meets more than this.
     const int most = 4 * LaneBox::kUnits * (g_.top_size[0] + g_.top_size[1] + g_.top_size[2]);
-    int boarded = 0, last_flying = 0;
+    int enqueued = 0, last_active = 0;
     for (int pass = 0; pass < most; ++pass) {
-      boarded = board(segments, boarded, count);
+      enqueued = enqueue(segments, enqueued, count);
       if (refused_ >= 0) return refused_;
-      const int flying = this->flying();
-      if (flying == 0 && boarded >= count) return -1;
-      if (flying != last_flying) pass = 0;
-      last_flying = flying;
+      const int active = this->active();
+      if (active == 0 && enqueued >= count) return -1;
+      if (active != last_active) pass = 0;
+      last_active = active;
       next_ ^= 1;
-      FlightQueue &top = work_.top[next_ ^ 1], &node = work_.node[next_ ^ 1], &leaf = work_.leaf;
+      RayQueue &top = work_.top[next_ ^ 1], &node = work_.node[next_ ^ 1], &leaf = work_.leaf;
       fetchTop(g_, top.place.data(), top.size, work_.fetched.word.data());
       takeAll(top, [&](Lanes& lanes, MI used, int first) { crossTop(lanes, used, first, node); });
       fetchBelow(g_, node, work_.fetched);
@@ -55,19 +55,19 @@ class Follower {
       takeAll(leaf, [&](Lanes& lanes, MI used, int first) { crossLeaf(lanes, used, first); });
     }
     for (Queues* queues : {&work_.top, &work_.node}) {
-      const FlightQueue& queue = (*queues)[next_];
+      const RayQueue& queue = (*queues)[next_];
       work_.lost.insert(work_.lost.end(), queue.id.begin(), queue.id.begin() + queue.size);
     }
     return -1;
   }
 
  private:
-  using Queues = std::array<FlightQueue, 2>;
+  using Queues = std::array<RayQueue, 2>;
 
-  int flying() const { return work_.top[next_].size + work_.node[next_].size + work_.leaf.size; }
+  int active() const { return work_.top[next_].size + work_.node[next_].size + work_.leaf.size; }
 
   template <class Step>
-  void takeAll(FlightQueue& queue, const Step& step) {
+  void takeAll(RayQueue& queue, const Step& step) {
     const int width = static_cast<int>(hn::Lanes(f));
     for (int i = 0; i < queue.size; i += width) {
       const MI used = hn::FirstN(n, static_cast<std::size_t>(queue.size - i));
@@ -79,39 +79,39 @@ class Follower {
   }
 
   /// Fills up with segments from number `first` on. @return the first that still waits.
-  int board(const Segment* segments, int first, int count) {
-    while (first < count && FlightQueue::kCapacity - flying() >= Boarding::kMost) {
-      const int group = std::min(Boarding::kMost, count - first);
-      const Boarding boarding(g_, segments + first, group, work_.begin.data() + first, work_.end.data() + first);
-      if (boarding.doubtful) {
+  int enqueue(const Segment* segments, int first, int count) {
+    while (first < count && RayQueue::kCapacity - active() >= BoxEntry::kMost) {
+      const int group = std::min(BoxEntry::kMost, count - first);
+      const BoxEntry entry(g_, segments + first, group, work_.begin.data() + first, work_.end.data() + first);
+      if (entry.doubtful) {
         const auto within = [](const Segment& s) { return isWithinReach(s); };
         const int found = int(std::find_if_not(segments + first, segments + first + group, within) - segments);
         if (found < first + group) refused_ = found;
       }
-      takeOff(boarding, segments, first, group);
+      dispatch(entry, segments, first, group);
       first += group;
     }
     return first;
   }
 
   /// A group's first step: most short segments are done with it.
-  void takeOff(const Boarding& boarding, const Segment* segments, int first, int count) {
+  void dispatch(const BoxEntry& entry, const Segment* segments, int first, int count) {
     const int width = static_cast<int>(hn::Lanes(f));
-    HWY_ALIGN std::int32_t cell[3][Boarding::kMost], word[Boarding::kMost];
+    HWY_ALIGN std::int32_t cell[3][BoxEntry::kMost], word[BoxEntry::kMost];
     for (int i = 0; i < count; i += width) {
-      Lanes lanes(boarding, i, first);
+      Lanes lanes(entry, i, first);
       findCells(g_, lanes);
       for (int k = 0; k < 3; ++k) hn::StoreU(lanes.cell[k], n, cell[k] + i);
       hn::StoreU(topIndex(g_, lanes.cell), n, word + i);
     }
     fetchTop(g_, word, count, word);
     for (int i = 0; i < count; i += width) {
-      Lanes lanes(boarding, i, first);
+      Lanes lanes(entry, i, first);
       for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
-      // Those that board next, and, as they may be in slow memory, some that do after them.
+      // Those that are enqueued next, and, as they may be in slow memory, some that do after them.
       prefetch(segments + first + count + i, static_cast<std::size_t>(width));
       prefetch<CacheLevel::kSecond>(segments + first + 4 * count + i, static_cast<std::size_t>(width));
-      const MI in_box = asWhole(hn::Le(hn::LoadU(f, boarding.t0 + i), hn::LoadU(f, boarding.t1 + i)));
+      const MI in_box = asWhole(hn::Le(hn::LoadU(f, entry.t0 + i), hn::LoadU(f, entry.t1 + i)));
       const MI used = hn::And(in_box, hn::FirstN(n, static_cast<std::size_t>(count - i)));
       sort(locateTop(g_, hn::LoadU(n, word + i), lanes.cell), lanes, used, work_.node[next_]);
     }
@@ -140,7 +140,7 @@ class Follower {
   }
 
   /// Puts lanes into a queue.
-  HWY_INLINE void wait(MI which, const Lanes& lanes, VI place, VI log_side, FlightQueue& queue) {
+  HWY_INLINE void wait(MI which, const Lanes& lanes, VI place, VI log_side, RayQueue& queue) {
     append<!first_only>(which, lanes, place, log_side, queue);
   }
 
@@ -152,7 +152,7 @@ class Follower {
 
   /// The same for those that came from other cells of a brick's: they need not ask which brick it is.
   HWY_INLINE void arriveFrom(const VI* from, const Lanes& lanes, MI which) {
-    if constexpr (std::is_same_v<Grid, EvenLanes>) {
+    if constexpr (std::is_same_v<Grid, UniformLanes>) {
       VI changed = hn::Zero(n);
       for (int k = 0; k < 3; ++k) changed = hn::Or(changed, hn::Xor(from[k], lanes.cell[k]));
       const MI same_brick = hn::And(which, hn::Lt(changed, whole(LaneBox::kUnits)));
@@ -165,13 +165,13 @@ class Follower {
   }
 
   /// By what the top cell's word says: through a far cell, or to the queue of what stands there.
-  HWY_INLINE void crossTop(Lanes& lanes, MI used, int first, FlightQueue& nodes) {
+  HWY_INLINE void crossTop(Lanes& lanes, MI used, int first, RayQueue& nodes) {
     const Blocks at = locateTop(g_, hn::LoadU(n, work_.fetched.word.data() + first), lanes.cell);
     sort(at, lanes, used, nodes);
   }
 
   /// Lanes at blocks: through far ones, to the queues of others.
-  HWY_INLINE void sort(const Blocks& at, Lanes& lanes, MI used, FlightQueue& nodes) {
+  HWY_INLINE void sort(const Blocks& at, Lanes& lanes, MI used, RayQueue& nodes) {
     const MI far = hn::And(used, at.far), node = hn::And(used, at.node);
     const MI leaf = hn::AndNot(hn::Or(at.far, at.node), used);
     if (!hn::AllFalse(n, node)) wait(node, lanes, at.place, at.log_side, nodes);
@@ -241,8 +241,8 @@ class Follower {
   }
 
   /// In a brick: through the ball about the nearest sample, if that takes the lane out of its cell; else to the cell.
-  HWY_INLINE void descend(const EvenLanes& grid, Lanes& lanes, MI used, int first) {
-    const VI log_cell = whole(EvenLanes::kLogCell);
+  HWY_INLINE void descend(const UniformLanes& grid, Lanes& lanes, MI used, int first) {
+    const VI log_cell = whole(UniformLanes::kLogCell);
     if (!grid.exact) return wait(used, lanes, lanes.place, log_cell, work_.leaf);
     const SampleBall ball = nearestBall(grid, lanes, work_.fetched, first);
     const VF t_ball = ballExit(lanes, ball.center, ball.radius2);
@@ -299,7 +299,7 @@ class Follower {
     return hn::Ne(hn::Load(n, overs.value), hn::Zero(n));
   }
 
-  /// A leaf with several roots, by the exact method. @return true if the flight is done with.
+  /// A leaf with several roots, by the exact method. @return true if the ray is done with.
   bool hardLeaf(const CellCubic& cubic, std::int32_t id, float start, float end, float& enter) {
     const CellIntervals found = nonPositive(cubic);
     const auto timeOf = [&](double u) { return static_cast<float>(start + u * (double(end) - double(start))); };
@@ -323,21 +323,21 @@ class Follower {
   }
 
   const Grid& g_;
-  FlightWork& work_;
+  RayWork& work_;
   int refused_ = -1;  ///< a segment that is not within reach
   int next_ = 0;      ///< of each pair of queues, the one that is written
 };
 
 }  // namespace
 
-int followAdaptive(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
+int followAdaptive(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work) {
   return first_only ? Follower<AdaptiveLanes, true>(grid, work).run(segments, count)
                     : Follower<AdaptiveLanes, false>(grid, work).run(segments, count);
 }
 
-int followEven(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
-  return first_only ? Follower<EvenLanes, true>(grid, work).run(segments, count)
-                    : Follower<EvenLanes, false>(grid, work).run(segments, count);
+int followUniform(const UniformLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work) {
+  return first_only ? Follower<UniformLanes, true>(grid, work).run(segments, count)
+                    : Follower<UniformLanes, false>(grid, work).run(segments, count);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -348,14 +348,14 @@ HWY_AFTER_NAMESPACE();
 namespace sdf_ccd {
 
 HWY_EXPORT(followAdaptive);
-HWY_EXPORT(followEven);
+HWY_EXPORT(followUniform);
 
-int followFlights(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
+int followRays(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work) {
   return HWY_DYNAMIC_DISPATCH(followAdaptive)(grid, first_only, segments, count, work);
 }
 
-int followFlights(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work) {
-  return HWY_DYNAMIC_DISPATCH(followEven)(grid, first_only, segments, count, work);
+int followRays(const UniformLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work) {
+  return HWY_DYNAMIC_DISPATCH(followUniform)(grid, first_only, segments, count, work);
 }
 
 }  // namespace sdf_ccd

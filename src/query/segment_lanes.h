@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/field/adaptive_grid.h"
-#include "sdf_ccd/field/sparse_grid.h"
+#include "field/adaptive_grid.h"
+#include "field/sparse_grid.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {
@@ -19,7 +19,7 @@ struct LaneBox {
   double units_per_metre;
   std::array<std::int32_t, 3> top_size;  ///< top cells per axis
   const std::uint32_t* top;              ///< a word per top cell, x fastest
-  float ball_step;                       ///< of FarBall [units]
+  float ball_step;                       ///< of EmptySphere [units]
   float ball_place;   ///< of a top cell's place in the lattice of balls' centres, from its first corner [units]
   float margin;       ///< a ball of the true distance less this holds no place where the field is sigma [units]
   float leaf_margin;  ///< and one of a leaf's distance from sigma less this none beyond the leaf [units]
@@ -40,11 +40,11 @@ struct AdaptiveLanes : LaneBox {
   float offset, offset_per_side, corner, corner_per_side;
 };
 
-/// An even grid: a top cell is a brick.
-struct EvenLanes : LaneBox {
+/// A uniform grid: a top cell is a brick.
+struct UniformLanes : LaneBox {
   static constexpr int kLogCell = 4;  ///< of the units along a cell's side
 
-  EvenLanes(const SparseGrid& grid, double sigma);
+  UniformLanes(const SparseGrid& grid, double sigma);
 
   const float* samples;       ///< [m]
   const std::int16_t* steps;  ///< null where samples are floats
@@ -72,7 +72,7 @@ alignas(64) inline constexpr std::array<std::int32_t, 16> kLaneNumbers{0, 1, 2, 
 
 /// Segments that wait for the same kind of step, an array per quantity. A segment runs from o to o + d within the
 /// grid's box while its parameter t goes from 0 to 1; lengths in units.
-struct alignas(64) FlightQueue {
+struct alignas(64) RayQueue {
   static constexpr int kCapacity = 512;  ///< and as many are under way: their vectors are full, and fit the cache
   static constexpr int kSlack = 32;      ///< beyond the end, so that whole vectors may be read and written
   template <class T>
@@ -91,18 +91,18 @@ struct alignas(64) FlightQueue {
   int size = 0;
 };
 
-/// What a queue's flights wait for, read flight by flight before they are taken on in vectors: of plain loads many are
+/// What a queue's rays wait for, read ray by ray before they are taken on in vectors: of plain loads many are
 /// under way at once, and each costs less than a lane of a gather.
 struct alignas(64) Fetched {
-  using Pairs = std::array<std::int32_t, 2 * std::tuple_size_v<FlightQueue::Column<std::int32_t>>>;
+  using Pairs = std::array<std::int32_t, 2 * std::tuple_size_v<RayQueue::Column<std::int32_t>>>;
 
-  FlightQueue::Column<std::int32_t> word;  ///< of a top cell; a node's code; a sample's bits
-  FlightQueue::Column<std::int32_t> base;  ///< of a node's children of that code's kind
-  std::array<Pairs, 4> pairs;              ///< of a leaf's corners: two words a flight, or one
+  RayQueue::Column<std::int32_t> word;  ///< of a top cell; a node's code; a sample's bits
+  RayQueue::Column<std::int32_t> base;  ///< of a node's children of that code's kind
+  std::array<Pairs, 4> pairs;           ///< of a leaf's corners: two words a ray, or one
 };
 
 /// Where segments are inside; those of one segment in order of time.
-struct FlightHits {
+struct RayHits {
   static constexpr int kSlack = 32;
 
   std::vector<std::int32_t> id;
@@ -126,20 +126,20 @@ struct FlightHits {
 };
 
 /// What following segments needs and gives; reused.
-struct FlightWork {
+struct RayWork {
   static constexpr int kSegments = 8192;  ///< at most
 
-  std::array<FlightQueue, 2> top, node;  ///< in turn: one is read, the other written
-  FlightQueue leaf;
+  std::array<RayQueue, 2> top, node;  ///< in turn: one is read, the other written
+  RayQueue leaf;
   Fetched fetched;
   std::array<float, kSegments> begin, end;  ///< the part of each segment that is within the grid's box
-  FlightHits hits;
+  RayHits hits;
   std::vector<std::int32_t> lost;  ///< to be asked one by one: those that did not end
 };
 
 /// Follows segments 0 to count − 1 to their ends or to where their first hit begins (which is all that is known of it).
 /// @return the number of a segment that is not within reach, where there is one; else −1.
-int followFlights(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
-int followFlights(const EvenLanes& grid, bool first_only, const Segment* segments, int count, FlightWork& work);
+int followRays(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work);
+int followRays(const UniformLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work);
 
 }  // namespace sdf_ccd

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "lane_adaptive-inl.h"
-#include "lane_even-inl.h"
+#include "lane_uniform-inl.h"
 #include "sphere_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,7 +41,7 @@ struct FreeBalls {
 };
 
 /// Those of far blocks.
-HWY_INLINE FreeBalls farBalls(const Blocks& at, const Lanes& lanes) {
+HWY_INLINE FreeBalls emptySpheres(const Blocks& at, const Lanes& lanes) {
   const VI mask = hn::Neg(hn::Shl(whole(1), at.log_side));
   FreeBalls balls;
   for (int k = 0; k < 3; ++k) balls.center[k] = hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), at.ball[k]);
@@ -72,7 +72,7 @@ HWY_INLINE FreeBalls leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const
 }
 
 /// About the samples that are nearest to the lanes.
-HWY_INLINE FreeBalls sampleBalls(const EvenLanes& g, const Lanes& lanes, const Fetched& fetched) {
+HWY_INLINE FreeBalls sampleBalls(const UniformLanes& g, const Lanes& lanes, const Fetched& fetched) {
   const NearestSample nearest(lanes);
   const VI word = hn::LoadU(n, fetched.word.data());
   FreeBalls balls;
@@ -102,7 +102,7 @@ class Sweeper {
   /// The centres' ways are o + t d for t in [-1, 1]; Lanes::enter is the radius, and rounding.
   void follow(int first) {
     Lanes lanes(work_.waiting, 0, none());
-    board(lanes, first);
+    enqueue(lanes, first);
     const MI apart = long_ ? clip(lanes) : beyondBox(lanes);
     VI side = hn::IfThenElse(apart, whole(kOutside), whole(kUnknown));
     const MI active = hn::AndNot(apart, hn::FirstN(n, static_cast<std::size_t>(group_.size - first)));
@@ -119,7 +119,7 @@ class Sweeper {
     hn::StoreU(side, n, group_.side.data() + first);
   }
 
-  HWY_INLINE void board(Lanes& lanes, int first) const {
+  HWY_INLINE void enqueue(Lanes& lanes, int first) const {
     VF p[3];
     for (int k = 0; k < 3; ++k) p[k] = hn::LoadU(f, group_.center[k].data() + first);
     const auto placed = [&](const std::array<float, 4>& row) {
@@ -240,7 +240,7 @@ class Sweeper {
     std::int32_t* word = work_.fetched.word.data();
     fetchTop(g_, work_.waiting.place.data(), static_cast<int>(hn::Lanes(n)), word);
     const Blocks at = locateTop(g_, hn::LoadU(n, word), lanes.cell);
-    FreeBalls balls = farBalls(at, lanes);
+    FreeBalls balls = emptySpheres(at, lanes);
     descend(g_, at, active, lanes, balls);
     return balls;
   }
@@ -253,7 +253,7 @@ class Sweeper {
       await(node, place, lanes);
       fetchBelow(grid, work_.waiting, work_.fetched);
       at = locateBelow(grid, lanes, work_.fetched, 0);
-      balls.replace(hn::And(node, at.far), farBalls(at, lanes));
+      balls.replace(hn::And(node, at.far), emptySpheres(at, lanes));
       place = hn::IfThenElse(node, at.place, place);
       lanes.log_side = hn::IfThenElse(node, at.log_side, lanes.log_side);
       leaf = hn::Or(leaf, hn::AndNot(hn::Or(at.far, at.node), node));
@@ -265,10 +265,10 @@ class Sweeper {
     balls.replace(leaf, leafBalls(grid, lanes, work_.fetched));
   }
 
-  HWY_INLINE void descend(const EvenLanes& grid, const Blocks& at, MI active, Lanes& lanes, FreeBalls& balls) {
+  HWY_INLINE void descend(const UniformLanes& grid, const Blocks& at, MI active, Lanes& lanes, FreeBalls& balls) {
     const MI brick = hn::And(active, at.node);
     if (hn::AllFalse(n, brick)) return;
-    FlightQueue& queue = work_.waiting;
+    RayQueue& queue = work_.waiting;
     for (int k = 0; k < 3; ++k) {
       hn::StoreU(lanes.o[k], f, queue.o[k].data());
       hn::StoreU(lanes.d[k], f, queue.d[k].data());
@@ -281,7 +281,7 @@ class Sweeper {
 
   /// Lets lanes wait for the memory of their blocks, and the others with them for that of one of these.
   HWY_INLINE void await(MI which, VI place, const Lanes& lanes) {
-    FlightQueue& queue = work_.waiting;
+    RayQueue& queue = work_.waiting;
     hn::StoreU(place, n, queue.place.data());
     const std::int32_t known = queue.place[hn::FindKnownFirstTrue(n, which)];
     hn::StoreU(hn::IfThenElse(which, place, whole(known)), n, queue.place.data());
@@ -303,7 +303,7 @@ void sweepAdaptive(const AdaptiveLanes& grid, const SphereSweep& sweep, SphereGr
   Sweeper(grid, sweep, group, work).run();
 }
 
-void sweepEven(const EvenLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
+void sweepEven(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
   Sweeper(grid, sweep, group, work).run();
 }
 
@@ -321,7 +321,7 @@ void sweepSpheres(const AdaptiveLanes& grid, const SphereSweep& sweep, SphereGro
   HWY_DYNAMIC_DISPATCH(sweepAdaptive)(grid, sweep, group, work);
 }
 
-void sweepSpheres(const EvenLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
+void sweepSpheres(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
   HWY_DYNAMIC_DISPATCH(sweepEven)(grid, sweep, group, work);
 }
 

@@ -14,7 +14,7 @@ namespace sdf_ccd {
 struct SphereGroup {
   static constexpr int kCapacity = 256;
   template <class T>
-  using Column = std::array<T, kCapacity + FlightQueue::kSlack>;
+  using Column = std::array<T, kCapacity + RayQueue::kSlack>;
 
   std::array<Column<float>, 3> center;  ///< [m], frame P
   Column<float> radius;                 ///< [m]
@@ -49,13 +49,13 @@ struct SphereSweep {
 
 /// A vector's lanes, and what they wait for; reused.
 struct SphereWork {
-  FlightQueue waiting;
+  RayQueue waiting;
   Fetched fetched;
 };
 
 /// On which side of the surface each sphere surely is all along a chord, as sweptSide() with the radius added to its
-/// margins; conservative too. Even grids: those whose samples are distances (EvenLanes::exact).
+/// margins; conservative too. Uniform grids: those whose samples are distances (UniformLanes::exact).
 void sweepSpheres(const AdaptiveLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work);
-void sweepSpheres(const EvenLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work);
+void sweepSpheres(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work);
 
 }  // namespace sdf_ccd

@@ -19,7 +19,7 @@ SphereGroup& threadGroup() {
 
 struct SphereSides::Vectors {
   std::optional<AdaptiveLanes> adaptive;
-  std::optional<EvenLanes> even;
+  std::optional<UniformLanes> uniform;
   std::optional<SphereSweep> sweep;
   SphereWork work;
 
@@ -27,11 +27,11 @@ struct SphereSides::Vectors {
   static Vectors* of(const DistanceField& field) {
     thread_local Vectors vectors;
     vectors.adaptive.reset();
-    vectors.even.reset();
+    vectors.uniform.reset();
     if (const AdaptiveGrid* grid = field.adaptive()) {
       vectors.adaptive.emplace(*grid, 0.0);
     } else if (field.grid() && field.grid()->shape().exact) {
-      vectors.even.emplace(*field.grid(), 0.0);
+      vectors.uniform.emplace(*field.grid(), 0.0);
     } else {
       return nullptr;
     }
@@ -40,7 +40,7 @@ struct SphereSides::Vectors {
 
   const LaneBox& box() const {
     if (adaptive) return *adaptive;
-    return *even;
+    return *uniform;
   }
 };
 
@@ -57,7 +57,7 @@ void SphereSides::askGroup() {
   if (vectors_->adaptive) {
     sweepSpheres(*vectors_->adaptive, *vectors_->sweep, group_, vectors_->work);
   } else {
-    sweepSpheres(*vectors_->even, *vectors_->sweep, group_, vectors_->work);
+    sweepSpheres(*vectors_->uniform, *vectors_->sweep, group_, vectors_->work);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "process/read_limits.h"
+#include "import/read_limits.h"
 
 namespace sdf_ccd {
 

@@ -10,8 +10,8 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
+#include "common/number_text.h"
 #include "octree_file.h"
-#include "sdf_ccd/geometry/number_text.h"
 #include "voxel_surface.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "process/read_apart.h"
+#include "import/read_apart.h"
 
 namespace sdf_ccd {
 

@@ -13,9 +13,9 @@
 #include <string>
 
 #include "confine.h"
+#include "import/read_answer.h"
 #include "parse_mesh.h"
 #include "parse_octomap.h"
-#include "process/read_answer.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/joint_sampler.h"
+#include "robot/joint_sampler.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "process/shown_text.h"
-#include "sdf_ccd/geometry/mesh_file.h"
+#include "common/shown_text.h"
+#include "sdf_ccd/import/mesh_file.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {

@@ -9,7 +9,7 @@
 #include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include "geometry/text_limits.h"
+#include "common/text_limits.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/number_text.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "error_source.h"
 #include "joint_motion.h"
 #include "parse_urdf.h"
-#include "sdf_ccd/geometry/number_text.h"
 #include "unread_links.h"
 #include "urdf_geometry.h"
 

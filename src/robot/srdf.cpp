@@ -8,8 +8,8 @@
 
 #include <tinyxml2.h>
 
+#include "common/text_limits.h"
 #include "error_source.h"
-#include "geometry/text_limits.h"
 
 namespace sdf_ccd {
 namespace {

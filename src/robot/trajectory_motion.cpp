@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "joint_motion.h"
-#include "sdf_ccd/motion/chain_derivatives.h"
+#include "motion/chain_derivatives.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {

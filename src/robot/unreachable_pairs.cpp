@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "common/number_text.h"
 #include "geometry_extent.h"
-#include "sdf_ccd/geometry/number_text.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {
@@ -95,20 +95,6 @@ std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::
     if (may_meet) unchecked.push_back({a, b, std::string(kOutOfReach) + " by the robot's joints, not by these poses"});
   }
   return unchecked;
-}
-
-void addUnchecked(const std::vector<UncheckedPair>& pairs, CycleResult& result) {
-  for (const UncheckedPair& pair : pairs) {
-    PairResult unchecked;
-    unchecked.body_a = pair.body_a;
-    unchecked.body_b = pair.body_b;
-    unchecked.reason = pair.reason;
-    unchecked.span = {0, 1};
-    unchecked.clearance = -1.0;
-    result.pairs.push_back(unchecked);
-    ++result.not_checked;
-  }
-  if (!pairs.empty() && result.verdict == Verdict::kClear) result.verdict = Verdict::kNotChecked;
 }
 
 }  // namespace sdf_ccd

@@ -9,10 +9,10 @@
 #include <std_msgs/String.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "monitor/over_budget.h"
 #include "ros/cycle_messages.h"
 #include "ros/world_markers.h"
-#include "sdf_ccd/geometry/cancel.h"
-#include "sdf_ccd/scene/over_budget.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -12,7 +12,7 @@
 #include <ros/time.h>
 
 #include "sdf_ccd/PairContact.h"
-#include "sdf_ccd/scene/monitor.h"
+#include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd {
 

@@ -3,10 +3,10 @@
 #include <array>
 #include <stdexcept>
 
-#include "process/shown_text.h"
+#include "common/shown_text.h"
 #include "ros/fetch_http.h"
-#include "sdf_ccd/field/octomap_surface.h"
-#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/import/octomap_surface.h"
 
 namespace sdf_ccd {
 namespace {
@@ -119,14 +119,14 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   return described;
 }
 
-ScenePlan affordablePlan(const DescribedScene& described, const SceneOptions& options) {
+ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options) {
   ScenePlan plan = planScene(described.scene, planOptions(options));
   plan.expected = std::make_shared<const SceneCost>(affordableCost(described.scene, plan, options));
   return plan;
 }
 
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
-                                            const SceneOptions& options,
+                                            const BodyOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {
   return std::make_shared<const Scene>(buildScene(described.scene, plan, options, progress));
 }

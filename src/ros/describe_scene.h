@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "monitor/scene_cost.h"
 #include "ros/parameters.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
-#include "sdf_ccd/scene/scene_cost.h"
 
 namespace sdf_ccd {
 
@@ -34,12 +34,12 @@ ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::stri
 DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader);
 
 /// What the scene needs, and what building that is expected to cost. @throws as affordableCost() of the core.
-ScenePlan affordablePlan(const DescribedScene& described, const SceneOptions& options);
+ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options);
 
 /// Builds what is planned with the same options.
 /// @param progress  called with the body's name and the share of all bodies done.
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
-                                            const SceneOptions& options,
+                                            const BodyOptions& options,
                                             const std::function<void(const std::string&, double)>& progress);
 
 }  // namespace sdf_ccd

@@ -4,10 +4,10 @@
 
 #include <stdexcept>
 
-#include "process/child_process.h"
-#include "process/helper_program.h"
-#include "process/shown_text.h"
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/number_text.h"
+#include "common/shown_text.h"
+#include "import/child_process.h"
+#include "import/helper_program.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "monitor/summarise.h"
+
 namespace sdf_ccd {
 namespace {
 

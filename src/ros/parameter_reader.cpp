@@ -4,8 +4,8 @@
 #include <locale>
 #include <sstream>
 
-#include "process/shown_text.h"
-#include "sdf_ccd/geometry/nearest_name.h"
+#include "common/nearest_name.h"
+#include "common/shown_text.h"
 
 namespace sdf_ccd {
 namespace {

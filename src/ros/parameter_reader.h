@@ -8,7 +8,7 @@
 
 #include <XmlRpcValue.h>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
 

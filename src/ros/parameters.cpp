@@ -2,9 +2,9 @@
 
 #include <cstdlib>
 
+#include "field/sparse_grid.h"
 #include "ros/parameter_reader.h"
-#include "sdf_ccd/field/sparse_grid.h"
-#include "sdf_ccd/scene/error_budget.h"
+#include "sdf_ccd/model/error_budget.h"
 
 namespace sdf_ccd {
 namespace {

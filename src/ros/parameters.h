@@ -9,8 +9,8 @@
 #include "ros/markers.h"
 #include "ros/parameter_reader.h"
 #include "ros/tf_tracker.h"
+#include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
-#include "sdf_ccd/scene/monitor.h"
 
 namespace sdf_ccd {
 
@@ -49,7 +49,7 @@ struct MonitorParameters {
   RobotSceneOptions robot;
   std::vector<WorldObject> world;
   OctomapObject octomap;
-  SceneOptions scene;
+  BodyOptions scene;
   MonitorOptions monitor;
   TfTrackerOptions tf;
   MarkerOptions markers;

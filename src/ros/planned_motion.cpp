@@ -6,8 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "ros/conversions.h"
-#include "sdf_ccd/geometry/number_text.h"
 #include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
@@ -134,39 +134,21 @@ std::string notesOf(const PlannedJoints& plan) {
   return notes;
 }
 
-void startAtZero(CycleMotion& motion) {
-  const double start = motion.times.front();
-  for (double& time : motion.times) time -= start;
-}
-
 PlannedMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
   const CurrentPoses& now = planned.now;
   const PlannedJoints plan = completePlan(planned.robot, namedTrajectory(request, planned), now.joints,
                                           {static_cast<bool>(request.allow_beyond_limits)});
-  PlannedMotion result;
-  result.samples = plan.trajectory.times;
-  result.assumed = plan.assumed;
-  result.notes = notesOf(plan);
-  result.unchecked = reachableAlong(planned.robot, plan, planned.unreachable);
-  std::vector<std::string> missing = now.missing;
-  const std::string& root_missing = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
-  std::vector<CarriedBody> bodies;
-  std::vector<BoundingBall> balls;
+  PlannedBodies bodies;
+  bodies.missing = now.missing;
   for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
     const Carrier& carrier = now.carriers[body];
     const bool is_carried = carrier.link >= 0;
-    balls.push_back(motionBall(planned.scene.bodies[body]));
-    bodies.push_back({carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], balls.back()});
-    if (is_carried) missing[body] = root_missing.empty() ? plan.missing[carrier.link] : root_missing;
+    bodies.bodies.push_back(
+        {carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], motionBall(planned.scene.bodies[body])});
+    if (is_carried) bodies.missing[body] = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
   }
-  const auto along = std::make_shared<TrajectoryMotion>(planned.robot, plan.trajectory, bodies);
-  result.waypoints = along->waypoints();
-  result.piece = [along, waypoints = result.waypoints, missing, balls, sampling = planned.sampling](
-                     std::size_t first, std::size_t last, CycleMotion& motion) {
-    motion.missing = missing;
-    sampleMotion({waypoints.begin() + first, waypoints.begin() + last + 1}, along->source(), balls, sampling, motion);
-    startAtZero(motion);
-  };
+  PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.unreachable, planned.sampling);
+  result.notes = notesOf(plan);
   return result;
 }
 
@@ -192,11 +174,8 @@ std::vector<std::vector<Isometry3d>> linkPoses(const QueryMotion::Request& reque
 
 PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedScene& planned) {
   const CurrentPoses& now = planned.now;
-  PlannedMotion result;
-  result.samples = timesOf(request.poses, request.poses.front().time_from_start, "poses");
-  const auto whole = std::make_shared<CycleMotion>();
-  CycleMotion& motion = *whole;
-  motion.times = result.waypoints = result.samples;
+  CycleMotion motion;
+  motion.times = timesOf(request.poses, request.poses.front().time_from_start, "poses");
   motion.missing = now.missing;
   for (const Isometry3d& X_WB : now.X_WB) motion.X_WB.emplace_back(motion.times.size(), X_WB);
   const std::vector<std::string>& links = planned.robot.links();
@@ -217,18 +196,7 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
     motion.missing[body].clear();
     is_moved[body] = true;
   }
-  result.unchecked = reachableAlong(motion, is_moved, planned.unreachable);
-  result.piece = [whole](std::size_t first, std::size_t last, CycleMotion& piece) {
-    piece.missing = whole->missing;
-    piece.times.assign(whole->times.begin() + first, whole->times.begin() + last + 1);
-    piece.X_WB.resize(whole->X_WB.size());
-    for (std::size_t body = 0; body < piece.X_WB.size(); ++body) {
-      const std::vector<Isometry3d>& poses = whole->X_WB[body];
-      piece.X_WB[body].assign(poses.begin() + first, poses.begin() + last + 1);
-    }
-    startAtZero(piece);
-  };
-  return result;
+  return planThrough(std::move(motion), is_moved, planned.unreachable);
 }
 
 /// Where a frame is in one above it, at the last time at which the way from the fixed frame is known.

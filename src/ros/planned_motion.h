@@ -6,7 +6,8 @@
 
 #include "ros/tf_history.h"
 #include "sdf_ccd/QueryMotion.h"
-#include "sdf_ccd/robot/unreachable_pairs.h"
+#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/robot/planned_motion.h"
 
 namespace sdf_ccd {
 
@@ -40,19 +41,6 @@ struct PlannedScene {
   const std::vector<UnreachablePair>& unreachable;
   CurrentPoses now;
   MotionSampling sampling;
-};
-
-/// A motion that is made piece by piece: all samples of a long one would take gigabytes.
-struct PlannedMotion {
-  std::vector<double> waypoints;  ///< where it may be cut, times from the first point on [s]
-
-  /// Sets the motion of all bodies from one of the waypoints to a later one, times counting from the first of them.
-  std::function<void(std::size_t first, std::size_t last, CycleMotion& motion)> piece;
-
-  std::vector<double> samples;           ///< times of the request's points [s], from the first
-  std::vector<UncheckedPair> unchecked;  ///< left out of the scene, though this motion may bring them together
-  std::vector<AssumedJoint> assumed;
-  std::string notes;  ///< what a user should know of the assumptions; may be empty
 };
 
 /// The robot's frames in tf: its links, with tf's prefix.

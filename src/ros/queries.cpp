@@ -7,17 +7,16 @@
 #include <stdexcept>
 #include <thread>
 
+#include "common/number_text.h"
 #include "ros/conversions.h"
 #include "ros/planned_markers.h"
-#include "sdf_ccd/geometry/cancel.h"
-#include "sdf_ccd/geometry/number_text.h"
-#include "sdf_ccd/scene/join_results.h"
+#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/monitor/check_motion.h"
 
 namespace sdf_ccd {
 namespace {
 
-constexpr int kNiceness = 5;                    // of answers: cycles have 0
-constexpr std::size_t kWaypointsPerPiece = 16;  // some milliseconds
+constexpr int kNiceness = 5;  // of answers: cycles have 0
 constexpr std::size_t kPointsPerPiece = 500;
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -130,34 +129,29 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
     const Piece piece(*this, spent);
     planned = plan(request);
   }
-  Monitor monitor(scene_, options_, memory_);
   CycleRequest wanted;
   wanted.max_points = max_points_;
-  ResultJoiner joiner(max_points_);
+  MotionCheck check(scene_, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
   if (description_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(*description_);
-  CycleMotion motion;
-  for (std::size_t first = 0, last = 0; first + 1 < planned.waypoints.size(); first = last) {
-    last = std::min(first + kWaypointsPerPiece, planned.waypoints.size() - 1);
+  while (!check.isDone()) {
     const Piece piece(*this, spent);
-    planned.piece(first, last, motion);
     const CancelPoint cancel;
     arena_.execute([&] {
       const CancelScope scope(cancel);  // it may be another thread
-      joiner.add(motion, monitor.run(motion, wanted));
+      const CycleMotion& motion = check.next();
+      if (markers) markers->add(motion);
     });
-    if (markers) markers->add(motion);
   }
-  CycleResult result = joiner.result();
+  const CycleResult result = check.result();
   response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
-  addUnchecked(planned.unchecked, result);
   for (const AssumedJoint& joint : planned.assumed) {
     response.assumed_joints.push_back(joint.name);
     response.assumed_positions.push_back(joint.position);
   }
   response.verdict = static_cast<std::uint8_t>(result.verdict);
   response.error_bound = result.error_bound;
-  const CycleContext context{*scene_, joiner.motion(), planned.samples, ros::Time()};
+  const CycleContext context{*scene_, check.ends(), planned.samples, ros::Time()};
   response.pairs = toPairContacts(result, context);
   if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;

@@ -7,8 +7,8 @@
 
 #include <rosbag/view.h>
 
+#include "common/number_text.h"
 #include "ros/read_bag.h"
-#include "sdf_ccd/geometry/number_text.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdf_ccd/scene/monitor.h"
+#include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd {
 namespace {

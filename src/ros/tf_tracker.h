@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "ros/tf_history.h"
-#include "sdf_ccd/scene/sample_motion.h"
+#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/motion/sample_motion.h"
 
 namespace sdf_ccd {
 

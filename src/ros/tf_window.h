@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "motion/chain_derivatives.h"
 #include "ros/tf_pose.h"
-#include "sdf_ccd/motion/chain_derivatives.h"
 
 namespace sdf_ccd {
 

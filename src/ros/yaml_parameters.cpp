@@ -9,8 +9,8 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "geometry/text_limits.h"
-#include "process/regular_file.h"
+#include "common/text_limits.h"
+#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/contact_gap.h"
+#include "shell/contact_gap.h"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/parallel_for.h"
 #include "piece_walk.h"
-#include "sdf_ccd/geometry/parallel_for.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "nearest_point.h"
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 #include "voronoi_piece.h"
 
 namespace sdf_ccd {

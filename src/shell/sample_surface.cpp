@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "edge_sampling.h"
+#include "geometry/solid_boundary.h"
 #include "measure_shell.h"
 #include "surface_filler.h"
 

@@ -1,7 +1,7 @@
-#include "sdf_ccd/shell/shell_cache.h"
+#include "shell/shell_cache.h"
 
-#include "sdf_ccd/field/content_hash.h"
 #include "sdf_ccd/shell/shell_file.h"
+#include "storage/content_hash.h"
 
 namespace sdf_ccd {
 namespace {

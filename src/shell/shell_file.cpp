@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sdf_ccd/field/checked_file.h"
-#include "sdf_ccd/field/view.h"
+#include "storage/checked_file.h"
+#include "storage/view.h"
 
 namespace sdf_ccd {
 namespace {

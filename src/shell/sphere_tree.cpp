@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {

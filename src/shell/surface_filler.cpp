@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sdf_ccd/geometry/number_text.h"
+#include "common/number_text.h"
 #include "surface_piece.h"
 
 namespace sdf_ccd {

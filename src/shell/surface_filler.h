@@ -4,7 +4,7 @@
 
 #include "flat_pieces.h"
 #include "point_grid.h"
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 #include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"

@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/witness_points.h"
+#include "shell/witness_points.h"
 
 #include <algorithm>
 

@@ -11,10 +11,10 @@
 
 #include "commands.h"
 #include "field_builder.h"
-#include "sdf_ccd/field/octomap_surface.h"
-#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/import/octomap_surface.h"
+#include "sdf_ccd/monitor/scene_plan.h"
 #include "sdf_ccd/robot/robot_scene.h"
-#include "sdf_ccd/scene/scene_plan.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "field/field_cost.h"
+#include "field/sparse_grid.h"
 #include "print.h"
-#include "sdf_ccd/field/field_cost.h"
-#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -31,8 +31,8 @@ std::string asOption(const FieldOptions& options) {
 }
 
 /// The limits for fields of these options.
-SceneOptions limits(const FieldOptions& field) {
-  SceneOptions options;
+BodyOptions limits(const FieldOptions& field) {
+  BodyOptions options;
   options.field = field;
   options.max_error = field.max_error;
   return options;

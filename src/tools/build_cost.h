@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "geometry/closed_solid.h"
+#include "monitor/scene_cost.h"
 #include "sdf_ccd/field/field_options.h"
-#include "sdf_ccd/geometry/closed_solid.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/scene/scene_cost.h"
 
 namespace sdf_ccd::tools {
 

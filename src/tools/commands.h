@@ -12,7 +12,7 @@ void addQueryCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 void addWorkPrecisionCommand(CLI::App& app);
 
-/// Those that need ROS; in the folder bag/.
+/// Those that need ROS; in the folder ros/.
 void addCheckBagCommand(CLI::App& app);
 void addPlotBagCommand(CLI::App& app);
 

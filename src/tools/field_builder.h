@@ -7,11 +7,11 @@
 #include <string>
 
 #include "build_cost.h"
+#include "geometry/solid_boundary.h"
 #include "output_file.h"
 #include "resolution_options.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/geometry/solid_boundary.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd::tools {
@@ -30,7 +30,7 @@ DistanceField buildWithBar(const std::string& title, const ClosedSolid& closed, 
 /// Makes fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {
  public:
-  /// @param spacing  of the shells [m]; none: 2.3 times the field's error bound, two cells of an even grid.
+  /// @param spacing  of the shells [m]; none: 2.3 times the field's error bound, two cells of a uniform grid.
   FieldBuilder(OutputDirectory& out, const ResolutionOptions& resolution, std::optional<double> spacing)
       : out_(out), resolution_(resolution), spacing_(spacing), cost_(spacing) {}
 

@@ -5,19 +5,19 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "field/sparse_grid.h"
 #include "field_builder.h"
+#include "geometry/openings.h"
 #include "output_file.h"
 #include "print.h"
 #include "resolution_options.h"
-#include "sdf_ccd/field/checked_file.h"
 #include "sdf_ccd/field/field_file.h"
-#include "sdf_ccd/field/octomap_surface.h"
-#include "sdf_ccd/field/sparse_grid.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/geometry/openings.h"
+#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/import/octomap_surface.h"
 #include "sdf_ccd/shell/shell_file.h"
 #include "slice.h"
+#include "storage/checked_file.h"
 
 namespace sdf_ccd::tools {
 namespace {

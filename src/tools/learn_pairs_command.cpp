@@ -8,10 +8,10 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "monitor/learn_pairs.h"
 #include "output_file.h"
 #include "print.h"
 #include "progress_bar.h"
-#include "sdf_ccd/robot/learn_pairs.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "ros/recorded_positions.h"
 #endif

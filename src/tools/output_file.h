@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "process/temporary_file.h"
+#include "storage/temporary_file.h"
 
 namespace sdf_ccd::tools {
 

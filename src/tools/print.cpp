@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "sdf_ccd/field/sparse_grid.h"
+#include "field/adaptive_grid.h"
+#include "field/opening_caps.h"
+#include "field/sparse_grid.h"
 
 namespace sdf_ccd::tools {
 namespace {

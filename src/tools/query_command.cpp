@@ -16,7 +16,7 @@
 #include "progress_bar.h"
 #include "resolution_options.h"
 #include "sdf_ccd/field/field_file.h"
-#include "sdf_ccd/geometry/mesh_file.h"
+#include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "segment_csv.h"
 

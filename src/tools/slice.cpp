@@ -6,9 +6,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "field/opening_caps.h"
+#include "field/sparse_grid.h"
 #include "pixel_font.h"
 #include "print.h"
-#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -6,14 +6,14 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "geometry/generated_mesh.h"
 #include "output_file.h"
 #include "precision/gnuplot.h"
 #include "precision/report.h"
 #include "precision/studies.h"
 #include "progress_bar.h"
-#include "sdf_ccd/geometry/generated_mesh.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -103,7 +103,7 @@ void addWorkPrecisionCommand(CLI::App& app) {
   command->footer(
       described +
       "Each asks the same random queries of every setting, in turn, on one thread, prints a table and writes "
-      "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Even fields have 16 bits a sample, of the study "
+      "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Uniform fields have 16 bits a sample, of the study "
       "cell also 32; adaptive ones (of a maximum error) 7 bits per corner of a leaf, whose rounding is part of that "
       "error.");
   command->add_option("study", arguments->study, "One of the studies below; all of them without any");

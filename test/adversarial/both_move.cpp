@@ -18,11 +18,11 @@ TriangleMesh tetrahedron(double size) {
 
 std::vector<Duel> duels() {
   const Vector3d arm(0.4, 0.02, 0.02), reach(0.4, 0.0, 0.0);
-  SceneOptions coarse;
+  BodyOptions coarse;
   coarse.field.max_error = 2e-3;
   coarse.shell.spacing = 0.04;
   coarse.shell.edge_gap = 4e-3;
-  SceneOptions fine;
+  BodyOptions fine;
   fine.field.max_error = 5e-4;
   fine.shell.spacing = 0.03;
   fine.shell.edge_gap = 2e-3;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdf_ccd/motion/chain_derivatives.h"
-#include "sdf_ccd/scene/sample_motion.h"
+#include "motion/chain_derivatives.h"
+#include "sdf_ccd/motion/sample_motion.h"
 
 namespace sdf_ccd::test {
 namespace {

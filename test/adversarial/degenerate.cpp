@@ -83,7 +83,7 @@ struct WholeDuel {
 };
 
 std::vector<WholeDuel> duels() {
-  SceneOptions scene;
+  BodyOptions scene;
   scene.field.max_error = 1e-3;
   scene.shell.spacing = 0.02;
   scene.shell.edge_gap = 2e-3;

@@ -57,7 +57,7 @@ Actor ballActor(double radius) {
   return {"ball", {{Primitive(Sphere{radius}), Isometry3d::Identity(), "ball"}}, {ball(radius)}, {}, true};
 }
 
-Duel::Duel(Actor a, Actor b, const SceneOptions& scene, const MonitorOptions& monitor)
+Duel::Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& monitor)
     : a_(std::move(a)), b_(std::move(b)) {
   const SceneDescription description{{described("a", a_), described("b", b_)}, {}};
   auto built =

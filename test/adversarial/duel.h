@@ -8,7 +8,7 @@
 #include "adversarial/family.h"
 #include "oracle/pair_motion.h"
 #include "oracle/random.h"
-#include "sdf_ccd/scene/monitor.h"
+#include "sdf_ccd/monitor/monitor.h"
 
 /// Two bodies under a monitor, and what is true of them.
 namespace sdf_ccd::test {
@@ -35,7 +35,7 @@ Actor ballActor(double radius);
 
 class Duel {
  public:
-  Duel(Actor a, Actor b, const SceneOptions& scene, const MonitorOptions& monitor);
+  Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& monitor);
 
   const Actor& a() const { return a_; }
   const Actor& b() const { return b_; }

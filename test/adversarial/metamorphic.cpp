@@ -20,8 +20,8 @@ TriangleMesh tetrahedron(double size) {
 
 enum class Grid { kAdaptive, kFiner, k16Bits, k32Bits };
 
-SceneOptions optionsFor(Grid grid, double scale) {
-  SceneOptions scene;
+BodyOptions optionsFor(Grid grid, double scale) {
+  BodyOptions scene;
   if (grid == Grid::kAdaptive || grid == Grid::kFiner) {
     scene.field.max_error = scale * (grid == Grid::kFiner ? 2e-4 : 1e-3);
   } else {

@@ -123,7 +123,7 @@ class Climb {
 
 std::vector<Duel> duels() {
   const Vector3d arm(0.4, 0.02, 0.02), reach(0.4, 0.0, 0.0);
-  SceneOptions scene;
+  BodyOptions scene;
   scene.field.max_error = 1e-3;
   scene.shell.spacing = 0.04;
   scene.shell.edge_gap = 2e-3;

@@ -53,7 +53,7 @@ class ScratchDirectory {
 
 /// @param coarse  1: as fine as a robot is checked; more: larger errors, which are as hard to keep and cheaper.
 Duel makeDuel(const Actor& a, const Actor& b, double coarse, const std::string& cache) {
-  SceneOptions scene;
+  BodyOptions scene;
   scene.field.max_error = coarse * 2e-3;
   scene.shell.spacing = coarse * 0.02;
   scene.shell.edge_gap = coarse * 4e-3;

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_case.h"
+#include "field/sparse_grid.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd {
 namespace {

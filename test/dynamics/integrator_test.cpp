@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/integrator.h"
+#include "dynamics/integrator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/mass_properties.h"
+#include "dynamics/mass_properties.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/rigid_motion.h"
+#include "dynamics/rigid_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/simulation_file.h"
+#include "dynamics/simulation_file.h"
 
 #include <gtest/gtest.h>
 

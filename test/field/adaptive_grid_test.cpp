@@ -1,16 +1,17 @@
-#include "sdf_ccd/field/adaptive_grid.h"
+#include "field/adaptive_grid.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "field/sparse_grid.h"
+#include "geometry/triangle_tree.h"
 #include "oracle/box_union.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -311,10 +312,10 @@ TEST(AdaptiveGrid, DamagedIndicesAreRefused) {
     return s;
   }();
   AdaptiveData far;
-  far.top = {FarBall{{}, 7, false}.word(), FarBall{{1, 0, -2}, 900, true}.word()};
+  far.top = {EmptySphere{{}, 7, false}.word(), EmptySphere{{1, 0, -2}, 900, true}.word()};
   const AdaptiveBlock block = AdaptiveGrid(shape, far).block({5, 6, 200});
   EXPECT_TRUE(block.inside);
-  EXPECT_NEAR(block.ball_radius, 900 * FarBall::step(shape.size), 1e-12);
+  EXPECT_NEAR(block.ball_radius, 900 * EmptySphere::step(shape.size), 1e-12);
   EXPECT_EQ(block.ball_center, Vector3d(192.0, 64.0, -64.0));
   AdaptiveData lost = far;
   lost.top[1] = 7 << 2 | top_word::kLeaf;

@@ -5,13 +5,14 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "field/sparse_grid.h"
+#include "geometry/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -322,7 +323,7 @@ TEST(DistanceField, OpenMeshHasBoundsStill) {
 }
 
 TEST(DistanceField, RefusesBadInput) {
-  EXPECT_THROW(buildField({}, cells(16)), std::invalid_argument);
+  EXPECT_THROW(buildField(TriangleMesh{}, cells(16)), std::invalid_argument);
   TriangleMesh mesh = test::boxMesh(kHalf);
   mesh.vertices[0].x() = NAN;
   EXPECT_THROW(buildField(mesh, cells(16)), std::invalid_argument);

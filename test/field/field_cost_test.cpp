@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/field_cost.h"
+#include "field/field_cost.h"
 
 #include <algorithm>
 #include <array>
@@ -14,9 +14,9 @@
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/field/octomap_surface.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/import/octomap_surface.h"
 
 namespace sdf_ccd {
 namespace {

@@ -11,19 +11,22 @@
 
 #include <gtest/gtest.h>
 
+#include "field/adaptive_grid.h"
+#include "field/field_cache.h"
+#include "field/opening_caps.h"
+#include "field/sparse_grid.h"
 #include "oracle/mended_file.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
-#include "sdf_ccd/field/checked_file.h"
-#include "sdf_ccd/field/field_cache.h"
 #include "sdf_ccd/query/segment_batch.h"
+#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 6;  // of an even field's file
+constexpr std::uint32_t kVersion = 6;  // of a uniform field's file
 
 /// A directory of this test's own.
 class FieldFile : public testing::Test {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "field/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/sparse_grid.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,10 +1,10 @@
 // Which way parts are turned: against solids that are known by construction.
 #include <gtest/gtest.h>
 
+#include "geometry/triangle_tree.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/triangle_tree.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/geometry/mesh_file.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,14 +1,14 @@
-#include "sdf_ccd/geometry/openings.h"
+#include "geometry/openings.h"
 
 #include <gtest/gtest.h>
 
+#include "geometry/triangle.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/triangle.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
 namespace {

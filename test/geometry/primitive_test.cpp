@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/triangle_tree.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

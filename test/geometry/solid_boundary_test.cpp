@@ -1,14 +1,14 @@
-#include "sdf_ccd/geometry/solid_boundary.h"
+#include "geometry/solid_boundary.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "geometry/triangle.h"
 #include "oracle/box_union.h"
 #include "oracle/drawn_meshes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "geometry/triangle_tree.h"
 
 #include <cmath>
 #include <random>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/triangle.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "motion/chain_derivatives.h"
 #include "oracle/random.h"
-#include "sdf_ccd/motion/chain_derivatives.h"
 #include "sdf_ccd/motion/chords.h"
 
 namespace sdf_ccd {

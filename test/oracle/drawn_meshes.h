@@ -1,7 +1,7 @@
 #pragma once
 
+#include "geometry/generated_mesh.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/geometry/generated_mesh.h"
 
 /// Meshes as people draw them: sheets, walls from both sides, open parts, parts inside out.
 namespace sdf_ccd::test {

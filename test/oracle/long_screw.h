@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 
 /// Motions of constant twist in long double, written apart from src/motion/ so that they can judge it.
 namespace sdf_ccd::test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "oracle/random.h"
-#include "sdf_ccd/field/checked_file.h"
+#include "storage/checked_file.h"
 
 namespace sdf_ccd::test {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/triangle.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/geometry/triangle.h"
 
 /// Meshes that are not closed.
 namespace sdf_ccd::test {

@@ -60,7 +60,7 @@ double expectHonest(const FieldOptions& options) {
   return lengths[lengths.size() / 2];
 }
 
-TEST(ImpactWindow, HoldsTheContactOfEvenFields) {
+TEST(ImpactWindow, HoldsTheContactOfUniformFields) {
   FieldOptions options;
   options.cells = 32;
   EXPECT_LT(expectHonest(options), 0.2);

@@ -123,7 +123,7 @@ Tally torus(const FieldOptions& options) {
   return expectHonest(mesh, options, [&](const Vector3d& p) { return surface.signedDistance(p); });
 }
 
-TEST(LeastDistance, HoldsTheDepthsOfEvenFields) {
+TEST(LeastDistance, HoldsTheDepthsOfUniformFields) {
   FieldOptions options;
   options.cells = 32;
   const double cell = 0.2 / 32;

@@ -32,7 +32,7 @@ DistanceField torus() {
   return buildField(test::torusMesh(0.2, 0.08, 48, 24), options);
 }
 
-DistanceField evenTorus(int sample_bits = 16) {
+DistanceField uniformTorus(int sample_bits = 16) {
   FieldOptions options;
   options.cells = 64;
   options.sample_bits = sample_bits;
@@ -141,7 +141,7 @@ Compared compare(const DistanceField& field, const std::vector<Segment>& segment
 }
 
 TEST(SegmentBatch, EqualsSingleQueries) {
-  for (const DistanceField& field : {torus(), evenTorus(16), evenTorus(32)}) {
+  for (const DistanceField& field : {torus(), uniformTorus(16), uniformTorus(32)}) {
     const std::vector<Segment> segments = randomSegments(field, 30000);
     for (const double sigma : {0.0, 0.004, -0.004}) {
       const Compared compared = compare(field, segments, sigma);
@@ -162,7 +162,7 @@ TEST(SegmentBatch, EqualsSingleQueriesOnNoise) {
 
 /// Samples of 16 bits are read two at a time: not beyond the last one, behind which a mapped file may end.
 TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
-  const DistanceField field = evenTorus(16);
+  const DistanceField field = uniformTorus(16);
   const SparseGrid& grid = *field.grid();
   const std::size_t bytes = grid.steps().size * sizeof(std::int16_t);
   const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), pages = (bytes + page - 1) / page * page;
@@ -198,24 +198,24 @@ TEST(SegmentBatch, FollowsEverySegmentToItsEnd) {
   // One that does not end is asked again one by one: right, but as slow as thousands.
   FieldOptions options;
   options.max_error = 0.0003;
-  const DistanceField fine = buildField(test::torusMesh(0.2, 0.08, 48, 24), options), even = evenTorus();
-  constexpr int kCount = FlightWork::kSegments, kChunks = 24;
+  const DistanceField fine = buildField(test::torusMesh(0.2, 0.08, 48, 24), options), even = uniformTorus();
+  constexpr int kCount = RayWork::kSegments, kChunks = 24;
   const std::vector<Segment> segments = randomSegments(fine, kChunks * kCount);
-  const auto work = std::make_unique<FlightWork>();
+  const auto work = std::make_unique<RayWork>();
   const auto follow = [&](const auto& lanes, bool first_only) {
     for (int i = 0; i < kChunks; ++i) {
-      ASSERT_EQ(followFlights(lanes, first_only, segments.data() + i * kCount, kCount, *work), -1);
+      ASSERT_EQ(followRays(lanes, first_only, segments.data() + i * kCount, kCount, *work), -1);
       EXPECT_TRUE(work->lost.empty()) << work->lost.size() << " of chunk " << i;
     }
   };
   for (const bool first_only : {true, false}) {
     follow(AdaptiveLanes(*fine.adaptive(), 0.0), first_only);
-    follow(EvenLanes(*even.grid(), 0.0), first_only);
+    follow(UniformLanes(*even.grid(), 0.0), first_only);
   }
 }
 
 TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
-  const DistanceField field = torus(), even = evenTorus(16), floats = evenTorus(32);
+  const DistanceField field = torus(), even = uniformTorus(16), floats = uniformTorus(32);
   const std::vector<Segment> segments = randomSegments(field, 4000);
   int kinds = 0;
   for (std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS; targets != 0; targets &= targets - 1) {
@@ -274,7 +274,7 @@ TEST(SegmentBatch, DoesNotDependOnThreads) {
 
 /// Segments share vectors, and what is done for one of them may be done for all: far ones, those that leave the box.
 TEST(SegmentBatch, DoesNotDependOnTheOtherSegments) {
-  for (const DistanceField& field : {torus(), evenTorus()}) {
+  for (const DistanceField& field : {torus(), uniformTorus()}) {
     std::vector<Segment> segments = randomSegments(field, 5000);
     const auto ask = [&] {
       BatchResult result;
@@ -316,7 +316,7 @@ TEST(SegmentBatch, DefinedForNoSegmentsNoLengthAndNoGrid) {
 
 /// Segments that miss the grid's box end before they begin; those behind them must not be forgotten.
 TEST(SegmentBatch, GoesOnAfterManyThatMissTheBox) {
-  for (const DistanceField& field : {torus(), evenTorus()}) {
+  for (const DistanceField& field : {torus(), uniformTorus()}) {
     std::vector<Segment> segments(3000, {Vector3d(5, 5, 5), Vector3d(6, 5, 5)});
     segments.push_back({Vector3d(0.2, 0, -0.2), Vector3d(0.2, 0, 0.2)});
     for (const SegmentMode mode : {SegmentMode::kFirst, SegmentMode::kAll}) {
@@ -340,7 +340,7 @@ TEST(SegmentBatch, RefusesWhatIsNotFiniteOrOutsideTheBand) {
 }
 
 TEST(SegmentBatch, NamesTheSegmentThatItRefuses) {
-  for (const DistanceField& field : {torus(), evenTorus()}) {
+  for (const DistanceField& field : {torus(), uniformTorus()}) {
     for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 3e12}) {
       for (int k = 0; k < 6; ++k) {
         std::vector<Segment> segments(40, Segment{Vector3d::Zero(), Vector3d::Constant(0.01)});

@@ -7,9 +7,9 @@
 
 #include "oracle/hostile_files.h"
 #include "robot/read_text.h"
+#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor/scene_plan.h"
 #include "sdf_ccd/robot/robot_scene.h"
-#include "sdf_ccd/scene/monitor.h"
-#include "sdf_ccd/scene/scene_plan.h"
 
 namespace sdf_ccd {
 namespace {
@@ -72,7 +72,7 @@ TEST_P(HostileMesh, CostsItsLinkAlone) {
     }
   }
 
-  SceneOptions options;
+  BodyOptions options;
   options.field.cells = 8;
   options.shell.spacing = 0.05;
   const auto scene = std::make_shared<const Scene>(buildScene(arm, planScene(arm, planOptions(options)), options));

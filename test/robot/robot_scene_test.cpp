@@ -6,7 +6,7 @@
 
 #include "oracle/test_data.h"
 #include "robot/read_text.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "motion/chain_derivatives.h"
 #include "oracle/exact_motion.h"
 #include "robot/random_robot.h"
-#include "sdf_ccd/motion/chain_derivatives.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "oracle/random.h"
+#include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
 #include "sdf_ccd/robot/trajectory_motion.h"
-#include "sdf_ccd/scene/monitor.h"
 
 namespace sdf_ccd {
 namespace {
@@ -31,7 +31,7 @@ class TwoArmsTest : public ::testing::Test {
   TwoArmsTest() : robot_(kTwoArms) {
     std::vector<std::string> warnings;
     const SceneDescription description = describeRobot(robot_, {}, {}, {}, warnings);
-    SceneOptions options;
+    BodyOptions options;
     options.shell.spacing = 0.01;
     scene_ =
         std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));

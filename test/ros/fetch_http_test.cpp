@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "ros/describe_scene.h"
-#include "sdf_ccd/geometry/cancel.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <set>
 
+#include "monitor/scene_case.h"
 #include "ros/link_markers.h"
 #include "ros/planned_markers.h"
 #include "ros/shape_marker.h"
 #include "ros/status_text.h"
 #include "ros/world_markers.h"
-#include "scene/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <chrono>
 
+#include "monitor/scene_case.h"
 #include "ros/cycle_messages.h"
 #include "ros/described_world.h"
 #include "ros/tf_messages.h"
-#include "scene/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

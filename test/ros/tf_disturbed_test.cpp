@@ -9,11 +9,11 @@
 #include <optional>
 #include <random>
 
+#include "monitor/scene_case.h"
 #include "ros/cycle_messages.h"
 #include "ros/described_world.h"
 #include "ros/monitor_loop.h"
 #include "ros/tf_messages.h"
-#include "scene/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/contact_gap.h"
+#include "shell/contact_gap.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "../../src/shell/flat_pieces.h"
+#include "geometry/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/geometry/mesh_file.h"
 #include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/triangle_tree.h"
+#include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
 namespace sdf_ccd {

@@ -2,9 +2,12 @@
 
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/field/field_options.h"
-#include "sdf_ccd/geometry/closed_solid.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {
+
+class ClosedSolid;
+class Solid;
 
 /// Samples the signed distance to the boundary of a mesh's solid (paper §3, Table 1): exact closest points there, signs
 /// from the winding number. Where parts overlap, depth is that in all of them together (see Solid).

@@ -4,12 +4,13 @@
 #include <memory>
 #include <variant>
 
-#include "sdf_ccd/field/adaptive_grid.h"
-#include "sdf_ccd/field/opening_caps.h"
-#include "sdf_ccd/field/sparse_grid.h"
 #include "sdf_ccd/geometry/primitive.h"
 
 namespace sdf_ccd {
+
+class AdaptiveGrid;
+class OpeningCaps;
+class SparseGrid;
 
 /// A field at one place. Guarantee: |true distance − value| ≤ error.
 struct FieldSample {
@@ -69,9 +70,7 @@ class DistanceField {
   const OpeningCaps* openings() const { return openings_.get(); }
 
   /// Lower bound of the distance to where the surface is no surface of the mesh [m]; infinity if it is all over.
-  double openingDistance(const Vector3d& p_F) const {
-    return openings_ ? openings_->distance(p_F) : TriangleTree::kInfinity;
-  }
+  double openingDistance(const Vector3d& p_F) const;
 
   /// What is known of the mesh alone; without openings as sample(). Guarantee: |s − value| ≤ error for the distance s
   /// from the mesh, positive or negative where p_F counts as inside. The value is that of sample(), so the error is

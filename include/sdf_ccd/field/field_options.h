@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
+
+#include "sdf_ccd/common/progress.h"
 
 namespace sdf_ccd {
 
@@ -19,9 +20,6 @@ struct FieldOptions {
   int sample_bits = 16;
   std::size_t max_bytes = std::size_t{4} << 30;  ///< larger fields are refused, with the cell size that would fit
 };
-
-/// Called from one thread at a time with the share done, from 0 to 1.
-using Progress = std::function<void(double)>;
 
 /// Throws std::invalid_argument, with the value, for options that no field can have.
 void validate(const FieldOptions& options);

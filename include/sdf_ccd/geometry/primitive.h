@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {

@@ -16,7 +16,7 @@ struct LeastDistance {
 /// max(d + high, −low − d), wherever on it the path may truly be deepest.
 ///
 /// Errors are those of the places that may be it: of the leaves that an adaptive grid's path crosses, or what samples
-/// of an even grid say of pieces of the path (see src/field/sample_bracket.h). Beyond the band they are larger, as
+/// of a uniform grid say of pieces of the path (see src/field/sample_bracket.h). Beyond the band they are larger, as
 /// those of DistanceField::sample() are.
 /// @param segment  as segmentIntervals(); anywhere, also outside the field's box.
 /// @throws std::invalid_argument if the segment is not within reach.

@@ -8,13 +8,13 @@
 
 #include <urdf_model/model.h>
 
-#include "sdf_ccd/geometry/eigen_types.h"
+#include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
 
 using JointPositions = std::map<std::string, double>;  ///< by joint name [rad or m]
 
-/// By joint name: pose of the joint's child link in the joint's frame (the one that its <origin> gives).
+/// By joint name: pose of the joint's child link in the joint's frame (the one that its `origin` gives).
 using JointPoses = std::map<std::string, Isometry3d>;
 
 /// The tree of links and joints of a URDF.

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/robot/resource.h"
 #include "sdf_ccd/robot/robot_model.h"
 #include "sdf_ccd/robot/srdf.h"
-#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "sdf_ccd/motion/sample_motion.h"
 #include "sdf_ccd/robot/robot_model.h"
-#include "sdf_ccd/scene/sample_motion.h"
 
 namespace sdf_ccd {
 

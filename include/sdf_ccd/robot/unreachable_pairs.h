@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/motion/cycle_motion.h"
 #include "sdf_ccd/robot/planned_joints.h"
-#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 
@@ -40,8 +41,5 @@ std::vector<UncheckedPair> reachableAlong(const RobotModel& robot, const Planned
 /// @param is_moved  per body; pairs of which neither is are passed over.
 std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::vector<bool>& is_moved,
                                           const std::vector<UnreachablePair>& pairs);
-
-/// Lists the pairs as NOT_CHECKED behind those of the scene: what would be CLEAR as a whole is not.
-void addUnchecked(const std::vector<UncheckedPair>& pairs, CycleResult& result);
 
 }  // namespace sdf_ccd

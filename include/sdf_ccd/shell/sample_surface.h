@@ -3,10 +3,11 @@
 #include <cstdint>
 
 #include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/solid_boundary.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
+
+class Solid;
 
 struct ShellOptions {
   double spacing = 0.01;  ///< no place of the surface farther than this from a point [m]

@@ -41,7 +41,7 @@ class World {
       description.bodies.push_back(body);
       carried.push_back({names[b], &actors_[std::size_t(b)].solid});
     }
-    SceneOptions options;
+    BodyOptions options;
     options.field.max_error = 2e-3;
     options.shell.spacing = 0.04;
     options.shell.edge_gap = 4e-3;

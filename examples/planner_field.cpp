@@ -1,0 +1,40 @@
+// A field in a planner's inner loop: of many straight moves of a tool's tip, those that stay out of an obstacle.
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include <sdf_ccd/sdf_ccd.h>
+
+int main() {
+  using namespace sdf_ccd;
+  constexpr double kRadius = 0.2, kTip = 0.01;  // [m]
+  const Body obstacle = prepareBody("obstacle", tessellate(Sphere{kRadius}, 1e-4), {1e-3, {}});
+  const DistanceField& field = obstacle.field();
+
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> place(-0.5, 0.5);
+  const auto draw = [&] { return Vector3d(place(random), place(random), place(random)); };
+  std::vector<Segment> moves(10'000);
+  for (Segment& move : moves) move = {draw(), draw()};
+
+  // The tip is a ball of this radius: where its middle is no nearer than that, it is free.
+  SegmentOptions options;
+  options.sigma = kTip + field.errorBound();
+  options.mode = SegmentMode::kAny;
+  std::size_t free = 0, wrong = 0;
+  for (const Segment& move : moves) {
+    const bool is_free = segmentIntervals(field, move, options).empty();
+    free += is_free;
+    // Of a sphere the truth is known.
+    const Vector3d way = move.end - move.start;
+    const double t = std::min(1.0, std::max(0.0, -move.start.dot(way) / way.squaredNorm()));
+    if (is_free && (move.start + t * way).norm() < kRadius - 1e-4 + kTip) ++wrong;
+  }
+  std::printf("%zu of %zu moves are free\n", free, moves.size());
+
+  // What a planner descends along.
+  const FieldValue near = field.interpolate({0.0, 0.0, 0.25});
+  std::printf("0.05 m away: %.4f m, towards (%.2f %.2f %.2f)\n", near.value, near.gradient.x(), near.gradient.y(),
+              near.gradient.z());
+  return wrong == 0 && free > 0 && free < moves.size() && std::abs(near.value - 0.05) < 2e-3 ? 0 : 1;
+}

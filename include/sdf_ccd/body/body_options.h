@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/model/accuracy.h"
+#include "sdf_ccd/shell/sample_surface.h"
+
+namespace sdf_ccd {
+
+/// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing, or edge_gap if there is
+/// one, + the field's own error + motion_margin), so that they hold the margin at which a pair ceases to be CLEAR; at
+/// most to 32 cells, beyond which the bounds that every field has anywhere are fine enough.
+struct BodyOptions {
+  FieldOptions field;
+  ShellOptions shell;
+  double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
+  std::string cache_directory;  ///< empty: nothing is read or written
+
+  /// The bound that field, shell and motion_margin are shares of (see error_budget.h) [m]. If it is set, a field or
+  /// shell that would be too large is made coarser, and its body's report says so; else the body cannot be checked.
+  std::optional<double> max_error;
+};
+
+/// The options that keep an accuracy: its max_error shared out to field, edges and motions (see shareOut()).
+/// @throws std::invalid_argument as shareOut().
+BodyOptions optionsFor(const Accuracy& accuracy);
+
+}  // namespace sdf_ccd

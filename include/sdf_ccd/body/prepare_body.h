@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/model/accuracy.h"
+#include "sdf_ccd/model/scene_description.h"
+
+namespace sdf_ccd {
+
+/// A body with all that it may be checked with: field, shell and its tree, triangles. For whole robots and worlds
+/// buildScene() makes less, as it knows which pairs there are.
+/// @throws std::invalid_argument if the shape is not valid or the accuracy cannot be had; std::length_error if it would
+/// take too much memory.
+Body prepareBody(const std::string& name, const Primitive& primitive, const Accuracy& accuracy);
+
+/// The same of a mesh, in its frame; turned outward, and closed where it is not.
+Body prepareBody(const std::string& name, const TriangleMesh& mesh, const Accuracy& accuracy);
+
+/// The same of several elements. @throws std::invalid_argument also if the description has a failure.
+Body prepareBody(const BodyDescription& description, const Accuracy& accuracy);
+
+}  // namespace sdf_ccd

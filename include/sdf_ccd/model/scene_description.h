@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// One collision element: a primitive, or a mesh as loaded and scaled.
+struct GeometryDescription {
+  std::variant<Primitive, std::shared_ptr<const TriangleMesh>> shape;
+  Isometry3d X_BG = Isometry3d::Identity();  ///< its frame G in the body's frame B
+  std::string source;                        ///< for people: "box" or the mesh's URI
+  bool watertight_voxels = false;            ///< boundary of whole voxels: no shell, only a field
+  std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: as BodyOptions::field says
+  std::optional<Vector3d> scale = {};        ///< that made a mesh of what `source` names; none: that is another name
+};
+
+inline bool isHalfSpace(const GeometryDescription& geometry) {
+  const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+  return primitive && isHalfSpace(*primitive);
+}
+
+/// A rigid body: a robot's link or an object of the world.
+struct BodyDescription {
+  std::string name;
+  std::string frame;                              ///< the tf frame that carries it
+  Isometry3d X_frame_B = Isometry3d::Identity();  ///< its frame B in that frame
+  std::vector<GeometryDescription> geometry;
+  std::string failure;    ///< why the body cannot be checked; empty if it can
+  bool is_world = false;  ///< an object of the world, not a link
+};
+
+/// A pair that is left out, by the bodies' names.
+struct DisabledPair {
+  std::string body_a;
+  std::string body_b;
+  std::string reason;  ///< "SRDF: Adjacent", "rigidly joined", …
+};
+
+struct SceneDescription {
+  std::vector<BodyDescription> bodies;  ///< names are unique
+  std::vector<DisabledPair> disabled;
+  std::vector<std::string> visual_only = {};  ///< links that are no bodies: they have a visual, but no collision shape
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/contact/penalty.h"
+#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/query/verdict.h"
+
+namespace sdf_ccd {
+
+/// What a cycle is asked for; what nobody reads is not computed.
+struct CycleRequest {
+  bool wrenches = true;
+  int max_points = 0;  ///< contact points listed per pair, the deepest first
+};
+
+/// One contact of one shell point.
+struct ContactPoint {
+  double enter = 0.0;               ///< [s] from t₀
+  double exit = 0.0;                ///< [s] from t₀
+  double time = 0.0;                ///< when it is deepest [s] from t₀
+  double depth = 0.0;               ///< [m]
+  double depth_error = 0.0;         ///< of the depth, from the field there [m]: mostly less than ErrorBound::field,
+                                    ///< beyond its band more
+  Vector3d p_W = Vector3d::Zero();  ///< when deepest [m]
+  Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
+};
+
+struct PairResult {
+  int body_a = -1;
+  int body_b = -1;
+  Verdict verdict = Verdict::kNotChecked;
+  std::string reason;    ///< why it was not checked; empty if it was
+  WaypointSpan span;     ///< the part of the motion that this is about; empty if the pair is delayed
+  bool skipped = false;  ///< clear by the clearance left from an earlier cycle
+  ErrorBound error;
+  double clearance = 0.0;           ///< a lower bound of the distance at the span's end [m]; negative if not known
+  std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
+  bool touches_at_sample = false;   ///< some interval holds one of CycleMotion::times: a check there would see it
+  ContactPoint deepest;             ///< valid if intervals is not empty
+  Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
+  Wrench on_b_W;                    ///< the same on B, about B's origin
+  std::vector<ContactPoint> points;
+};
+
+struct CycleResult {
+  std::vector<PairResult> pairs;           ///< in the order of Scene::pairs
+  Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
+                                           ///< NOT_CHECKED if there are none, or some are delayed and the others CLEAR
+  double error_bound = 0.0;                ///< largest of the pairs checked [m]
+  ErrorBound error;                        ///< of that pair, by source
+  int checked = 0;
+  int skipped = 0;
+  int not_checked = 0;
+  int delayed = 0;
+  double run_time = 0.0;  ///< [s]
+};
+
+struct MonitorOptions {
+  ContactOptions contact;
+  ChordOptions chords;
+};
+
+/// What checks need while they run, to be used again. Monitors of which several run at a time may share one; there is
+/// as much of it as there are pairs that are checked at the same time.
+struct MonitorMemory;
+std::shared_ptr<MonitorMemory> makeMonitorMemory();
+
+/// Runs cycles over all pairs of a scene and remembers how far apart they were.
+///
+/// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is surely deeper, by
+/// what the field knows where it is, than the errors of chord and root, else UNCERTAIN;
+/// NOT_CHECKED if a body is missing, beyond kFarthestPose, or the bound infinite. Both bodies' shells are tested where
+/// both exist, and their impulses halved, so that what both see counts once. Where the bound exceeds a field's band,
+/// the field's lower bounds decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the
+/// end.
+///
+/// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
+/// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
+///
+/// In a field with openings a place may be inside because a cap makes it so, or have come there through an opening.
+/// What its hits alone say is UNCERTAIN, with a depth_error no less than the depth, and bears no force, unless it may
+/// be that the point just touches. CONTACT there needs that a point surely passes through the mesh, in or out, or that
+/// triangles of both bodies surely cross at a recorded time (surface_crossing.h); then depths to the mesh, not to a
+/// cap, bear force. A crossing without any hit (of a sheet, which has no inside) is a contact of no length and depth.
+///
+/// A body that lies wholly inside another touches no surface: points of its shell show that, or, of a body without one
+/// (a voxel map, whatever shares a body with one or with a half-space), one point of each of its components. Such a
+/// contact of a body without a shell has a depth, but bears no force.
+///
+/// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
+/// the arena (it makes its scratch memory once). However many chords touch however many points, what is known of them
+/// is put together as it comes: memory is as that of a few chords. Pairs run in parallel on the caller's TBB arena;
+/// results do not depend on the number of threads. Not thread-safe: one cycle at a time.
+class Monitor {
+ public:
+  /// @param memory  to be shared with other monitors; null: its own.
+  /// @throws std::invalid_argument if the options are not valid.
+  Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
+          std::shared_ptr<MonitorMemory> memory = nullptr);
+  /// Of bodies that are prepared already: see makeScene().
+  explicit Monitor(std::vector<Body> bodies, const MonitorOptions& options = {});
+  ~Monitor();
+
+  /// @throws std::invalid_argument if the motion's sizes do not fit the scene or its times do not increase.
+  const CycleResult& run(const CycleMotion& motion, const CycleRequest& request);
+
+  /// The same for bodies that are all known at the same times.
+  /// @param X_WB      per body: its poses, two or more.
+  /// @param duration  from the first poses to the last; those between are evenly spaced [s].
+  /// @throws std::invalid_argument also if bodies have different numbers of poses.
+  const CycleResult& check(const std::vector<std::vector<Isometry3d>>& X_WB, double duration = 1.0,
+                           const CycleRequest& request = {});
+
+  /// Forgets all clearances, as when time jumps.
+  void reset();
+
+  const Scene& scene() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Distance from a point to the nearest body at given poses; for the point queries. Of a mesh with openings the error
+/// covers that the point may be on either side, and that the nearest surface may be a cap: see
+/// DistanceField::meshSample().
+struct NearestBody {
+  int body = -1;          ///< -1 if no body has a field
+  double distance = 0.0;  ///< [m], negative inside
+  double error = 0.0;     ///< [m]
+  Vector3d gradient_W = Vector3d::Zero();
+};
+NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB, const Vector3d& p_W);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/body_report.h"
+#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/monitor/scene_plan.h"
+#include "sdf_ccd/query/verdict.h"
+
+namespace sdf_ccd {
+
+struct Scene {
+  std::vector<Body> bodies;
+  std::vector<PlannedPair> pairs;
+  std::vector<LeftOut> left_out;
+  std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid
+  std::vector<BodyReport> reports;
+  ErrorBound bound;                 ///< the largest of all pairs; chord: what the options allow for
+  std::optional<double> max_error;  ///< that was wanted [m]
+  double build_seconds = 0.0;
+};
+
+/// What planScene() has to know of the options.
+inline PlanOptions planOptions(const BodyOptions& options) {
+  PlanOptions plan;
+  plan.shell_spacing = options.shell.spacing;
+  plan.edge_gap = options.shell.edge_gap < options.shell.spacing ? options.shell.edge_gap : 0.0;
+  return plan;
+}
+
+/// Builds, or takes from the cache, what the plan needs; meshes of equal content once. A body whose field or shell
+/// cannot be built keeps its place with Body::failure set; the others are not touched by it.
+/// @param progress  called with the body's name and the share of all bodies done.
+Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
+                 const std::function<void(const std::string&, double)>& progress = {});
+
+/// A scene of bodies that are prepared already: all of its pairs, but those of two bodies of the world and of two that
+/// have no shell.
+/// @param motion_margin  as in BodyOptions [m].
+/// @throws std::invalid_argument if two bodies share a name.
+Scene makeScene(std::vector<Body> bodies, double motion_margin = 1e-3);
+
+/// The plan as one table for the log: body, geometry, field, shell, cells, bytes, error bound by source, pairs; below
+/// it what failed, what to know, and what was left out, by reason.
+std::string planTable(const Scene& scene);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/common/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// A part of a motion, by the indices of its first and last time.
+struct WaypointSpan {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  bool empty() const { return first == last; }
+};
+
+/// Farther from the world's origin no body is checked [m]: there doubles round coordinates by 1e-8 m, which the error
+/// bound does not hold, and much farther they overflow.
+constexpr double kFarthestPose = 1e8;
+
+/// Where the bodies were during a cycle (t₀, t₁]. Between two times each body moves with a constant twist in the world,
+/// the shorter way round: turns of half a revolution and more between two times need times in between.
+struct CycleMotion {
+  std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
+  std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
+  std::vector<std::string> missing;           ///< per body: why its poses are not known; empty if they are, or all are
+  std::vector<double>
+      motion_error;  ///< per body: distance of the true motion of its ball from X_WB's [m]; may be empty or infinite
+
+  /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
+  /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs may be anything.
+  std::vector<WaypointSpan> spans;
+};
+
+}  // namespace sdf_ccd

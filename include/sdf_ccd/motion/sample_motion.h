@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/motion/screw_motion.h"
+
+namespace sdf_ccd {
+
+/// Poses of all bodies at a time [s] from the motion's start; called with times from its first waypoint to its last.
+using PosesAt = std::function<void(double time, std::vector<Isometry3d>& X_WB)>;
+
+/// Per body, what bounds the third derivative of the place in the world of any point of its ball, while s runs from 0
+/// to 1 from the first time to the second [m]; see ChainDerivatives. Infinite if nothing is known.
+using JerkBounds = std::function<void(double start, double end, std::vector<double>& jerk)>;
+
+/// A motion as a function of time. Poses at some times never tell what happens between them: so a bound comes with it.
+struct MotionSource {
+  PosesAt poses_at;
+  JerkBounds jerk_bounds;
+};
+
+struct MotionSampling {
+  double tolerance = 1e-4;  ///< deviation aimed at [m]
+  int max_halvings = 5;     ///< of the time between two waypoints; what deviation is left then is reported
+  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< beyond so many no time is halved any more
+};
+
+/// Samples a motion that is not of constant twist between its waypoints (tf2 turns each joint evenly, a trajectory
+/// too), so that taking each body as such between the samples is wrong by no more than the tolerance: the time between
+/// two waypoints is halved as long as the bound is more than that.
+///
+/// The bound of the deviation e(s) from the screw: e(0) = e(1) = 0, and e(½) = m is measured. What e differs by from
+/// the parabola through these is at most max|s (s − ½) (s − 1)| / 6 = √3/216 of the third derivative's bound
+/// (Lagrange's remainder), so |e| ≤ |m| + √3/216 (jerk of the motion + jerk of the screw). That holds however far
+/// bodies turn.
+/// @param waypoints  times, increasing, the first 0 [s]; all of them are kept.
+/// @param balls      per body: holds its points, frame B.
+/// @param motion  `missing` is read: what it names is not looked at. Times, poses and errors are set; memory reused.
+void sampleMotion(const std::vector<double>& waypoints, const MotionSource& source,
+                  const std::vector<BoundingBall>& balls, const MotionSampling& sampling, CycleMotion& motion);
+
+}  // namespace sdf_ccd

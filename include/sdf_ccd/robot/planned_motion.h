@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/motion/sample_motion.h"
+#include "sdf_ccd/robot/planned_joints.h"
+#include "sdf_ccd/robot/trajectory_motion.h"
+#include "sdf_ccd/robot/unreachable_pairs.h"
+
+namespace sdf_ccd {
+
+/// A motion that is made piece by piece: all samples of a long one would take gigabytes.
+struct PlannedMotion {
+  std::vector<double> waypoints;  ///< where it may be cut, times from the first point on [s]
+
+  /// Sets the motion of all bodies from one of the waypoints to a later one, times counting from the first of them.
+  std::function<void(std::size_t first, std::size_t last, CycleMotion& motion)> piece;
+
+  std::vector<double> samples;           ///< times of the plan's points [s], from the first
+  std::vector<UncheckedPair> unchecked;  ///< left out of the scene, though this motion may bring them together
+  std::vector<AssumedJoint> assumed;
+  std::string notes;  ///< what a user should know of these, by whoever made the plan; may be empty
+};
+
+/// The bodies that a plan moves, or finds in its way.
+struct PlannedBodies {
+  std::vector<CarriedBody> bodies;
+  std::vector<std::string>
+      missing;  ///< per body: why its place is not known, in the world or on its link; may be empty
+};
+
+/// All bodies along a trajectory of the robot's joints.
+/// @param robot  must outlive the motion.
+/// @param unreachable  pairs that the scene leaves out as out of reach.
+/// @throws as TrajectoryMotion.
+PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
+                        const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling);
+
+/// All bodies through given poses, at the motion's times.
+/// @param is_moved  per body: whether the plan says where it goes, not the robot's joints.
+PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
+                          const std::vector<UnreachablePair>& unreachable);
+
+}  // namespace sdf_ccd

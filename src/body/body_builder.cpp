@@ -1,0 +1,258 @@
+#include "body/body_builder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "body/body_shell.h"
+#include "body/coarsen.h"
+#include "common/number_text.h"
+#include "field/opening_caps.h"
+#include "shell/contact_gap.h"
+#include "shell/witness_points.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string nameOf(const Primitive& primitive) {
+  static const char* const kNames[] = {"sphere", "box", "cylinder", "half-space"};
+  return kNames[primitive.index()];
+}
+
+std::string nameOf(const PooledMesh& mesh) {
+  const std::string count = std::to_string(mesh.mesh.triangles.size()) + " triangles";
+  if (mesh.voxels) return "voxels (" + count + ")";
+  return "mesh (" + count + (mesh.quality.sign_trusted ? ", closed)" : ", open)");
+}
+
+/// Builds one body after the other from the shared pool of meshes.
+class BodyBuilder {
+ public:
+  BodyBuilder(const BodyDescription& description, const BodyOptions& options, MeshPool& pool, BodyReport& report)
+      : description_(description), options_(options), pool_(pool), report_(report) {
+    for (const GeometryDescription& geometry : description.geometry) {
+      const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+      if (mesh && !*mesh) throw std::invalid_argument(geometry.source + ": no mesh");
+      meshes_.push_back(mesh ? &pool.find(geometry) : nullptr);
+      const std::string name = meshes_.back() ? nameOf(*meshes_.back()) : nameOf(primitiveOf(geometry));
+      report.geometry += (report.geometry.empty() ? "" : ", ") + name;
+      const std::string doubt = mesh && !geometry.watertight_voxels ? warningOf(meshes_.back()->quality) : "";
+      if (doubt.empty()) continue;
+      report.warnings.push_back(geometry.source + ": " + doubt + ": " + summary(meshes_.back()->quality));
+      warning_ += (warning_.empty() ? "" : "; ") + geometry.source + ": " + doubt;
+    }
+    if (description.geometry.size() > 3) report.geometry = std::to_string(description.geometry.size()) + " parts";
+  }
+
+  const std::string& warning() const { return warning_; }
+
+  std::vector<BodyPart> makeParts(const Progress& progress) {
+    std::vector<BodyPart> parts;
+    bool exact = true, built = false, cached = false;
+    const auto start = Clock::now();
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      const GeometryDescription& geometry = description_.geometry[i];
+      if (!meshes_[i]) {
+        parts.push_back({geometry.X_BG, DistanceField(primitiveOf(geometry))});
+        report_.field_bytes += parts.back().field.bytes();
+        continue;
+      }
+      const MeshPool::Made made = pool_.makeField(*meshes_[i], [&](double share) {
+        if (progress) progress((double(i) + share) / double(meshes_.size()));
+      });
+      parts.push_back({geometry.X_BG, *meshes_[i]->field});
+      const DistanceField& field = parts.back().field;
+      exact = false;
+      built |= made.now && !made.outcome.from_cache;
+      cached |= made.outcome.from_cache;
+      if (made.now) report_.field_bytes += field.bytes();
+      report_.cells += field.cells();
+      report_.field_error = std::max(report_.field_error, field.errorBound());
+      note(made.outcome);
+      noteCaps(geometry, *meshes_[i]);
+      const std::string left_out = made.now && meshes_[i]->made.solid ? summary(meshes_[i]->made.solid->report()) : "";
+      if (!left_out.empty()) report_.solid += (report_.solid.empty() ? "" : "; ") + left_out;
+    }
+    char text[32];
+    std::snprintf(text, sizeof(text), "built %.1f s", std::chrono::duration<double>(Clock::now() - start).count());
+    report_.field = exact ? "exact" : built ? text : cached ? "cached" : "shared";
+    return parts;
+  }
+
+  /// @param edges_only  the body is one box, whose faces get no points.
+  PointShell makeShell(const std::vector<BodyPart>& parts, bool edges_only) {
+    std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings have them in any case
+    primitives.reserve(meshes_.size());
+    std::vector<ShellPart> shells;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      const GeometryDescription& geometry = description_.geometry[i];
+      if (!meshes_[i]) {
+        const Primitive& primitive = primitiveOf(geometry);
+        primitives.emplace_back(primitive);
+        shells.push_back({geometry.X_BG, makeShell(primitive, edges_only), &primitives.back()});
+      } else {
+        note(pool_.makeShell(*meshes_[i], hasSiblings()).outcome);
+        const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
+        shells.push_back({geometry.X_BG, *meshes_[i]->shells[hasSiblings()], known ? &*meshes_[i]->field : nullptr});
+      }
+    }
+    return unionShell(shells);
+  }
+
+  /// Of all geometry but half-spaces, which lie inside no body.
+  PointShell makeWitnesses() const {
+    PointShell all;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      if (isHalfSpace(description_.geometry[i])) continue;
+      const PointShell part =
+          witnessPoints(meshes_[i] ? meshes_[i]->mesh : coarse(primitiveOf(description_.geometry[i])));
+      all.covering_radius = part.covering_radius;
+      all.areas.insert(all.areas.end(), part.areas.begin(), part.areas.end());
+      const Isometry3d& X_BG = description_.geometry[i].X_BG;
+      for (const Vector3d& p_G : part.points) all.points.push_back(X_BG * p_G);
+      for (const Vector3d& normal_G : part.normals) all.normals.push_back(X_BG.linear() * normal_G);
+    }
+    return all;
+  }
+
+ private:
+  PointShell makeShell(const Primitive& primitive, bool edges_only) {
+    ShellOptions options = options_.shell;
+    options.has_siblings = hasSiblings();
+    std::string warning;
+    const auto make = [&](double gap) {
+      options.edge_gap = gap;
+      options.spacing = std::max(options.spacing, gap);
+      if (edges_only) return sampleEdges(tessellate(primitive, gap), options);  // a box, which is its tessellation
+      return sampleSurface(primitive, options);
+    };
+    PointShell shell = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
+    if (!warning.empty()) report_.warnings.push_back(warning);
+    return shell;
+  }
+
+  /// With vertices on its surface.
+  static TriangleMesh coarse(const Primitive& primitive) {
+    return tessellate(primitive, 0.1 * boundingBox(primitive).sizes().maxCoeff());
+  }
+
+  bool hasSiblings() const { return meshes_.size() > 1; }
+
+  static const Primitive& primitiveOf(const GeometryDescription& geometry) {
+    return std::get<Primitive>(geometry.shape);
+  }
+
+  /// Says what closes an open mesh.
+  void noteCaps(const GeometryDescription& geometry, const PooledMesh& mesh) {
+    const OpeningCaps* caps = mesh.field->openings();
+    if (!caps) return;
+    report_.warnings.push_back(geometry.source + ": caps of " + numberText(surfaceArea(caps->mesh())) +
+                               " m^2 close it, and CONTACT with it needs surfaces that cross");
+  }
+
+  void note(const CacheOutcome& outcome) {
+    if (!outcome.warning.empty()) report_.warnings.push_back(outcome.warning);
+  }
+
+  const BodyDescription& description_;
+  const BodyOptions& options_;
+  MeshPool& pool_;
+  BodyReport& report_;
+  std::vector<PooledMesh*> meshes_;  // per geometry; null for a primitive
+  std::string warning_;
+};
+
+/// The shell's points span the surface's hull, where that is not curved; to nowhere on it is it farther from one of
+/// them than the covering radius (of edges alone, which have none, the corners span it).
+BoundingBall surfaceBall(const Body& body) {
+  if (body.shell.size() == 0) return motionBall(body);
+  BoundingBall ball = boundingBall(body.shell);
+  if (std::isfinite(body.shell.covering_radius)) ball.radius += body.shell.covering_radius;
+  return ball;
+}
+
+void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
+  body.warning = builder.warning();
+  if (needs.field) body.parts = builder.makeParts(progress);
+  if (needs.witnesses) body.witnesses = builder.makeWitnesses();
+  if (needs.witnesses) body.witness_tree = buildSphereTree(body.witnesses);
+  if (needs.shell) body.shell = builder.makeShell(body.parts, needs.edges_only);
+  report.witnesses = body.witnesses.size();
+  body.ball = surfaceBall(body);
+  if (!needs.shell) return;
+  body.tree = buildSphereTree(body.shell);
+  report.shell_points = body.shell.size();
+  report.shell_bytes =
+      body.shell.size() * (2 * sizeof(Vector3d) + sizeof(double)) + body.tree.nodes.size() * sizeof(SphereTree::Node);
+  report.gap = contactGap(body.shell, body.shell);
+}
+
+}  // namespace
+
+std::string whyNoShell(const BodyDescription& body) {
+  for (const GeometryDescription& geometry : body.geometry) {
+    if (geometry.watertight_voxels) return "a voxel map is only a field";
+    if (isHalfSpace(geometry)) return "a half-space has no bounded surface";
+  }
+  return {};
+}
+
+bool needsWitnesses(const BodyDescription& body) {
+  return !whyNoShell(body).empty() && !std::all_of(body.geometry.begin(), body.geometry.end(),
+                                                   [](const GeometryDescription& part) { return isHalfSpace(part); });
+}
+
+BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                    MeshPool& pool, const Progress& progress) {
+  BuiltBody built;
+  Body& body = built.body;
+  body.name = description.name;
+  body.frame = description.frame;
+  body.X_frame_B = description.X_frame_B;
+  body.is_world = description.is_world;
+  body.failure = description.failure;
+  built.report.name = description.name;
+  built.report.field = "left out";
+  if (body.failure.empty() && needs.any()) {
+    try {
+      build(needs, BodyBuilder(description, options, pool, built.report), progress, body, built.report);
+    } catch (const std::exception& error) {
+      body.failure = error.what();
+      body.parts.clear();
+      body.shell = body.witnesses = {};
+      body.tree = body.witness_tree = {};
+    }
+  }
+  if (!body.failure.empty()) built.report.field = "failed";
+  return built;
+}
+
+std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool) {
+  // Deviation of a primitive's triangles, over its least size, and over its largest: a disc of no thickness has one
+  // too.
+  constexpr double kFineOfSize = 1e-3, kFineOfLargest = 1e-6;
+  TriangleMesh all;
+  double deviation = 0.0;
+  for (const GeometryDescription& geometry : description.geometry) {
+    TriangleMesh part;
+    if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
+      if (isHalfSpace(*primitive)) continue;
+      const Vector3d size = boundingBox(*primitive).sizes();
+      const double fine = std::max(kFineOfSize * size.minCoeff(), kFineOfLargest * size.maxCoeff());
+      if (!std::holds_alternative<Box>(*primitive)) deviation = std::max(deviation, fine);
+      part = tessellate(*primitive, fine);
+    } else {
+      part = pool.find(geometry).mesh;
+    }
+    all = merged(std::move(all), transformed(std::move(part), geometry.X_BG));
+  }
+  if (all.triangles.empty()) return nullptr;
+  return std::make_shared<const BodySurface>(std::move(all), deviation);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,19 @@
+#include "sdf_ccd/body/body_options.h"
+
+#include "sdf_ccd/model/error_budget.h"
+
+namespace sdf_ccd {
+
+BodyOptions optionsFor(const Accuracy& accuracy) {
+  const ErrorBudget budget = shareOut(accuracy.max_error);
+  BodyOptions options;
+  options.field.max_error = budget.field;
+  options.shell.spacing = budget.face_spacing;
+  options.shell.edge_gap = budget.edge_gap;
+  options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
+  options.max_error = accuracy.max_error;
+  options.cache_directory = accuracy.cache_directory;
+  return options;
+}
+
+}  // namespace sdf_ccd

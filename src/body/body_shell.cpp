@@ -1,0 +1,74 @@
+#include "body_shell.h"
+
+#include <algorithm>
+
+#include "sdf_ccd/common/cancel.h"
+#include "shell/contact_gap.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// How deep a point is inside other parts, at least; negative if it may be outside of all of them [m].
+double knownDepth(const std::vector<ShellPart>& parts, std::size_t own, const Vector3d& p_B) {
+  double depth = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i == own || !parts[i].field) continue;
+    const Vector3d p_G = parts[i].X_BG.inverse() * p_B;
+    if (!parts[i].field->surfaceBox().contains(p_G)) continue;
+    const FieldSample sample = parts[i].field->sample(p_G);
+    depth = std::max(depth, -(sample.value + sample.error));
+  }
+  return depth;
+}
+
+/// Sets the radii of the whole. A part whose points cover it as finely as edges are sampled is all edges, and flat:
+/// what meets it is within its covering radius of a point, and off by the other body's flatness alone, whereas
+/// contactGap() adds twice the flatness of both.
+void setRadii(const std::vector<ShellPart>& parts, PointShell& all) {
+  double covering = 0.0;
+  all.edge_radius = 0.0;
+  for (const ShellPart& part : parts) {
+    const PointShell& shell = part.shell;
+    all.covering_radius = std::max(all.covering_radius, shell.covering_radius);
+    if (shell.covering_radius <= contactGap(shell, shell)) {
+      covering = std::max(covering, shell.covering_radius);
+    } else {
+      all.edge_radius = std::max(all.edge_radius, shell.edge_radius);
+      all.flatness = std::max(all.flatness, shell.flatness);
+    }
+  }
+  all.edge_radius = std::max(all.edge_radius, covering - 2.0 * all.flatness);
+}
+
+}  // namespace
+
+PointShell unionShell(const std::vector<ShellPart>& parts) {
+  const CancelPoint cancel;
+  PointShell all;
+  setRadii(parts, all);
+  for (std::size_t own = 0; own < parts.size(); ++own) {
+    const PointShell& shell = parts[own].shell;
+    for (std::size_t i = 0; i < shell.size(); ++i) {
+      cancel.check();
+      const Vector3d p_B = parts[own].X_BG * shell.points[i];
+      const double depth = knownDepth(parts, own, p_B);
+      if (depth > shell.covering_radius) continue;
+      all.points.push_back(p_B);
+      all.normals.push_back(parts[own].X_BG.linear() * shell.normals[i]);
+      all.areas.push_back(depth > 0.0 ? 0.0 : shell.areas[i]);
+    }
+  }
+  return all;
+}
+
+BoundingBall boundingBall(const PointShell& shell) {
+  AlignedBox3d box;
+  for (const Vector3d& p : shell.points) box.extend(p);
+  BoundingBall ball;
+  if (box.isEmpty()) return ball;
+  ball.center = box.center();
+  for (const Vector3d& p : shell.points) ball.radius = std::max(ball.radius, (p - ball.center).norm());
+  return ball;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+
+/// The triangles of a body's surface, frame B: of its meshes as they are, open where those are open.
+struct BodySurface {
+  TriangleMesh mesh;
+  TriangleTree tree;
+  double deviation;  ///< of the triangles from the surface, of curved primitives [m]
+
+  BodySurface(TriangleMesh triangles, double deviation)
+      : mesh(std::move(triangles)), tree(mesh), deviation(deviation) {}
+};
+
+}  // namespace sdf_ccd

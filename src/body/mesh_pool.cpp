@@ -1,0 +1,95 @@
+#include "mesh_pool.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "coarsen.h"
+#include "common/number_text.h"
+#include "field/field_cache.h"
+#include "field/sparse_grid.h"
+#include "shell/shell_cache.h"
+#include "storage/content_hash.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kWidestBand = 32;  // cells
+
+}  // namespace
+
+PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
+  const TriangleMesh& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
+  const bool voxels = geometry.watertight_voxels;
+  const std::string hash = contentHash(mesh, {double(voxels), geometry.cell_size.value_or(0.0)});
+  const auto known = meshes_.find(hash);
+  if (known != meshes_.end()) return known->second;
+  PooledMesh pooled;
+  pooled.voxels = voxels;
+  pooled.cell_size = geometry.cell_size;
+  if (voxels) {
+    validate(mesh);
+    pooled.mesh = mesh;
+  } else {
+    OrientedMesh oriented = orientOutward(mesh);
+    pooled.mesh = std::move(oriented.mesh);
+    pooled.quality = oriented.quality;
+  }
+  return meshes_.emplace(hash, std::move(pooled)).first->second;
+}
+
+FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
+  FieldOptions options = options_.field;
+  if (mesh.cell_size) {
+    options.cells.reset();
+    options.max_error.reset();
+    options.cell_size = mesh.cell_size;
+  }
+  validate(options);
+  double cell = 0.0;
+  if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
+  if (options.cell_size) cell = *options.cell_size;
+  if (options.max_error) cell = *options.max_error / kHalfSqrt3;
+  const double gap = !mesh.voxels && options_.shell.edge_gap > 0.0
+                         ? std::min(options_.shell.edge_gap, options_.shell.spacing)
+                         : options_.shell.spacing;
+  const double margin = 1.1 * (gap + kHalfSqrt3 * cell + options_.motion_margin);
+  options.band = std::max(options.band, std::min(margin, kWidestBand * cell));
+  return options;
+}
+
+MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
+  if (mesh.field) return {};
+  FieldOptions options = fieldOptions(mesh);
+  std::string warning;
+  const bool one_knob = options_.max_error && options.max_error;
+  const auto make = [&](double error) {
+    if (options.max_error) options.max_error = error;
+    return cachedField(cache_, {mesh.mesh, mesh.made}, options, progress);
+  };
+  CachedField made = makeCoarser(options.max_error.value_or(0.0), one_knob, make, warning);
+  mesh.field = std::move(made.field);
+  if (options.max_error && mesh.field->errorBound() > 1.001 * *options.max_error) {
+    warning = "field: an error of " + numberText(mesh.field->errorBound()) + " m is reached, not " +
+              numberText(*options.max_error) + ": its cells are at their smallest";
+  }
+  if (!warning.empty()) made.outcome.warning = warning;
+  return {true, made.outcome};
+}
+
+MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
+  if (mesh.shells[has_siblings]) return {};
+  ShellOptions options = options_.shell;
+  options.has_siblings = has_siblings;
+  std::string warning;
+  const auto make = [&](double gap) {
+    options.edge_gap = gap;
+    options.spacing = std::max(options.spacing, gap);
+    return cachedShell(cache_, {mesh.mesh, mesh.made}, options);
+  };
+  CachedShell made = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
+  if (!warning.empty()) made.outcome.warning = warning;
+  mesh.shells[has_siblings] = std::move(made.shell);
+  return {true, made.outcome};
+}
+
+}  // namespace sdf_ccd

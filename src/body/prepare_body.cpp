@@ -1,0 +1,42 @@
+#include "sdf_ccd/body/prepare_body.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include "body/body_builder.h"
+#include "sdf_ccd/body/body_options.h"
+
+namespace sdf_ccd {
+namespace {
+
+BodyDescription describe(const std::string& name, GeometryDescription geometry) {
+  BodyDescription description;
+  description.name = description.frame = name;
+  description.geometry.push_back(std::move(geometry));
+  return description;
+}
+
+}  // namespace
+
+Body prepareBody(const std::string& name, const Primitive& primitive, const Accuracy& accuracy) {
+  return prepareBody(describe(name, {primitive, Isometry3d::Identity(), name}), accuracy);
+}
+
+Body prepareBody(const std::string& name, const TriangleMesh& mesh, const Accuracy& accuracy) {
+  return prepareBody(describe(name, {std::make_shared<const TriangleMesh>(mesh), Isometry3d::Identity(), name}),
+                     accuracy);
+}
+
+Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
+  const BodyOptions options = optionsFor(accuracy);
+  MeshPool pool(options);
+  BodyNeeds needs;
+  needs.shell = whyNoShell(description).empty();
+  needs.witnesses = needsWitnesses(description);
+  Body body = buildBody(description, needs, options, pool, {}).body;
+  if (!body.failure.empty()) throw std::invalid_argument(description.name + ": " + body.failure);
+  body.surface = surfaceOf(description, pool);
+  return body;
+}
+
+}  // namespace sdf_ccd

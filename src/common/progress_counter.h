@@ -1,0 +1,33 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+
+#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/common/progress.h"
+
+namespace sdf_ccd {
+
+/// Share done, reported by whichever thread gets there. Ends work that the thread that made it has cancelled.
+class ProgressCounter {
+ public:
+  ProgressCounter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
+  void add() {
+    cancel_.check();
+    const std::size_t done = ++done_;
+    if (!progress_) return;
+    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (lock && done > reported_) progress_(double(reported_ = done) / double(total_));
+  }
+
+ private:
+  const CancelPoint cancel_;
+  const Progress& progress_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_{0};
+  std::size_t reported_ = 0;
+  std::mutex mutex_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/closed_solid.h"
+#include "sdf_ccd/field/build_field.h"
+#include "storage/file_cache.h"
+
+namespace sdf_ccd {
+
+struct CachedField {
+  DistanceField field;
+  CacheOutcome outcome;
+};
+
+/// As buildField(), but from the cache where it is there: by the mesh's content (scale included) and the options. The
+/// outcome's warning says where depths may be those of faces inside the solid; it is kept beside the file.
+CachedField cachedField(const FileCache& cache, const SolidSource& source, const FieldOptions& options,
+                        const Progress& progress = {});
+
+/// Name of the file that cachedField() uses.
+std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options);
+
+}  // namespace sdf_ccd

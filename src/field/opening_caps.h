@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+
+/// Where a field's surface is no surface of its mesh: triangles that close the mesh's openings (see findOpenings()).
+class OpeningCaps {
+ public:
+  /// @param reach  per triangle: no place of it is farther from the mesh [m].
+  /// @throws std::invalid_argument if the mesh is not valid, or the reaches do not fit it.
+  OpeningCaps(TriangleMesh mesh, std::vector<double> reach);
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  const std::vector<double>& reach() const { return reach_; }
+
+  /// Distance of the nearest cap [m].
+  double distance(const Vector3d& p_F) const { return tree_.closestPoint(p_F).distance; }
+
+  /// Whether a cap is nearer than this, or as near; cheaper where none is.
+  bool isWithin(const Vector3d& p_F, double distance) const { return tree_.closestPoint(p_F, distance).triangle >= 0; }
+
+  /// The mesh that has the openings is not farther than this [m]: by way of the nearest cap.
+  double meshWithin(const Vector3d& p_F) const;
+
+  std::size_t bytes() const;
+
+ private:
+  TriangleMesh mesh_;
+  std::vector<double> reach_;
+  TriangleTree tree_;
+};
+
+}  // namespace sdf_ccd

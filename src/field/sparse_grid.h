@@ -1,0 +1,173 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "field/empty_sphere.h"
+#include "sdf_ccd/common/eigen_types.h"
+#include "storage/view.h"
+
+namespace sdf_ccd {
+
+/// Place and size of a grid. Cells are cubes; 8×8×8 of them make a brick.
+struct GridShape {
+  static constexpr int kBrick = 8;          ///< cells along a brick's side
+  static constexpr int kSide = kBrick + 1;  ///< samples along a brick's side
+  static constexpr int kSamples = kSide * kSide * kSide;
+
+  Vector3d origin = Vector3d::Zero();  ///< first corner of the first cell [m], frame F
+  double cell = 0.0;                   ///< [m]
+  Vector3i bricks = Vector3i::Zero();  ///< per axis
+  double band = 0.0;                   ///< [m]
+  AlignedBox3d surface_box;            ///< of the mesh [m]
+  bool exact = false;  ///< values are true distances, to rounding: a ball of that radius about them is free of surface
+  double step = 0.0;   ///< of samples that are whole numbers of 16 bits [m]; 0: samples are floats
+
+  static constexpr double kMostSteps = 32767.0;  ///< of a sample
+  /// For samples whose magnitude is at most `largest` [m].
+  static double stepFor(double largest) { return largest / kMostSteps; }
+  std::int16_t inSteps(double metres) const { return static_cast<std::int16_t>(std::lround(metres / step)); }
+
+  Vector3i cells() const { return kBrick * bricks; }
+  std::size_t brickCount() const { return std::size_t(bricks.x()) * bricks.y() * bricks.z(); }
+  std::size_t cornerCount() const { return std::size_t(bricks.x() + 1) * (bricks.y() + 1) * (bricks.z() + 1); }
+  std::size_t brickIndex(const Vector3i& b) const {
+    return (std::size_t(b.z()) * bricks.y() + b.y()) * bricks.x() + b.x();
+  }
+  std::size_t cornerIndex(const Vector3i& b) const {
+    return (std::size_t(b.z()) * (bricks.y() + 1) + b.y()) * (bricks.x() + 1) + b.x();
+  }
+  AlignedBox3d box() const { return {origin, origin + cell * cells().cast<double>()}; }
+};
+
+/// The values a grid is made of.
+struct GridData {
+  std::vector<float> corners;       ///< distance at every brick's corners, x fastest [m]
+  std::vector<std::int32_t> slots;  ///< per brick: where its samples lie, or kFar
+  std::vector<float> samples;       ///< kSamples per slot, x fastest [m]
+  std::vector<std::int16_t> steps;  ///< in their place where the shape has a step: how many of it
+};
+
+/// What a brick's word says: with its last bit set a slot, above it; else a EmptySphere about a brick's corner.
+namespace brick_word {
+inline std::uint32_t slot(std::int32_t slot) {
+  return static_cast<std::uint32_t>(slot) << 1 | 1U;
+}
+inline bool isFar(std::uint32_t word) {
+  return (word & 1U) == 0;
+}
+}  // namespace brick_word
+
+/// Samples of a signed distance, dense in bricks near the surface, one per brick corner elsewhere.
+///
+/// Memory order: x fastest, then y, then z. A brick has samples unless |φ| > band + cell all over it; instead of those
+/// a far brick has a EmptySphere, by which a query goes on (design §3.3): farther than by the paper's min/max octree
+/// (§3.2), and without its memory.
+class SparseGrid {
+ public:
+  static constexpr std::int32_t kFar = -1;
+
+  /// @throws std::invalid_argument if sizes do not fit each other.
+  SparseGrid(const GridShape& shape, GridData data);
+
+  struct Arrays {
+    View<float> corners;        ///< as GridData
+    View<std::uint32_t> words;  ///< per brick
+    View<float> samples;        ///< as GridData
+    View<std::int16_t> steps;   ///< as GridData
+  };
+
+  /// The same on memory that `owner` keeps alive (a file's).
+  SparseGrid(const GridShape& shape, const Arrays& arrays, double error_bound, std::shared_ptr<const void> owner);
+
+  const GridShape& shape() const { return shape_; }
+  View<float> corners() const { return arrays_.corners; }
+  View<std::uint32_t> words() const { return arrays_.words; }
+  View<float> samples() const { return arrays_.samples; }
+  View<std::int16_t> steps() const { return arrays_.steps; }
+  int sampleBits() const { return shape_.step > 0.0 ? 16 : 32; }
+  std::size_t sampleCount() const { return arrays_.samples.size + arrays_.steps.size; }
+
+  /// What whole numbers of steps change a sample by at most, and so all that is interpolated between samples [m].
+  double rounding() const { return 0.5 * shape_.step; }
+
+  /// Bound on |interpolated − true distance| in a brick with samples [m]: for exact samples of a 1-Lipschitz function
+  /// Jensen's inequality on the trilinear weights gives √(Σ u(1−u)) h ≤ √3/2 h (design §3.3), plus rounding().
+  double errorBound() const { return error_bound_; }
+
+  std::size_t bytes() const;
+  std::size_t storedCells() const { return sampleCount() / GridShape::kSamples * 512; }
+
+  /// Corner values of a cell in a brick with samples: bit 0 of the index is x, bit 1 y, bit 2 z.
+  std::array<double, 8> cellCorners(std::int32_t slot, const Vector3i& cell_in_brick) const {
+    const std::size_t first = sampleIndex(slot, cell_in_brick);
+    return shape_.step > 0.0 ? cornersFrom(arrays_.steps.data + first, shape_.step)
+                             : cornersFrom(arrays_.samples.data + first, 1.0);
+  }
+
+  /// A sample of a brick [m], `place` of 0 to kBrick per axis.
+  double sample(std::int32_t slot, const Vector3i& place) const {
+    const std::size_t i = sampleIndex(slot, place);
+    return shape_.step > 0.0 ? shape_.step * arrays_.steps[i] : double(arrays_.samples[i]);
+  }
+
+  /// Distances at a brick's corners, ordered like cellCorners().
+  std::array<double, 8> brickCorners(const Vector3i& brick) const;
+
+  /// Radius of balls, per step [m].
+  double ballStep() const { return GridShape::kBrick * shape_.cell * EmptySphere::step(shape_.bricks); }
+
+  std::uint32_t word(const Vector3i& brick) const { return arrays_.words[shape_.brickIndex(brick)]; }
+
+  /// Of a brick's samples, or kFar.
+  std::int32_t slot(const Vector3i& brick) const {
+    const std::uint32_t w = word(brick);
+    return brick_word::isFar(w) ? kFar : static_cast<std::int32_t>(w >> 1);
+  }
+
+ private:
+  void check() const;
+
+  static std::size_t sampleIndex(std::int32_t slot, const Vector3i& place) {
+    return std::size_t(slot) * GridShape::kSamples + (place.z() * GridShape::kSide + place.y()) * GridShape::kSide +
+           place.x();
+  }
+
+  template <class Sample>
+  static std::array<double, 8> cornersFrom(const Sample* s, double unit) {
+    constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
+    return {unit * s[0],  unit * s[1],      unit * s[kY],      unit * s[kY + 1],
+            unit * s[kZ], unit * s[kZ + 1], unit * s[kZ + kY], unit * s[kZ + kY + 1]};
+  }
+
+  GridShape shape_;
+  Arrays arrays_;
+  std::shared_ptr<const void> owner_;
+  double error_bound_ = 0.0;
+};
+
+/// Trilinear interpolation at (u, v, w) in [0, 1]³ of eight corner values ordered like cellCorners().
+inline double trilinear(const std::array<double, 8>& c, const Vector3d& u) {
+  const double x0 = c[0] + u.x() * (c[1] - c[0]), x1 = c[2] + u.x() * (c[3] - c[2]);
+  const double x2 = c[4] + u.x() * (c[5] - c[4]), x3 = c[6] + u.x() * (c[7] - c[6]);
+  const double y0 = x0 + u.y() * (x1 - x0), y1 = x2 + u.y() * (x3 - x2);
+  return y0 + u.z() * (y1 - y0);
+}
+
+/// Its gradient per unit of (u, v, w).
+Vector3d trilinearGradient(const std::array<double, 8>& corners, const Vector3d& u);
+
+/// Half the diagonal of a unit cube. Also the most that trilinear interpolation of exact corner values of a 1-Lipschitz
+/// function is wrong by, per side of the cell (see lipschitzError(), in the middle).
+constexpr double kHalfSqrt3 = 0.8660254037844386;
+
+/// Bound on |trilinear − f| for exact corner values of a 1-Lipschitz f on a cube of side h [m] (design §3.3).
+inline double lipschitzError(const Vector3d& u, double h) {
+  return h * std::sqrt((u.array() * (1.0 - u.array())).max(0.0).sum());
+}
+
+}  // namespace sdf_ccd

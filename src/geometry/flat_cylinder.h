@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdf_ccd/common/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// A cylinder about pieces of a surface. They are flat, so that it is low: seen from far above it tells their distance
+/// far better than a box or a ball does.
+struct FlatCylinder {
+  Vector3d center;
+  Vector3d axis;           ///< of length one; or zero: a ball
+  double radius = 0.0;     ///< [m]
+  double half_height = 0;  ///< to each side of the centre [m]
+
+  /// Makes it large enough for a place, and a little larger, for rounding.
+  void extend(const Vector3d& p) {
+    const Vector3d way = p - center;
+    const double along = std::abs(axis.dot(way));
+    half_height = std::max(half_height, along * (1.0 + 1e-9));
+    radius = std::max(radius, across(way, along) * (1.0 + 1e-9));
+  }
+
+  /// False if every place of it surely is farther than `distance` from p.
+  bool mayBeWithin(double distance, const Vector3d& p) const {
+    const Vector3d way = p - center;
+    const double along = std::abs(axis.dot(way));
+    const double above = std::max(along - half_height, 0.0), beside = std::max(across(way, along) - radius, 0.0);
+    return above * above + beside * beside <= distance * distance * (1.0 + 1e-12);
+  }
+
+ private:
+  static double across(const Vector3d& way, double along) {
+    return std::sqrt(std::max(way.squaredNorm() - along * along, 0.0));
+  }
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,176 @@
+#include "import/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kPollMilliseconds = 20;  // a cancelled reading ends within this
+constexpr int kPipeBytes = 1 << 20;
+constexpr std::size_t kChunk = std::size_t{1} << 24;
+
+[[noreturn]] void fail(const std::string& what, int error) {
+  throw std::runtime_error(what + ": " + std::strerror(error));
+}
+
+/// The same file under a number that is none of stdin, stdout and stderr, which the host may have closed.
+Descriptor aboveStandard(int number) {
+  if (number < 0) fail("no file can be opened", errno);
+  Descriptor low(number);
+  if (number > STDERR_FILENO) return low;
+  Descriptor high(::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+  if (!high.isOpen()) fail("no file can be opened", errno);
+  return high;
+}
+
+std::vector<std::string> environmentOf(const ProgramCall& call) {
+  std::vector<const char*> names = call.variables;
+  names.push_back("LD_LIBRARY_PATH");
+  std::vector<std::string> environment;
+  for (const char* name : names) {
+    if (const char* value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
+  }
+  return environment;
+}
+
+/// As exec() wants them. The texts must stay where they are.
+std::vector<char*> pointersTo(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(&text[0]);
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// What posix_spawn() wants to know, and gives back.
+class SpawnSettings {
+ public:
+  SpawnSettings(int input, int output) {
+    ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawnattr_init(&attributes_);
+    if (input >= 0) {
+      ::posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
+    } else {
+      ::posix_spawn_file_actions_addclose(&actions_, STDIN_FILENO);
+    }
+    ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+    ::posix_spawn_file_actions_addclose(&actions_, STDERR_FILENO);
+    sigset_t all, none;
+    ::sigfillset(&all);
+    ::sigemptyset(&none);
+    ::posix_spawnattr_setsigdefault(&attributes_, &all);
+    ::posix_spawnattr_setsigmask(&attributes_, &none);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  }
+  ~SpawnSettings() {
+    ::posix_spawn_file_actions_destroy(&actions_);
+    ::posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  const posix_spawn_file_actions_t* actions() const { return &actions_; }
+  const posix_spawnattr_t* attributes() const { return &attributes_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+}  // namespace
+
+ChildProcess::ChildProcess(const ProgramCall& call, const Descriptor& input, Clock::time_point deadline)
+    : deadline_(deadline) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail(call.program + " cannot be started", errno);
+  Descriptor answer(ends[1]);
+  output_ = aboveStandard(ends[0]);
+  answer = aboveStandard(answer.release());
+  ::fcntl(output_.number(), F_SETFL, O_NONBLOCK);
+  ::fcntl(output_.number(), F_SETPIPE_SZ, kPipeBytes);  // fewer turns; refused beyond the user's share
+
+  std::vector<std::string> words = {call.program}, environment = environmentOf(call);
+  words.insert(words.end(), call.arguments.begin(), call.arguments.end());
+  const std::vector<char*> argv = pointersTo(words), envp = pointersTo(environment);
+  const SpawnSettings settings(input.number(), answer.number());
+  const int error =
+      ::posix_spawn(&pid_, call.program.c_str(), settings.actions(), settings.attributes(), argv.data(), envp.data());
+  if (error != 0) {
+    pid_ = -1;
+    fail(call.program + " cannot be started", error);
+  }
+}
+
+ChildProcess::~ChildProcess() {
+  // Asked first: where the host ignores SIGCHLD, the number of a process that has ended may be another's by now.
+  if (pid_ < 0 || hasEnded()) return;
+  ::kill(pid_, SIGKILL);
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+std::size_t ChildProcess::read(char* to, std::size_t size) {
+  for (;;) {
+    // Whoever forks between our pipe's making and its own exec may hold the other end open: then its end is no sign.
+    const bool ended = hasEnded();
+    const ssize_t count = ::read(output_.number(), to, size);
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno == EINTR) continue;
+    if (errno != EAGAIN || ended) return 0;
+    struct pollfd ready = {output_.number(), POLLIN, 0};
+    ::poll(&ready, 1, kPollMilliseconds);
+    checkTime();
+  }
+}
+
+int ChildProcess::wait() {
+  auto pause = std::chrono::microseconds(50);
+  while (!hasEnded()) {
+    checkTime();
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::microseconds(1000 * kPollMilliseconds));
+  }
+  return status_;
+}
+
+bool ChildProcess::hasEnded() {
+  if (pid_ < 0) return true;
+  const pid_t reaped = ::waitpid(pid_, &status_, WNOHANG);
+  if (reaped == 0 || (reaped < 0 && errno == EINTR)) return false;
+  if (reaped < 0) status_ = -1;
+  pid_ = -1;
+  return true;
+}
+
+void ChildProcess::checkTime() const {
+  checkCancelled();
+  if (Clock::now() > deadline_) throw Late();
+}
+
+Descriptor memoryFile(const std::string& bytes) {
+  Descriptor file = aboveStandard(::memfd_create("sdf_ccd", MFD_CLOEXEC));
+  for (std::size_t done = 0; done < bytes.size();) {
+    checkCancelled();
+    const ssize_t count = ::write(file.number(), bytes.data() + done, std::min(bytes.size() - done, kChunk));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("no memory for a copy of it", errno);
+    done += static_cast<std::size_t>(count);
+  }
+  if (::lseek(file.number(), 0, SEEK_SET) != 0) fail("no memory for a copy of it", errno);
+  return file;
+}
+
+}  // namespace sdf_ccd

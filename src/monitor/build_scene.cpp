@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "body/body_builder.h"
+#include "monitor/scene_cost.h"
+#include "pair_bound.h"
+#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/monitor/scene.h"
+#include "surface_crossing.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How far building all bodies has come, by what each is expected to take.
+class Pace {
+ public:
+  Pace(const SceneDescription& description, const SceneCost* expected) {
+    constexpr double kLeast = 1e-3;  // of any body [s]
+    std::unordered_map<std::string, const BodyCost*> costs;
+    if (expected)
+      for (const BodyCost& cost : expected->bodies) costs[cost.name] = &cost;
+    for (const BodyDescription& body : description.bodies) {
+      const auto found = costs.find(body.name);
+      const bool known = found != costs.end();
+      fields_.push_back(known ? found->second->field_seconds : expected ? 0.0 : 1.0);
+      before_.push_back(all_);
+      all_ += (known ? found->second->seconds : fields_.back()) + kLeast;
+    }
+  }
+
+  /// When this share of a body's fields is done.
+  double done(std::size_t body, double share) const { return (before_[body] + share * fields_[body]) / all_; }
+
+ private:
+  std::vector<double> fields_, before_;  ///< per body [s]
+  double all_ = 0.0;
+};
+
+bool isLarger(const ErrorBound& a, const ErrorBound& b) {
+  return a.total() > b.total();
+}
+
+void countPairs(Scene& scene) {
+  for (const PlannedPair& pair : scene.pairs) {
+    ++scene.reports[pair.body_a].pairs;
+    ++scene.reports[pair.body_b].pairs;
+  }
+}
+
+void setBounds(double motion_margin, Scene& scene) {
+  for (const PlannedPair& pair : scene.pairs) {
+    ErrorBound bound = pairBound(scene, pair);
+    if (bound.total() == 0.0) continue;  // of a body that was not built
+    bound.chord = motion_margin;
+    for (ErrorBound* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
+      if (isLarger(bound, *largest)) *largest = bound;
+  }
+}
+
+void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
+  const Body &body_a = bodies[a], &body_b = bodies[b];
+  const std::string what = "pair " + body_a.name + " - " + body_b.name;
+  const bool a_shell = body_a.shell.size() > 0, b_shell = body_b.shell.size() > 0;
+  if (body_a.is_world && body_b.is_world) {
+    scene.left_out.push_back({what, "both of the world"});
+  } else if (!a_shell && !b_shell) {
+    scene.left_out.push_back({what, "neither has a shell"});
+  } else {
+    PlannedPair pair{a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()};
+    pair.a_witnesses_b_field = body_a.witnesses.size() > 0 && !body_b.parts.empty();
+    pair.b_witnesses_a_field = body_b.witnesses.size() > 0 && !body_a.parts.empty();
+    scene.pairs.push_back(pair);
+  }
+}
+
+}  // namespace
+
+Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
+                 const std::function<void(const std::string&, double)>& progress) {
+  const auto start = Clock::now();
+  Scene scene;
+  scene.max_error = options.max_error;
+  scene.pairs = plan.pairs;
+  scene.left_out = plan.left_out;
+  scene.visual_only = description.visual_only;
+  const std::shared_ptr<MeshPool> pool =
+      plan.expected && plan.expected->meshes ? plan.expected->meshes : std::make_shared<MeshPool>(options);
+  const std::size_t count = description.bodies.size();
+  const Pace pace(description, plan.expected.get());
+  for (std::size_t i = 0; i < count; ++i) {
+    const BodyDescription& described = description.bodies[i];
+    checkCancelled();
+    const auto report_progress = [&](double share) {
+      if (progress) progress(described.name, pace.done(i, share));
+    };
+    report_progress(0.0);
+    const BodyNeeds needs{plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], plan.needs_witnesses[i]};
+    BuiltBody built = buildBody(described, needs, options, *pool, report_progress);
+    scene.bodies.push_back(std::move(built.body));
+    scene.reports.push_back(std::move(built.report));
+  }
+  for (const PlannedPair& pair : scene.pairs) {
+    if (!hasOpenings(scene.bodies[pair.body_a]) && !hasOpenings(scene.bodies[pair.body_b])) continue;
+    for (const int i : {pair.body_a, pair.body_b}) {
+      Body& body = scene.bodies[i];
+      if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
+    }
+  }
+  if (progress && count > 0) progress(description.bodies.back().name, 1.0);
+  countPairs(scene);
+  setBounds(options.motion_margin, scene);
+  scene.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return scene;
+}
+
+Scene makeScene(std::vector<Body> bodies, double motion_margin) {
+  Scene scene;
+  std::set<std::string> names;
+  for (const Body& body : bodies) {
+    if (!names.insert(body.name).second) throw std::invalid_argument("two bodies are named " + body.name);
+    scene.reports.emplace_back().name = body.name;
+  }
+  for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) addPair(bodies, a, b, scene);
+  scene.bodies = std::move(bodies);
+  countPairs(scene);
+  setBounds(motion_margin, scene);
+  return scene;
+}
+
+}  // namespace sdf_ccd

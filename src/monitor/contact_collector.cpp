@@ -1,0 +1,240 @@
+#include "contact_collector.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "field/opening_caps.h"
+#include "sdf_ccd/common/cancel.h"
+#include "surface_crossing.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kJoin = 1e-9;  // of the span: times that differ by rounding are the same
+
+// What is held at a time: some megabytes. More of them cost no less each.
+constexpr std::size_t kBlockHits = 1 << 17;  // that a block of chords may have, unless one chord alone has more
+constexpr std::size_t kSomeHits = 1 << 14;   // that are integrated together
+constexpr std::size_t kManyFound = 1 << 15;  // beyond twice what is left after putting together
+
+constexpr std::size_t kWalks = 64;  // of hits that may pass through a mesh, per part
+
+}  // namespace
+
+void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, bool crosses) {
+  crosses_ = crosses;
+  path_error_ = pair.error.chord + pair.error.root;
+  certain_depth_ = 0.0;
+  motion_ = &motion;
+  span_ = pair.span;
+  body_a_ = pair.body_a;
+  body_b_ = pair.body_b;
+  p_WC_ = motion.X_WB[body_a_][span_.last].translation();
+  impulse_on_a_C_ = {};
+  intervals_.clear();
+  found_.clear();
+  most_found_ = most_intervals_ = kManyFound;
+}
+
+void ContactCollector::setFieldPoses(const PairRole& role) {
+  const std::vector<Isometry3d>& X_WF = motion_->X_WB[role.fieldBody()];
+  const auto inC = [this](Isometry3d X) {
+    X.translation() -= p_WC_;
+    return X;
+  };
+  X_CF_.assign(1, inC(X_WF[span_.first]));
+  const std::vector<Chord>& chords = role.path().chords;
+  for (std::size_t c = 0; c < chords.size();) {
+    const int interval = chords[c].interval;
+    const std::size_t waypoint = span_.first + interval;
+    const double t0 = motion_->times[waypoint], t1 = motion_->times[waypoint + 1];
+    const ScrewMotion screw(inC(X_WF[waypoint]), inC(X_WF[waypoint + 1]));
+    for (; c < chords.size() && chords[c].interval == interval; ++c)
+      X_CF_.push_back(screw.pose(chords[c].t_end == t1 ? 1.0 : (chords[c].t_end - t0) / (t1 - t0)));
+  }
+}
+
+void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
+                           const ContactOptions& options, bool with_impulse) {
+  bool have_poses = false;
+  const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
+  for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
+    const BodyPart& part = role.field().parts[p];
+    const ChordPath& path = role.partPath(part);
+    const std::size_t chords = path.chords.size(), blocks = (chords + size - 1) / size;
+    std::size_t asked = chords;
+    const auto ask = [&](std::size_t first) -> const ChordPath& {
+      const ChordPath& block = blockOf(path, first, size);
+      if (asked != first) shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
+      asked = first;
+      return block;
+    };
+    // What bears a force depends on whether the surfaces cross at any time.
+    for (std::size_t first = 0; part.field.openings() && !crosses_ && first < chords; first += size) {
+      ask(first);
+      crosses_ = passesThrough(part.field, role, path, first, std::max<std::size_t>(1, kWalks / blocks));
+    }
+    for (std::size_t first = 0; first < chords; first += size) {
+      const ChordPath& block = ask(first);
+      if (!query_.touches()) continue;
+      if (!have_poses) setFieldPoses(role);
+      have_poses = true;
+      X_CG_.clear();
+      for (std::size_t i = 0; i <= block.chords.size(); ++i) X_CG_.push_back(X_CF_[first + i] * part.X_BG);
+      const ContactInput input{part.field, role.shell(), block, X_CG_, siblings[p]};
+      listHits(query_, listed_);
+      for (std::size_t done = 0; done < listed_.size(); done += kSomeHits) {
+        hits_.assign(listed_.begin() + done, listed_.begin() + std::min(done + kSomeHits, listed_.size()));
+        integrate(input, options, with_impulse);
+        impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
+        addHits(input, shell_is_a);
+      }
+    }
+  }
+}
+
+/// Chords [first, first + size) of a path.
+const ChordPath& ContactCollector::blockOf(const ChordPath& path, std::size_t first, std::size_t size) {
+  if (size >= path.chords.size()) return path;
+  const auto begin = path.chords.begin() + first;
+  block_.chords.assign(begin, begin + std::min(size, path.chords.size() - first));
+  block_.error = path.error;
+  return block_;
+}
+
+/// Whether a hit of the block that begins at a chord passes through the mesh; of many, some are looked at, as contacts
+/// have many points.
+bool ContactCollector::passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path,
+                                     std::size_t first, std::size_t most) const {
+  const std::size_t stride = query_.hits.size() / most + 1;
+  for (std::size_t h = 0; h < query_.hits.size(); h += stride) {
+    ShellHit hit = query_.hits[h];
+    hit.chord += static_cast<int>(first);
+    if (passesThroughMesh(field, path, role.shell().points[hit.point], hit, path_error_)) return true;
+  }
+  return false;
+}
+
+/// Takes over what integrate() has found of the hits.
+void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
+  const bool certain = !input.field.openings();
+  for (std::size_t h = 0; h < hits_.size(); ++h) {
+    const ShellHit& hit = hits_[h];
+    const HitDepth& depth = impulse_.depths[h];
+    const Chord& chord = input.path.chords[hit.chord];
+    const auto timeAt = [&](double s) {
+      return s == 1.0 ? chord.t_end : chord.t_start + s * (chord.t_end - chord.t_start);
+    };
+    const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
+    intervals_.push_back(times);
+    if (depth.siblings) continue;
+    Found found{shell_is_a ? 0 : 1, hit.point, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
+    found.contact.p_W = depth.p_C + p_WC_;
+    // Out of the field's body: that is B if the shell is A's.
+    found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
+    // Before it is joined with what the same point does in other parts, whose depths may be none.
+    if (certain) certain_depth_ = std::max(certain_depth_, depth.least);
+    found_.push_back(found);
+  }
+  joinWhereMany();
+}
+
+/// As integrateContact() over all hits; of a field with openings only over those that may bear a force.
+void ContactCollector::integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse) {
+  const bool open = input.field.openings() != nullptr;
+  integrateContact(input, hits_, options, with_impulse && !open, impulse_);
+  if (!open) return;
+  bearing_hits_.clear();
+  for (std::size_t h = 0; h < hits_.size(); ++h) {
+    const bool bears = bearsForce(input, h);
+    if (bears) bearing_hits_.push_back(hits_[h]);
+    // A depth to a cap, or of a place that may have come in by one, may be none.
+    if (!bears) impulse_.depths[h].error = std::max(impulse_.depths[h].error, impulse_.depths[h].depth);
+  }
+  if (!with_impulse) return;
+  integrateContact(input, bearing_hits_, options, true, bearing_impulse_);
+  impulse_.on_shell_body = bearing_impulse_.on_shell_body;
+}
+
+/// Whether the depth is surely to the mesh, and that of a contact: the surfaces cross, or it may be that they touch.
+bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) const {
+  const HitDepth& depth = impulse_.depths[hit];
+  if (depth.siblings) return false;
+  if (!crosses_ && depth.depth > depth.error + path_error_) return false;
+  const Chord& chord = input.path.chords[hits_[hit].chord];
+  const double s = (depth.time - chord.t_start) / (chord.t_end - chord.t_start);
+  const Vector3d& p_P = input.shell.points[hits_[hit].point];
+  const Vector3d p_F = (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);
+  return !input.field.openings()->isWithin(p_F, depth.depth + depth.error);
+}
+
+/// Times that differ by less are the same [s].
+double ContactCollector::tolerance() const {
+  return kJoin * duration();
+}
+
+/// As finish() does, before there is too much. A point's next chord goes on where the last one ended, so few are left.
+void ContactCollector::joinWhereMany() {
+  if (found_.size() > most_found_) {
+    join();
+    most_found_ = 2 * found_.size() + kManyFound;
+  }
+  if (intervals_.size() > most_intervals_) {
+    mergeIntervals(intervals_, tolerance());
+    most_intervals_ = 2 * intervals_.size() + kManyFound;
+  }
+}
+
+/// Makes one contact of what chords and parts have cut of one point's stay inside.
+void ContactCollector::join() {
+  if (found_.empty()) return;
+  CancelTicks<1024> cancel;
+  std::sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) {
+    cancel.check();
+    return std::tie(a.role, a.point, a.contact.enter, a.contact.exit, a.contact.depth) <
+           std::tie(b.role, b.point, b.contact.enter, b.contact.exit, b.contact.depth);
+  });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < found_.size(); ++i) {
+    ContactPoint& kept = found_[last].contact;
+    const ContactPoint& next = found_[i].contact;
+    const bool same = found_[i].role == found_[last].role && found_[i].point == found_[last].point &&
+                      next.enter <= kept.exit + tolerance();
+    if (!same) {
+      found_[++last] = found_[i];
+      continue;
+    }
+    const double enter = kept.enter, exit = std::max(kept.exit, next.exit);
+    if (next.depth > kept.depth) kept = next;
+    kept.enter = enter;
+    kept.exit = exit;
+  }
+  found_.resize(last + 1);
+}
+
+void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
+  mergeIntervals(intervals_, tolerance());
+  result.intervals = intervals_;
+  result.touches_at_sample = false;
+  for (std::size_t k = span_.first; k <= span_.last; ++k)
+    for (const Interval& interval : intervals_)
+      result.touches_at_sample |=
+          motion_->times[k] >= interval.enter - tolerance() && motion_->times[k] <= interval.exit + tolerance();
+
+  join();
+  const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 1)));
+  std::partial_sort(found_.begin(), found_.begin() + listed, found_.end(), [](const Found& a, const Found& b) {
+    return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <
+           std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
+  });
+  if (!found_.empty()) result.deepest = found_.front().contact;
+  for (std::size_t i = 0; i < listed && request.max_points > 0; ++i) result.points.push_back(found_[i].contact);
+
+  if (!request.wrenches) return;
+  result.on_a_W = (1.0 / duration()) * impulse_on_a_C_;  // Eq. 8, 9; C's origin is A's at the end
+  const Vector3d p_AB = motion_->X_WB[body_b_][span_.last].translation() - p_WC_;
+  const Vector3d& force_on_a = result.on_a_W.force;
+  result.on_b_W = {-force_on_a, p_AB.cross(force_on_a) - result.on_a_W.torque};
+}
+
+}  // namespace sdf_ccd

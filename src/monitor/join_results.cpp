@@ -1,0 +1,101 @@
+#include "monitor/join_results.h"
+
+#include <algorithm>
+
+#include "summarise.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kAtEnd = 1e-9;  // of a piece: so near its end an interval goes on in the next one
+
+ContactPoint later(ContactPoint point, double start) {
+  point.enter += start;
+  point.exit += start;
+  point.time += start;
+  return point;
+}
+
+/// The same about an origin that lies elsewhere. @param shift  from the new one to the old one.
+Wrench shifted(Wrench wrench, const Vector3d& shift) {
+  wrench.torque += shift.cross(wrench.force);
+  return wrench;
+}
+
+}  // namespace
+
+void ResultJoiner::add(const CycleMotion& motion, const CycleResult& result) {
+  const bool is_first = ends_.times.empty();
+  if (is_first) {
+    ends_.times = {0.0, 0.0};
+    for (const std::vector<Isometry3d>& poses : motion.X_WB) {
+      const Isometry3d X_WB = poses.empty() ? Isometry3d::Identity() : poses.front();
+      ends_.X_WB.push_back({X_WB, X_WB});
+    }
+    joined_.pairs.resize(result.pairs.size());
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+      PairResult& pair = joined_.pairs[i];
+      pair.body_a = result.pairs[i].body_a;
+      pair.body_b = result.pairs[i].body_b;
+      pair.verdict = Verdict::kClear;
+      pair.skipped = true;
+      pair.span = {0, 1};
+    }
+  }
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) addPair(motion, result.pairs[i], joined_.pairs[i]);
+  for (std::size_t body = 0; body < motion.X_WB.size(); ++body) {
+    if (!motion.X_WB[body].empty()) ends_.X_WB[body][1] = motion.X_WB[body].back();
+  }
+  ends_.times[1] += motion.times.back();
+  joined_.run_time += result.run_time;
+}
+
+void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair) const {
+  const double start = ends_.times[1], length = motion.times.back();
+  pair.verdict = std::max(pair.verdict, piece.verdict);
+  if (pair.reason.empty()) pair.reason = piece.reason;
+  if (piece.error.total() > pair.error.total()) pair.error = piece.error;
+  pair.skipped &= piece.skipped;
+  pair.clearance = piece.clearance;
+  pair.touches_at_sample |= piece.touches_at_sample;
+  if (!piece.intervals.empty() && (pair.intervals.empty() || piece.deepest.depth > pair.deepest.depth)) {
+    pair.deepest = later(piece.deepest, start);
+  }
+  for (const Interval& interval : piece.intervals) {
+    const bool goes_on = !pair.intervals.empty() && interval.enter <= kAtEnd * length &&
+                         pair.intervals.back().exit >= start - kAtEnd * length;
+    if (goes_on) {
+      pair.intervals.back().exit = start + interval.exit;
+    } else {
+      pair.intervals.push_back({start + interval.enter, start + interval.exit});
+    }
+  }
+  for (const ContactPoint& point : piece.points) pair.points.push_back(later(point, start));
+  std::stable_sort(pair.points.begin(), pair.points.end(),
+                   [](const ContactPoint& a, const ContactPoint& b) { return a.depth > b.depth; });
+  pair.points.resize(std::min(pair.points.size(), static_cast<std::size_t>(std::max(max_points_, 0))));
+  pair.on_a_W = shifted(pair.on_a_W, shift(pair.body_a, motion));
+  pair.on_b_W = shifted(pair.on_b_W, shift(pair.body_b, motion));
+  pair.on_a_W += length * piece.on_a_W;
+  pair.on_b_W += length * piece.on_b_W;
+}
+
+/// From the body's origin at the piece's end to that at its start.
+Vector3d ResultJoiner::shift(int body, const CycleMotion& motion) const {
+  const std::vector<Isometry3d>& poses = motion.X_WB[body];
+  if (poses.empty()) return Vector3d::Zero();
+  return ends_.X_WB[body][1].translation() - poses.back().translation();
+}
+
+CycleResult ResultJoiner::result() const {
+  CycleResult result = joined_;
+  for (PairResult& pair : result.pairs) {
+    if (pair.verdict != Verdict::kNotChecked) pair.reason.clear();
+    pair.on_a_W = 1.0 / ends_.times[1] * pair.on_a_W;
+    pair.on_b_W = 1.0 / ends_.times[1] * pair.on_b_W;
+  }
+  summarise(result);
+  return result;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,250 @@
+#include "monitor/learn_pairs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "robot/joint_sampler.h"
+#include "sdf_ccd/model/error_budget.h"
+#include "sdf_ccd/robot/unreachable_pairs.h"
+#include "state_verdicts.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using NamePair = std::pair<std::string, std::string>;
+
+constexpr std::size_t kRound = 256;    // states between two looks at which pairs are still open
+constexpr std::size_t kAlways = 1000;  // random states that tell what touches always: each costs a search for contacts
+
+NamePair sorted(const std::string& a, const std::string& b) {
+  return a < b ? NamePair(a, b) : NamePair(b, a);
+}
+
+/// Sorts the pairs of a described robot's bodies into those that have to be tested and those that need not.
+class PairSorter {
+ public:
+  PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene) : robot_(robot) {
+    for (const DisabledPair& pair : srdf.disabled) known_.insert(sorted(pair.body_a, pair.body_b));
+    for (const NamePair& pair : srdf.enabled) known_.insert(sorted(pair.first, pair.second));
+    for (const std::string& link : srdf.disabled_by_default) mute_.insert(link);
+    for (const DisabledPair& pair : scene.disabled) {
+      if (pair.reason == kOutOfReach) out_of_reach_.insert(sorted(pair.body_a, pair.body_b));
+    }
+    for (const BodyDescription& body : scene.bodies) bodies_.insert(body.name);
+    for (std::size_t link = 0; link < robot.links().size(); ++link) {
+      index_[robot.links()[link]] = static_cast<int>(link);
+    }
+    for (const BodyDescription& body : scene.bodies) findNeighbours(index_.at(body.name));
+  }
+
+  /// False if the pair need not be tested; then it is told in `pairs`.
+  bool mustBeTested(const BodyDescription& a, const BodyDescription& b, LearnedPairs& pairs) const {
+    const NamePair names = sorted(a.name, b.name);
+    if (known_.count(names) > 0 || mute_.count(a.name) > 0 || mute_.count(b.name) > 0) {
+      ++pairs.known;
+    } else if (neighbours_.count(names) > 0) {
+      pairs.disabled.push_back({a.name, b.name, "Adjacent"});
+    } else if (!a.failure.empty() || !b.failure.empty()) {
+      pairs.unknown.push_back({a.name, b.name, !a.failure.empty() ? a.failure : b.failure});
+    } else if (const std::string joint = unboundedBetween(a.name, b.name); !joint.empty()) {
+      pairs.unknown.push_back({a.name, b.name, "nothing bounds joint " + joint});
+    } else if (out_of_reach_.count(names) > 0) {
+      pairs.disabled.push_back({a.name, b.name, "Never"});
+      ++pairs.proved;
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  /// The links with shapes that are next to this one, across links without.
+  void findNeighbours(int body) {
+    std::vector<int> open = {body};
+    std::set<int> seen = {body};
+    while (!open.empty()) {
+      const int link = open.back();
+      open.pop_back();
+      for (std::size_t other = 0; other < robot_.links().size(); ++other) {
+        const int next = static_cast<int>(other);
+        if (robot_.parent(next) != link && robot_.parent(link) != next) continue;
+        if (!seen.insert(next).second) continue;
+        const std::string &a = robot_.links()[body], &b = robot_.links()[next];
+        if (bodies_.count(b) == 0) {
+          open.push_back(next);
+        } else if (robot_.rigidlyJoined(a, b) || robot_.adjacent(a, b)) {
+          neighbours_.insert(sorted(a, b));
+        }
+      }
+    }
+  }
+
+  /// The first joint between the links that JointSampler does not draw; empty if there is none.
+  std::string unboundedBetween(const std::string& link_a, const std::string& link_b) const {
+    int a = index_.at(link_a), b = index_.at(link_b);
+    while (a != b) {
+      int& lower = a > b ? a : b;  // depth-first order: the greater one is no ancestor of the other
+      const urdf::Joint& joint = robot_.jointAbove(lower);
+      if (joint.type != urdf::Joint::FIXED && JointSampler::isUnbounded(robot_, joint)) return joint.name;
+      lower = robot_.parent(lower);
+    }
+    return "";
+  }
+
+  const RobotModel& robot_;
+  std::map<std::string, int> index_;
+  std::set<std::string> bodies_, mute_;
+  std::set<NamePair> known_, out_of_reach_, neighbours_;
+};
+
+BodyOptions sceneOptions(double max_error) {
+  BodyOptions options = optionsFor({max_error});
+  options.motion_margin = 0.0;  // nothing moves
+  return options;
+}
+
+/// What has been seen of one pair.
+struct Seen {
+  bool is_rigid = false;  // one state says all
+  bool touch = false, apart = false, close = false, unchecked = false, touch_at_default = false;
+
+  /// Whether another state may change what is said of it.
+  /// @param is_long  whether it has been tested in more than kAlways random states.
+  bool isOpen(bool is_long) const {
+    if (is_rigid && (touch || apart || close)) return false;
+    if (is_long && touch) return false;
+    return !unchecked && !(touch && (apart || close));
+  }
+};
+
+void sortOut(const PlannedPair& pair, const Seen& seen, const Scene& scene, const LearnOptions& options,
+             LearnedPairs& pairs) {
+  LearnedPair found = {scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name, ""};
+  if (seen.touch_at_default && (seen.apart || seen.close)) pairs.at_default.push_back(found);
+  if (seen.unchecked) {
+    const std::string& failure = scene.bodies[pair.body_a].failure;
+    found.reason = failure.empty() ? scene.bodies[pair.body_b].failure : failure;
+    if (found.reason.empty()) found.reason = "a state could not be tested";
+    pairs.unknown.push_back(found);
+  } else if (seen.touch && !seen.apart && !seen.close) {
+    found.reason = "Always";
+    pairs.disabled.push_back(found);
+  } else if (!seen.touch && !seen.close) {
+    found.reason = "Never";
+    pairs.disabled.push_back(found);
+    pairs.proved += seen.is_rigid;
+  } else if (options.default_pairs && seen.touch_at_default) {
+    found.reason = "Default";
+    pairs.disabled.push_back(found);
+  } else {
+    (seen.touch ? pairs.touching : pairs.close).push_back(found);
+  }
+}
+
+/// The default state, the recorded ones, then random ones.
+class States {
+ public:
+  States(const RobotModel& robot, const LearnOptions& options)
+      : options_(options), sampler_(robot, options.seed), size_(1 + options.recorded.size() + options.states) {}
+
+  std::size_t size() const { return size_; }
+  bool atEnd() const { return next_ == size_; }
+  std::size_t randomTaken() const {
+    return next_ > options_.recorded.size() ? next_ - 1 - options_.recorded.size() : 0;
+  }
+  double share() const { return double(next_) / double(size_); }
+
+  std::vector<JointPositions> take(std::size_t count) {
+    std::vector<JointPositions> states;
+    for (; states.size() < count && next_ < size_; ++next_) {
+      const std::size_t recorded = next_ - 1;
+      states.push_back(next_ == 0                            ? JointPositions()
+                       : recorded < options_.recorded.size() ? options_.recorded[recorded]
+                                                             : sampler_.next());
+    }
+    return states;
+  }
+
+ private:
+  const LearnOptions& options_;
+  JointSampler sampler_;
+  std::size_t size_, next_ = 0;
+};
+
+/// Tests the scene's pairs in all states, each until it is known to need a check.
+std::vector<Seen> testPairs(const RobotModel& robot, const Scene& scene, const LearnOptions& options) {
+  std::vector<Seen> seen(scene.pairs.size());
+  for (std::size_t p = 0; p < seen.size(); ++p) {
+    seen[p].is_rigid =
+        robot.rigidlyJoined(scene.bodies[scene.pairs[p].body_a].name, scene.bodies[scene.pairs[p].body_b].name);
+  }
+  States states(robot, options);
+  while (!states.atEnd()) {
+    if (options.progress) options.progress("states", states.share());
+    const bool is_default = states.share() == 0.0;
+    std::vector<std::size_t> open;
+    for (std::size_t p = 0; p < seen.size(); ++p)
+      if (seen[p].isOpen(states.randomTaken() > kAlways)) open.push_back(p);
+    if (open.empty()) break;
+    // The first look is soon: most pairs that touch now and then do so in the first states.
+    const std::vector<JointPositions> round = states.take(is_default ? 1 : kRound);
+    const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, round);
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      Seen& pair = seen[open[i % open.size()]];
+      pair.touch |= verdicts[i] == Verdict::kContact;
+      pair.apart |= verdicts[i] == Verdict::kClear;
+      pair.close |= verdicts[i] == Verdict::kUncertain;
+      pair.unchecked |= verdicts[i] == Verdict::kNotChecked;
+      pair.touch_at_default |= is_default && verdicts[i] == Verdict::kContact;
+    }
+  }
+  if (options.progress) options.progress("states", 1.0);
+  return seen;
+}
+
+}  // namespace
+
+LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
+                        const LearnOptions& options) {
+  if (options.states + options.recorded.size() == 0) throw std::invalid_argument("there are no states to learn from");
+  const BodyOptions scene_options = sceneOptions(options.max_error);
+  const auto start = Clock::now();
+  LearnedPairs pairs;
+  pairs.states = options.states;
+  pairs.always_states = std::min(options.states, kAlways);
+  pairs.recorded = options.recorded.size();
+  pairs.seed = options.seed;
+  RobotSceneOptions all;
+  all.check_adjacent = true;
+  SceneDescription description = describeRobot(robot, {}, loader, all, pairs.warnings);
+  const JointSampler sampler(robot, options.seed);
+  for (const std::string& joint : sampler.withoutLimits()) {
+    pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is taken");
+  }
+  const PairSorter sorter(robot, srdf, description);
+  description.disabled.clear();
+  for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+    for (std::size_t j = i + 1; j < description.bodies.size(); ++j) {
+      const BodyDescription &a = description.bodies[i], &b = description.bodies[j];
+      if (!sorter.mustBeTested(a, b, pairs)) description.disabled.push_back({a.name, b.name, "not tested"});
+    }
+  }
+  const auto build_progress = [&](const std::string&, double share) {
+    if (options.progress) options.progress("fields and shells", share);
+  };
+  const Scene scene =
+      buildScene(description, planScene(description, planOptions(scene_options)), scene_options, build_progress);
+  const auto built = Clock::now();
+  const std::vector<Seen> seen = testPairs(robot, scene, options);
+  for (std::size_t p = 0; p < seen.size(); ++p) sortOut(scene.pairs[p], seen[p], scene, options, pairs);
+  pairs.error_bound = scene.bound.total();
+  pairs.build_seconds = std::chrono::duration<double>(built - start).count();
+  pairs.test_seconds = std::chrono::duration<double>(Clock::now() - built).count();
+  return pairs;
+}
+
+}  // namespace sdf_ccd

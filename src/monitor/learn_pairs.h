@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd {
+
+struct LearnOptions {
+  std::size_t states = 10'000;           ///< drawn by JointSampler
+  std::uint64_t seed = 1;                ///< of these
+  std::vector<JointPositions> recorded;  ///< further states; joints that one does not name are as in the default state
+  double max_error = 0.005;              ///< of what is said of a pair in a state [m]; see BodyOptions::max_error
+  bool default_pairs = false;            ///< also leave out what touches in the default state, though not always
+  std::function<void(const std::string& what, double share)> progress;  ///< may throw, to end it
+};
+
+/// A pair of links with collision shapes, in the order of the robot's links.
+struct LearnedPair {
+  std::string link_a, link_b;
+  std::string
+      reason;  ///< of the SRDF, as MoveIt's setup assistant has it: Adjacent, Always, Never, Default; or why not
+};
+
+/// What became of all pairs of a robot's links that have collision shapes.
+struct LearnedPairs {
+  std::vector<LearnedPair> disabled;     ///< need no check
+  std::vector<LearnedPair> touching;     ///< touch in some states: to be checked
+  std::vector<LearnedPair> close;        ///< come within the error bound of each other: to be checked
+  std::vector<LearnedPair> unknown;      ///< nothing is learned of them, and why: to be checked
+  std::vector<LearnedPair> at_default;   ///< of `touching`, and Default: those that touch in the default state
+  std::size_t known = 0;                 ///< that the given SRDF decides
+  std::size_t proved = 0;                ///< of `disabled`, Never: rigidly joined, or out of each other's reach
+  std::size_t states = 0, recorded = 0;  ///< that were tested, besides the default state
+  std::size_t always_states = 0;         ///< of the random ones: in so many Always was tested, at least
+  std::uint64_t seed = 0;                ///< of the first
+  double error_bound = 0.0;              ///< largest of the pairs [m]
+  double build_seconds = 0.0, test_seconds = 0.0;
+  std::vector<std::string> warnings;
+};
+
+/// Learns which pairs of a robot's links need no check, from states.
+///
+///  - Adjacent: they are joined by one joint, or by one that moves and else fixed ones to links without collision
+///    shapes. They are not tested.
+///  - Always: they touch in every state, deeper than the error bound. Of the random ones some thousand are tested, as
+///    each takes a search for all contact points: a pair that parts in less than 0.3 % of states may be taken for one
+///    that does not.
+///  - Never: they are farther apart than the error bound in every state. That is no proof, unless they are rigidly
+///    joined or out of each other's reach (RobotModel::reach()): after n states without a touch, a pair touches with
+///    95 % confidence in less than 3 / n of the states that could have been drawn.
+///  - Default, if asked for: they touch in the default state, where joints are at zero or at the nearest limit. They
+///    may part, and touch again, elsewhere; that is not seen then.
+///
+/// Pairs that the given SRDF disables or enables stay as it says and are not tested. Nothing is learned of pairs with a
+/// planar, floating or unlimited prismatic joint between them, or whose shapes cannot be read. The result depends on
+/// the states and the meshes only, not on the number of threads (those of the caller's TBB arena).
+/// @throws std::invalid_argument if there are no states, or max_error cannot be kept.
+LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
+                        const LearnOptions& options);
+
+/// An SRDF that holds the pairs, after all that the given one holds.
+/// @param given  text of an SRDF, or empty: then one that holds nothing else.
+/// @throws std::runtime_error if it is no SRDF.
+std::string srdfWith(const LearnedPairs& pairs, const RobotModel& robot, const std::string& given);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/query/shell_query.h"
+
+namespace sdf_ccd {
+
+/// False only if the true distance of every shell point exceeds `distance` [m] along the whole path. Asks the field's
+/// lower bounds only, so it holds at any distance, also beyond the band in which isosurfaces can be found.
+inline bool mayApproach(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
+                        const ChordPath& path, double distance) {
+  struct Walk {
+    const DistanceField& field;
+    const PointShell& shell;
+    const SphereTree& tree;
+    const Chord& chord;
+    double distance;
+    CancelTicks<>& cancel;
+
+    bool near(const Vector3d& p_P, double radius) const {
+      return mayTouch(field, {chord.X_FP_start * p_P, chord.X_FP_end * p_P}, radius + distance);
+    }
+    bool below(const SphereTree::Node& node) const {
+      cancel.check();
+      if (!near(node.center, node.radius)) return false;
+      for (int i = 0; node.first_child >= 0 && i < node.child_count; ++i)
+        if (below(tree.nodes[node.first_child + i])) return true;
+      for (int i = node.begin; node.first_child < 0 && i < node.end; ++i)
+        if (near(shell.points[i], 0.0)) return true;
+      return false;
+    }
+  };
+  if (tree.nodes.empty()) return false;
+  CancelTicks<> cancel;
+  for (const Chord& chord : path.chords)
+    if (Walk{field, shell, tree, chord, distance, cancel}.below(tree.nodes.front())) return true;
+  return false;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,98 @@
+#include "monitor/over_budget.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "field/sparse_grid.h"
+#include "pair_bound.h"
+#include "shell/contact_gap.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kNamed = 3;    // bodies
+constexpr double kRounding = 1.001;  // of a share that is just reached
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", 1e3 * metres);
+  return text;
+}
+
+double fieldShare(const FieldOptions& field) {
+  if (field.max_error) return *field.max_error;
+  return field.cell_size ? kHalfSqrt3 * *field.cell_size : 0.0;
+}
+
+double fieldError(const Body& body) {
+  double error = 0.0;
+  for (const BodyPart& part : body.parts) error = std::max(error, part.field.errorBound());
+  return error;
+}
+
+double ownGap(const Body& body) {
+  return body.shell.size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
+}
+
+/// A body and a source of error, and what to say of them.
+struct Reason {
+  std::pair<std::string, std::string> key;
+  std::string text;
+};
+
+/// Why the points of a pair leave a gap of more than their share.
+Reason gapReason(const Scene& scene, const PlannedPair& pair, double gap, double share) {
+  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+  const std::string much = " of " + millimetres(gap) + " mm between points";
+  const std::string not_share = ", not " + millimetres(share);
+  if (pair.a_shell_b_field && pair.b_shell_a_field) {
+    const std::string& name = (ownGap(a) > ownGap(b) ? a : b).name;
+    return {{name, "gap"}, name + " has gaps" + much + not_share};
+  }
+  const std::string& name = (pair.a_shell_b_field ? b : a).name;
+  return {{name, "gap"}, name + " is only a field, so gaps" + much + " of faces count" + not_share};
+}
+
+/// The reasons why a pair's bound is more than asked for.
+std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const BodyOptions& options) {
+  const ErrorBound bound = pairBound(scene, pair);
+  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+  std::vector<Reason> found;
+  const double field = fieldShare(options.field), gap = options.shell.edge_gap;
+  if (bound.gap > kRounding * gap) found.push_back(gapReason(scene, pair, bound.gap, gap));
+  if (bound.field > kRounding * field) {
+    const Body& worse = fieldError(a) > fieldError(b) ? a : b;
+    found.push_back({{worse.name, "field"},
+                     "the field of " + worse.name + " has an error of " + millimetres(bound.field) + " mm, not " +
+                         millimetres(field)});
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string overBudget(const Scene& scene, const BodyOptions& options) {
+  if (!options.max_error || scene.bound.total() <= *options.max_error) return "";
+  std::map<std::pair<std::string, std::string>, std::pair<double, std::string>> largest;  // bound and text of the worst
+  for (const PlannedPair& pair : scene.pairs) {
+    const double total = pairBound(scene, pair).total() + options.motion_margin;
+    if (total <= *options.max_error) continue;
+    for (const Reason& reason : reasons(scene, pair, options)) {
+      auto& known = largest[reason.key];
+      if (total > known.first) known = {total, reason.text};
+    }
+  }
+  std::vector<std::pair<double, std::string>> worst;
+  for (const auto& [key, bound] : largest) worst.emplace_back(-bound.first, bound.second);
+  std::sort(worst.begin(), worst.end());
+  std::string text = "the error bound is " + millimetres(scene.bound.total()) + " mm, more than the max_error of " +
+                     millimetres(*options.max_error) + " mm";
+  for (std::size_t i = 0; i < std::min(kNamed, worst.size()); ++i) text += (i == 0 ? ": " : "; ") + worst[i].second;
+  if (worst.size() > kNamed) text += "; and " + std::to_string(worst.size() - kNamed) + " more";
+  return text;
+}
+
+}  // namespace sdf_ccd

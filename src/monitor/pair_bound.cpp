@@ -1,0 +1,46 @@
+#include "pair_bound.h"
+
+#include <algorithm>
+
+#include "shell/contact_gap.h"
+
+namespace sdf_ccd {
+namespace {
+
+double fieldError(const Body& body) {
+  double error = 0.0;
+  for (const BodyPart& part : body.parts) error = std::max(error, part.field.errorBound());
+  return error;
+}
+
+bool isPlane(const Body& body) {
+  return std::all_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
+    return part.field.primitive() && isHalfSpace(*part.field.primitive());
+  });
+}
+
+double gapToField(const PointShell& shell, const Body& field) {
+  return isPlane(field) ? contactGapToPlane(shell) : shell.covering_radius;
+}
+
+}  // namespace
+
+ErrorBound pairBound(const Scene& scene, const PlannedPair& pair) {
+  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+  const bool a_to_b = pair.a_shell_b_field && a.shell.size() > 0 && !b.parts.empty();
+  const bool b_to_a = pair.b_shell_a_field && b.shell.size() > 0 && !a.parts.empty();
+  ErrorBound bound;
+  if (a_to_b) bound.field = fieldError(b);
+  if (b_to_a) bound.field = std::max(bound.field, fieldError(a));
+  // What a field says of witnesses is off by its error too.
+  if (pair.a_witnesses_b_field) bound.field = std::max(bound.field, fieldError(b));
+  if (pair.b_witnesses_a_field) bound.field = std::max(bound.field, fieldError(a));
+  if (a_to_b && b_to_a) {
+    bound.gap = contactGap(a.shell, b.shell);
+  } else if (a_to_b || b_to_a) {
+    bound.gap = a_to_b ? gapToField(a.shell, b) : gapToField(b.shell, a);
+  }
+  return bound;
+}
+
+}  // namespace sdf_ccd

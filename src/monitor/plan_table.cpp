@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "sdf_ccd/monitor/scene.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Row = std::vector<std::string>;
+
+constexpr std::size_t kNamed = 4;  // examples named per reason
+
+/// Characters, not bytes, of UTF-8.
+std::size_t width(const std::string& text) {
+  return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+}
+
+std::string number(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return text;
+}
+
+/// Columns as wide as their widest entry; the first `left` columns flush left, numbers flush right.
+std::string aligned(const std::vector<Row>& rows, std::size_t left) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const Row& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string padding(widths[c] - width(row[c]), ' ');
+      line += (c == 0 ? "" : "  ") + (c < left ? row[c] + padding : padding + row[c]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+/// One line per kind and reason, with a few examples: "212 pairs, SRDF: Never: a - b, c - d, ...". ASCII, for logs
+/// in any locale.
+std::string leftOutLines(const std::vector<LeftOut>& left_out) {
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
+  for (const LeftOut& item : left_out) {
+    const std::size_t space = item.what.find(' ');
+    const std::string kind = item.what.substr(0, space);
+    const std::size_t name = item.what.compare(space, 4, " of ") == 0 ? space + 4 : space + 1;
+    groups[{kind, item.reason}].push_back(item.what.substr(std::min(name, item.what.size())));
+  }
+  std::string text;
+  for (const auto& [group, names] : groups) {
+    text += "  " + std::to_string(names.size()) + " " + group.first + (names.size() == 1 ? "" : "s") + ", " +
+            group.second + ": ";
+    for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
+    text += names.size() > kNamed ? ", ...\n" : "\n";
+  }
+  return text;
+}
+
+/// "error bound: 0.99 mm, within the max_error of 1.00; of it field 0.55, gap between points 0.35, motion 0.09".
+std::string boundLine(const Scene& scene) {
+  const ErrorBound& bound = scene.bound;
+  if (bound.total() == 0.0) return "";
+  std::string text = "error bound: " + number(1e3 * bound.total(), 2) + " mm";
+  if (scene.max_error) {
+    const bool reached = bound.total() <= *scene.max_error;
+    text +=
+        ", " + std::string(reached ? "within" : "MORE than") + " the max_error of " + number(1e3 * *scene.max_error, 2);
+  }
+  return text + "; of it field " + number(1e3 * bound.field, 2) + ", gap between points " + number(1e3 * bound.gap, 2) +
+         ", motion " + number(1e3 * bound.chord, 2) + "\n";
+}
+
+}  // namespace
+
+std::string planTable(const Scene& scene) {
+  std::vector<Row> rows = {
+      {"body", "geometry", "field", "cells", "MB", "field mm", "shell points", "gap mm", "bound mm", "pairs"}};
+  double megabytes = 0.0;
+  std::size_t cells = 0, points = 0;
+  for (const BodyReport& report : scene.reports) {
+    const double mb = 1e-6 * double(report.field_bytes + report.shell_bytes);
+    megabytes += mb;
+    cells += report.cells;
+    points += report.shell_points;
+    const bool has_shell = report.shell_points > 0, has_bound = report.bound.total() > 0.0;
+    const std::string none = report.witnesses > 0 ? std::to_string(report.witnesses) + " witnesses" : "left out";
+    rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), number(mb, 1),
+                    number(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : none,
+                    has_shell ? number(1e3 * report.gap, 2) : "",
+                    has_bound ? number(1e3 * report.bound.total(), 2) : "", std::to_string(report.pairs)});
+  }
+  rows.push_back({"total", "", "", std::to_string(cells), number(megabytes, 1), "", std::to_string(points), "",
+                  number(1e3 * scene.bound.total(), 2), std::to_string(scene.pairs.size())});
+  std::string text = aligned(rows, 3);
+
+  text += boundLine(scene);
+
+  std::string failures, warnings;
+  for (const Body& body : scene.bodies)
+    if (!body.failure.empty()) failures += "  " + body.name + ": " + body.failure + "\n";
+  for (const BodyReport& report : scene.reports)
+    for (const std::string& warning : report.warnings) warnings += "  " + report.name + ": " + warning + "\n";
+  if (!failures.empty()) text += "not checked:\n" + failures;
+  if (!scene.visual_only.empty()) {
+    text += "not checked, as they have a visual but no collision shape:\n ";
+    for (const std::string& link : scene.visual_only) text += " " + link;
+    text += "\n";
+  }
+  if (!warnings.empty()) text += "to know:\n" + warnings;
+  if (!scene.left_out.empty()) text += "left out:\n" + leftOutLines(scene.left_out);
+  return text;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,168 @@
+#include "monitor/scene_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "body/mesh_pool.h"
+#include "field/field_cache.h"
+#include "field/field_cost.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kSecondsPerPoint = 3.5e-5;  // of a shell, on one thread; measured on robots' links
+constexpr double kBytesPerPoint = 88.0;      // with its share of the sphere tree
+constexpr double kFinestOfSize = 2e-3;       // gap that a curved primitive is tessellated for, over its size
+constexpr double kUncertain = 0.35;          // two such standard errors are less than a factor of two
+constexpr double kHopeless = 2.0;            // affordableCost() refuses what is this much too large
+
+/// On the threads of the caller's TBB arena, as far as there may be so many.
+double onThreads(double one_thread) {
+  using tbb::global_control;
+  const auto most = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+  return one_thread / std::max(1, std::min(most, tbb::this_task_arena::max_concurrency()));
+}
+
+/// Of a field that the cache has; 0 if it has not [bytes].
+double cachedBytes(const BodyOptions& options, const TriangleMesh& mesh, const FieldOptions& field) {
+  if (options.cache_directory.empty()) return 0.0;
+  std::error_code missing;
+  const auto bytes = std::filesystem::file_size(options.cache_directory + "/" + fieldFileName(mesh, field), missing);
+  return missing ? 0.0 : static_cast<double>(bytes);
+}
+
+class CostEstimate {
+ public:
+  explicit CostEstimate(const BodyOptions& options) : options_(options), pool_(std::make_shared<MeshPool>(options)) {}
+
+  std::shared_ptr<MeshPool> meshes() const { return pool_; }
+
+  BodyCost of(const BodyDescription& body, bool needs_field, bool needs_shell, bool edges_only) {
+    BodyCost cost;
+    cost.name = body.name;
+    cost.in_cache = true;
+    for (const GeometryDescription& geometry : body.geometry) {
+      const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+      if (primitive) {
+        if (needs_shell) addShell(*primitive, edges_only, cost);
+        continue;
+      }
+      PooledMesh& mesh = pool_->find(geometry);
+      const bool is_new = seen_.insert(&mesh).second;
+      if (needs_field && is_new) addField(mesh, cost);
+      if (needs_shell) cost.addShell(expectedPoints(mesh.mesh, options_.shell));
+    }
+    cost.in_cache = cost.in_cache && cost.field_bytes > 0.0;
+    return cost;
+  }
+
+ private:
+  double finest() const { return options_.shell.edge_gap > 0.0 ? options_.shell.edge_gap : options_.shell.spacing; }
+
+  void addField(PooledMesh& mesh, BodyCost& cost) {
+    FieldOptions field = pool_->fieldOptions(mesh);
+    const double cached = cachedBytes(options_, mesh.mesh, field);
+    cost.in_cache = cost.in_cache && cached > 0.0;
+    cost.field_bytes += cached;
+    if (cached > 0.0) return;
+    const ClosedSolid& closed = SolidSource(mesh.mesh, mesh.made).closed();
+    FieldCost expected = expectedCost(closed, field);
+    cost.largest_field = std::max(cost.largest_field, expected.bytes);
+    // What is too large ends when it is, and a coarser one is made.
+    const auto most = static_cast<double>(field.max_bytes);
+    double one_thread = 0.0;
+    while (options_.max_error && field.max_error && expected.bytes > most && expected.bytes < kHopeless * most) {
+      one_thread += expected.seconds * most / expected.bytes;
+      *field.max_error *= 2.0;
+      expected = expectedCost(closed, field);
+    }
+    expected.seconds += one_thread;
+    cost.addField(expected);
+  }
+
+  /// A finely tessellated curve would cost more than its shell: points of a coarser one stand for it, and grow as they
+  /// do on such surfaces.
+  void addShell(const Primitive& primitive, bool edges_only, BodyCost& cost) {
+    const double size = boundingBox(primitive).sizes().norm();
+    const bool is_box = std::holds_alternative<Box>(primitive);
+    const double coarser = is_box ? 1.0 : std::max(1.0, kFinestOfSize * size / finest());
+    const bool has_rims = std::holds_alternative<Cylinder>(primitive) && options_.shell.edge_gap > 0.0;
+    ShellOptions shell = options_.shell;
+    shell.spacing = edges_only ? size : coarser * shell.spacing;
+    shell.edge_gap *= coarser;
+    const double points = expectedPoints(tessellate(primitive, 0.05 * coarser * finest()), shell);
+    cost.addShell(points * std::pow(coarser, has_rims ? 1.5 : 2.0));
+  }
+
+  const BodyOptions& options_;
+  std::shared_ptr<MeshPool> pool_;
+  std::set<const PooledMesh*> seen_;
+};
+
+std::string about(double bytes, double seconds) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3g MB and %.2g s", 1e-6 * bytes, seconds);
+  return text;
+}
+
+}  // namespace
+
+void BodyCost::addField(const FieldCost& field) {
+  const double taken = onThreads(field.seconds);
+  uncertain |= std::max(field.bytes_error, field.seconds_error) > kUncertain;
+  field_bytes += field.bytes;
+  largest_field = std::max(largest_field, field.bytes);
+  field_seconds += taken;
+  seconds += taken;
+}
+
+void BodyCost::addShell(double points) {
+  shell_points += points;
+  largest_shell = std::max(largest_shell, points);
+  shell_bytes += kBytesPerPoint * points;
+  if (!in_cache || field_bytes == 0.0) seconds += kSecondsPerPoint * points;
+}
+
+void SceneCost::add(const BodyCost& body) {
+  bytes += body.field_bytes + body.shell_bytes;
+  seconds += body.seconds;
+  bodies.push_back(body);
+}
+
+SceneCost expectedCost(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options) {
+  SceneCost scene;
+  CostEstimate estimate(options);
+  for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+    const BodyDescription& body = description.bodies[i];
+    if (!body.failure.empty() || !(plan.needs_field[i] || plan.needs_shell[i])) continue;
+    try {
+      scene.add(estimate.of(body, plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i]));
+    } catch (const std::exception&) {
+      // Building the body will say what is wrong with it.
+    }
+  }
+  scene.meshes = estimate.meshes();
+  return scene;
+}
+
+std::string summary(const SceneCost& cost) {
+  std::string text = "about " + about(cost.bytes, cost.seconds) + " to build";
+  const auto largest =
+      std::max_element(cost.bodies.begin(), cost.bodies.end(), [](const BodyCost& a, const BodyCost& b) {
+        return a.field_bytes + a.shell_bytes < b.field_bytes + b.shell_bytes;
+      });
+  if (largest == cost.bodies.end()) return text;
+  text += "; most for " + largest->name + ": " + about(largest->field_bytes + largest->shell_bytes, largest->seconds);
+  std::string uncertain;
+  for (const BodyCost& body : cost.bodies)
+    if (body.uncertain) uncertain += (uncertain.empty() ? "" : ", ") + body.name;
+  return uncertain.empty() ? text : text + "; may be off by more than a factor of two for " + uncertain;
+}
+
+}  // namespace sdf_ccd

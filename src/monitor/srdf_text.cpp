@@ -1,0 +1,77 @@
+#include <cstdio>
+#include <stdexcept>
+
+#include <tinyxml2.h>
+
+#include "common/number_text.h"
+#include "monitor/learn_pairs.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// "10000 random states (seed 1) and 61 recorded ones".
+std::string statesText(const LearnedPairs& pairs) {
+  std::string text;
+  if (pairs.states > 0) {
+    text = std::to_string(pairs.states) + " random states (seed " + std::to_string(pairs.seed) + ")";
+  }
+  if (pairs.recorded > 0) {
+    text += (text.empty() ? "" : " and ") + std::to_string(pairs.recorded) + " recorded states";
+  }
+  return text;
+}
+
+std::string commentText(const LearnedPairs& pairs) {
+  std::string text =
+      " What follows was learned by `sdf_ccd learn-pairs` from " + statesText(pairs) + ", with an error bound of " +
+      numberText(1e3 * pairs.error_bound) +
+      " mm.\n       Adjacent: joined by one joint; not tested. Always: touched in all recorded and the first " +
+      std::to_string(pairs.always_states) +
+      " random ones.\n"
+      "       Never: farther apart than the bound in all of these states. Of " +
+      std::to_string(pairs.proved) +
+      " pairs that is proved, as they are\n       rigidly joined or out of reach; of the others it is NO "
+      "PROOF: ";
+  if (pairs.states > 0) {
+    text += "with 95 % confidence each touches in\n       less than " + numberText(300.0 / double(pairs.states)) +
+            " % of states that are drawn like these.";
+  } else {
+    text += "it holds for what was recorded.";
+  }
+  return text + " ";
+}
+
+/// A comment may not hold two hyphens.
+std::string asComment(std::string text) {
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at)) text.replace(at, 2, "- ");
+  return text;
+}
+
+}  // namespace
+
+std::string srdfWith(const LearnedPairs& pairs, const RobotModel& robot, const std::string& given) {
+  tinyxml2::XMLDocument document;
+  if (given.empty()) {
+    document.InsertEndChild(document.NewDeclaration());
+    tinyxml2::XMLElement* root = document.NewElement("robot");
+    root->SetAttribute("name", robot.urdf().getName().c_str());
+    document.InsertEndChild(root);
+  } else {
+    parseSrdf(given);  // says what is wrong
+    document.Parse(given.data(), given.size());
+  }
+  tinyxml2::XMLElement* root = document.RootElement();
+  root->InsertEndChild(document.NewComment(asComment(commentText(pairs)).c_str()));
+  for (const LearnedPair& pair : pairs.disabled) {
+    tinyxml2::XMLElement* element = document.NewElement("disable_collisions");
+    element->SetAttribute("link1", pair.link_a.c_str());
+    element->SetAttribute("link2", pair.link_b.c_str());
+    element->SetAttribute("reason", pair.reason.c_str());
+    root->InsertEndChild(element);
+  }
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,65 @@
+#include "state_verdicts.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "sdf_ccd/monitor/monitor.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kAnyTime = 1.0;  // nothing moves meanwhile [s]
+
+/// Tests states, one at a time.
+class StateTester {
+ public:
+  StateTester(const RobotModel& robot, std::shared_ptr<const Scene> scene) : robot_(robot), monitor_(scene, {}) {
+    for (const Body& body : scene->bodies) {
+      const auto& links = robot.links();
+      links_.push_back(static_cast<std::size_t>(std::find(links.begin(), links.end(), body.frame) - links.begin()));
+    }
+    motion_.times = {0.0, kAnyTime};
+    motion_.X_WB.resize(links_.size());
+  }
+
+  void test(const JointPositions& positions, Verdict* verdicts) {
+    const std::vector<Isometry3d> X_RL = robot_.forwardKinematics(positions);
+    for (std::size_t body = 0; body < links_.size(); ++body) motion_.X_WB[body].assign(2, X_RL[links_[body]]);
+    monitor_.reset();  // so that what it says of a state does not depend on the one before
+    CycleRequest request;
+    request.wrenches = false;
+    for (const PairResult& pair : monitor_.run(motion_, request).pairs) *verdicts++ = pair.verdict;
+  }
+
+ private:
+  const RobotModel& robot_;
+  Monitor monitor_;
+  std::vector<std::size_t> links_;  // per body
+  CycleMotion motion_;
+};
+
+}  // namespace
+
+std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
+                                const std::vector<JointPositions>& states) {
+  const auto reduced = std::make_shared<Scene>(scene);
+  reduced->pairs.clear();
+  for (const std::size_t pair : pairs) reduced->pairs.push_back(scene.pairs[pair]);
+  std::vector<Verdict> verdicts(pairs.size() * states.size());
+  tbb::enumerable_thread_specific<std::unique_ptr<StateTester>> testers;
+  tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t state) {
+    // A monitor's own parallel loop may take up other states while it waits: not with the same monitor.
+    tbb::this_task_arena::isolate([&] {
+      std::unique_ptr<StateTester>& tester = testers.local();
+      if (!tester) tester = std::make_unique<StateTester>(robot, reduced);
+      tester->test(states[state], &verdicts[state * pairs.size()]);
+    });
+  });
+  return verdicts;
+}
+
+}  // namespace sdf_ccd

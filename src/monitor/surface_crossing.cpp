@@ -1,0 +1,146 @@
+#include "surface_crossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/triangle.h"
+#include "geometry/triangle_cut.h"
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Walks along one point's path, from a place where it meets the field's surface.
+class PointWalk {
+ public:
+  PointWalk(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, double path_error)
+      : field_(field), path_(path), p_P_(p_P), path_error_(path_error) {}
+
+  /// Whether the walk comes, without passing near a cap, to where the point surely is outside (side 1) or inside (−1).
+  /// @param s  on the chord, where it begins.
+  /// @param direction  of time, 1 or −1.
+  bool reaches(int side, int chord, double s, int direction) {
+    setChord(chord);
+    constexpr int kMostSteps = 64;
+    for (int i = 0; i < kMostSteps; ++i) {
+      const Vector3d p = start_ + s * way_;
+      const FieldSample sample = field_.sample(p);
+      const double error = sample.error + path_error_, beyond = side * sample.value;
+      if (beyond > error) return true;
+      // The path's next piece is no nearer to a cap than the path's error.
+      const double room = 0.9 * (field_.openingDistance(p) - path_error_);
+      if (!(room > 0.0)) return false;
+      if (!advance(std::min(room, std::max(error - beyond, 0.25 * error)), direction, chord, s)) return false;
+    }
+    return false;
+  }
+
+ private:
+  void setChord(int chord) {
+    start_ = path_.chords[chord].X_FP_start * p_P_;
+    way_ = path_.chords[chord].X_FP_end * p_P_ - start_;
+    length_ = way_.norm();
+  }
+
+  /// Goes on by `step` [m], or to the chord's end; false at the path's.
+  bool advance(double step, int direction, int& chord, double& s) {
+    const double end = direction > 0 ? 1.0 : 0.0;
+    if (s != end) {
+      s += direction * step / std::max(length_, 1e-300);
+      if (direction * (end - s) < 0.0) s = end;
+      return true;
+    }
+    chord += direction;
+    if (chord < 0 || chord == static_cast<int>(path_.chords.size())) return false;
+    setChord(chord);
+    s = 1.0 - end;
+    return true;
+  }
+
+  const DistanceField& field_;
+  const ChordPath& path_;
+  const Vector3d p_P_;
+  const double path_error_;
+  Vector3d start_, way_;
+  double length_ = 0.0;
+};
+
+/// Where the edge pq passes through the triangle for sure, see surfacesCross().
+std::optional<Vector3d> pierced(const Corners& t, const Vector3d& p, const Vector3d& q, double error) {
+  const Vector3d cross = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double area2 = cross.norm();
+  if (!(area2 > 0.0)) return std::nullopt;
+  const Vector3d normal = cross / area2;
+  const double at_p = normal.dot(p - t[0]), at_q = normal.dot(q - t[0]);
+  if (!(at_p * at_q < 0.0) || !(std::min(std::abs(at_p), std::abs(at_q)) > error)) return std::nullopt;
+  const double across = std::abs(at_p - at_q);
+  const Vector3d place = p + std::abs(at_p) / across * (q - p);
+  const double margin = error * (1.0 + (q - p).norm() / across);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d side = t[(k + 1) % 3] - t[k];
+    if (!(normal.cross(side).dot(place - t[k]) > margin * side.norm())) return std::nullopt;
+  }
+  return place;
+}
+
+/// Whether a ball of A meets a surface of B's fields, for all that these say.
+bool mayMeet(const Body& b, const Vector3d& center_B, double radius) {
+  return std::any_of(b.parts.begin(), b.parts.end(), [&](const BodyPart& part) {
+    const DistanceBounds bounds = part.field.bounds(part.X_BG.inverse() * center_B);
+    return bounds.low <= radius && bounds.high >= -radius;
+  });
+}
+
+}  // namespace
+
+bool passesThroughMesh(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, const ShellHit& hit,
+                       double path_error) {
+  PointWalk walk(field, path, p_P, path_error);
+  const auto [enter, exit] = hit.interval;
+  return (enter > 0.0 && walk.reaches(1, hit.chord, enter, -1) && walk.reaches(-1, hit.chord, enter, 1)) ||
+         (exit < 1.0 && walk.reaches(1, hit.chord, exit, 1) && walk.reaches(-1, hit.chord, exit, -1));
+}
+
+std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const Isometry3d& X_BA, double pose_error) {
+  if (!a.surface || !b.surface) return std::nullopt;
+  const AlignedBox3d box_a = boundingBox(a.surface->mesh), box_b = boundingBox(b.surface->mesh);
+  // Rounding: of coordinates, and of a pose between them.
+  const double size =
+      box_a.min().norm() + box_a.sizes().norm() + box_b.min().norm() + box_b.sizes().norm() + X_BA.translation().norm();
+  const double error = pose_error + a.surface->deviation + b.surface->deviation + 1e-12 * size;
+  constexpr int kMostTests = 100000;
+  int tests = 0;
+  CancelTicks<> cancel;
+  std::optional<SurfaceCrossing> found;
+  const auto done = [&] { return found || tests > kMostTests; };
+  const auto test = [&](const Corners& t_A, int triangle_b) {
+    ++tests;
+    const Corners t_B = cornersOf(b.surface->mesh, triangle_b);
+    for (int k = 0; k < 3 && !found; ++k) {
+      std::optional<Vector3d> place = pierced(t_B, t_A[k], t_A[(k + 1) % 3], error);
+      if (!place) place = pierced(t_A, t_B[k], t_B[(k + 1) % 3], error);
+      if (place) found = {*place, (t_B[1] - t_B[0]).cross(t_B[2] - t_B[0]).normalized()};
+    }
+  };
+  const auto near_b = [&](const Vector3d& center_A, double radius) {
+    cancel.check();
+    return !done() && mayMeet(b, X_BA * center_A, radius);
+  };
+  a.surface->tree.forEachTriangle(near_b, [&](int triangle_a) {
+    Corners t_A = cornersOf(a.surface->mesh, triangle_a);
+    for (Vector3d& p : t_A) p = X_BA * p;
+    const auto near_a = [&](const Vector3d& center_B, double radius) {
+      cancel.check();
+      return !done() && (closestOnTriangle(t_A[0], t_A[1], t_A[2], center_B) - center_B).norm() <= radius;
+    };
+    b.surface->tree.forEachTriangle(near_a, [&](int triangle_b) { test(t_A, triangle_b); });
+  });
+  return found;
+}
+
+bool hasOpenings(const Body& body) {
+  return std::any_of(body.parts.begin(), body.parts.end(),
+                     [](const BodyPart& part) { return part.field.openings() != nullptr; });
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,209 @@
+// Included once for each kind of processor that vector code is compiled for.
+#if defined(SDF_CCD_LANE_BOARDING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_CCD_LANE_BOARDING_INL_H_
+#undef SDF_CCD_LANE_BOARDING_INL_H_
+#else
+#define SDF_CCD_LANE_BOARDING_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <hwy/highway.h>
+
+#include "segment_lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sdf_ccd {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Segments on their way into the grid, clipped to its box: in double precision where one reaches far outside. Each
+/// step is taken for all of them before the next, as vectors that are read just after parts of them were written wait.
+/// No vector lies across two lines of the cache.
+struct HWY_ALIGN_MAX BoxEntry {
+  static constexpr int kMost = 128;
+
+  float o[3][kMost], d[3][kMost];
+  float *t0, *t1;         ///< the part of each segment that lies in the box; none: t0 > t1
+  bool doubtful = false;  ///< one may not be within reach
+
+  /// Of 1 to kMost segments; the last one also fills its vector.
+  /// @param begins, ends  where t0 and t1 are written
+  BoxEntry(const LaneBox& g, const Segment* segments, int count, float* begins, float* ends) : t0(begins), t1(ends) {
+    HWY_ALIGN float numbers[kNumbers * kMost];
+    convert(g, segments, count, numbers);
+    deinterleave(numbers, count);
+    clipAll(g, segments, count);
+  }
+
+ private:
+  using Single = hn::ScalableTag<float>;
+  using Wide = hn::ScalableTag<double>;
+  using OneWide = hn::CappedTag<double, 1>;
+  static constexpr Single single{};
+  static constexpr int kNumbers = 6;
+  static_assert(sizeof(Segment) == kNumbers * sizeof(double), "numbers without gaps");
+  static_assert(kMost % hn::MaxLanes(single) == 0, "whole vectors");
+
+  /// Starts, and ways from there, relative to the grid's origin [units].
+  template <class Tag>
+  struct Ways {
+    HWY_INLINE Ways() {}  // as Blocks()
+    hn::Vec<Tag> at[3], way[3];
+  };
+
+  template <class Tag>
+  struct Part {
+    hn::Vec<Tag> from, to;
+  };
+
+  static int lanes() { return static_cast<int>(hn::Lanes(single)); }
+
+  /// Starts and ends in single precision once they are relative to the grid's origin [units]; numbers x, y, z, x, ...
+  static void convert(const LaneBox& g, const Segment* segments, int count, float* relative) {
+    constexpr Wide wide;
+    constexpr hn::Rebind<float, Wide> narrow;
+    const int step = static_cast<int>(hn::Lanes(wide)), all = kNumbers * count;
+    double origins[3 * hn::MaxLanes(wide)];
+    for (std::size_t i = 0; i < std::size(origins); ++i) origins[i] = g.origin[i % 3];
+    const auto units = hn::Set(wide, g.units_per_metre);
+    const double* numbers = segments->start.data();
+    int j = 0;
+    for (; j + 3 * step <= all; j += 3 * step) {
+      for (int k = 0; k < 3 * step; k += step) {
+        const auto number = hn::Sub(hn::LoadU(wide, numbers + j + k), hn::LoadU(wide, origins + k));
+        hn::StoreU(hn::DemoteTo(narrow, hn::Mul(number, units)), narrow, relative + j + k);
+      }
+    }
+    for (; j < all; ++j) relative[j] = static_cast<float>((numbers[j] - g.origin[j % 3]) * g.units_per_metre);
+    const int whole_vectors = (count + lanes() - 1) / lanes() * lanes();
+    for (; j < kNumbers * whole_vectors; ++j) relative[j] = relative[j - kNumbers];
+  }
+
+  void deinterleave(const float* relative, int count) {
+    for (int i = 0; i < count; i += lanes()) {
+#if HWY_TARGET == HWY_SCALAR
+      for (int k = 0; k < 3; ++k) {
+        o[k][i] = relative[kNumbers * i + k];
+        d[k][i] = relative[kNumbers * i + 3 + k] - o[k][i];
+      }
+#else
+      hn::Vec<Single> low[3], high[3];  // a start, an end, a start, ...
+      const float* numbers = relative + kNumbers * i;
+      hn::LoadInterleaved3(single, numbers, low[0], low[1], low[2]);
+      hn::LoadInterleaved3(single, numbers + 3 * lanes(), high[0], high[1], high[2]);
+      for (int k = 0; k < 3; ++k) {
+        const auto start = hn::ConcatEven(single, high[k], low[k]), end = hn::ConcatOdd(single, high[k], low[k]);
+        put(start, o[k] + i);
+        put(hn::Sub(end, start), d[k] + i);
+      }
+#endif
+    }
+  }
+
+  /// For segments that stay this near to the grid's origin single precision will do [units].
+  static double nearReach(const LaneBox& g) {
+    return 2.0 * std::max({g.top_size[0], g.top_size[1], g.top_size[2]}) * LaneBox::kUnits;
+  }
+
+  void clipAll(const LaneBox& g, const Segment* segments, int count) {
+    const auto reach = hn::Set(single, static_cast<float>(0.9 * nearReach(g)));
+    const auto zero = hn::Zero(single), one = hn::Set(single, 1.0F);
+    for (int i = 0; i < count; i += lanes()) {
+      Ways<Single> ways;
+      auto inside = hn::Eq(one, one), surely_near = inside;  // not where a number is none: no comparison holds of it
+      for (int k = 0; k < 3; ++k) {
+        ways.at[k] = hn::LoadU(single, o[k] + i);
+        ways.way[k] = hn::LoadU(single, d[k] + i);
+        const auto size = hn::Set(single, static_cast<float>(g.top_size[k] * LaneBox::kUnits));
+        const hn::Vec<Single> ends[] = {ways.at[k], hn::Add(ways.at[k], ways.way[k])};
+        for (const auto& place : ends) {
+          inside = hn::And(inside, hn::And(hn::Ge(place, zero), hn::Le(place, size)));
+          surely_near = hn::And(surely_near, hn::Le(hn::Abs(place), reach));
+        }
+      }
+      if (hn::AllTrue(single, inside)) {
+        put(zero, t0 + i);
+        put(one, t1 + i);
+        continue;
+      }
+      store<Single>(clip(single, g, inside, ways), ways, i);
+      if (hn::AllTrue(single, surely_near)) continue;
+      for (int j = i; j < std::min(i + lanes(), count); ++j) clipFar(g, segments[j], j);
+    }
+  }
+
+  /// A segment that is not near is clipped anew, in double precision.
+  void clipFar(const LaneBox& g, const Segment& segment, int i) {
+    constexpr OneWide wide;
+    const double reach = kSurelyWithinReach * g.units_per_metre;
+    Ways<OneWide> ways;
+    bool near = true;
+    for (int k = 0; k < 3; ++k) {
+      const double at = (segment.start[k] - g.origin[k]) * g.units_per_metre;
+      const double way = (segment.end[k] - segment.start[k]) * g.units_per_metre;
+      near = near && std::max(std::abs(at), std::abs(at + way)) <= nearReach(g);
+      doubtful = doubtful || !(std::abs(at) <= reach && std::abs(way) <= reach);
+      ways.at[k] = hn::Set(wide, at);
+      ways.way[k] = hn::Set(wide, way);
+    }
+    if (!near) store<OneWide>(clip(wide, g, hn::MaskFromVec(hn::Zero(wide)), ways), ways, i);
+  }
+
+  static constexpr double kSurelyWithinReach = 4e11;  ///< from the grid's origin, and along the segment [m]
+
+  /// Leaves of segments what lies in the box. @param inside  those of which all does.
+  template <class Tag>
+  static Part<Tag> clip(Tag tag, const LaneBox& g, hn::Mask<Tag> inside, Ways<Tag>& ways) {
+    using T = hn::TFromD<Tag>;
+    const auto zero = hn::Zero(tag), one = hn::Set(tag, T(1));
+    auto from = zero, to = one;
+    for (int k = 0; k < 3; ++k) {
+      const auto at = ways.at[k], way = ways.way[k];
+      const auto size = hn::Set(tag, T(g.top_size[k] * LaneBox::kUnits));
+      const auto still = hn::Lt(hn::Abs(way), hn::Set(tag, T(1e-30)));
+      const auto per_way = hn::Div(one, hn::IfThenElse(still, one, way));
+      const auto a = hn::Mul(hn::Neg(at), per_way), b = hn::Mul(hn::Sub(size, at), per_way);
+      const auto beside = hn::And(still, hn::Or(hn::Lt(at, zero), hn::Gt(at, size)));
+      from = hn::Max(from, hn::IfThenElse(still, zero, hn::Min(a, b)));
+      to = hn::Min(to, hn::IfThenElse(still, one, hn::Max(a, b)));
+      to = hn::IfThenElse(beside, hn::Set(tag, T(-1)), to);
+    }
+    to = hn::IfThenElse(inside, one, to);  // whatever was rounded
+    const auto length = hn::Sub(to, from);
+    for (int k = 0; k < 3; ++k) {
+      ways.at[k] = hn::MulAdd(from, ways.way[k], ways.at[k]);
+      ways.way[k] = hn::Mul(length, ways.way[k]);
+    }
+    return {from, to};
+  }
+
+  template <class Tag>
+  void store(const Part<Tag>& part, const Ways<Tag>& ways, int i) {
+    for (int k = 0; k < 3; ++k) {
+      put(ways.at[k], o[k] + i);
+      put(ways.way[k], d[k] + i);
+    }
+    put(part.from, t0 + i);
+    put(part.to, t1 + i);
+  }
+
+  static void put(hn::Vec<Single> v, float* to) {
+    hn::StoreU(v, single, to);
+  }
+  static void put(hn::Vec<OneWide> v, float* to) {
+    *to = static_cast<float>(hn::GetLane(v));
+  }
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sdf_ccd
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,59 @@
+#include "sdf_ccd/robot/planned_motion.h"
+
+#include <memory>
+
+namespace sdf_ccd {
+namespace {
+
+void startAtZero(CycleMotion& motion) {
+  const double start = motion.times.front();
+  for (double& time : motion.times) time -= start;
+}
+
+}  // namespace
+
+PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
+                        const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling) {
+  PlannedMotion result;
+  result.samples = plan.trajectory.times;
+  result.assumed = plan.assumed;
+  result.unchecked = reachableAlong(robot, plan, unreachable);
+  std::vector<std::string> missing = bodies.missing;
+  missing.resize(bodies.bodies.size());
+  std::vector<BoundingBall> balls;
+  for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
+    const CarriedBody& body = bodies.bodies[i];
+    balls.push_back(body.ball_B);
+    if (body.link >= 0 && missing[i].empty()) missing[i] = plan.missing[body.link];
+  }
+  const auto along = std::make_shared<TrajectoryMotion>(robot, plan.trajectory, bodies.bodies);
+  result.waypoints = along->waypoints();
+  result.piece = [along, waypoints = result.waypoints, missing, balls, sampling](std::size_t first, std::size_t last,
+                                                                                 CycleMotion& motion) {
+    motion.missing = missing;
+    sampleMotion({waypoints.begin() + first, waypoints.begin() + last + 1}, along->source(), balls, sampling, motion);
+    startAtZero(motion);
+  };
+  return result;
+}
+
+PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
+                          const std::vector<UnreachablePair>& unreachable) {
+  PlannedMotion result;
+  result.samples = result.waypoints = motion.times;
+  result.unchecked = reachableAlong(motion, is_moved, unreachable);
+  const auto whole = std::make_shared<const CycleMotion>(std::move(motion));
+  result.piece = [whole](std::size_t first, std::size_t last, CycleMotion& piece) {
+    piece.missing = whole->missing;
+    piece.times.assign(whole->times.begin() + first, whole->times.begin() + last + 1);
+    piece.X_WB.resize(whole->X_WB.size());
+    for (std::size_t body = 0; body < piece.X_WB.size(); ++body) {
+      const std::vector<Isometry3d>& poses = whole->X_WB[body];
+      piece.X_WB[body].assign(poses.begin() + first, poses.begin() + last + 1);
+    }
+    startAtZero(piece);
+  };
+  return result;
+}
+
+}  // namespace sdf_ccd

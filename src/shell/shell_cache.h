@@ -1,0 +1,17 @@
+#pragma once
+
+#include "geometry/closed_solid.h"
+#include "sdf_ccd/shell/sample_surface.h"
+#include "storage/file_cache.h"
+
+namespace sdf_ccd {
+
+struct CachedShell {
+  PointShell shell;
+  CacheOutcome outcome;
+};
+
+/// As sampleSurface(), but from the cache where it is there: by the mesh's content and the options.
+CachedShell cachedShell(const FileCache& cache, const SolidSource& source, const ShellOptions& options);
+
+}  // namespace sdf_ccd

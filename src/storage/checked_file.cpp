@@ -1,0 +1,311 @@
+#include "storage/checked_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include "storage/temporary_file.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr char kMagic[8] = {'S', 'D', 'F', '_', 'C', 'C', 'D', '\n'};
+constexpr std::uint32_t kByteOrder = 0x01020304;
+constexpr std::size_t kAlignment = 64;
+constexpr std::size_t kMaxSections = 64;
+
+struct Header {
+  char magic[8];
+  char kind[16];
+  std::uint32_t version;
+  std::uint32_t byte_order;
+  std::uint64_t file_bytes;
+  std::uint64_t section_count;
+  std::uint64_t checksum;  ///< of the section table and the sections, see Checksum
+};
+static_assert(sizeof(Header) == 56, "the file's layout must not depend on the compiler");
+
+bool isKind(const Header& header, const std::string& kind) {
+  char padded[sizeof header.kind] = {};
+  std::memcpy(padded, kind.data(), std::min(kind.size(), sizeof padded - 1));
+  return std::memcmp(padded, header.kind, sizeof padded) == 0;
+}
+
+struct SectionEntry {
+  std::uint64_t offset;
+  std::uint64_t bytes;
+};
+
+std::size_t aligned(std::size_t offset) {
+  return (offset + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  throw std::runtime_error(path + ": " + what);
+}
+
+/// XXH3 (64 bits) of the XXH3 of each piece, so that pieces can be read at the same time.
+class Checksum {
+ public:
+  /// @param piece  (from, bytes) of each piece: its data.
+  template <class Piece>
+  static std::uint64_t of(std::size_t bytes, Piece piece) {
+    std::vector<std::uint64_t> pieces((bytes + kPiece - 1) / kPiece);
+    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+      const std::size_t from = i * kPiece, count = std::min(kPiece, bytes - from);
+      pieces[i] = XXH3_64bits(piece(from, count), count);
+    });
+    return of(pieces);
+  }
+
+  Checksum() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+
+  void add(const void* data, std::size_t bytes) {
+    for (const char* from = static_cast<const char*>(data); bytes > 0;) {
+      const std::size_t part = std::min(bytes, kPiece - in_piece_);
+      XXH3_64bits_update(state_.get(), from, part);
+      from += part;
+      bytes -= part;
+      in_piece_ += part;
+      if (in_piece_ == kPiece) endPiece();
+    }
+  }
+  std::uint64_t digest() {
+    if (in_piece_ > 0) endPiece();
+    return of(pieces_);
+  }
+
+ private:
+  static constexpr std::size_t kPiece = std::size_t{1} << 20;
+
+  static std::uint64_t of(const std::vector<std::uint64_t>& pieces) {
+    return XXH3_64bits(pieces.data(), pieces.size() * sizeof(std::uint64_t));
+  }
+  void endPiece() {
+    pieces_.push_back(XXH3_64bits_digest(state_.get()));
+    XXH3_64bits_reset(state_.get());
+    in_piece_ = 0;
+  }
+
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+  std::vector<std::uint64_t> pieces_;
+  std::size_t in_piece_ = 0;
+};
+
+/// A file to read: a regular one, so that nothing waits for what may never come.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    if (descriptor_ < 0) fail(path, std::strerror(errno));
+    struct stat status {};
+    if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
+      close(descriptor_);
+      fail(path, "not a regular file");
+    }
+    bytes_ = static_cast<std::size_t>(status.st_size);
+  }
+  ~OpenFile() { close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  std::size_t bytes() const { return bytes_; }
+
+  Header header() const {
+    if (bytes_ < sizeof(Header)) {
+      fail(path_, "truncated: " + std::to_string(bytes_) + " bytes are less than a header");
+    }
+    Header header;
+    read(reinterpret_cast<char*>(&header), sizeof header, 0);
+    return header;
+  }
+
+  /// Reads what follows the header to its place behind `to`; returns its checksum.
+  std::uint64_t readAfterHeader(char* to) const {
+    return Checksum::of(bytes_ - sizeof(Header), [&](std::size_t from, std::size_t bytes) {
+      char* part = to + sizeof(Header) + from;
+      read(part, bytes, sizeof(Header) + from);
+      return part;
+    });
+  }
+
+ private:
+  void read(char* to, std::size_t bytes, std::size_t offset) const {
+    while (bytes > 0) {
+      const ssize_t n = pread(descriptor_, to, bytes, static_cast<off_t>(offset));
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail(path_, std::string("cannot read: ") + std::strerror(errno));
+      if (n == 0) fail(path_, "truncated while it was read");
+      to += n;
+      bytes -= static_cast<std::size_t>(n);
+      offset += static_cast<std::size_t>(n);
+    }
+  }
+
+  std::string path_;
+  int descriptor_;
+  std::size_t bytes_ = 0;
+};
+
+void requireHeader(const std::string& path, Header header, const std::string& kind, std::uint32_t version,
+                   std::size_t bytes) {
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) fail(path, "not a file of sdf_ccd");
+  if (!isKind(header, kind)) {
+    header.kind[sizeof header.kind - 1] = '\0';
+    fail(path, "holds a " + std::string(header.kind) + ", not a " + kind);
+  }
+  if (header.byte_order != kByteOrder) fail(path, "written in another byte order");
+  if (header.version != version) {
+    fail(path, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(version));
+  }
+  if (header.file_bytes != bytes) {
+    fail(path, "truncated: " + std::to_string(bytes) + " of " + std::to_string(header.file_bytes) + " bytes");
+  }
+  if (header.section_count > kMaxSections || sizeof(Header) + header.section_count * sizeof(SectionEntry) > bytes) {
+    fail(path, "damaged: " + std::to_string(header.section_count) + " sections");
+  }
+}
+
+std::vector<FileSection> sectionsOf(const std::string& path, const Header& header, const char* start,
+                                    std::size_t bytes) {
+  std::vector<FileSection> sections;
+  for (std::size_t i = 0; i < header.section_count; ++i) {
+    SectionEntry entry;
+    std::memcpy(&entry, start + sizeof(Header) + i * sizeof entry, sizeof entry);
+    if (entry.offset > bytes || entry.bytes > bytes - entry.offset || entry.offset % kAlignment != 0) {
+      fail(path, "damaged: section " + std::to_string(i) + " lies outside the file");
+    }
+    sections.push_back({start + entry.offset, entry.bytes});
+  }
+  return sections;
+}
+
+/// A file that has no name until it is complete, so that nothing stays of it whatever ends the process.
+class NewFile {
+ public:
+  explicit NewFile(const std::string& path) try : path_(path), file_(path) {
+  } catch (const std::system_error& error) {
+    fail(path, "cannot write: " + error.code().message());
+  }
+  void write(const void* data, std::size_t bytes) {
+    const char* from = static_cast<const char*>(data);
+    while (bytes > 0) {
+      const ssize_t n = ::write(file_.descriptor(), from, bytes);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
+      from += n;
+      bytes -= static_cast<std::size_t>(n);
+    }
+  }
+  void place() {
+    if (fsync(file_.descriptor()) != 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
+    try {
+      file_.place();
+    } catch (const std::system_error& error) {
+      fail(path_, "cannot write: " + error.code().message());
+    }
+  }
+
+ private:
+  std::string path_;
+  TemporaryFile file_;
+};
+
+}  // namespace
+
+void writeCheckedFile(const std::string& path, const std::string& kind, std::uint32_t version,
+                      const std::vector<FileSection>& sections) {
+  if (kind.size() >= sizeof(Header::kind) || sections.size() > kMaxSections) {
+    throw std::invalid_argument("checked file: kind \"" + kind + "\" or section count out of range");
+  }
+  std::vector<SectionEntry> table;
+  std::size_t offset = aligned(sizeof(Header) + sections.size() * sizeof(SectionEntry));
+  for (const FileSection& section : sections) {
+    table.push_back({offset, section.bytes});
+    offset = aligned(offset + section.bytes);
+  }
+  Header header{};
+  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  std::memcpy(header.kind, kind.data(), kind.size());
+  header.version = version;
+  header.byte_order = kByteOrder;
+  header.file_bytes = offset;
+  header.section_count = sections.size();
+
+  // Checksummed as it is written: table, sections and the zeros between them.
+  static constexpr char kZeros[kAlignment] = {};
+  const auto eachPiece = [&](auto&& piece) {
+    std::size_t at = sizeof(Header);
+    const auto emit = [&](const void* data, std::size_t bytes) {
+      if (bytes > 0) piece(data, bytes);
+      at += bytes;
+    };
+    emit(table.data(), table.size() * sizeof(SectionEntry));
+    for (const FileSection& section : sections) {
+      emit(kZeros, aligned(at) - at);
+      emit(section.data, section.bytes);
+    }
+    emit(kZeros, aligned(at) - at);
+  };
+  Checksum checksum;
+  eachPiece([&](const void* data, std::size_t bytes) { checksum.add(data, bytes); });
+  header.checksum = checksum.digest();
+
+  NewFile file(path);
+  file.write(&header, sizeof header);
+  eachPiece([&](const void* data, std::size_t bytes) { file.write(data, bytes); });
+  file.place();
+}
+
+std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, const std::string& kind,
+                                                     std::uint32_t version) {
+  const OpenFile opened(path);
+  const Header header = opened.header();
+  requireHeader(path, header, kind, version, opened.bytes());
+  Memory memory = allocate(path, opened.bytes());
+  auto* start = static_cast<char*>(memory.get());
+  if (opened.readAfterHeader(start) != header.checksum) fail(path, "damaged: the checksum does not fit");
+  std::vector<FileSection> sections = sectionsOf(path, header, start, opened.bytes());
+  return std::shared_ptr<const CheckedFile>(new CheckedFile(path, std::move(memory), std::move(sections)));
+}
+
+/// Whole pages, large ones where the kernel has them.
+CheckedFile::Memory CheckedFile::allocate(const std::string& path, std::size_t bytes) {
+  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) fail(path, "no memory for its " + std::to_string(bytes) + " bytes");
+  madvise(memory, bytes, MADV_HUGEPAGE);
+  return {memory, Unmap{bytes}};
+}
+
+std::size_t CheckedFile::checkedCount(std::size_t i, std::size_t value_size) const {
+  if (i >= sections_.size()) fail(path_, "damaged: section " + std::to_string(i) + " is missing");
+  if (sections_[i].bytes % value_size != 0) fail(path_, "damaged: section " + std::to_string(i) + " ends in a value");
+  return sections_[i].bytes / value_size;
+}
+
+void CheckedFile::Unmap::operator()(void* memory) const {
+  munmap(memory, bytes);
+}
+
+bool isCheckedFile(const std::string& path, const std::string& kind) {
+  try {
+    const Header header = OpenFile(path).header();
+    return std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 && isKind(header, kind);
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+}  // namespace sdf_ccd

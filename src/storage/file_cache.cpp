@@ -1,0 +1,102 @@
+#include "storage/file_cache.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "cache_directory.h"
+#include "common/number_text.h"
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(10);
+
+/// Held by the one process that makes a file; the kernel frees it if that process dies.
+class FileLock {
+ public:
+  /// @throws std::runtime_error if it cannot be had, or not in time; Cancelled.
+  FileLock(const std::string& path, double seconds)
+      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644)) {
+    if (descriptor_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
+    try {
+      wait(path, seconds);
+    } catch (...) {
+      close(descriptor_);
+      throw;
+    }
+  }
+  ~FileLock() { close(descriptor_); }
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  /// Asks again and again, as a call that waits could not be cancelled.
+  void wait(const std::string& path, double seconds) const {
+    const auto start = std::chrono::steady_clock::now();
+    while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK && errno != EINTR) {
+        throw std::runtime_error(path + ": cannot lock: " + std::strerror(errno));
+      }
+      checkCancelled();
+      if (std::chrono::steady_clock::now() - start > std::chrono::duration<double>(seconds)) {
+        throw std::runtime_error(path + ": another process has held it for " + numberText(seconds) + " s");
+      }
+      std::this_thread::sleep_for(kPoll);
+    }
+  }
+
+  int descriptor_;
+};
+
+}  // namespace
+
+bool FileCache::load(const std::string& path, const Actions& actions, CacheOutcome& outcome) {
+  if (access(path.c_str(), F_OK) != 0) return false;
+  try {
+    requireOwnFile(path);
+    actions.load(path);
+    markUsed(path);
+    outcome.from_cache = true;
+    outcome.warning.clear();
+  } catch (const std::runtime_error& error) {
+    outcome.warning = std::string("made again: ") + error.what();
+  }
+  return outcome.from_cache;
+}
+
+CacheOutcome FileCache::get(const std::string& name, const Actions& actions) const {
+  CacheOutcome outcome;
+  std::unique_ptr<FileLock> lock;
+  const std::string path = directory_ + "/" + name;
+  if (!directory_.empty()) {
+    try {
+      requireOwnDirectory(directory_);
+      // Files appear whole, so what is there needs no lock: the directory may be one that this process cannot write to.
+      if (load(path, actions, outcome)) return outcome;
+      lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
+    } catch (const std::runtime_error& error) {
+      outcome.warning = std::string("cache not used: ") + error.what();
+    }
+  }
+  if (lock && load(path, actions, outcome)) return outcome;  // made while this process waited
+  actions.make();
+  if (!lock) return outcome;
+  try {
+    actions.save(path);
+    trimCache(directory_, name, max_bytes_);
+  } catch (const std::runtime_error& error) {
+    outcome.warning = std::string("not kept: ") + error.what();
+  }
+  return outcome;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace sdf_ccd {
+
+/// How a cached file came to be.
+struct CacheOutcome {
+  bool from_cache = false;
+  std::string warning;  ///< a damaged file was made again, or the directory cannot be used; empty if all went well
+};
+
+/// Files that are expensive to make, kept in a directory under names made from what they depend on.
+///
+/// Safe against several processes: whoever comes second waits for the first and loads what it made; if that takes too
+/// long, as the first has stopped, it makes its own and leaves the cache alone. A file that is damaged, of another
+/// version, a link or somebody else's is made again; a directory that cannot be written, or that others may write to,
+/// costs only the saving. What is there is loaded also where nothing may be written. Of what is more than `max_bytes`,
+/// files go that were not used for longest.
+class FileCache {
+ public:
+  /// @param directory  made if it does not exist; empty: nothing is read or written.
+  /// @param lock_seconds  that it waits for another process at most, for each file.
+  explicit FileCache(std::string directory, double lock_seconds = 60.0, std::size_t max_bytes = kMaxBytes)
+      : directory_(std::move(directory)), lock_seconds_(lock_seconds), max_bytes_(max_bytes) {}
+
+  static constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
+
+  struct Actions {
+    std::function<void(const std::string& path)> load;  ///< throws std::runtime_error if the file is not good
+    std::function<void()> make;
+    std::function<void(const std::string& path)> save;  ///< throws std::runtime_error if it cannot
+  };
+
+  /// Loads the file, or makes its content and saves it. What make() throws passes through. @throws Cancelled too.
+  CacheOutcome get(const std::string& name, const Actions& actions) const;
+
+ private:
+  static bool load(const std::string& path, const Actions& actions, CacheOutcome& outcome);
+
+  std::string directory_;
+  double lock_seconds_;
+  std::size_t max_bytes_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,56 @@
+#include "storage/regular_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+
+#include "sdf_ccd/common/cancel.h"
+#include "storage/descriptor.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 24;
+
+void requireRegular(const struct stat& status) {
+  if (S_ISDIR(status.st_mode)) throw std::runtime_error("is a directory");
+  if (!S_ISREG(status.st_mode)) throw std::runtime_error("is not a regular file");
+}
+
+[[noreturn]] void failTooLarge(std::size_t max_bytes) {
+  throw std::runtime_error("larger than " + std::to_string(max_bytes >> 20) + " MiB");
+}
+
+}  // namespace
+
+std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
+  // Asked before opening, as opening some devices does things; and after, as it may be another one by then.
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0) throw std::runtime_error("cannot be opened");
+  requireRegular(status);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (!file.isOpen() || ::fstat(file.number(), &status) != 0) throw std::runtime_error("cannot be opened");
+  requireRegular(status);
+  if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > max_bytes) failTooLarge(max_bytes);
+
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(status.st_size));
+  for (std::size_t have = 0;;) {
+    checkCancelled();
+    // The size is no promise: the file may grow or shrink meanwhile, and those of /proc say 0.
+    const std::size_t known = static_cast<std::size_t>(status.st_size);
+    bytes.resize(std::min(have + kChunk, std::max(known, have) + 1));
+    const ssize_t count = ::read(file.number(), &bytes[have], bytes.size() - have);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw std::runtime_error("cannot be read");
+    have += static_cast<std::size_t>(count);
+    bytes.resize(have);
+    if (count == 0) return bytes;
+    if (have > max_bytes) failTooLarge(max_bytes);
+  }
+}
+
+}  // namespace sdf_ccd

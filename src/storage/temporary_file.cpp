@@ -1,0 +1,76 @@
+#include "storage/temporary_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr mode_t kMode = 0644;
+constexpr int kMostNames = 100;  // tried before it is given up
+
+[[noreturn]] void fail() {
+  throw std::system_error(errno, std::generic_category());
+}
+
+}  // namespace
+
+TemporaryFile::TemporaryFile(const std::string& target) : target_(target) {
+  const std::string directory = std::filesystem::path(target).parent_path().string();
+  descriptor_ = ::open(directory.empty() ? "." : directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode);
+  if (descriptor_ >= 0) {
+    path_ = "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor_);
+    if (::access(path_.c_str(), W_OK) != 0) {  // no /proc, as in some containers
+      ::close(descriptor_);
+      descriptor_ = -1;
+    }
+  }
+  if (descriptor_ < 0) openNamed();
+  ::fchmod(descriptor_, kMode);
+}
+
+TemporaryFile::~TemporaryFile() {
+  if (!name_.empty()) std::remove(name_.c_str());
+  ::close(descriptor_);
+}
+
+void TemporaryFile::openNamed() {
+  name_ = target_ + ".XXXXXX";
+  descriptor_ = ::mkostemp(&name_[0], O_CLOEXEC);
+  if (descriptor_ < 0) {
+    name_.clear();
+    fail();
+  }
+  path_ = name_;
+}
+
+void TemporaryFile::place() {
+  if (name_.empty()) giveName();
+  if (name_.empty()) return;
+  if (std::rename(name_.c_str(), target_.c_str()) != 0) fail();
+  name_.clear();
+}
+
+/// That of its target, or, as a link does not replace a file, one beside it.
+void TemporaryFile::giveName() {
+  const auto link = [&](const std::string& name) {
+    return ::linkat(AT_FDCWD, path_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  if (link(target_)) return;
+  for (int i = 0; i < kMostNames && errno == EEXIST; ++i) {
+    const std::string name = target_ + "." + std::to_string(::getpid()) + "-" + std::to_string(i);
+    if (!link(name)) continue;
+    name_ = name;
+    return;
+  }
+  fail();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include <console_bridge/console.h>
+#include <tbb/global_control.h>
+
+#include "commands.h"
+#include "common/number_text.h"
+#include "cycle_report.h"
+#include "monitor/over_budget.h"
+#include "monitor_config.h"
+#include "monitor_scene.h"
+#include "print.h"
+#include "progress_bar.h"
+#include "ros/bag_check.h"
+#include "ros/checked_bag.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kFastestRate = 1e4;  // of cycles, each over all pairs [Hz]
+
+struct Arguments {
+  std::string bag;
+  std::string out;
+  MonitorConfig config;
+  RecordedMotionOptions motion;
+  int threads = 0;  // 0: one per core
+};
+
+void require(bool is_good, const std::string& what) {
+  if (!is_good) throw std::runtime_error(what);
+}
+
+/// The files of a check. Without commit() nothing stays.
+struct CheckFiles {
+  explicit CheckFiles(const std::string& path)
+      : directory(path),
+        summary(directory.file("summary.txt")),
+        plan(directory.file("plan.txt")),
+        bag_path(directory.file("checked.bag")),
+        bag(bag_path.part(), bag_path.path()),
+        report(directory) {}
+
+  /// @param title  of the plot.
+  void commit(const std::string& title) {
+    bag.close();
+    for (OutputFile* file : {&plan, &summary}) file->close();
+    if (!report.commit(title)) std::cerr << "sdf_ccd: no error_time.svg: gnuplot is missing, or failed" << std::endl;
+    bag_path.commit();
+    for (OutputFile* file : {&plan, &summary}) file->commit();
+  }
+
+  Interrupt interrupt;  ///< it must not leave them there
+  OutputDirectory directory;
+  OutputFile summary, plan;
+  OutputPath bag_path;
+  BagWriter bag;
+  CycleReport report;
+};
+
+/// Passes what the loop finds on to the files, and shows how far it is.
+class Recorder : public BagObserver {
+ public:
+  Recorder(const RecordedMotion& motion, const MonitorLoop& loop, CheckedBag& bag, CheckFiles& files)
+      : begin_(motion.begin()),
+        length_((motion.end() - begin_).toSec()),
+        loop_(loop),
+        bag_(bag),
+        interrupt_(files.interrupt),
+        report_(files.report) {}
+
+  void onTransforms(const RecordedTransforms& transforms) override {
+    bag_.addTransforms(transforms);
+    if (interrupt_.asked()) throw Interrupted();
+    bar_(length_ > 0.0 ? (transforms.recorded - begin_).toSec() / length_ : 1.0);
+  }
+  void onCycle(const ros::Time& now) override {
+    if (interrupt_.asked()) throw Interrupted();
+    const ContactArray contacts = toContactArray(loop_);
+    bag_.addCycle(contacts, now);
+    report_.add(contacts);
+  }
+  void onUnchecked(const std::string& reason, const ros::Time& now) override { bag_.addUnchecked(reason, now); }
+
+ private:
+  ProgressBar bar_{"cycles"};
+  ros::Time begin_;
+  double length_;  // [s]
+  const MonitorLoop& loop_;
+  CheckedBag& bag_;
+  const Interrupt& interrupt_;
+  CycleReport& report_;
+};
+
+/// How long it took [s].
+double check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
+             MonitorLoop& loop, CheckFiles& files) {
+  const auto start = std::chrono::steady_clock::now();
+  CheckedBag bag(files.bag, loop, described.scene, parameters.markers);
+  bag.addScene(described.scene, motion.begin());
+  Recorder recorder(motion, loop, bag, files);
+  checkBag(motion, parameters, loop, recorder);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
+  const std::vector<CycleRecord>& cycles = statistics.cycles();
+  const std::string why = statistics.whyNotChecked();
+  require(!cycles.empty(), bag + ": no cycle: the robot's transforms are never known at the same time");
+  require(std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& cycle) { return cycle.hasBound(); }),
+          bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
+}
+
+/// Names on stderr what was never checked; whether there is nothing of that kind.
+bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
+  bool is_complete = statistics.hasCheckedCycle();
+  if (!is_complete) {
+    std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
+  }
+  for (const Body& body : scene.bodies) {
+    if (body.failure.empty()) continue;
+    std::cerr << "sdf_ccd: not checked: " << body.failure << std::endl;
+    is_complete = false;
+  }
+  if (statistics.neverChecked() > 0) {
+    std::cerr << "sdf_ccd: " << statistics.neverChecked() << " pairs were checked in no cycle, as "
+              << statistics.whyNotChecked() << std::endl;
+    is_complete = false;
+  }
+  return is_complete;
+}
+
+void run(const Arguments& arguments) {
+  const MonitorParameters parameters = readParameters(arguments.config);
+  require(parameters.rate <= kFastestRate,
+          "a rate of " + numberText(parameters.rate) + " Hz is above the largest, " + numberText(kFastestRate) + " Hz");
+  const DescribedScene described = describeMonitored(parameters, arguments.config.urdf);
+  const RecordedMotion motion(arguments.bag, described, arguments.motion);
+  const ScenePlan plan = affordablePlan(described, parameters.scene);
+  const std::string expected = "expected         " + summary(*plan.expected) + "\n";
+  std::cout << expected << std::flush;
+  CheckFiles files(arguments.out);
+  const std::shared_ptr<const Scene> scene = buildWithBar(described, plan, parameters.scene, files.interrupt);
+  const std::string over = overBudget(*scene, parameters.scene);
+  std::vector<std::string> warnings = described.warnings;
+  if (!over.empty()) {
+    std::cerr << "sdf_ccd: warning: " << over << std::endl;
+    warnings.push_back(over);
+  }
+  MonitorLoop loop(scene, described, parameters);
+  const double took = check(motion, parameters, described, loop, files);
+  for (const std::string& warning : motion.warnings()) {
+    std::cerr << "sdf_ccd: warning: " << warning << std::endl;
+    warnings.push_back(warning);
+  }
+  const CycleStatistics& statistics = files.report.statistics();
+  requireChecked(statistics, arguments.bag);
+
+  const bool is_complete = isComplete(statistics, *scene);
+  const double length = (motion.end() - motion.begin()).toSec();
+  std::ostringstream text;
+  text << "bag              " << arguments.bag << ": " << rounded(length, 3) << " s from " << timeText(motion.begin())
+       << ", followed by " << motion.source() << "\n"
+       << "robot            " << described.robot->urdf().getName() << ": " << scene->bodies.size()
+       << " bodies with the world's, " << scene->pairs.size() << " pairs, fixed frame " << described.fixed_frame << "\n"
+       << statistics.summary(motion.begin()) << "speed            " << rounded(length, 1) << " s in " << shortly(took)
+       << " s: " << shortly(length / took) << " times real time\n";
+  std::cout << text.str() << std::flush;
+  files.summary.stream() << expected << text.str();
+  files.plan.stream() << planText(*scene, warnings);
+  files.commit("Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
+  if (!is_complete) throw PartlyDone();
+}
+
+void checkThenRun(const Arguments& arguments) {
+  require(arguments.motion.start >= 0.0, "--start must not be negative");
+  require(arguments.motion.duration > 0.0, "--duration must be positive");
+  require(!arguments.config.rate || *arguments.config.rate > 0.0, "--rate must be positive");
+  require(!arguments.config.max_error || *arguments.config.max_error > 0.0, "--max-error must be positive");
+  require(arguments.threads >= 0, "--threads must not be negative");
+  std::unique_ptr<tbb::global_control> limit;
+  if (arguments.threads > 0) {
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
+  }
+  console_bridge::noOutputHandler();  // what broken transforms leave unchecked is reported as that
+  try {
+    run(arguments);
+  } catch (const Interrupted&) {
+    throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
+  }
+}
+
+}  // namespace
+
+void addCheckBagCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("check-bag", "What the collision monitor finds in a recorded bag");
+  command->footer(
+      "Runs the monitor's cycles over the bag on the bag's own clock, without a roscore. The robot is followed by tf; "
+      "where tf names none of its links, by joint_states and the URDF. Writes to DIR: checked.bag (the transforms, and "
+      "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
+      "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
+      "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
+      "code 1: some bodies or pairs were never checked, or no cycle was checked as a whole; 2: nothing was checked.");
+  command->add_option("bag", arguments->bag, "Bag to read")->required();
+  command->add_option("--urdf", arguments->config.urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")
+      ->required();
+  command->add_option("--srdf", arguments->config.srdf, "Pairs that need no check");
+  command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
+  command->add_option("--config", arguments->config.parameters, "The monitor's parameters, as config/monitor.yaml");
+  command->add_option_function<double>(
+      "--rate", [arguments](double rate) { arguments->config.rate = rate; },
+      "Cycles per second of the bag [Hz]; default as configured, else 30");
+  command->add_option_function<double>(
+      "--max-error", [arguments](double max_error) { arguments->config.max_error = max_error; },
+      "Bound on what a verdict may be wrong by [m], instead of the configured cells, gaps and chords");
+  command->add_option("--start", arguments->motion.start, "Where to begin, from the bag's begin [s]; default 0");
+  command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
+  command->add_option("--joint-states", arguments->motion.joint_states,
+                      "Topic of joint states; default joint_states, else the only one");
+  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  command->callback([arguments] { checkThenRun(*arguments); });
+}
+
+}  // namespace sdf_ccd::tools

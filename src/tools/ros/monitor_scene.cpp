@@ -1,0 +1,29 @@
+#include "monitor_scene.h"
+
+#include <filesystem>
+
+#include "progress_bar.h"
+
+namespace sdf_ccd::tools {
+
+DescribedScene describeMonitored(const MonitorParameters& parameters, const std::string& urdf) {
+  const std::string directory = std::filesystem::absolute(urdf).parent_path().string();
+  return describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), directory, parameters.allow_http));
+}
+
+std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const ScenePlan& plan,
+                                          const BodyOptions& options, const Interrupt& interrupt) {
+  ProgressBar bar("fields and shells");
+  return buildDescribed(described, plan, options, [&](const std::string&, double share) {
+    if (interrupt.asked()) throw Interrupted();
+    bar(share);
+  });
+}
+
+std::string planText(const Scene& scene, const std::vector<std::string>& warnings) {
+  std::string text = planTable(scene);
+  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace sdf_ccd::tools

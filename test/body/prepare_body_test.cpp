@@ -1,0 +1,79 @@
+#include "sdf_ccd/body/prepare_body.h"
+
+#include <gtest/gtest.h>
+
+#include "oracle/shapes.h"
+#include "sdf_ccd/sdf_ccd.h"
+
+namespace sdf_ccd {
+namespace {
+
+const Accuracy kMillimetre{1e-3, {}};
+
+Isometry3d at(double x, double y, double z) {
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+TEST(PrepareBody, PassesThroughATable) {
+  const Body table = prepareBody("table", Box{{0.5, 0.5, 0.01}}, kMillimetre);
+  const Body part = prepareBody("part", test::boxMesh({0.02, 0.02, 0.02}), kMillimetre);
+  Monitor monitor({table, part});
+  const Isometry3d X_WT = Isometry3d::Identity();
+
+  const CycleResult& clear = monitor.check({{X_WT, X_WT}, {at(0.0, 0.0, 0.2), at(0.3, 0.0, 0.2)}});
+  EXPECT_EQ(clear.verdict, Verdict::kClear);
+  EXPECT_LT(clear.error_bound, 1.1e-3);
+
+  const CycleResult& through = monitor.check({{X_WT, X_WT}, {at(0.0, 0.0, 0.2), at(0.0, 0.0, -0.2)}}, 2.0);
+  EXPECT_EQ(through.verdict, Verdict::kContact);
+  ASSERT_EQ(through.pairs.size(), 1u);
+  ASSERT_EQ(through.pairs[0].intervals.size(), 1u);
+  // At 0.2 m/s they touch while the part's middle is within 0.03 m of the table's.
+  EXPECT_NEAR(through.pairs[0].intervals[0].enter, 0.85, 0.01);
+  EXPECT_NEAR(through.pairs[0].intervals[0].exit, 1.15, 0.01);
+}
+
+TEST(PrepareBody, AnswersSegments) {
+  const Body part = prepareBody("part", test::boxMesh({0.1, 0.1, 0.1}), kMillimetre);
+  const Intervals inside = segmentIntervals(part.field(), {{-0.4, 0.0, 0.0}, {0.4, 0.0, 0.0}});
+  ASSERT_EQ(inside.size(), 1u);
+  EXPECT_NEAR(inside[0].enter, 0.375, 2e-3);
+  EXPECT_NEAR(inside[0].exit, 0.625, 2e-3);
+}
+
+TEST(PrepareBody, SeesWhatCrossesAnOpenMesh) {
+  TriangleMesh bin = test::boxMesh({0.1, 0.1, 0.1});
+  bin.triangles.resize(bin.triangles.size() - 2);  // without one side
+  Monitor monitor({prepareBody("bin", bin, kMillimetre), prepareBody("ball", Sphere{0.02}, kMillimetre)});
+  const Isometry3d still = Isometry3d::Identity();
+  EXPECT_NE(monitor.check({{still, still}, {still, still}}).verdict, Verdict::kContact);
+  bool crosses = false;
+  for (const Vector3d& way : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()})
+    for (const double side : {-0.1, 0.1}) {
+      const Isometry3d on = at(side * way.x(), side * way.y(), side * way.z());
+      crosses |= monitor.check({{still, still}, {on, on}}).verdict == Verdict::kContact;
+    }
+  EXPECT_TRUE(crosses);
+}
+
+TEST(PrepareBody, GroundHasNoShell) {
+  const Body ground = prepareBody("ground", HalfSpace{Vector3d::UnitZ(), 0.0}, kMillimetre);
+  EXPECT_EQ(ground.shell.size(), 0u);
+  Monitor monitor({ground, prepareBody("ball", Sphere{0.1}, kMillimetre)});
+  const Isometry3d still = Isometry3d::Identity();
+  EXPECT_EQ(monitor.check({{still, still}, {at(0, 0, 0.2), at(0, 0, 0.05)}}).verdict, Verdict::kContact);
+}
+
+TEST(PrepareBody, SaysWhatIsWrong) {
+  EXPECT_THROW(prepareBody("none", TriangleMesh{}, kMillimetre), std::invalid_argument);
+  EXPECT_THROW(prepareBody("flat", Sphere{-1.0}, kMillimetre), std::invalid_argument);
+  EXPECT_THROW(prepareBody("exact", Sphere{1.0}, {0.0, {}}), std::invalid_argument);
+  const Body ball = prepareBody("ball", Sphere{0.1}, kMillimetre);
+  EXPECT_THROW(Monitor({ball, ball}), std::invalid_argument);
+  Monitor monitor({ball, prepareBody("other", Sphere{0.1}, kMillimetre)});
+  EXPECT_THROW(monitor.check({}), std::invalid_argument);
+  EXPECT_THROW(monitor.check({{at(0, 0, 0), at(0, 0, 0)}, {at(0, 0, 0)}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

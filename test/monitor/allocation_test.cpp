@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <tbb/global_control.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "monitor/scene_case.h"
+
+namespace {
+std::atomic<long> allocations{0}, held{0}, most_held{0};
+
+void hold(long bytes) {
+  const long now = held += bytes;
+  for (long most = most_held; now > most && !most_held.compare_exchange_weak(most, now);) {
+  }
+}
+}  // namespace
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  void* const memory = std::malloc(size ? size : 1);
+  if (memory) hold(static_cast<long>(malloc_usable_size(memory)));
+  return memory;
+}
+void* operator new(std::size_t size) {
+  void* const memory = operator new(size, std::nothrow);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory) noexcept {
+  hold(-static_cast<long>(malloc_usable_size(memory)));
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+/// Allocations of the last of several equal rounds, on one thread: a thread that joins late makes its own scratch
+/// memory once, whenever that is.
+template <typename Round>
+long steadyAllocations(const Round& round) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  for (int i = 0; i < 3; ++i) round();
+  const long before = allocations;
+  round();
+  return allocations - before;
+}
+
+TEST(Allocation, NoneWhilePairsAreClear) {
+  const auto scene = build({body("ground", ground(), true), body("a", Primitive(Sphere{0.1})),
+                            body("b", Primitive(Box{{0.1, 0.1, 0.1}})), body("c", Primitive(Sphere{0.1}))});
+  Monitor monitor(scene, {});
+  std::vector<CycleMotion> motions;
+  for (int i = 0; i < 20; ++i) {
+    // Two just above the error bound, so that they are tested every time, one far away.
+    const double x = 0.001 * i;
+    motions.push_back(cycle(0.1, {still(Isometry3d::Identity()),
+                                  {translation({x, 0, 0.115}), translation({x + 1e-3, 0, 0.115})},
+                                  still(translation({-0.214, 0, 0.215})),
+                                  still(translation({0, 3, 5}))}));
+  }
+  int tested = 0;
+  EXPECT_EQ(steadyAllocations([&] {
+              for (const CycleMotion& motion : motions) {
+                const CycleResult& result = monitor.run(motion, {});
+                tested += result.checked;
+                ASSERT_EQ(result.verdict, Verdict::kClear);
+              }
+            }),
+            0);
+  EXPECT_GT(tested, 20);
+}
+
+TEST(Allocation, NoneForAContactLikeTheLast) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1})),
+                            body("box", Primitive(Box{{0.1, 0.1, 0.1}}))});
+  Monitor monitor(scene, {});
+  const CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()),
+                                         still(translation({0, 0, 0.095})),
+                                         {translation({0.19, 0, 0.1}), translation({0.19, 0, 0.12})}});
+  EXPECT_EQ(steadyAllocations([&] { ASSERT_EQ(monitor.run(motion, {true, 10}).verdict, Verdict::kContact); }), 0);
+}
+
+/// The most that is held at a time more than before, while a new monitor checks the motion [MB].
+double peakOf(const std::shared_ptr<const Scene>& scene, const CycleMotion& motion) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const long before = held;
+  most_held = before;
+  Monitor(scene, {}).run(motion, {true, 20});
+  return 1e-6 * static_cast<double>(most_held - before);
+}
+
+/// A ball that rolls on the spot, pressed into the ground, by half a radian between two times.
+CycleMotion rolling(std::size_t waypoints) {
+  std::vector<Isometry3d> X_WB;
+  for (std::size_t k = 0; k < waypoints; ++k) X_WB.push_back(pose({0, 0, 0.05}, 0.5 * double(k), {1, 0, 0}));
+  return cycle(1.0, {still(Isometry3d::Identity(), waypoints), X_WB});
+}
+
+TEST(Allocation, DoesNotGrowWithHowLongPointsTouch) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.004));
+  const double few = peakOf(scene, rolling(3)), many = peakOf(scene, rolling(30));
+  EXPECT_GT(few, 0.1);
+  EXPECT_LT(many, 40.0) << few << " MB over two steps";
+}
+
+TEST(Allocation, DoesNotGrowWithTheNumberOfPairs) {
+  const auto peak = [](int balls) {
+    std::vector<BodyDescription> bodies = {body("ground", ground(), true)};
+    for (int i = 0; i < balls; ++i) bodies.push_back(body("ball " + std::to_string(i), Primitive(Sphere{0.1})));
+    CycleMotion motion = rolling(30);
+    const std::vector<Isometry3d> first = motion.X_WB[1];
+    for (int i = 1; i < balls; ++i) {
+      motion.X_WB.push_back(first);
+      for (Isometry3d& X : motion.X_WB.back()) X.translation().x() += i;
+    }
+    return peakOf(build(bodies, fine(0.004)), motion);
+  };
+  const double one = peak(1), six = peak(6);  // the six balls are far from each other
+  EXPECT_LT(six, 1.5 * one) << one << " MB of one";
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,243 @@
+#include "monitor/learn_pairs.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "oracle/test_data.h"
+#include "robot/joint_sampler.h"
+#include "robot/read_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Names = std::set<std::string>;  // "a b"
+
+Resource noResource(const std::string& uri) {
+  throw std::runtime_error("no " + uri);
+}
+
+std::string sphere(const std::string& link, double x, double radius = 0.1) {
+  return "<link name='" + link + "'><collision><origin xyz='" + std::to_string(x) +
+         " 0 0'/><geometry><sphere radius='" + std::to_string(radius) + "'/></geometry></collision></link>";
+}
+
+std::string joint(const std::string& parent, const std::string& child, const std::string& type,
+                  const std::string& rest = "") {
+  return "<joint name='to_" + child + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child +
+         "'/><axis xyz='0 0 1'/>" + rest + "</joint>";
+}
+
+std::string limits(double lower, double upper) {
+  return "<limit lower='" + std::to_string(lower) + "' upper='" + std::to_string(upper) + "' effort='1' velocity='1'/>";
+}
+
+/// Arms that turn about one axis, each with a sphere of radius 0.1; how far they are apart is known from their angles.
+std::string scissors() {
+  return "<robot name='scissors'>" + sphere("base", 0.0) +                             //
+         sphere("a", 1.0) + joint("base", "a", "continuous") +                         // all the way round
+         sphere("b", 1.0) + joint("base", "b", "revolute", limits(0.5, 1.0)) +         // 0.5 rad from c at least
+         sphere("c", 1.0, 0.08) + joint("base", "c", "revolute", limits(-1.0, 0.0)) +  //
+         sphere("d", 2.0) + joint("base", "d", "continuous") +                         // 0.8 m from all others
+         sphere("e", 1.0) + joint("base", "e", "continuous", "<mimic joint='to_a' offset='3.14159265'/>") +
+         sphere("f", 0.0, 0.1) + joint("a", "f", "continuous", "<origin xyz='0.05 0 0'/>") +  // 5 cm from base's
+         sphere("g", 3.0) + joint("base", "g", "revolute", limits(0.0, 0.0)) +                // no limits
+         sphere("h", 3.0) + joint("base", "h", "floating") + "</robot>";
+}
+
+/// Shells of spheres that are made fast.
+LearnOptions coarse() {
+  LearnOptions options;
+  options.max_error = 0.02;
+  return options;
+}
+
+LearnedPairs learn(const std::string& urdf, const LearnOptions& options = coarse(), const Srdf& srdf = {}) {
+  return learnPairs(RobotModel(urdf), srdf, noResource, options);
+}
+
+Names namesOf(const std::vector<LearnedPair>& pairs, const std::string& reason = "") {
+  Names names;
+  for (const LearnedPair& pair : pairs) {
+    if (reason.empty() || pair.reason == reason) {
+      names.insert(std::min(pair.link_a, pair.link_b) + " " + std::max(pair.link_a, pair.link_b));
+    }
+  }
+  return names;
+}
+
+TEST(LearnPairs, FindsWhatTheAnglesSay) {
+  LearnOptions options = coarse();
+  options.states = 2000;
+  const LearnedPairs pairs = learn(scissors(), options);
+  EXPECT_EQ(namesOf(pairs.disabled, "Adjacent"),
+            (Names{"a base", "b base", "base c", "base d", "base e", "a f", "base g", "base h"}));
+  EXPECT_EQ(namesOf(pairs.disabled, "Always"), (Names{"base f"}));
+  EXPECT_EQ(namesOf(pairs.touching), (Names{"a b", "a c", "b e", "c e"}));
+  Names never = {"b c", "a e"};  // by a limit, by a mimic
+  for (const char* pair : {"a d", "b d", "c d", "d e", "d f", "a g", "b g", "c g", "d g", "e g", "f g"}) {
+    never.insert(pair);
+  }
+  for (const char* pair : {"b f", "c f", "e f"}) never.insert(pair);
+  EXPECT_EQ(namesOf(pairs.disabled, "Never"), never);
+  EXPECT_EQ(namesOf(pairs.unknown), (Names{"a h", "b h", "c h", "d h", "e h", "f h", "g h"}));
+  EXPECT_EQ(pairs.unknown.front().reason, "nothing bounds joint to_h");
+  EXPECT_EQ(pairs.warnings, std::vector<std::string>{"joint to_g has no limits: a full revolution is taken"});
+  EXPECT_TRUE(pairs.close.empty());
+  EXPECT_TRUE(namesOf(pairs.at_default).count("a c") > 0);  // both at 0; b is at 0.5
+  EXPECT_LE(pairs.error_bound, options.max_error);
+  EXPECT_GE(pairs.proved, 4u);  // d is a metre farther out than a, b, c, e
+}
+
+TEST(LearnPairs, WhatIsNearerThanTheBoundIsNotLeftOut) {
+  // Rigidly 5 mm and 5 cm apart, across a link between them.
+  const auto urdf = [](double gap) {
+    return "<robot name='r'>" + sphere("a", 0.0) + sphere("m", 5.0) + joint("a", "m", "fixed") +
+           sphere("b", 0.2 + gap) + joint("m", "b", "fixed") + "</robot>";
+  };
+  LearnOptions options = coarse();
+  options.states = 10;
+  EXPECT_EQ(namesOf(learn(urdf(0.005), options).close), Names{"a b"});
+  EXPECT_EQ(namesOf(learn(urdf(0.05), options).disabled, "Never"), Names{"a b"});
+  EXPECT_EQ(namesOf(learn(urdf(-0.05), options).disabled, "Always"), Names{"a b"});
+}
+
+TEST(LearnPairs, ThreadsDoNotMatterAndSeedsDo) {
+  LearnOptions options = coarse();
+  options.states = 300;
+  const RobotModel robot(scissors());
+  const auto text = [&] { return srdfWith(learnPairs(robot, {}, noResource, options), robot, ""); };
+  const std::string all = text();
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(text(), all);
+  }
+  options.seed = 2;
+  EXPECT_NE(text(), all);
+}
+
+TEST(LearnPairs, RecordedStatesCount) {
+  LearnOptions options = coarse();
+  options.states = 0;
+  EXPECT_THROW(learn(scissors(), options), std::invalid_argument);
+  options.recorded = {{{"to_a", 0.2}}};  // c stays at 0, b at 0.5
+  EXPECT_TRUE(namesOf(learn(scissors(), options).disabled, "Never").count("a b") > 0);
+  options.recorded.push_back({{"to_a", 0.52}});
+  EXPECT_TRUE(namesOf(learn(scissors(), options).touching).count("a b") > 0);
+  options.default_pairs = true;
+  EXPECT_TRUE(namesOf(learn(scissors(), options).disabled, "Default").count("a c") > 0);
+}
+
+TEST(LearnPairs, TheFileKeepsWhatWasGivenAndIsHonest) {
+  const std::string given =
+      "<?xml version=\"1.0\"?>\n<!-- mine -->\n<robot name=\"scissors\">\n"
+      "<group name=\"arm\"><chain base_link=\"base\" tip_link=\"a\"/></group>\n"
+      "<disable_collisions link1=\"b\" link2=\"a\" reason=\"User\"/>\n</robot>";
+  LearnOptions options = coarse();
+  options.states = 1000;
+  const RobotModel robot(scissors());
+  const LearnedPairs pairs = learnPairs(robot, parseSrdf(given), noResource, options);
+  EXPECT_EQ(pairs.known, 1u);
+  const std::string text = srdfWith(pairs, robot, given);
+  const Srdf srdf = parseSrdf(text);
+  EXPECT_EQ(srdf.disabled.size(), 1u + pairs.disabled.size());
+  EXPECT_EQ(srdf.disabled[0].reason, "SRDF: User");
+  for (const char* part : {"<!-- mine -->", "<group name=\"arm\">", "1000 random states (seed 1)", "NO PROOF",
+                           "less than 0.3 % of states", "reason=\"Always\"/>"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  }
+  EXPECT_EQ(text.find("link1=\"a\" link2=\"b\""), std::string::npos);
+  // From nothing, it is an SRDF too; and with it there is nothing left to learn but what touches.
+  const Srdf own = parseSrdf(srdfWith(pairs, robot, ""));
+  EXPECT_EQ(own.disabled.size(), pairs.disabled.size());
+  EXPECT_TRUE(learnPairs(robot, parseSrdf(text), noResource, options).disabled.empty());
+  EXPECT_THROW(srdfWith(pairs, robot, "<robot"), std::runtime_error);
+}
+
+TEST(LearnPairs, AMeshThatIsMissingCostsItsPairsAlone) {
+  const LearnedPairs pairs = learn("<robot name='r'>" + sphere("a", 0.0) + sphere("m", 3.0) + joint("a", "m", "fixed") +
+                                   "<link name='b'><collision><geometry><mesh filename='package://x/y.stl'/></geometry>"
+                                   "</collision></link>" +
+                                   joint("m", "b", "fixed") + sphere("c", 1.0) + joint("m", "c", "fixed") + "</robot>");
+  EXPECT_EQ(namesOf(pairs.unknown), (Names{"a b", "b c"}));
+  EXPECT_NE(pairs.unknown[0].reason.find("package://x/y.stl"), std::string::npos);
+  EXPECT_EQ(namesOf(pairs.disabled, "Never"), Names{"a c"});
+}
+
+/// The demo's arm: the elbow bends to 2.7 rad at most, so that the wrist's axis, 0.35 m behind it, stays 0.149 m from
+/// the upper arm's; the two are 0.032 and less than 0.06 m thick. Folded, the hand reaches the turret.
+TEST(LearnPairs, TheDemoArm) {
+  const RobotModel robot(test::readText(SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf"));
+  const ResourceLoader loader = [](const std::string& uri) {
+    return loadLocalResource(
+        uri, [](const std::string&) { return std::string(SDF_CCD_SOURCE_DIR); }, "");
+  };
+  LearnOptions options = coarse();
+  options.states = 2000;
+  const LearnedPairs pairs = learnPairs(robot, {}, loader, options);
+  EXPECT_EQ(namesOf(pairs.disabled, "Adjacent"),
+            (Names{"base turret", "turret upper_arm", "forearm upper_arm", "forearm wrist", "hand wrist"}));
+  EXPECT_EQ(namesOf(pairs.disabled, "Always"), Names());
+  EXPECT_TRUE(namesOf(pairs.disabled, "Never").count("upper_arm wrist") > 0);
+  EXPECT_TRUE(namesOf(pairs.touching).count("hand turret") > 0);
+  EXPECT_TRUE(pairs.unknown.empty());
+}
+
+/// MoveIt's setup assistant has tested the Panda with FCL. We leave out nothing that it does not, for the same reasons,
+/// and all that it does but two pairs.
+TEST(LearnPairs, AgreesWithTheSetupAssistantOnAPanda) {
+  SDF_CCD_NEEDS_DATA("robots/panda_from_xacro.urdf");
+  const std::string robots = test::dataPath("robots");
+  ::setenv("ROS_PACKAGE_PATH", robots.c_str(), 1);
+  const PackageFinder packages = packagesFromEnvironment();
+  const RobotModel robot(test::readText(robots + "/panda_from_xacro.urdf"));
+  const Srdf theirs = parseSrdf(test::readText(robots + "/panda_moveit_config/config/panda.srdf"));
+  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, ""); };
+  LearnOptions options;
+  options.states = 1000;
+  const LearnedPairs pairs = learnPairs(robot, {}, loader, options);
+  std::map<std::string, std::string> reasons;
+  for (const DisabledPair& pair : theirs.disabled) {
+    reasons[std::min(pair.body_a, pair.body_b) + " " + std::max(pair.body_a, pair.body_b)] = pair.reason;
+  }
+  for (const LearnedPair& pair : pairs.disabled) {
+    const std::string names = *namesOf({pair}).begin();
+    EXPECT_EQ(reasons[names], "SRDF: " + pair.reason) << names;
+    reasons.erase(names);
+  }
+  EXPECT_LE(reasons.size(),
+            2u);  // fingers that touch at 0 (its Default), and links 2 and 6, which touch in some states
+}
+
+TEST(JointSampler, DrawsWithinLimitsAndAllOfThem) {
+  const RobotModel robot(scissors());
+  JointSampler sampler(robot, 7), same(robot, 7);
+  std::map<std::string, std::vector<double>> drawn;
+  for (int i = 0; i < 4000; ++i) {
+    const JointPositions positions = sampler.next();
+    EXPECT_EQ(positions, same.next());
+    for (const auto& [name, position] : positions) drawn[name].push_back(position);
+  }
+  EXPECT_EQ(drawn.size(), 6u);  // not the mimic, nor the floating one
+  const std::map<std::string, std::pair<double, double>> ranges = {
+      {"to_a", {-M_PI, M_PI}}, {"to_b", {0.5, 1.0}}, {"to_c", {-1.0, 0.0}}, {"to_g", {-M_PI, M_PI}}};
+  for (const auto& [name, range] : ranges) {
+    const auto [least, greatest] = std::minmax_element(drawn[name].begin(), drawn[name].end());
+    const double width = range.second - range.first;
+    EXPECT_GE(*least, range.first) << name;
+    EXPECT_LE(*greatest, range.second) << name;
+    EXPECT_LE(*least, range.first + 0.01 * width) << name;
+    EXPECT_GE(*greatest, range.second - 0.01 * width) << name;
+    const auto lower_half =
+        std::count_if(drawn[name].begin(), drawn[name].end(), [&](double q) { return q < range.first + 0.5 * width; });
+    EXPECT_NEAR(double(lower_half), 2000.0, 160.0) << name;  // five standard deviations
+  }
+  EXPECT_GT(std::count(drawn["to_b"].begin(), drawn["to_b"].end(), 1.0), 150);  // at its limit
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,317 @@
+#include "sdf_ccd/monitor/monitor.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "monitor/scene_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+TEST(Monitor, GivesAllFourVerdicts) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
+  Monitor monitor(scene, soft());
+  const auto verdictAt = [&](double height) {
+    monitor.reset();
+    return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, height}))}), {});
+  };
+  const double gap = scene->bodies[1].shell.covering_radius;
+  EXPECT_EQ(verdictAt(0.1 + 1.2 * gap).verdict, Verdict::kClear);
+  EXPECT_EQ(verdictAt(0.1 + 0.5 * gap).verdict, Verdict::kUncertain);
+  EXPECT_EQ(verdictAt(0.095).verdict, Verdict::kContact);
+  CycleMotion lost = cycle(0.1, {still(Isometry3d::Identity()), {}});
+  lost.missing = {"", "no transform from ball to world"};
+  const CycleResult& result = monitor.run(lost, {});
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_EQ(result.pairs[0].reason, lost.missing[1]);
+  EXPECT_EQ(result.not_checked, 1);
+}
+
+TEST(Monitor, FindsContactBetweenTheSamples) {
+  const auto scene = build(
+      {body("plate", Primitive(Box{{0.05, 0.05, 0.0005}}), true), body("ball", Primitive(Sphere{0.02}))}, fine(0.004));
+  Monitor monitor(scene, soft());
+  // Through the plate from above to below within one cycle.
+  const CycleResult& result = monitor.run(
+      cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, 0.1}), translation({0, 0, -0.1})}}), {true, 5});
+  const PairResult& pair = result.pairs[0];
+  EXPECT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_FALSE(pair.touches_at_sample);
+  ASSERT_EQ(pair.intervals.size(), 1u);
+  EXPECT_NEAR(pair.intervals[0].enter, 0.1 * (0.1 - 0.0205) / 0.2, 1e-3);
+  EXPECT_NEAR(pair.intervals[0].exit, 0.1 * (0.1 + 0.0205) / 0.2, 1e-3);
+  EXPECT_EQ(pair.points.size(), 5u);
+  EXPECT_EQ(pair.points[0].depth, pair.deepest.depth);
+  EXPECT_GT(pair.deepest.depth, 0.9e-2);  // the plate's points in the ball
+}
+
+TEST(Monitor, SeesWhatASampleSees) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  Monitor monitor(scene, soft());
+  const auto fall = [&](double from, double to) {
+    return monitor
+        .run(cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, from}), translation({0, 0, to})}}), {})
+        .pairs[0]
+        .touches_at_sample;
+  };
+  EXPECT_TRUE(fall(0.3, 0.09));
+  EXPECT_TRUE(fall(0.09, 0.3));
+  EXPECT_FALSE(fall(0.3, 0.2));
+}
+
+TEST(Monitor, QuarterTurnWithinOneCycle) {
+  // A bar swings through a post that it meets neither before nor after.
+  BodyDescription bar = body("bar", Primitive(Box{{0.25, 0.02, 0.02}}));
+  bar.geometry[0].X_BG = translation({0.35, 0, 0});
+  const auto scene = build({body("post", Primitive(Cylinder{0.03, 0.2}), true), bar});
+  Monitor monitor(scene, soft());
+  const Isometry3d post = translation({0.3, 0.3, 0});
+  const CycleMotion swing = cycle(0.1, {still(post), {Isometry3d::Identity(), pose({0, 0, 0}, kPi / 2, {0, 0, 1})}});
+  const PairResult& pair = monitor.run(swing, {}).pairs[0];
+  EXPECT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_FALSE(pair.touches_at_sample);
+  EXPECT_LT(pair.error.chord, 2e-4);
+  // The chord of the bar's tip passes inside of the arc: a straight path would give other times.
+  const double half_angle = std::asin((0.03 + 0.02) / (0.3 * std::sqrt(2.0)));
+  ASSERT_EQ(pair.intervals.size(), 1u);
+  EXPECT_NEAR(pair.intervals[0].enter, 0.1 * (0.5 - half_angle / (kPi / 2)), 1e-3);
+  EXPECT_NEAR(pair.intervals[0].exit, 0.1 * (0.5 + half_angle / (kPi / 2)), 1e-3);
+}
+
+TEST(Monitor, ResultsDoNotDependOnThreads) {
+  std::mt19937 random(9);
+  std::vector<BodyDescription> bodies;
+  for (int i = 0; i < 6; ++i) bodies.push_back(body("b" + std::to_string(i), Primitive(Box{{0.1, 0.08, 0.05}})));
+  const auto scene = build(bodies, fine(0.02));
+  Monitor one(scene, soft()), two(scene, soft());
+  for (int i = 0; i < 10; ++i) {
+    std::vector<std::vector<Isometry3d>> poses;
+    for (int b = 0; b < 6; ++b) {
+      const Isometry3d X = randomPose(random, 0.25);
+      poses.push_back({X, X * pose({0.05, 0, 0}, 0.3, {1, 1, 0})});
+    }
+    const CycleMotion motion = cycle(0.1, poses);
+    const auto runWith = [&](Monitor& monitor, std::size_t threads) -> const CycleResult& {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      return monitor.run(motion, {true, 3});
+    };
+    const CycleResult &a = runWith(one, 1), &b = runWith(two, 2);
+    for (std::size_t p = 0; p < a.pairs.size(); ++p) {
+      ASSERT_EQ(a.pairs[p].verdict, b.pairs[p].verdict);
+      ASSERT_EQ(a.pairs[p].on_a_W.force, b.pairs[p].on_a_W.force);
+      ASSERT_EQ(a.pairs[p].on_b_W.torque, b.pairs[p].on_b_W.torque);
+      ASSERT_EQ(a.pairs[p].deepest.p_W, b.pairs[p].deepest.p_W);
+      ASSERT_EQ(a.pairs[p].points.size(), b.pairs[p].points.size());
+    }
+  }
+}
+
+TEST(Monitor, WithoutSubscribersNoWrenchAndNoPoints) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  Monitor monitor(scene, soft());
+  const CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.09}))});
+  const PairResult pair = monitor.run(motion, {false, 0}).pairs[0];
+  EXPECT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_EQ(pair.on_a_W.force, Vector3d::Zero());
+  EXPECT_TRUE(pair.points.empty());
+  EXPECT_NEAR(pair.deepest.depth, 0.01, 1e-3);
+}
+
+/// Deep inside, a field knows the depth by far less than it does near the surface; a bead may be in the cavity.
+TEST(Monitor, MotionErrorBeyondTheBandNeverMakesContact) {
+  BodyOptions options = fine(0.004);
+  options.field.cells = 64;
+  TriangleMesh cavity = boxMesh({0.006, 0.006, 0.006});
+  for (Vector3i& t : cavity.triangles) std::swap(t[1], t[2]);
+  const auto scene = build({body("block", meshShape(merged(boxMesh({0.5, 0.5, 0.5}), cavity)), true),
+                            body("bead", Primitive(Sphere{0.005}))},
+                           options);
+  Monitor monitor(scene, soft());
+  std::mt19937 random(3);
+  int deep = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d p = randomPose(random, 0.25).translation();
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation(p))});
+    motion.motion_error = {0.0, p.norm()};
+    monitor.reset();
+    const PairResult& result = monitor.run(motion, {}).pairs[0];
+    EXPECT_NE(result.verdict, Verdict::kContact) << p.transpose() << ": " << result.deepest.depth << " m deep";
+    deep += result.deepest.depth > 0.05;
+  }
+  EXPECT_GT(deep, 50);
+}
+
+TEST(Monitor, BoundBeyondTheBandNeverMakesClear) {
+  // Only a sampled field, with a narrow band, and a motion that is known to 20 cm.
+  BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
+  map.geometry[0].watertight_voxels = true;
+  const auto scene = build({map, body("ball", Primitive(Sphere{0.05}))});
+  Monitor monitor(scene, soft());
+  const auto verdictAt = [&](double distance) {
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation({0.15 + distance, 0, 0}))});
+    motion.motion_error = {0.1, 0.1};
+    monitor.reset();
+    return monitor.run(motion, {}).verdict;
+  };
+  ASSERT_LT(scene->bodies[0].parts[0].field.band(), 0.05);
+  EXPECT_EQ(verdictAt(0.1), Verdict::kUncertain);
+  EXPECT_EQ(verdictAt(0.19), Verdict::kUncertain);
+  EXPECT_EQ(verdictAt(0.3), Verdict::kClear);
+}
+
+TEST(Monitor, MotionErrorsOfBothBodiesCount) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  Monitor monitor(scene, soft());
+  const auto run = [&](double height, double angle) -> const PairResult& {
+    const Isometry3d X = translation({0, 0, height});
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), {X, X * pose({0, 0, 0}, angle, {1, 0, 0})}});
+    motion.motion_error = {0.01, 0.02};
+    monitor.reset();
+    return monitor.run(motion, {}).pairs[0];
+  };
+  EXPECT_EQ(run(0.075, 0.0).verdict, Verdict::kUncertain);  // 25 mm deep, known to 30 mm
+  EXPECT_EQ(run(0.065, 0.0).verdict, Verdict::kContact);
+  EXPECT_EQ(run(0.135, 0.0).verdict, Verdict::kUncertain);
+  EXPECT_EQ(run(0.145, 0.0).verdict, Verdict::kClear);
+  const double chord = run(0.1, 1.0).error.chord;
+  EXPECT_GT(chord, 0.03 + 1e-6);
+  EXPECT_LE(chord, 0.03 + 1e-4);
+}
+
+TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
+  const auto scene = build(
+      {body("ground", ground(), true), body("ball", Primitive(Sphere{0.1})), body("other", Primitive(Sphere{0.1}))});
+  ASSERT_EQ(scene->pairs.size(), 3u);  // ground - ball, ground - other, ball - other
+  // The ball dips into the ground and comes out again, then the other one does.
+  const auto dip = [&](int deepest) {
+    std::vector<Isometry3d> X;
+    for (int k = 0; k < 5; ++k) X.push_back(translation({double(deepest), 0, k == deepest ? 0.09 : 0.3}));
+    return X;
+  };
+  CycleMotion motion = cycle(0.4, {still(Isometry3d::Identity(), 5), dip(1), dip(3)});
+  Monitor monitor(scene, soft()), whole(scene, soft());
+  const CycleResult& all = whole.run(motion, {true, 3});
+  EXPECT_EQ(all.pairs[0].verdict, Verdict::kContact);
+  EXPECT_EQ(all.pairs[1].verdict, Verdict::kContact);
+
+  motion.spans = {{0, 2}, {0, 0}, {0, 0}};
+  const CycleResult& first = monitor.run(motion, {true, 3});
+  EXPECT_EQ(first.verdict, Verdict::kContact);
+  EXPECT_EQ(first.delayed, 2);
+  EXPECT_EQ(first.checked + first.skipped, 1);
+  EXPECT_EQ(first.not_checked, 0);
+  EXPECT_NEAR(first.pairs[0].intervals[0].enter, all.pairs[0].intervals[0].enter, 1e-12);
+  EXPECT_LT((2.0 * all.pairs[0].on_a_W.force - first.pairs[0].on_a_W.force).norm(), 1e-9);  // half of the time
+  EXPECT_LT((2.0 * all.pairs[0].on_b_W.force - first.pairs[0].on_b_W.force).norm(), 1e-9);
+
+  motion.spans = {{2, 4}, {0, 2}, {2, 2}};
+  const CycleResult& second = monitor.run(motion, {});
+  EXPECT_EQ(second.verdict, Verdict::kNotChecked);  // what was checked is CLEAR, but one pair is delayed
+  EXPECT_EQ(second.pairs[0].verdict, Verdict::kClear);
+  EXPECT_EQ(second.pairs[1].verdict, Verdict::kClear);
+  motion.spans = {{4, 4}, {2, 4}, {0, 4}};
+  const CycleResult& last = monitor.run(motion, {true, 3});
+  EXPECT_EQ(last.pairs[1].verdict, Verdict::kContact);
+  EXPECT_NEAR(last.pairs[1].intervals[0].exit, all.pairs[1].intervals[0].exit, 1e-12);
+  EXPECT_LT((2.0 * all.pairs[1].on_b_W.force - last.pairs[1].on_b_W.force).norm(), 1e-9);
+  EXPECT_LT((all.pairs[1].deepest.p_W - last.pairs[1].deepest.p_W).norm(), 1e-9);
+}
+
+TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
+  Scene scene = *build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  scene.bodies[1].shell.covering_radius = 0.2;
+  scene.bodies[1].ball.radius = 0.1 + 0.2;
+  Monitor monitor(std::make_shared<const Scene>(scene), soft());
+  for (const double height : {2.0, 0.35}) {  // from the ball alone, and from the points
+    monitor.reset();
+    const PairResult& pair =
+        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, height}))}), {}).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kClear);
+    EXPECT_LE(pair.clearance, height - 0.1 - 0.2 + 1e-3);
+    EXPECT_GT(pair.clearance, height - 0.1 - 0.2 - 0.15);
+  }
+}
+
+TEST(Monitor, PointsOnEdgesTellCrossedPlatesApart) {
+  // Two thin plates on edge, crosswise, one above the other: their rims are nearest to each other.
+  BodyOptions options = fine(0.02);
+  options.shell.edge_gap = 0.001;
+  const Primitive plate = Box{{0.1, 0.001, 0.05}};
+  const auto scene = build({body("a", plate), body("b", plate)}, options),
+             plain = build({body("a", plate), body("b", plate)}, fine(0.02));
+  const auto verdictAt = [](const std::shared_ptr<const Scene>& scene, double apart) {
+    Monitor monitor(scene, soft());
+    return monitor
+        .run(cycle(0.1, {still(Isometry3d::Identity()), still(pose({0.0, 0.0, 0.1 + apart}, kPi / 2, {0, 0, 1}))}), {})
+        .pairs[0];
+  };
+  EXPECT_NEAR(verdictAt(scene, 0.1).error.gap, 0.001, 1e-12);
+  EXPECT_EQ(verdictAt(scene, 0.0012).verdict, Verdict::kClear);
+  EXPECT_NE(verdictAt(scene, 0.0).verdict, Verdict::kClear);
+  EXPECT_EQ(verdictAt(scene, -0.002).verdict, Verdict::kContact);
+  EXPECT_EQ(verdictAt(plain, 0.0012).verdict, Verdict::kUncertain);
+  EXPECT_LE(verdictAt(scene, 0.003).clearance, 0.003);
+  EXPECT_GT(verdictAt(scene, 0.003).clearance, 0.001);
+}
+
+TEST(Monitor, NothingIsClearBeyondWhatNumbersHold) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.05));
+  Monitor monitor(scene, soft());
+  const auto run = [&](double from, double to, double motion_error) {
+    CycleMotion motion =
+        cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, from}), translation({0, 0, to})}});
+    motion.motion_error = {0.0, motion_error};
+    return monitor.run(motion, {});
+  };
+  EXPECT_EQ(run(9e7, 9e7, 0.0).verdict, Verdict::kClear);
+  for (const double far : {2e8, 1e150, 1e300, std::numeric_limits<double>::infinity()}) {
+    const CycleResult result = run(1.0, far, 0.0);
+    EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+    EXPECT_EQ(result.error_bound, 0.0);
+    EXPECT_EQ(result.pairs[0].reason.find("ball is "), 0u) << result.pairs[0].reason;
+    EXPECT_EQ(run(far, far, 0.0).verdict, Verdict::kNotChecked);
+  }
+  const CycleResult result = run(1.0, 1.0, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_EQ(result.pairs[0].reason, "its error bound is not finite");
+  EXPECT_EQ(run(1.0, 1.0, 0.0).verdict, Verdict::kClear);
+}
+
+TEST(Monitor, WhereNothingIsCheckedNothingIsClear) {
+  Monitor monitor(build({body("ball", Primitive(Sphere{0.1}))}), soft());
+  const CycleResult& result = monitor.run(cycle(0.1, {still(Isometry3d::Identity())}), {});
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_EQ(result.checked + result.skipped + result.not_checked, 0);
+}
+
+TEST(Monitor, RefusesMotionsThatDoNotFit) {
+  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.05));
+  Monitor monitor(scene, {});
+  const auto still2 = still(Isometry3d::Identity());
+  EXPECT_THROW(monitor.run(cycle(0.1, {still2}), {}), std::invalid_argument);
+  EXPECT_THROW(monitor.run(cycle(0.1, {still2, {}}), {}), std::invalid_argument);
+  EXPECT_THROW(monitor.run(cycle(-0.1, {still2, still2}), {}), std::invalid_argument);
+  CycleMotion odd = cycle(0.1, {still2, still2});
+  for (const std::vector<WaypointSpan>& spans : {std::vector<WaypointSpan>{{1, 0}}, std::vector<WaypointSpan>{{0, 2}},
+                                                 std::vector<WaypointSpan>{{0, 1}, {0, 1}}}) {
+    odd.spans = spans;
+    EXPECT_THROW(monitor.run(odd, {}), std::invalid_argument);
+  }
+  CycleMotion bad = cycle(0.1, {still2, still2});
+  bad.X_WB[1][1].translation().x() = std::nan("");
+  const CycleResult& result = monitor.run(bad, {});
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_FALSE(result.pairs[0].reason.empty());
+  EXPECT_THROW(Monitor(nullptr, {}), std::invalid_argument);
+  MonitorOptions options;
+  options.chords.tolerance = 0.0;
+  EXPECT_THROW(Monitor(scene, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,51 @@
+#include "monitor/over_budget.h"
+
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+BodyDescription map() {
+  BodyDescription map = body("map", meshShape(boxMesh({0.5, 0.5, 0.1})), true);
+  map.geometry[0].watertight_voxels = true;
+  return map;
+}
+
+TEST(OverBudget, NothingToSayWhereTheBoundIsKept) {
+  const BodyOptions options = optionsFor({0.002});
+  const auto scene = build({body("a", Primitive(Sphere{0.1})), body("b", meshShape(icosphere(0.1, 2)))}, options);
+  EXPECT_EQ(overBudget(*scene, options), "");
+  BodyOptions not_asked = options;
+  not_asked.max_error.reset();
+  EXPECT_EQ(overBudget(*build({map(), body("b", Primitive(Sphere{0.1}))}, not_asked), not_asked), "");
+}
+
+TEST(OverBudget, NamesWhatIsOnlyAField) {
+  const BodyOptions options = optionsFor({0.002});
+  const auto scene = build(
+      {map(), body("hand", meshShape(boxMesh({0.1, 0.05, 0.05}))), body("finger", Primitive(Sphere{0.02}))}, options);
+  const std::string text = overBudget(*scene, options);
+  EXPECT_EQ(text.find("the error bound is "), 0u) << text;
+  EXPECT_NE(text.find("more than the max_error of 2.00 mm: map is only a field"), std::string::npos) << text;
+  EXPECT_NE(text.find(", not 0.70"), std::string::npos) << text;
+  EXPECT_EQ(text.find("map is only a field"), text.rfind("map is only a field")) << text;  // once for both pairs
+}
+
+TEST(OverBudget, NamesWhatWasMadeCoarser) {
+  BodyOptions options = optionsFor({0.0005});
+  options.field.max_bytes = 100'000;
+  options.shell.max_points = 3000;
+  const auto scene =
+      build({body("a", meshShape(icosphere(0.1, 3))), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))}, options);
+  const std::string text = overBudget(*scene, options);
+  EXPECT_NE(text.find("the field of a has an error of "), std::string::npos) << text;
+  EXPECT_NE(text.find("b has gaps of "), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

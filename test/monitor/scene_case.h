@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/contact_case.h"
+#include "sdf_ccd/monitor/monitor.h"
+
+namespace sdf_ccd::test {
+
+using Shape = std::variant<Primitive, std::shared_ptr<const TriangleMesh>>;
+
+inline Shape meshShape(TriangleMesh mesh) {
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
+}
+
+/// A body of one part at its own origin, in a frame of its own name.
+inline BodyDescription body(const std::string& name, const Shape& shape, bool is_world = false) {
+  BodyDescription body;
+  body.name = name;
+  body.frame = is_world ? "world" : name;
+  body.is_world = is_world;
+  body.geometry.push_back({shape, Isometry3d::Identity(), name + ".stl", false});
+  return body;
+}
+
+inline BodyOptions fine(double spacing = 0.01) {
+  BodyOptions options;
+  options.field.cells = 32;
+  options.shell.spacing = spacing;
+  return options;
+}
+
+constexpr double kStiffness = 1e7;  // [N/m^3]
+
+/// A monitor's options for bodies as soft as that.
+inline MonitorOptions soft() {
+  MonitorOptions options;
+  options.contact.stiffness = kStiffness;
+  return options;
+}
+
+inline std::shared_ptr<const Scene> build(const SceneDescription& description, const BodyOptions& options = fine()) {
+  return std::make_shared<const Scene>(buildScene(description, planScene(description), options));
+}
+
+inline std::shared_ptr<const Scene> build(std::vector<BodyDescription> bodies, const BodyOptions& options = fine()) {
+  return build(SceneDescription{std::move(bodies), {}}, options);
+}
+
+/// Poses per body at times evenly spread over the cycle.
+inline CycleMotion cycle(double length, std::vector<std::vector<Isometry3d>> X_WB) {
+  CycleMotion motion;
+  const std::size_t waypoints = X_WB.front().size();
+  for (std::size_t k = 0; k < waypoints; ++k) motion.times.push_back(length * double(k) / double(waypoints - 1));
+  motion.X_WB = std::move(X_WB);
+  return motion;
+}
+
+inline std::vector<Isometry3d> still(const Isometry3d& X, std::size_t waypoints = 2) {
+  return {waypoints, X};
+}
+
+}  // namespace sdf_ccd::test

@@ -1,0 +1,141 @@
+#include "sdf_ccd/monitor/scene_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "monitor/scene_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+const Primitive kBall = Sphere{0.1};
+
+std::string reasonOf(const ScenePlan& plan, const std::string& what) {
+  for (const LeftOut& item : plan.left_out)
+    if (item.what == what) return item.reason;
+  return "";
+}
+
+TEST(ScenePlan, TestsBothRolesOfOrdinaryPairs) {
+  const ScenePlan plan = planScene({{body("a", kBall), body("b", kBall)}, {}});
+  ASSERT_EQ(plan.pairs.size(), 1u);
+  EXPECT_TRUE(plan.pairs[0].a_shell_b_field);
+  EXPECT_TRUE(plan.pairs[0].b_shell_a_field);
+  EXPECT_TRUE(plan.left_out.empty());
+}
+
+TEST(ScenePlan, LeavesOutDisabledPairsInEitherOrder) {
+  const ScenePlan plan = planScene({{body("a", kBall), body("b", kBall), body("c", kBall)},
+                                    {{"b", "a", "SRDF: Never"}, {"c", "no such link", "SRDF: Never"}}});
+  EXPECT_EQ(plan.pairs.size(), 2u);
+  EXPECT_EQ(reasonOf(plan, "pair a - b"), "SRDF: Never");
+}
+
+TEST(ScenePlan, LeavesOutPairsThatCannotMove) {
+  std::vector<BodyDescription> bodies = {body("table", kBall, true), body("wall", kBall, true), body("a", kBall),
+                                         body("tool", kBall)};
+  bodies[3].frame = "a";
+  const ScenePlan plan = planScene({bodies, {}});
+  EXPECT_EQ(reasonOf(plan, "pair table - wall"), "both of the world");
+  EXPECT_EQ(reasonOf(plan, "pair a - tool"), "in the same frame");
+  EXPECT_EQ(plan.pairs.size(), 4u);
+}
+
+TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
+  BodyDescription map = body("map", meshShape(boxMesh({1, 1, 1})), true);
+  map.geometry[0].watertight_voxels = true;
+  const ScenePlan plan = planScene({{map, body("arm", kBall), body("ground", ground())}, {}});
+  ASSERT_EQ(plan.pairs.size(), 2u);  // map – arm, arm – ground
+  EXPECT_FALSE(plan.pairs[0].a_shell_b_field);
+  EXPECT_TRUE(plan.pairs[0].b_shell_a_field);
+  EXPECT_TRUE(plan.pairs[1].a_shell_b_field);
+  EXPECT_FALSE(plan.pairs[1].b_shell_a_field);
+  EXPECT_EQ(plan.needs_shell, (std::vector<bool>{false, true, false}));
+  // Voxels may lie wholly inside the arm: its field shows that of their witnesses.
+  EXPECT_TRUE(plan.pairs[0].a_witnesses_b_field);
+  EXPECT_FALSE(plan.pairs[0].b_witnesses_a_field);
+  EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(plan.needs_field, (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(reasonOf(plan, "pair map - ground"), "neither can be covered with points");
+  EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
+}
+
+TEST(ScenePlan, ABodyThatOnlyMeetsHalfSpacesIsOnlyAShell) {
+  const ScenePlan plan = planScene({{body("arm", kBall), body("ground", ground())}, {}});
+  EXPECT_EQ(plan.needs_field, (std::vector<bool>{false, true}));
+  EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{false, false}));
+  EXPECT_EQ(reasonOf(plan, "field of arm"), "only ever a shell");
+}
+
+TEST(ScenePlan, UnusedBodiesAreNotBuilt) {
+  const ScenePlan plan = planScene({{body("a", kBall), body("b", kBall)}, {{"a", "b", "never"}}});
+  EXPECT_TRUE(plan.pairs.empty());
+  EXPECT_EQ(plan.needs_field, (std::vector<bool>{false, false}));
+  EXPECT_EQ(reasonOf(plan, "field of a"), "no pair needs it");
+  EXPECT_EQ(reasonOf(plan, "shell of b"), "no pair needs it");
+}
+
+TEST(ScenePlan, PairsOfFailedBodiesStay) {
+  std::vector<BodyDescription> bodies = {body("good", kBall), body("bad", kBall), body("also good", kBall)};
+  bodies[1].failure = "no such file: bad.stl";
+  bodies[1].geometry.clear();
+  const ScenePlan plan = planScene({bodies, {}});
+  EXPECT_EQ(plan.pairs.size(), 3u);
+  EXPECT_FALSE(plan.needs_field[1]);
+  EXPECT_TRUE(plan.needs_field[0]);
+}
+
+TEST(ScenePlan, BodiesWithoutGeometryHaveNoPairs) {
+  std::vector<BodyDescription> bodies = {body("a", kBall), body("frame", kBall)};
+  bodies[1].geometry.clear();
+  const ScenePlan plan = planScene({bodies, {}});
+  EXPECT_TRUE(plan.pairs.empty());
+  EXPECT_EQ(reasonOf(plan, "pair a - frame"), "without collision geometry");
+}
+
+TEST(ScenePlan, RefusesAmbiguousNames) {
+  EXPECT_THROW(planScene({{body("a", kBall), body("a", kBall)}, {}}), std::invalid_argument);
+  EXPECT_THROW(planScene({{body("a", kBall)}, {{"a", "a", "self"}}}), std::invalid_argument);
+}
+
+TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
+  const Primitive table = Box{{1.0, 0.5, 0.02}};
+  const SceneDescription scene{{body("table", table), body("hand", kBall), body("wall", Primitive(Box{{5, 5, 0.1}}))},
+                               {}};
+  const ScenePlan plan = planScene(scene, {0.005});
+  ASSERT_EQ(plan.pairs.size(), 3U);
+  EXPECT_FALSE(plan.pairs[0].a_shell_b_field);  // table – hand
+  EXPECT_TRUE(plan.pairs[0].b_shell_a_field);
+  EXPECT_TRUE(plan.pairs[1].a_shell_b_field);  // table – wall: both are large, so both are sampled
+  EXPECT_TRUE(plan.pairs[1].b_shell_a_field);
+  // A large body that a smaller one could still hold keeps its shell, and so does every body at a coarse spacing.
+  const SceneDescription cubes{{body("cube", Primitive(Box{{0.5, 0.5, 0.5}})), body("ball", Primitive(Sphere{0.4}))},
+                               {}};
+  EXPECT_TRUE(planScene(cubes, {0.001}).pairs[0].a_shell_b_field);
+  EXPECT_TRUE(planScene(scene, {0.1}).pairs[0].a_shell_b_field);
+  const ScenePlan two = planScene({{scene.bodies[0], scene.bodies[1]}, {}}, {0.005});
+  EXPECT_FALSE(two.needs_shell[0]);
+  ASSERT_EQ(two.left_out.size(), 2U);
+  EXPECT_EQ(two.left_out[0].what, "shell of table");
+}
+
+TEST(ScenePlan, LargeBoxKeepsItsEdges) {
+  const SceneDescription scene{{body("table", Primitive(Box{{1.0, 0.5, 0.02}})), body("hand", kBall)}, {}};
+  PlanOptions options;
+  options.shell_spacing = 0.005;
+  options.edge_gap = 0.001;
+  const ScenePlan plan = planScene(scene, options);
+  ASSERT_EQ(plan.pairs.size(), 1U);
+  EXPECT_TRUE(plan.pairs[0].a_shell_b_field);
+  EXPECT_TRUE(plan.pairs[0].a_edges_only);
+  EXPECT_FALSE(plan.pairs[0].b_edges_only);
+  EXPECT_EQ(plan.edges_only, (std::vector<bool>{true, false}));
+  EXPECT_EQ(reasonOf(plan, "full-shell of table"), "large, and the shells of smaller bodies do");
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,149 @@
+#include "storage/file_cache.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// A directory in which somebody holds the lock of the file "thing".
+class FileCacheTest : public ::testing::Test {
+ protected:
+  FileCacheTest() {
+    char name[] = "/tmp/file_cache_test.XXXXXX";
+    directory_ = mkdtemp(name);
+    lock_ = ::open((directory_ + "/thing.lock").c_str(), O_RDWR | O_CREAT, 0644);
+    flock(lock_, LOCK_EX);
+  }
+  ~FileCacheTest() override {
+    ::close(lock_);
+    std::filesystem::remove_all(directory_);
+  }
+
+  FileCache::Actions actions() {
+    return {[](const std::string&) {}, [this] { is_made_ = true; }, [this](const std::string&) { is_saved_ = true; }};
+  }
+
+  std::string directory_;
+  int lock_;
+  bool is_made_ = false, is_saved_ = false;
+};
+
+TEST_F(FileCacheTest, WhoWaitsForALockCanBeCancelled) {
+  std::atomic<bool> asked{false};
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    asked = true;
+  });
+  const CancelScope scope(asked);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THROW(FileCache(directory_).get("thing", actions()), Cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+  other.join();
+  EXPECT_FALSE(is_made_);
+}
+
+TEST_F(FileCacheTest, ALockThatIsNeverFreedIsNotWaitedForForEver) {
+  const CacheOutcome outcome = FileCache(directory_, 0.1).get("thing", actions());
+  EXPECT_TRUE(is_made_);
+  EXPECT_FALSE(is_saved_);
+  EXPECT_NE(outcome.warning.find("another process has held it for 0.1 s"), std::string::npos) << outcome.warning;
+}
+
+TEST_F(FileCacheTest, WhatIsThereNeedsNoLock) {
+  std::ofstream(directory_ + "/thing") << "made";
+  const CacheOutcome outcome = FileCache(directory_).get("thing", actions());
+  EXPECT_TRUE(outcome.from_cache);
+  EXPECT_EQ(outcome.warning, "");
+  EXPECT_FALSE(is_made_);
+}
+
+TEST_F(FileCacheTest, ALockThatIsFreedInTimeIsTaken) {
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    flock(lock_, LOCK_UN);
+  });
+  const CacheOutcome outcome = FileCache(directory_).get("thing", actions());
+  other.join();
+  EXPECT_EQ(outcome.warning, "");
+  EXPECT_TRUE(is_saved_);
+}
+
+/// A cache of its own, whose files are text.
+class TextCacheTest : public ::testing::Test {
+ protected:
+  TextCacheTest() {
+    char name[] = "/tmp/file_cache_test.XXXXXX";
+    base_ = mkdtemp(name);
+    directory_ = base_ + "/cache";
+  }
+  ~TextCacheTest() override { std::filesystem::remove_all(base_); }
+
+  CacheOutcome get(const std::string& name, std::size_t max_bytes = FileCache::kMaxBytes) {
+    made_ = false;
+    return FileCache(directory_, 1.0, max_bytes)
+        .get(name, {[](const std::string&) {}, [this] { made_ = true; },
+                    [](const std::string& path) { std::ofstream(path) << std::string(1000, 'x'); }});
+  }
+  bool has(const std::string& name) const { return std::filesystem::exists(directory_ + "/" + name); }
+  void setAge(const std::string& name, int hours) const {
+    std::filesystem::last_write_time(directory_ + "/" + name,
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
+  }
+
+  std::string base_, directory_;
+  bool made_ = false;
+};
+
+TEST_F(TextCacheTest, IsItsOwnersAlone) {
+  EXPECT_EQ(get("a.field").warning, "");
+  struct stat status {};
+  ASSERT_EQ(::stat(directory_.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0700u);
+  EXPECT_TRUE(get("a.field").from_cache);
+  ASSERT_EQ(::chmod(directory_.c_str(), 0777), 0);
+  const CacheOutcome outcome = get("a.field");
+  EXPECT_TRUE(made_);
+  EXPECT_FALSE(outcome.from_cache);
+  EXPECT_NE(outcome.warning.find("others may write to it"), std::string::npos) << outcome.warning;
+}
+
+TEST_F(TextCacheTest, LinksAreNotFollowed) {
+  get("a.field");
+  std::ofstream(base_ + "/elsewhere") << "mine";
+  std::filesystem::create_symlink(base_ + "/elsewhere", directory_ + "/b.field");
+  const CacheOutcome outcome = get("b.field");
+  EXPECT_TRUE(made_);
+  EXPECT_NE(outcome.warning.find("is a link"), std::string::npos) << outcome.warning;
+  std::filesystem::create_symlink(base_ + "/elsewhere", directory_ + "/c.field.lock");
+  EXPECT_NE(get("c.field").warning.find("cache not used"), std::string::npos);
+}
+
+TEST_F(TextCacheTest, WhatWasNotUsedForLongestGoes) {
+  for (const char* name : {"a.field", "b.field", "c.shell"}) get(name);
+  setAge("a.field", 3);
+  setAge("b.field", 5);
+  setAge("c.shell", 4);
+  std::ofstream(directory_ + "/b.field.doubt") << "doubt";
+  std::ofstream(directory_ + "/notes.txt") << std::string(5000, 'x');
+  std::ofstream(directory_ + "/a.field.abcdef") << "left";
+  setAge("a.field.abcdef", 2);
+  EXPECT_TRUE(get("b.field").from_cache);  // used now
+  get("d.field", 2500);
+  EXPECT_TRUE(has("b.field") && has("b.field.doubt") && has("d.field") && has("notes.txt"));
+  EXPECT_FALSE(has("a.field") || has("c.shell") || has("c.shell.lock") || has("a.field.abcdef"));
+}
+
+}  // namespace
+}  // namespace sdf_ccd
