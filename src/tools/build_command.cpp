@@ -15,6 +15,9 @@
 #include "sdf_ccd/import/octomap_surface.h"
 #include "sdf_ccd/monitor/scene_plan.h"
 #include "sdf_ccd/robot/robot_scene.h"
+#ifdef SDF_CCD_WITH_ROS
+#include "tools/ros/prepare_robot.h"
+#endif
 
 namespace sdf_ccd::tools {
 namespace {
@@ -29,6 +32,7 @@ struct Arguments {
   std::string out;
   ResolutionOptions resolution;
   std::optional<double> spacing;
+  std::string config;
   int threads = 0;
 };
 
@@ -134,6 +138,15 @@ void buildRobot(const Arguments& arguments) {
   if (failed > 0) throw PartlyDone();
 }
 
+#ifdef SDF_CCD_WITH_ROS
+void prepare(const Arguments& arguments) {
+  if (arguments.urdf.empty()) throw std::runtime_error("--config needs --urdf");
+  if (arguments.spacing) throw std::runtime_error("--spacing: with --config, shell/spacing of that file counts");
+  arguments.resolution.requireNone("with --config, the fields are as fine as that file says");
+  prepareRobot({arguments.urdf, arguments.srdf, arguments.config, {}, {}}, arguments.out);
+}
+#endif
+
 void run(Arguments& arguments) {
   if (!arguments.srdf.empty() && arguments.urdf.empty()) throw std::runtime_error("--srdf needs --urdf");
   if (arguments.spacing && !(*arguments.spacing > 0.0)) throw std::runtime_error("--spacing must be positive");
@@ -143,6 +156,9 @@ void run(Arguments& arguments) {
   if (arguments.threads > 0) {
     limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
   }
+#ifdef SDF_CCD_WITH_ROS
+  if (!arguments.config.empty()) return prepare(arguments);
+#endif
   if (!arguments.urdf.empty()) return buildRobot(arguments);
 
   const bool is_mesh = !arguments.mesh.empty();
@@ -187,6 +203,13 @@ void addBuildCommand(CLI::App& app) {
   command->add_option_function<double>(
       "--spacing", [arguments](double spacing) { arguments->spacing = spacing; },
       "No place of a surface is farther from a shell point [m]; default two cells");
+#ifdef SDF_CCD_WITH_ROS
+  command->add_option(
+      "--config", arguments->config,
+      "With --urdf: the monitor's parameters, as config/monitor.yaml. Makes what the monitor would make "
+      "at its start, the world's bodies too, for it to load with cache_directory: DIR, also where that "
+      "is copied to");
+#endif
   command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
   command->callback([arguments] { run(*arguments); });
 }

@@ -1,0 +1,74 @@
+#include "prepare_robot.h"
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "commands.h"
+#include "monitor/over_budget.h"
+#include "monitor_scene.h"
+#include "print.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Kept {
+  std::size_t files = 0;
+  std::size_t bytes = 0;
+};
+
+Kept keptIn(const std::string& directory) {
+  Kept kept;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    if (entry.path().extension() != ".field" && entry.path().extension() != ".shell") continue;
+    ++kept.files;
+    kept.bytes += entry.file_size();
+  }
+  return kept;
+}
+
+/// Names on stderr what is not there for the monitor to load; whether there is nothing of that kind.
+bool isComplete(const Scene& scene) {
+  bool is_complete = true;
+  for (const Body& body : scene.bodies) {
+    if (body.failure.empty()) continue;
+    std::cerr << "sdf_ccd: " << body.failure << std::endl;
+    is_complete = false;
+  }
+  for (const BodyReport& report : scene.reports)
+    for (const std::string& warning : report.warnings) {
+      if (warning.find("cache not used") == 0 || warning.find("not kept") == 0) throw std::runtime_error(warning);
+    }
+  return is_complete;
+}
+
+}  // namespace
+
+void prepareRobot(const MonitorConfig& config, const std::string& directory) {
+  MonitorParameters parameters = readParameters(config);
+  parameters.scene.cache_directory = fs::absolute(directory).lexically_normal().string();
+  const DescribedScene described = describeMonitored(parameters, config.urdf);
+  const ScenePlan plan = affordablePlan(described, parameters.scene);
+  std::cout << "expected         " << summary(*plan.expected) << "\n" << std::flush;
+  const Interrupt interrupt;
+  std::shared_ptr<const Scene> scene;
+  try {
+    scene = buildWithBar(described, plan, parameters.scene, interrupt);
+  } catch (const Interrupted&) {
+    throw std::runtime_error("interrupted: what was made is in " + directory);
+  }
+  std::vector<std::string> warnings = described.warnings;
+  const std::string over = overBudget(*scene, parameters.scene);
+  if (!over.empty()) warnings.push_back(over);
+  std::cout << planText(*scene, warnings);
+  const bool is_complete = isComplete(*scene);
+  const Kept kept = keptIn(parameters.scene.cache_directory);
+  std::cout << kept.files << " files, " << megabytes(kept.bytes)
+            << "; the monitor loads them with cache_directory: " << parameters.scene.cache_directory
+            << " and the same parameters" << std::endl;
+  if (!is_complete) throw PartlyDone();
+}
+
+}  // namespace sdf_ccd::tools
