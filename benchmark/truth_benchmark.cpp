@@ -8,6 +8,9 @@
 #ifdef SDF_CCD_WITH_ROS
 #include "adversarial/ros/ros_family.h"
 #endif
+#ifdef SDF_CCD_WITH_CGAL
+#include "peers/cgal_triangles.h"
+#endif
 #include "results.h"
 #include "study.h"
 
@@ -53,7 +56,24 @@ void printRows(const std::string& name, const Tally& tally) {
                  failure.first.c_str());
 }
 
+#ifdef SDF_CCD_WITH_CGAL
+/// What the truth rests on, beside CGAL.
+void printOracle(long pairs) {
+  const OracleError error = compareWithCgal(1, pairs);
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    print({"truth", "oracle", "cgal", metric, value, unit, int(error.pairs)});
+  };
+  row("pairs", double(error.pairs), "triangles");
+  row("touching", double(error.touching), "triangles");
+  row("wrong_touch", double(error.wrong_touch), "triangles");
+  row("largest_difference", error.largest, "1");
+}
+#endif
+
 void study(const StudyOptions& options) {
+#ifdef SDF_CCD_WITH_CGAL
+  if (isWanted(options.cases, "oracle")) printOracle(options.motions);
+#endif
   for (const auto& [family, cases] : shares(options.motions)) {
     if (!isWanted(options.cases, family.name)) continue;
     Tally tally;
