@@ -1,6 +1,6 @@
 #include "places.h"
-#include "field/adaptive_grid.h"
-#include "field/sparse_grid.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/uniform/sparse_grid.h"
 
 #include <cmath>
 

@@ -6,6 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "field/uniform/sparse_grid.h"
+
 namespace sdf_ccd::benchmark {
 namespace {
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "body/body_shell.h"
 #include "body/coarsen.h"
@@ -78,9 +79,8 @@ class BodyBuilder {
       const std::string left_out = made.now && meshes_[i]->made.solid ? summary(meshes_[i]->made.solid->report()) : "";
       if (!left_out.empty()) report_.solid += (report_.solid.empty() ? "" : "; ") + left_out;
     }
-    char text[32];
-    std::snprintf(text, sizeof(text), "built %.1f s", std::chrono::duration<double>(Clock::now() - start).count());
-    report_.field = exact ? "exact" : built ? text : cached ? "cached" : "shared";
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    report_.field = exact ? "exact" : built ? fmt::format("built {:.1f} s", seconds) : cached ? "cached" : "shared";
     return parts;
   }
 

@@ -6,7 +6,7 @@
 #include "coarsen.h"
 #include "common/number_text.h"
 #include "field/field_cache.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "shell/shell_cache.h"
 #include "storage/content_hash.h"
 

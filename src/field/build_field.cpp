@@ -6,15 +6,15 @@
 #include <stdexcept>
 #include <string>
 
-#include "brick_sampler.h"
-#include "build_adaptive.h"
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
 #include "cube_corner.h"
+#include "field/adaptive/build_adaptive.h"
 #include "field/opening_caps.h"
+#include "field/uniform/brick_sampler.h"
+#include "field/uniform/uniform_shape.h"
 #include "geometry/closed_solid.h"
 #include "spread_order.h"
-#include "uniform_shape.h"
 
 namespace sdf_ccd {
 namespace {

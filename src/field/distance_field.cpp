@@ -3,9 +3,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 #include "field/opening_caps.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "grid_sample.h"
 
 namespace sdf_ccd {

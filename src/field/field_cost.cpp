@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "adaptive_cost.h"
-#include "field/sparse_grid.h"
-#include "uniform_cost.h"
+#include "field/adaptive/adaptive_cost.h"
+#include "field/uniform/sparse_grid.h"
+#include "field/uniform/uniform_cost.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "adaptive_file.h"
 #include "caps_file.h"
-#include "field/adaptive_grid.h"
-#include "field/sparse_grid.h"
+#include "field/adaptive/adaptive_file.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "storage/checked_file.h"
 
 namespace sdf_ccd {

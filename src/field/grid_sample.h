@@ -1,7 +1,7 @@
 #pragma once
 
-#include "field/adaptive_grid.h"
-#include "field/sparse_grid.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field/distance_field.h"
 
 /// What DistanceField asks of each kind of grid, at places within its box.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../geometry/triangle_lanes.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "geometry/triangle.h"
 #include "signed_surface.h"
 

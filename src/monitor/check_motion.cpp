@@ -66,8 +66,10 @@ PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot) {
   const std::vector<std::string>& links = robot.links();
   for (const Body& body : scene.bodies) {
     const auto found = std::find(links.begin(), links.end(), body.frame);
-    const int link = found == links.end() || body.is_world ? -1 : static_cast<int>(found - links.begin());
+    const bool is_carried = found != links.end();
+    const int link = is_carried ? static_cast<int>(found - links.begin()) : -1;
     planned.bodies.push_back({link, body.X_frame_B, motionBall(body)});
+    planned.missing.push_back(is_carried ? "" : "the robot has no link " + body.frame);
   }
   return planned;
 }

@@ -215,12 +215,6 @@ void ContactCollector::join() {
 void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   mergeIntervals(intervals_, tolerance());
   result.intervals = intervals_;
-  result.touches_at_sample = false;
-  for (std::size_t k = span_.first; k <= span_.last; ++k)
-    for (const Interval& interval : intervals_)
-      result.touches_at_sample |=
-          motion_->times[k] >= interval.enter - tolerance() && motion_->times[k] <= interval.exit + tolerance();
-
   join();
   const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 1)));
   std::partial_sort(found_.begin(), found_.begin() + listed, found_.end(), [](const Found& a, const Found& b) {

@@ -57,7 +57,6 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   if (piece.error.total() > pair.error.total()) pair.error = piece.error;
   pair.skipped &= piece.skipped;
   pair.clearance = piece.clearance;
-  pair.touches_at_sample |= piece.touches_at_sample;
   if (!piece.intervals.empty() && (pair.intervals.empty() || piece.deepest.depth > pair.deepest.depth)) {
     pair.deepest = later(piece.deepest, start);
   }

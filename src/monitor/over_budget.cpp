@@ -1,12 +1,13 @@
 #include "monitor/over_budget.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "field/sparse_grid.h"
+#include <fmt/format.h>
+
+#include "field/uniform/sparse_grid.h"
 #include "pair_bound.h"
 #include "shell/contact_gap.h"
 
@@ -17,9 +18,7 @@ constexpr std::size_t kNamed = 3;    // bodies
 constexpr double kRounding = 1.001;  // of a share that is just reached
 
 std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", 1e3 * metres);
-  return text;
+  return fmt::format("{:.2f}", 1e3 * metres);
 }
 
 double fieldShare(const FieldOptions& field) {

@@ -29,7 +29,6 @@ void clear(PairResult& result) {
   result.error = {};
   result.clearance = -1.0;
   result.intervals.clear();
-  result.touches_at_sample = false;
   result.deepest = {};
   result.on_a_W = {};
   result.on_b_W = {};
@@ -193,7 +192,6 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
   collector.finish(request, result);
   if (crossing && result.intervals.empty()) {
     result.intervals.push_back({crossing->time, crossing->time});
-    result.touches_at_sample = true;
     result.deepest = *crossing;
   }
   // Whatever lies between the points, and wherever in the band: one of the surface is deeper than the motion is off by.

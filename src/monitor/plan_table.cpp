@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "sdf_ccd/monitor/scene.h"
 
@@ -18,9 +19,7 @@ std::size_t width(const std::string& text) {
 }
 
 std::string number(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return text;
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 /// Columns as wide as their widest entry; the first `left` columns flush left, numbers flush right.

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <set>
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+
+#include <fmt/format.h>
 
 #include "body/mesh_pool.h"
 #include "field/field_cache.h"
@@ -106,9 +107,7 @@ class CostEstimate {
 };
 
 std::string about(double bytes, double seconds) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.3g MB and %.2g s", 1e-6 * bytes, seconds);
-  return text;
+  return fmt::format("{:.3g} MB and {:.2g} s", 1e-6 * bytes, seconds);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 #include "swept_bodies.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace sdf_ccd {
 namespace {
@@ -15,9 +16,8 @@ constexpr double kRoundings = 16.0;  // products and sums on the way from a pose
 void requireNear(const std::string& name, const Isometry3d& X_WB) {
   const double distance = X_WB.translation().lpNorm<Eigen::Infinity>();
   if (distance <= kFarthestPose) return;
-  char text[64];
-  std::snprintf(text, sizeof(text), " is %.3g m from the origin, more than %.0g m", distance, kFarthestPose);
-  throw std::runtime_error(name + text);
+  throw std::runtime_error(
+      fmt::format("{} is {:.3g} m from the origin, more than {:.0g} m", name, distance, kFarthestPose));
 }
 
 double defectOf(const Matrix3d& R) {

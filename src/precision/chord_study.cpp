@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "contact_query.h"
 #include "exact_surface.h"
@@ -122,10 +123,8 @@ StudyResult chordStudy(const StudyInput& input) {
 
   std::vector<ImpactSystem> systems;
   for (const double share : {3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * share * side);
     auto system = std::make_shared<ChordSystem>(field, shell, ball, share * side);
-    const Label label{"sdf_ccd (chords)", text, share * side};
+    const Label label{"sdf_ccd (chords)", fmt::format("{:.3g} mm", 1e3 * share * side), share * side};
     systems.push_back({label, [system](const Isometry3d& start, const Isometry3d& end) {
                          return (*system)({start, end});
                        }});

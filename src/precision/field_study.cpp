@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "exact_surface.h"
 #include "random_inputs.h"
@@ -191,9 +192,7 @@ class FieldStudy {
 };
 
 std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * metres);
-  return text;
+  return fmt::format("{:.3g} mm", 1e3 * metres);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "gnuplot.h"
 #include "report.h"
@@ -61,11 +62,7 @@ struct Range {
   /// Where a value lies between low, 0, and high, 1.
   double share(double value) const { return std::log(value / low) / std::log(high / low); }
 
-  std::string text() const {
-    char text[64];
-    std::snprintf(text, sizeof text, "[%.3g:%.3g]", low, high);
-    return text;
-  }
+  std::string text() const { return fmt::format("[{:.3g}:{:.3g}]", low, high); }
 
   /// Powers of ten, and where there are few of them numbers between.
   std::string tics() const {
@@ -74,9 +71,7 @@ struct Range {
       for (const double digit : {1.0, 1.2, 1.5, 2.0, 3.0, 5.0, 7.0}) {
         const bool wanted = digit == 1.0 || high < (digit == 2.0 || digit == 5.0 ? 300.0 : 4.0) * low;
         if (!wanted) continue;
-        char tic[32];
-        std::snprintf(tic, sizeof tic, "%s%g", text.empty() ? "" : ",", digit * decade);
-        text += tic;
+        text += fmt::format("{}{:g}", text.empty() ? "" : ",", digit * decade);
       }
     }
     return "(" + text + ")";
@@ -113,10 +108,9 @@ std::string dataLines(const std::vector<Measurement>& points, bool ends_only, Pl
   std::string lines;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Measurement& row = points[i];
-    char numbers[160];
-    std::snprintf(numbers, sizeof numbers, "%.6g %.6g %.6g %.6g ", 1e6 * row.seconds,
-                  std::max(row.error.median, kSmallest), std::max(row.error.p99, kSmallest),
-                  std::max(row.error.max, kSmallest));
+    const std::string numbers =
+        fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} ", 1e6 * row.seconds, std::max(row.error.median, kSmallest),
+                    std::max(row.error.p99, kSmallest), std::max(row.error.max, kSmallest));
     const bool wanted = points.size() > 1 && (!ends_only || i == 0 || i + 1 == points.size());
     lines += numbers + ("\"" + (wanted && names.place(row) ? row.setting : "") + "\"\n");
   }

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace sdf_ccd::precision {
 namespace {
 
-std::string number(double value, const char* format = "%.6g") {
-  if (std::isnan(value)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+std::string number(double value, const char* format = "{:.6g}") {
+  return std::isnan(value) ? "" : fmt::format(format, value);
 }
 
 std::string padded(const std::string& text, std::size_t width, bool right) {
@@ -63,8 +61,8 @@ std::string tableText(const StudyResult& result) {
     for (const Measurement& row : result.rows) {
       if (row.quantity != quantity) continue;
       unit = row.unit;
-      rows.push_back({row.system, row.setting, number(1e6 * row.seconds, "%.3g"), number(row.error.median, "%.2e"),
-                      number(row.error.p99, "%.2e"), number(row.error.max, "%.2e"), number(row.bound, "%.2e"),
+      rows.push_back({row.system, row.setting, number(1e6 * row.seconds, "{:.3g}"), number(row.error.median, "{:.2e}"),
+                      number(row.error.p99, "{:.2e}"), number(row.error.max, "{:.2e}"), number(row.bound, "{:.2e}"),
                       std::to_string(row.missed) + "/" + std::to_string(row.error.count + row.missed)});
     }
     text += "\n" + quantity + " [" + unit + "]\n" + aligned(rows, 2);

@@ -1,8 +1,9 @@
 /// How dense a shell must be: the study `spacing`.
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
+
+#include <fmt/format.h>
 
 #include "contact_query.h"
 #include "sdf_ccd/field/build_field.h"
@@ -49,11 +50,9 @@ StudyResult spacingStudy(const StudyInput& input) {
   std::vector<std::function<void()>> tasks;
   for (const double share : {0.1, 0.05, 0.025, 0.0125, 0.00625}) {
     shells.push_back(std::make_unique<TreeShell>(input.mesh, share * side));
-    char text[48];
-    std::snprintf(text, sizeof text, "%.3g mm (%zu)", 1e3 * share * side, shells.back()->shell.size());
     Measurement row;
     row.system = "sdf_ccd";
-    row.setting = text;
+    row.setting = fmt::format("{:.3g} mm ({})", 1e3 * share * side, shells.back()->shell.size());
     row.value = share * side;
     row.quantity = "force";
     row.unit = "of the force";

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
+
+#include <fmt/format.h>
 
 #include "dynamics/simulation.h"
 #include "random_inputs.h"
@@ -120,9 +121,7 @@ StudyResult stepStudy(const StudyInput& input) {
         row.quantity = of.quantity;
         row.unit = of.unit;
         row.system = toString(scheme);
-        char text[32];
-        std::snprintf(text, sizeof text, "%g ms", 1e3 * step);
-        row.setting = text;
+        row.setting = fmt::format("{:g} ms", 1e3 * step);
         row.value = step;
         const std::size_t k = rows.size();
         tasks.push_back([&, k, scheme, step] {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "../field/sample_bracket.h"
-#include "adaptive_walk.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sample_bracket.h"
+#include "field/uniform/sparse_grid.h"
+#include "query/cells/adaptive_walk.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "field/adaptive_grid.h"
-#include "field/sparse_grid.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/query/segment_query.h"
 

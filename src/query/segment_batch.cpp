@@ -10,7 +10,7 @@
 #include <tbb/task_arena.h>
 
 #ifdef SDF_CCD_HIGHWAY
-#include "segment_lanes.h"
+#include "query/lanes/segment_lanes.h"
 #endif
 #include "representation_queries.h"
 #include "sdf_ccd/common/cancel.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sphere_lanes.h"
+#include "query/lanes/sphere_lanes.h"
 
 namespace sdf_ccd {
 

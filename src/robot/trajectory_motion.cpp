@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "joint_motion.h"
 #include "motion/chain_derivatives.h"
@@ -159,12 +160,10 @@ std::vector<double> TrajectoryMotion::waypoints() const {
     }
     const double pieces = std::max(1.0, std::ceil(turn / kTurn));
     if (!(pieces - 1.0 <= static_cast<double>(kMaxAddedWaypoints - added))) {
-      char text[160];
-      std::snprintf(text, sizeof(text),
-                    "the trajectory turns a link by %.3g rad up to point %zu: more than %zu rad "
-                    "beside one per point are not checked",
-                    turn, i, kMaxAddedWaypoints);
-      refuse(text);
+      refuse(
+          fmt::format("the trajectory turns a link by {:.3g} rad up to point {}: more than {} rad beside one per point "
+                      "are not checked",
+                      turn, i, kMaxAddedWaypoints));
     }
     added += static_cast<std::size_t>(pieces) - 1;
     for (double piece = 1.0; piece < pieces; ++piece) {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <map>
+
+#include <fmt/format.h>
 
 namespace sdf_ccd {
 
@@ -35,10 +36,8 @@ std::string reasonOf(const CycleResult& result, const TrackedCycle& cycle) {
   std::string reason;
   if (result.not_checked > 0) reason = std::to_string(result.not_checked) + " pairs could not be checked";
   if (result.delayed > 0) {
-    char seconds[32];
-    std::snprintf(seconds, sizeof seconds, "%.3f s", (cycle.end - cycle.delayed_since).toSec());
-    reason += (reason.empty() ? "" : ", ") + std::to_string(result.delayed) + " pairs wait for transforms, up to " +
-              seconds + " already";
+    reason += fmt::format("{}{} pairs wait for transforms, up to {:.3f} s already", reason.empty() ? "" : ", ",
+                          result.delayed, (cycle.end - cycle.delayed_since).toSec());
   }
   return reason;
 }

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "ros/parameter_reader.h"
 #include "sdf_ccd/model/error_budget.h"
 

@@ -1,7 +1,8 @@
 #include "ros/planned_markers.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "ros/shape_marker.h"
 #include "ros/status_text.h"
@@ -118,10 +119,8 @@ MarkerArray PlannedMarkers::draw(const CycleResult& result, const CycleContext& 
     place.scale.x = place.scale.y = place.scale.z = box.size() / 40.0;
     place.color = toColor(1.0F, 1.0F, 1.0F, 1.0F);
     Marker text = makeMarker("", "first_contact", 1, Marker::TEXT_VIEW_FACING);
-    char when[32];
-    std::snprintf(when, sizeof(when), "%.2f s", end);
-    text.text = std::string("planned: first contact after ") + when + "\n" + ends.scene.bodies[first->body_a].name +
-                " - " + ends.scene.bodies[first->body_b].name;
+    text.text = fmt::format("planned: first contact after {:.2f} s\n{} - {}", end,
+                            ends.scene.bodies[first->body_a].name, ends.scene.bodies[first->body_b].name);
     text.pose.position = toPoint(placeOf(*first) + Vector3d(0.0, 0.0, box.size() / 10.0));
     text.scale.z = box.size() / 28.0;
     text.color = toColor(1.0F, 1.0F, 1.0F, 1.0F);

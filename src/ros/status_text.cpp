@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
+
+#include <fmt/format.h>
 
 namespace sdf_ccd {
 namespace {
@@ -61,10 +62,7 @@ std::string uncheckedPairs(const PairStates& states, const CycleResult& result, 
 }  // namespace
 
 std::string lengthText(double length) {
-  char text[32];
-  length < 1.0 ? std::snprintf(text, sizeof(text), "%.1f mm", 1e3 * length)
-               : std::snprintf(text, sizeof(text), "%.2f m", length);
-  return text;
+  return length < 1.0 ? fmt::format("{:.1f} mm", 1e3 * length) : fmt::format("{:.2f} m", length);
 }
 
 std::string wrapped(const std::string& text, std::size_t width) {
@@ -91,9 +89,7 @@ int lineCount(const std::string& text) {
 std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age) {
   std::string text = headline(states);
   if (result.checked + result.skipped > 0) {
-    char shown_age[32];
-    std::snprintf(shown_age, sizeof(shown_age), "%.2f s", std::max(0.0, age));
-    text += "\nerror bound " + lengthText(result.error_bound) + ", " + shown_age + " ago";
+    text += fmt::format("\nerror bound {}, {:.2f} s ago", lengthText(result.error_bound), std::max(0.0, age));
   }
   const std::string unchecked = uncheckedPairs(states, result, cycle);
   return unchecked.empty() ? text : text + "\n" + unchecked;

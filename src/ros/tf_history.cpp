@@ -1,8 +1,9 @@
 #include "ros/tf_history.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace sdf_ccd {
 namespace {
@@ -37,9 +38,7 @@ std::deque<TfPose>::const_iterator lastUpTo(const std::deque<TfPose>& records, c
 }
 
 std::string secondsText(const ros::Time& time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", time.toSec());
-  return text;
+  return fmt::format("{:.3f} s", time.toSec());
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include "ros/tf_tracker.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace sdf_ccd {
 namespace {
@@ -12,9 +13,7 @@ constexpr double kBackPerTime = 4.0;        // time checked again, over the time
 constexpr std::size_t kMostPoses = 300000;  // of all bodies in a cycle: about 100 MB with what is made of them
 
 std::string seconds(const ros::Duration& duration) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f s", duration.toSec());
-  return text;
+  return fmt::format("{:.2f} s", duration.toSec());
 }
 
 bool isTooFar(const Isometry3d& X_WB) {
@@ -22,9 +21,7 @@ bool isTooFar(const Isometry3d& X_WB) {
 }
 
 std::string tooFar(const std::string& frame) {
-  char text[64];
-  std::snprintf(text, sizeof(text), " is more than %.0g m from the origin", kFarthestPose);
-  return frame + text;
+  return fmt::format("{} is more than {:.0g} m from the origin", frame, kFarthestPose);
 }
 
 /// Adds to those of the same frame.

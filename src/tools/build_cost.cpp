@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "field/field_cost.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "print.h"
 
 namespace sdf_ccd::tools {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "commands.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "field_builder.h"
 #include "geometry/openings.h"
 #include "output_file.h"

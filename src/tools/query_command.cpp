@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include <fmt/format.h>
 
 #include "commands.h"
 #include "field_builder.h"
@@ -17,6 +20,8 @@
 #include "resolution_options.h"
 #include "sdf_ccd/field/field_file.h"
 #include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/query/impact_window.h"
+#include "sdf_ccd/query/least_distance.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "segment_csv.h"
 
@@ -32,6 +37,7 @@ struct Arguments {
   std::string out;
   ResolutionOptions resolution;
   SegmentOptions query;
+  bool impact = false;
 };
 
 DistanceField fieldOf(const Arguments& arguments) {
@@ -41,25 +47,59 @@ DistanceField fieldOf(const Arguments& arguments) {
   return buildWithBar("field", Solid(orientWithWarning(arguments.mesh, loadMesh(arguments.mesh)).mesh), options);
 }
 
-std::vector<Intervals> intervalsOf(const DistanceField& field, const std::vector<Segment>& segments,
-                                   const SegmentOptions& options) {
-  std::vector<Intervals> intervals(segments.size());
+/// Calls `answer` with each segment's index, on all cores.
+void forEachSegment(std::size_t count, const std::function<void(std::size_t)>& answer) {
   ProgressBar bar("segments");
   std::mutex bar_mutex;
   std::size_t done = 0;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, segments.size(), kBlock), [&](const auto& block) {
-    for (std::size_t i = block.begin(); i < block.end(); ++i) {
-      segmentIntervals(field, segments[i], options, intervals[i]);
-    }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kBlock), [&](const auto& block) {
+    for (std::size_t i = block.begin(); i < block.end(); ++i) answer(i);
     const std::lock_guard<std::mutex> lock(bar_mutex);
     done += block.size();
-    bar(static_cast<double>(done) / static_cast<double>(segments.size()));
+    bar(static_cast<double>(done) / static_cast<double>(count));
   });
-  return intervals;
+}
+
+void writeIntervals(const DistanceField& field, const std::vector<Segment>& segments, const SegmentOptions& options,
+                    std::ostream& out) {
+  std::vector<Intervals> intervals(segments.size());
+  forEachSegment(segments.size(), [&](std::size_t i) { segmentIntervals(field, segments[i], options, intervals[i]); });
+  out << "segment,t_enter,t_exit\n";
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    for (const Interval& interval : intervals[i]) {
+      out << fmt::format("{},{:.17g},{:.17g}\n", i, interval.enter, interval.exit);
+    }
+  }
+}
+
+/// When a point first meets the true surface, and how deep it comes.
+struct Impact {
+  ImpactWindow window;
+  LeastDistance depth;
+};
+
+void writeImpacts(const DistanceField& field, const std::vector<Segment>& segments, std::ostream& out) {
+  std::vector<std::optional<Impact>> impacts(segments.size());
+  forEachSegment(segments.size(), [&](std::size_t i) {
+    if (const auto window = impactWindow(field, segments[i])) impacts[i] = {*window, leastDistance(field, segments[i])};
+  });
+  const auto cell = [](const std::optional<double>& number) {
+    return number ? fmt::format("{:.17g}", *number) : std::string();
+  };
+  out << "segment,t_earliest,t,t_latest,depth,depth_low,depth_high\n";
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    if (!impacts[i]) continue;
+    const auto& [window, depth] = *impacts[i];
+    out << i << ',' << cell(window.earliest) << ',' << cell(window.time) << ',' << cell(window.latest) << ','
+        << cell(-depth.value) << ',' << cell(-depth.high) << ',' << cell(-depth.low) << '\n';
+  }
 }
 
 void run(const Arguments& arguments) {
   if (!std::isfinite(arguments.query.sigma)) throw std::invalid_argument("--sigma is not finite");
+  if (arguments.impact && (arguments.query.sigma != 0.0 || arguments.query.mode != SegmentMode::kAll)) {
+    throw std::invalid_argument("--impact is of the surface, and of the first contact: --sigma and --first do nothing");
+  }
   const std::vector<Segment> segments = readSegments(arguments.segments);
   if (!arguments.field.empty()) arguments.resolution.requireNone("--field names one that is made already");
   OutputFile out(arguments.out);
@@ -69,14 +109,10 @@ void run(const Arguments& arguments) {
                                 shortly(field.band()) + " m");
   }
   if (field.openings()) std::cerr << "warning: openings: " << describeOpenings(field) << std::endl;
-  const std::vector<Intervals> intervals = intervalsOf(field, segments, arguments.query);
-  out.stream() << "segment,t_enter,t_exit\n";
-  char row[96];
-  for (std::size_t i = 0; i < intervals.size(); ++i) {
-    for (const Interval& interval : intervals[i]) {
-      std::snprintf(row, sizeof row, "%zu,%.17g,%.17g\n", i, interval.enter, interval.exit);
-      out.stream() << row;
-    }
+  if (arguments.impact) {
+    writeImpacts(field, segments, out.stream());
+  } else {
+    writeIntervals(field, segments, arguments.query, out.stream());
   }
   out.commit();
 }
@@ -100,6 +136,11 @@ void addQueryCommand(CLI::App& app) {
   command->add_flag_callback(
       "--first", [arguments] { arguments->query.mode = SegmentMode::kFirstInterval; },
       "Only the first interval of each segment");
+  command->add_flag(
+      "--impact", arguments->impact,
+      "Instead of intervals, of each segment that may meet the surface when it first does, and how deep it "
+      "comes: segment,t_earliest,t,t_latest,depth,depth_low,depth_high. The truth lies between the bounds; "
+      "empty: not known, as the point may only graze");
   arguments->resolution.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }

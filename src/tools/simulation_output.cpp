@@ -1,7 +1,8 @@
 #include "simulation_output.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #ifdef SDF_CCD_WITH_ROS
 #include "ros/simulation_bag.h"
@@ -64,25 +65,21 @@ void SimulationOutput::commit(const std::string& summary) {
 void SimulationOutput::writeStep(const StepRecord& r) {
   const Vector3d& p = r.momentum.force;
   const Vector3d& L = r.momentum.torque;
-  char row[512];
-  std::snprintf(row, sizeof row,
-                "%ld,%.9g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.3g,%.9g,%d,%d,%.6g\n", r.step, r.time,
-                r.kinetic, r.potential, r.elastic, r.energy(), p.x(), p.y(), p.z(), L.x(), L.y(), L.z(),
-                r.reaction_error, r.deepest, r.contacts, r.solves, r.run_time);
-  steps_.stream() << row;
+  steps_.stream() << fmt::format(
+      "{},{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.3g},{:.9g},{},{},{:.6g}"
+      "\n",
+      r.step, r.time, r.kinetic, r.potential, r.elastic, r.energy(), p.x(), p.y(), p.z(), L.x(), L.y(), L.z(),
+      r.reaction_error, r.deepest, r.contacts, r.solves, r.run_time);
 }
 
 void SimulationOutput::writePoses(const Simulation& simulation) {
-  char time[32];
-  std::snprintf(time, sizeof time, "%.9g", simulation.last().time);  // as in steps.csv
   for (std::size_t b = 0; b < simulation.states().size(); ++b) {
     const Isometry3d& X = simulation.states()[b].X_OB;
     const Vector3d p_W = simulation.world().origin_W + X.translation();
     const Quaterniond q(X.linear());
-    char row[256];
-    std::snprintf(row, sizeof row, ",%.15g,%.15g,%.15g,%.9g,%.9g,%.9g,%.9g\n", p_W.x(), p_W.y(), p_W.z(), q.x(), q.y(),
-                  q.z(), q.w());
-    poses_.stream() << time << "," << simulation.world().bodies[b].name << row;
+    poses_.stream() << fmt::format("{:.9g},{},{:.15g},{:.15g},{:.15g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
+                                   simulation.last().time, simulation.world().bodies[b].name, p_W.x(), p_W.y(), p_W.z(),
+                                   q.x(), q.y(), q.z(), q.w());
   }
 }
 

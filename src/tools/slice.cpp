@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "field/opening_caps.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "pixel_font.h"
 #include "print.h"
 

@@ -1,9 +1,10 @@
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "commands.h"
 #include "geometry/generated_mesh.h"
@@ -96,9 +97,7 @@ void addWorkPrecisionCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("work-precision", "Studies of error against run time");
   std::string described = "Studies:\n";
   for (const Study& study : precision::studies()) {
-    char line[128];
-    std::snprintf(line, sizeof line, "  %-12s%s\n", study.name, study.description);
-    described += line;
+    described += fmt::format("  {:<12}{}\n", study.name, study.description);
   }
   command->footer(
       described +

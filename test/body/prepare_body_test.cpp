@@ -59,7 +59,7 @@ TEST(PrepareBody, SeesWhatCrossesAnOpenMesh) {
 TEST(PrepareBody, GroundHasNoShell) {
   const Body ground = prepareBody("ground", HalfSpace{Vector3d::UnitZ(), 0.0}, kMillimetre);
   EXPECT_EQ(ground.shell.size(), 0u);
-  Monitor monitor({ground, prepareBody("ball", Sphere{0.1}, kMillimetre)});
+  Monitor monitor({ground, prepareBody("ball", Box{{0.1, 0.1, 0.1}}, kMillimetre)});
   const Isometry3d still = Isometry3d::Identity();
   EXPECT_EQ(monitor.check({{still, still}, {at(0, 0, 0.2), at(0, 0, 0.05)}}).verdict, Verdict::kContact);
 }
@@ -68,9 +68,15 @@ TEST(PrepareBody, SaysWhatIsWrong) {
   EXPECT_THROW(prepareBody("none", TriangleMesh{}, kMillimetre), std::invalid_argument);
   EXPECT_THROW(prepareBody("flat", Sphere{-1.0}, kMillimetre), std::invalid_argument);
   EXPECT_THROW(prepareBody("exact", Sphere{1.0}, {0.0, {}}), std::invalid_argument);
-  const Body ball = prepareBody("ball", Sphere{0.1}, kMillimetre);
+  const Body ball = prepareBody("ball", Box{{0.1, 0.1, 0.1}}, kMillimetre);
+  Body empty;
+  empty.name = "empty";
+  EXPECT_THROW(Monitor({ball, empty}), std::invalid_argument);
+  empty.failure = "lost";
+  Monitor lost({ball, empty});
+  EXPECT_EQ(lost.check({{at(0, 0, 0), at(0, 0, 0)}, {at(5, 0, 0), at(5, 0, 0)}}).verdict, Verdict::kNotChecked);
   EXPECT_THROW(Monitor({ball, ball}), std::invalid_argument);
-  Monitor monitor({ball, prepareBody("other", Sphere{0.1}, kMillimetre)});
+  Monitor monitor({ball, prepareBody("other", Box{{0.1, 0.1, 0.1}}, kMillimetre)});
   EXPECT_THROW(monitor.check({}), std::invalid_argument);
   EXPECT_THROW(monitor.check({{at(0, 0, 0), at(0, 0, 0)}, {at(0, 0, 0)}}), std::invalid_argument);
 }

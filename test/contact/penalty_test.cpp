@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_case.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd {

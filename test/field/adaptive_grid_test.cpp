@@ -1,9 +1,9 @@
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "geometry/triangle_tree.h"
 #include "oracle/box_union.h"
 #include "oracle/random.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "geometry/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"

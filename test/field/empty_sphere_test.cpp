@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "field/adaptive_grid.h"
-#include "field/sparse_grid.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"

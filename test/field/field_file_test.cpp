@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 #include "field/field_cache.h"
 #include "field/opening_caps.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "oracle/mended_file.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"

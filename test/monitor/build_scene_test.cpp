@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "monitor/scene_case.h"
 
 namespace sdf_ccd {

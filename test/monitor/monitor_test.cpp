@@ -41,7 +41,7 @@ TEST(Monitor, FindsContactBetweenTheSamples) {
       cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, 0.1}), translation({0, 0, -0.1})}}), {true, 5});
   const PairResult& pair = result.pairs[0];
   EXPECT_EQ(pair.verdict, Verdict::kContact);
-  EXPECT_FALSE(pair.touches_at_sample);
+  EXPECT_FALSE(touchesAtEnds(pair, 0.1));
   ASSERT_EQ(pair.intervals.size(), 1u);
   EXPECT_NEAR(pair.intervals[0].enter, 0.1 * (0.1 - 0.0205) / 0.2, 1e-3);
   EXPECT_NEAR(pair.intervals[0].exit, 0.1 * (0.1 + 0.0205) / 0.2, 1e-3);
@@ -54,10 +54,9 @@ TEST(Monitor, SeesWhatASampleSees) {
   const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
   Monitor monitor(scene, soft());
   const auto fall = [&](double from, double to) {
-    return monitor
-        .run(cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, from}), translation({0, 0, to})}}), {})
-        .pairs[0]
-        .touches_at_sample;
+    const CycleMotion motion =
+        cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, from}), translation({0, 0, to})}});
+    return touchesAtEnds(monitor.run(motion, {}).pairs[0], 0.1);
   };
   EXPECT_TRUE(fall(0.3, 0.09));
   EXPECT_TRUE(fall(0.09, 0.3));
@@ -74,7 +73,7 @@ TEST(Monitor, QuarterTurnWithinOneCycle) {
   const CycleMotion swing = cycle(0.1, {still(post), {Isometry3d::Identity(), pose({0, 0, 0}, kPi / 2, {0, 0, 1})}});
   const PairResult& pair = monitor.run(swing, {}).pairs[0];
   EXPECT_EQ(pair.verdict, Verdict::kContact);
-  EXPECT_FALSE(pair.touches_at_sample);
+  EXPECT_FALSE(touchesAtEnds(pair, 0.1));
   EXPECT_LT(pair.error.chord, 2e-4);
   // The chord of the bar's tip passes inside of the arc: a straight path would give other times.
   const double half_angle = std::asin((0.03 + 0.02) / (0.3 * std::sqrt(2.0)));

@@ -228,7 +228,7 @@ TEST(MonitorWrench, HundredMetresPerSecondThroughOneMillimetre) {
               {})
           .pairs[0];
   EXPECT_EQ(pair.verdict, Verdict::kContact);
-  EXPECT_FALSE(pair.touches_at_sample);
+  EXPECT_FALSE(touchesAtEnds(pair, T));
   // Per unit of area a point is inside for thickness / v, or for the ball's chord / v: the integral over the ball's
   // surface of thickness, and over the plate's two faces of the chord, which is the ball's volume each. Half of both.
   const double impulse = damping * 0.5 * (4.0 * kPi * R * R * thickness + 2.0 * (4.0 / 3.0) * kPi * R * R * R);

@@ -62,4 +62,12 @@ inline std::vector<Isometry3d> still(const Isometry3d& X, std::size_t waypoints 
   return {waypoints, X};
 }
 
+/// Whether a check at the first or the last instant alone would see the contact.
+inline bool touchesAtEnds(const PairResult& pair, double length) {
+  const double rounding = 1e-9 * length;
+  for (const Interval& interval : pair.intervals)
+    if (interval.enter <= rounding || interval.exit >= length - rounding) return true;
+  return false;
+}
+
 }  // namespace sdf_ccd::test

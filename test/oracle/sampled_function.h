@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd::test {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "field/adaptive_grid.h"
-#include "field/sparse_grid.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/query/segment_query.h"
 

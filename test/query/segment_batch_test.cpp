@@ -12,7 +12,7 @@
 #ifdef SDF_CCD_HIGHWAY
 #include <hwy/targets.h>
 
-#include "query/segment_lanes.h"
+#include "query/lanes/segment_lanes.h"
 #endif
 
 #include "oracle/random.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"

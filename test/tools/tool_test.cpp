@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "oracle/drawn_meshes.h"
@@ -186,6 +187,45 @@ TEST_F(Tool, QueryTakesAMeshAnIsovalueAndOnlyTheFirst) {
   double enter = 0.0;
   ASSERT_EQ(std::sscanf(rows("--sigma -0.05").at(1).c_str(), "0,%lf", &enter), 1);
   EXPECT_NEAR(enter, (1.0 - 0.5 - 0.15) / 2.0, 0.01);
+}
+
+TEST_F(Tool, QueryTellsBoundsOfImpactAndDepth) {
+  ASSERT_EQ(run("build --mesh ball.off --out made --max-error 0.002").exit_code, kDone);
+  ASSERT_EQ(run("query --field made/ball.field --segments in.csv --out out.csv --impact").exit_code, kDone);
+  std::istringstream lines(readText(path("out.csv")));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "segment,t_earliest,t,t_latest,depth,depth_low,depth_high");
+  // The ball's polyhedron is convex: the depth is that below the nearest face's plane.
+  const TriangleMesh ball = test::icosphere(0.5, 3);
+  const auto trueDepth = [&](const Vector3d& p) {
+    double depth = std::numeric_limits<double>::infinity();
+    for (const Vector3i& t : ball.triangles) {
+      const Vector3d &a = ball.vertices[t[0]], &b = ball.vertices[t[1]], &c = ball.vertices[t[2]];
+      depth = std::min(depth, (b - a).cross(c - a).normalized().dot(a - p));
+    }
+    return depth;
+  };
+  const Segment first{{-1, 0, 0}, {1, 0, 0}};
+  int segment = -1;
+  double earliest, time, latest, depth, low, high;
+  std::getline(lines, line);
+  ASSERT_EQ(
+      std::sscanf(line.c_str(), "%d,%lf,%lf,%lf,%lf,%lf,%lf", &segment, &earliest, &time, &latest, &depth, &low, &high),
+      7)
+      << line;
+  EXPECT_EQ(segment, 0);
+  EXPECT_LE(earliest, time);
+  EXPECT_LE(time, latest);
+  const auto at = [&](double t) -> Vector3d { return first.start + t * (first.end - first.start); };
+  EXPECT_LT(trueDepth(at(earliest - 1e-9)), 0.0);
+  EXPECT_GT(trueDepth(at(latest + 1e-9)), 0.0);
+  double deepest = 0.0;
+  for (int k = 0; k <= 1000; ++k) deepest = std::max(deepest, trueDepth(at(k / 1000.0)));
+  EXPECT_LE(low, deepest + 1e-9);
+  EXPECT_GE(high, deepest);
+  EXPECT_NEAR(depth, deepest, high - low);
+  expectRefused("query --field made/ball.field --segments in.csv --out b.csv --impact --first", "--sigma and --first");
 }
 
 TEST_F(Tool, QueryRefusesBadSegmentsByLine) {

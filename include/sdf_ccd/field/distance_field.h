@@ -48,7 +48,7 @@ class DistanceField {
   explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
 
   /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that of the place: of its
-  /// leaf, or what the samples around it say (see src/field/sample_bracket.h).
+  /// leaf, or what the samples around it say (see src/field/uniform/sample_bracket.h).
   FieldSample sample(const Vector3d& p_F) const;
 
   /// The same value and gradient; cheaper, as the error is not asked for.

@@ -35,8 +35,8 @@ class MotionCheck {
 CycleResult checkMotion(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,
                         const CycleRequest& request = {});
 
-/// The bodies of a scene whose frames are links' of a robot, and those that rest where `X_frame_B` puts them: a world
-/// whose fixed frame is the robot's root.
+/// The bodies of a scene, each carried by the link whose frame it has: objects of the world by the robot's root, or by
+/// what holds them. Of bodies in other frames nothing is known; their pairs are NOT_CHECKED.
 PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot);
 
 }  // namespace sdf_ccd

@@ -39,7 +39,6 @@ struct PairResult {
   ErrorBound error;
   double clearance = 0.0;           ///< a lower bound of the distance at the span's end [m]; negative if not known
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
-  bool touches_at_sample = false;   ///< some interval holds one of CycleMotion::times: a check there would see it
   ContactPoint deepest;             ///< valid if intervals is not empty
   Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
   Wrench on_b_W;                    ///< the same on B, about B's origin

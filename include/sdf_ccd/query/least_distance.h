@@ -16,8 +16,8 @@ struct LeastDistance {
 /// max(d + high, −low − d), wherever on it the path may truly be deepest.
 ///
 /// Errors are those of the places that may be it: of the leaves that an adaptive grid's path crosses, or what samples
-/// of a uniform grid say of pieces of the path (see src/field/sample_bracket.h). Beyond the band they are larger, as
-/// those of DistanceField::sample() are.
+/// of a uniform grid say of pieces of the path (see src/field/uniform/sample_bracket.h). Beyond the band they are
+/// larger, as those of DistanceField::sample() are.
 /// @param segment  as segmentIntervals(); anywhere, also outside the field's box.
 /// @throws std::invalid_argument if the segment is not within reach.
 /// Cost: half to all of what integrateContact() takes on the same path; at most 128 places, and all leaves on the way.

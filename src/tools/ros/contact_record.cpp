@@ -1,7 +1,8 @@
 #include "contact_record.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "cycle_record.h"
 
@@ -88,12 +89,10 @@ std::string contactColumns() {
 std::string toRow(const ContactRecord& r) {
   const geometry_msgs::Point& p = r.deepest.position;
   const geometry_msgs::Vector3& n = r.deepest.normal;
-  char bounds[80], point[160];
-  std::snprintf(bounds, sizeof bounds, ",%.6g,%.6g,%.6g,", r.deepest.depth, r.deepest.depth_error, r.error_bound);
-  std::snprintf(point, sizeof point, ",%.9g,%.9g,%.9g,%.6g,%.6g,%.6g,%u,%d\n", p.x, p.y, p.z, n.x, n.y, n.z, r.cycles,
-                int(r.seen_at_samples));
-  return csvText(r.body_a) + "," + csvText(r.body_b) + "," + toString(r.verdict) + "," + timeText(r.start) + "," +
-         timeText(r.end) + bounds + timeText(r.deepest.time) + point;
+  return fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{},{:d}\n",
+                     csvText(r.body_a), csvText(r.body_b), toString(r.verdict), timeText(r.start), timeText(r.end),
+                     r.deepest.depth, r.deepest.depth_error, r.error_bound, timeText(r.deepest.time), p.x, p.y, p.z,
+                     n.x, n.y, n.z, r.cycles, r.seen_at_samples);
 }
 
 }  // namespace sdf_ccd::tools

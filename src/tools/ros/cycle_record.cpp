@@ -1,6 +1,6 @@
 #include "cycle_record.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace sdf_ccd::tools {
 
@@ -30,9 +30,7 @@ CycleRecord toRecord(const ContactArray& message) {
 }
 
 std::string timeText(const ros::Time& time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%u.%09u", time.sec, time.nsec);
-  return text;
+  return fmt::format("{}.{:09}", time.sec, time.nsec);
 }
 
 std::string cycleColumns() {
@@ -41,12 +39,10 @@ std::string cycleColumns() {
 }
 
 std::string toRow(const CycleRecord& r) {
-  char numbers[192];
-  std::snprintf(numbers, sizeof numbers, ",%.6g,%.6g,%u,%u,%u,%u,%u,%u,%.6g,", r.error_bound, r.run_time, r.checked,
-                r.skipped, r.not_checked, r.delayed, r.in_contact, r.uncertain, r.depth);
-  return timeText(r.start) + "," + timeText(r.end) + "," + timeText(r.complete_until) + "," + toString(r.verdict) +
-         numbers + csvText(r.body_a) + "," + csvText(r.body_b) + "," + timeText(r.contradicted_since) + "," +
-         csvText(r.reason) + "\n";
+  return fmt::format("{},{},{},{},{:.6g},{:.6g},{},{},{},{},{},{},{:.6g},{},{},{},{}\n", timeText(r.start),
+                     timeText(r.end), timeText(r.complete_until), toString(r.verdict), r.error_bound, r.run_time,
+                     r.checked, r.skipped, r.not_checked, r.delayed, r.in_contact, r.uncertain, r.depth,
+                     csvText(r.body_a), csvText(r.body_b), timeText(r.contradicted_since), csvText(r.reason));
 }
 
 std::string csvText(const std::string& text) {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cell_spans.h"
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 #include "grid_walk.h"
 
 namespace sdf_ccd {

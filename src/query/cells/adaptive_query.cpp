@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "adaptive_walk.h"
-#include "representation_queries.h"
+#include "query/representation_queries.h"
 
 namespace sdf_ccd {
 

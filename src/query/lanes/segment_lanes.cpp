@@ -11,10 +11,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "cell_cubic.h"
 #include "lane_adaptive-inl.h"
 #include "lane_uniform-inl.h"
-#include "prefetch.h"
+#include "query/cells/cell_cubic.h"
+#include "query/prefetch.h"
 #include "segment_lanes.h"
 
 HWY_BEFORE_NAMESPACE();

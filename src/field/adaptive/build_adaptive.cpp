@@ -12,8 +12,8 @@
 #include "block_builder.h"
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
-#include "empty_sphere_search.h"
-#include "spread_order.h"
+#include "field/empty_sphere_search.h"
+#include "field/spread_order.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cube_corner.h"
+#include "field/cube_corner.h"
 
 namespace sdf_ccd {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field/field_options.h"
 
 namespace sdf_ccd {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 #include "geometry/solid_boundary.h"
 #include "sdf_ccd/field/field_options.h"
 

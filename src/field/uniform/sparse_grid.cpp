@@ -1,4 +1,4 @@
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <string>
 
 #include "common/parallel_for.h"
-#include "cube_corner.h"
-#include "empty_sphere_search.h"
-#include "grid_place.h"
+#include "field/cube_corner.h"
+#include "field/empty_sphere_search.h"
+#include "field/grid_place.h"
 
 namespace sdf_ccd {
 namespace {

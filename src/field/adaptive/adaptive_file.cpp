@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "caps_file.h"
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/caps_file.h"
 
 namespace sdf_ccd {
 namespace {

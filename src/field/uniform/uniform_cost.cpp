@@ -7,8 +7,8 @@
 
 #include "brick_sampler.h"
 #include "common/processor_time.h"
-#include "sample_mean.h"
-#include "spread_order.h"
+#include "field/sample_mean.h"
+#include "field/spread_order.h"
 #include "uniform_shape.h"
 
 namespace sdf_ccd {

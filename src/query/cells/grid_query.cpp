@@ -5,7 +5,7 @@
 #include "ball_exit.h"
 #include "cell_spans.h"
 #include "grid_walk.h"
-#include "representation_queries.h"
+#include "query/representation_queries.h"
 
 namespace sdf_ccd {
 namespace {

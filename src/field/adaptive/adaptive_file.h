@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 #include "field/opening_caps.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "storage/checked_file.h"

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "field/sparse_grid.h"
-#include "near_triangles.h"
-#include "signed_surface.h"
+#include "field/near_triangles.h"
+#include "field/signed_surface.h"
+#include "field/uniform/sparse_grid.h"
 
 namespace sdf_ccd {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "cube_corner.h"
-#include "field/adaptive_grid.h"
-#include "gradient_bound.h"
-#include "near_triangles.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/cube_corner.h"
+#include "field/gradient_bound.h"
+#include "field/near_triangles.h"
 
 namespace sdf_ccd {
 

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "cell_fit.h"
-#include "cube_corner.h"
-#include "field/adaptive_grid.h"
-#include "near_triangles.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/cube_corner.h"
+#include "field/near_triangles.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

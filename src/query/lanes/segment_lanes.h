@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "field/adaptive_grid.h"
-#include "field/sparse_grid.h"
+#include "field/adaptive/adaptive_grid.h"
+#include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {

@@ -1,5 +1,5 @@
-#include "cube_corner.h"
-#include "grid_sample.h"
+#include "field/cube_corner.h"
+#include "field/grid_sample.h"
 
 namespace sdf_ccd {
 namespace {

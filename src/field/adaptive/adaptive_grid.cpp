@@ -1,10 +1,10 @@
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-#include "grid_place.h"
+#include "field/grid_place.h"
 
 namespace sdf_ccd {
 

@@ -9,8 +9,8 @@
 #include "adaptive_shape.h"
 #include "block_builder.h"
 #include "common/processor_time.h"
-#include "sample_mean.h"
-#include "spread_order.h"
+#include "field/sample_mean.h"
+#include "field/spread_order.h"
 #include "thinned_cells.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "grid_sample.h"
+#include "field/grid_sample.h"
 
 #include <limits>
 

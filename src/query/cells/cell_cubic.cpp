@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bracketed_root.h"
+#include "query/bracketed_root.h"
 
 namespace sdf_ccd {
 namespace {

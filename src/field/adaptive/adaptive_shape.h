@@ -1,6 +1,6 @@
 #pragma once
 
-#include "field/adaptive_grid.h"
+#include "field/adaptive/adaptive_grid.h"
 #include "sdf_ccd/field/field_options.h"
 
 namespace sdf_ccd {

@@ -1,5 +1,5 @@
 #include "sample_bracket.h"
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 
 #include <cmath>
 #include <limits>

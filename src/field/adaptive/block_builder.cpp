@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "field/sparse_grid.h"
+#include "field/uniform/sparse_grid.h"
 
 namespace sdf_ccd {
 

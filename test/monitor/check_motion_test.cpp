@@ -1,0 +1,100 @@
+#include "sdf_ccd/monitor/check_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// A rod of 1 m turns about z at the origin.
+const char* const kRod = R"(<robot name='r'>
+  <link name='base'/>
+  <link name='rod'><collision><origin xyz='0.5 0 0'/><geometry><box size='1 0.02 0.02'/></geometry></collision></link>
+  <joint name='turn' type='continuous'><parent link='base'/><child link='rod'/><axis xyz='0 0 1'/></joint>
+</robot>)";
+
+class CheckMotionTest : public ::testing::Test {
+ protected:
+  BodyDescription post(const std::string& frame, double angle) const {
+    BodyDescription post;
+    post.name = "post";
+    post.frame = frame;
+    post.X_frame_B = Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * Eigen::Translation3d(0.9, 0.0, 0.0);
+    post.geometry.push_back({Primitive(Sphere{0.03}), Isometry3d::Identity(), "sphere"});
+    post.is_world = true;
+    return post;
+  }
+
+  CycleResult turn(const BodyDescription& post, const std::vector<double>& angles) const {
+    return turn(std::vector<BodyDescription>{post}, angles);
+  }
+  CycleResult turn(const std::vector<BodyDescription>& posts, const std::vector<double>& angles) const {
+    std::vector<std::string> warnings;
+    SceneDescription description = describeRobot(robot_, {}, {}, {}, warnings);
+    description.bodies.insert(description.bodies.end(), posts.begin(), posts.end());
+    const BodyOptions options = optionsFor({4e-3, {}});
+    const auto scene =
+        std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
+    RobotTrajectory trajectory;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      trajectory.times.push_back(double(i));
+      trajectory.states.emplace_back().positions["turn"] = angles[i];
+    }
+    return checkMotion(scene, {},
+                       planAlong(robot_, completePlan(robot_, trajectory, {}, {}), bodiesOf(*scene, robot_), {}, {}));
+  }
+
+  const RobotModel robot_{kRod};
+};
+
+TEST_F(CheckMotionTest, FindsWhatLiesBetweenTheWaypoints) {
+  // The rod's side is at the post's when it still has asin((0.01 + 0.03) / 0.9) to turn.
+  const CycleResult result = turn(post("base", 2.0), {0.0, 4.0});
+  EXPECT_EQ(result.verdict, Verdict::kContact);
+  ASSERT_EQ(result.pairs.size(), 1u);
+  ASSERT_EQ(result.pairs[0].intervals.size(), 1u);
+  const double half_angle = std::asin(0.04 / 0.9);
+  EXPECT_NEAR(result.pairs[0].intervals[0].enter, (2.0 - half_angle) / 4.0, 4e-3);
+  EXPECT_NEAR(result.pairs[0].intervals[0].exit, (2.0 + half_angle) / 4.0, 4e-3);
+  EXPECT_EQ(turn(post("base", 2.0), {0.0, 1.9}).verdict, Verdict::kClear);
+}
+
+TEST_F(CheckMotionTest, LongMotionsArePutTogetherOfPieces) {
+  std::vector<double> angles;
+  for (int i = 0; i <= 100; ++i) angles.push_back(0.05 * i);
+  const CycleResult result = turn(post("base", 4.0), angles);
+  EXPECT_EQ(result.verdict, Verdict::kContact);
+  ASSERT_EQ(result.pairs[0].intervals.size(), 1u);
+  EXPECT_NEAR(result.pairs[0].intervals[0].enter, (4.0 - std::asin(0.04 / 0.9)) / 0.05, 0.05);
+}
+
+TEST_F(CheckMotionTest, WhatALinkHoldsMovesWithIt) {
+  BodyDescription wall = post("base", 1.5), tool = post("rod", 0.0);
+  wall.name = "wall";
+  wall.X_frame_B = wall.X_frame_B * Eigen::Translation3d(0.4, 0.0, 0.0);  // beyond the rod's end
+  tool.X_frame_B = Eigen::Translation3d(1.3, 0.0, 0.0);
+  tool.is_world = false;
+  const CycleResult result = turn({wall, tool}, {1.0, 2.0});
+  EXPECT_EQ(result.verdict, Verdict::kContact);
+  const auto touching = std::find_if(result.pairs.begin(), result.pairs.end(),
+                                     [](const PairResult& pair) { return pair.verdict == Verdict::kContact; });
+  ASSERT_NE(touching, result.pairs.end());
+  ASSERT_EQ(touching->intervals.size(), 1u);
+  EXPECT_NEAR(touching->intervals[0].enter, 0.5 - 2.0 * std::asin(0.03 / 1.3), 4e-3);
+  EXPECT_EQ(turn({wall, tool}, {1.0, 1.4}).verdict, Verdict::kClear);
+}
+
+TEST_F(CheckMotionTest, BodiesInUnknownFramesAreNotChecked) {
+  const CycleResult result = turn(post("map", 2.0), {0.0, 1.0});
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  ASSERT_EQ(result.pairs.size(), 1u);
+  EXPECT_NE(result.pairs[0].reason.find("the robot has no link map"), std::string::npos) << result.pairs[0].reason;
+}
+
+}  // namespace
+}  // namespace sdf_ccd
