@@ -8,8 +8,10 @@
 int main() {
   using namespace sdf_ccd;
   constexpr double kRadius = 0.2, kTip = 0.01;  // [m]
-  const Body obstacle = prepareBody("obstacle", tessellate(Sphere{kRadius}, 1e-4), {1e-3, {}});
-  const DistanceField& field = obstacle.field();
+  FieldOptions wanted;
+  wanted.max_error = 5e-4;   // [m]
+  wanted.band = 2.0 * kTip;  // isosurfaces are asked for only within the band
+  const DistanceField field = buildField(tessellate(Sphere{kRadius}, 1e-4), wanted);
 
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> place(-0.5, 0.5);
