@@ -220,6 +220,9 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
   built.report.field = "left out";
   if (body.failure.empty() && needs.any()) {
     try {
+      requirePose(description.X_frame_B, "the body's pose in its frame");
+      for (const GeometryDescription& geometry : description.geometry)
+        requirePose(geometry.X_BG, "the pose of " + geometry.source);
       build(needs, BodyBuilder(description, options, pool, built.report), progress, body, built.report);
     } catch (const std::exception& error) {
       body.failure = error.what();

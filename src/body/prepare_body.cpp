@@ -28,15 +28,21 @@ Body prepareBody(const std::string& name, const TriangleMesh& mesh, const Accura
 }
 
 Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
-  const BodyOptions options = optionsFor(accuracy);
+  constexpr std::size_t kFieldBytes = std::size_t{256} << 20, kPoints = 5'000'000;
+  BodyOptions options = optionsFor(accuracy);
+  options.max_error.reset();  // what cannot be had is refused, not made coarser
+  options.field.max_bytes = kFieldBytes;
+  options.shell.max_points = kPoints;
   MeshPool pool(options);
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();
   needs.witnesses = needsWitnesses(description);
-  Body body = buildBody(description, needs, options, pool, {}).body;
+  auto [body, report] = buildBody(description, needs, options, pool, {});
   if (!body.failure.empty()) throw std::invalid_argument(description.name + ": " + body.failure);
   body.surface = surfaceOf(description, pool);
-  return body;
+  for (const std::string& warning : report.warnings)
+    if (body.warning.find(warning) == std::string::npos) body.warning += (body.warning.empty() ? "" : "; ") + warning;
+  return std::move(body);
 }
 
 }  // namespace sdf_ccd

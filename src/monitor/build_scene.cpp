@@ -71,7 +71,9 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   if (body_a.is_world && body_b.is_world) {
     scene.left_out.push_back({what, "both of the world"});
   } else if (checkable && !pair.a_shell_b_field && !pair.b_shell_a_field) {
-    scene.left_out.push_back({what, "no shell of one against a field of the other"});
+    throw std::invalid_argument(what +
+                                ": neither has a shell, as they hold half-spaces or voxels; if both are of the "
+                                "world, say so (Body::is_world)");
   } else {
     pair.a_witnesses_b_field = body_a.witnesses.size() > 0 && !body_b.parts.empty();
     pair.b_witnesses_a_field = body_b.witnesses.size() > 0 && !body_a.parts.empty();

@@ -69,7 +69,8 @@ PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot) {
     const bool is_carried = found != links.end();
     const int link = is_carried ? static_cast<int>(found - links.begin()) : -1;
     planned.bodies.push_back({link, body.X_frame_B, motionBall(body)});
-    planned.missing.push_back(is_carried ? "" : "the robot has no link " + body.frame);
+    planned.missing.push_back(is_carried ? ""
+                                         : "the robot has no link \"" + body.frame + "\", the frame of " + body.name);
   }
   return planned;
 }

@@ -4,14 +4,26 @@
 #include <stdexcept>
 
 namespace sdf_ccd {
+
 namespace {
 
-void requirePose(const Isometry3d& X) {
-  if (!X.matrix().allFinite()) throw std::invalid_argument("screw motion: a pose is not finite");
-  const Matrix3d R = X.linear();
-  if (!(R.transpose() * R).isIdentity(1e-6) || R.determinant() < 0.0) {
-    throw std::invalid_argument("screw motion: a pose's rotation is not orthonormal");
-  }
+bool isRotation(const Matrix3d& R) {
+  return (R.transpose() * R).isIdentity(1e-6) && R.determinant() >= 0.0;
+}
+
+}  // namespace
+
+void requirePose(const Isometry3d& X, const std::string& what) {
+  if (!X.matrix().allFinite()) throw std::invalid_argument(what + " is not finite");
+  if (!isRotation(X.linear())) throw std::invalid_argument(what + "'s rotation is not orthonormal");
+}
+
+namespace {
+
+/// Without a text, which takes memory, where all is well.
+void requirePoses(const Isometry3d& start, const Isometry3d& end) {
+  for (const Isometry3d* X : {&start, &end})
+    if (!X->matrix().allFinite() || !isRotation(X->linear())) requirePose(*X, "screw motion: a pose");
 }
 
 Matrix3d skew(const Vector3d& v) {
@@ -56,11 +68,10 @@ Isometry3d exponential(const Vector3d& omega, const Vector3d& velocity) {
 
 ScrewMotion::ScrewMotion(const Isometry3d& X_FP_start, const Isometry3d& X_FP_end)
     : start_(X_FP_start), end_(X_FP_end) {
-  requirePose(start_);
+  requirePoses(start_, end_);
   omega_.setZero();
   velocity_.setZero();
   if (start_.matrix() == end_.matrix()) return;  // exactly at rest
-  requirePose(end_);
   const Isometry3d X = start_.inverse() * end_;
   omega_ = rotationLog(X.linear());
   // Log on SE(3): translation = V(ω) velocity, with V = 1 + b [ω] + c [ω]².
@@ -87,6 +98,16 @@ double ScrewMotion::maxTravel(const BoundingBall& ball) const {
 double ScrewMotion::maxAcceleration(const BoundingBall& ball) const {
   const double theta = omega_.norm();
   return omega_.cross(omega_.cross(ball.center) + velocity_).norm() + theta * theta * ball.radius;
+}
+
+void requireUnambiguousTurns(const std::vector<Isometry3d>& poses, const std::string& what) {
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Matrix3d R = poses[i - 1].linear().transpose() * poses[i].linear();
+    if (!(R.transpose() * R).isIdentity(1e-5)) continue;  // no poses: whoever takes them says so
+    if (R.determinant() > 0.0 && rotationLog(R).norm() >= kAmbiguousTurn)
+      throw std::invalid_argument(what + " turns by half a revolution up to pose " + std::to_string(i) +
+                                  ": they do not tell which way, one between them would");
+  }
 }
 
 }  // namespace sdf_ccd

@@ -160,6 +160,17 @@ LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
   return least;
 }
 
+/// Bounds that hold in doubles too: outward by the rounding of coordinates and of the distance itself.
+LeastDistance rounded(LeastDistance least, const Segment& segment) {
+  constexpr double kRoundings = 16.0;
+  const double size = std::max(segment.start.lpNorm<Eigen::Infinity>(), segment.end.lpNorm<Eigen::Infinity>());
+  const double rounding =
+      kRoundings * std::numeric_limits<double>::epsilon() * (size + std::abs(least.low) + std::abs(least.high));
+  least.low -= rounding;
+  least.high += rounding;
+  return least;
+}
+
 }  // namespace
 
 LeastDistance leastDistance(const DistanceField& field, const Segment& segment) {
@@ -168,9 +179,9 @@ LeastDistance leastDistance(const DistanceField& field, const Segment& segment) 
   }
   if (const AdaptiveGrid* adaptive = field.adaptive()) {
     const LeastDistance least = leastInLeaves(*adaptive, segment);
-    if (least.low <= field.band()) return least;
+    if (least.low <= field.band()) return rounded(least, segment);
   }
-  return LeastSearch(field, segment).run();
+  return rounded(LeastSearch(field, segment).run(), segment);
 }
 
 }  // namespace sdf_ccd

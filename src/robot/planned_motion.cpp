@@ -1,6 +1,9 @@
 #include "sdf_ccd/robot/planned_motion.h"
 
 #include <memory>
+#include <stdexcept>
+
+#include "sdf_ccd/motion/screw_motion.h"
 
 namespace sdf_ccd {
 namespace {
@@ -10,10 +13,40 @@ void startAtZero(CycleMotion& motion) {
   for (double& time : motion.times) time -= start;
 }
 
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("planned motion: " + what);
+}
+
+/// Brings all that may be left empty to the number of bodies. @throws std::invalid_argument if something does not fit.
+void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
+  const std::size_t bodies = motion.X_WB.size(), times = motion.times.size();
+  if (times < 2) refuse(std::to_string(times) + " times, two or more are needed");
+  if (motion.times.front() != 0.0) refuse("its first time is not 0");
+  if (!motion.spans.empty()) refuse("spans are of cycles");
+  const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
+  if (!fits(motion.missing.size()) || !fits(motion.motion_error.size()) || is_moved.size() != bodies)
+    refuse("made for " + std::to_string(bodies) + " bodies, but not all of it");
+  motion.missing.resize(bodies);
+  for (std::size_t body = 0; body < bodies; ++body) {
+    std::vector<Isometry3d>& poses = motion.X_WB[body];
+    if (!motion.missing[body].empty()) {
+      poses.resize(times, Isometry3d::Identity());  // they may be anything
+      continue;
+    }
+    if (poses.size() != times)
+      refuse("body " + std::to_string(body) + " has " + std::to_string(poses.size()) + " poses at " +
+             std::to_string(times) + " times");
+    requireUnambiguousTurns(poses, "planned motion: body " + std::to_string(body));
+  }
+}
+
 }  // namespace
 
 PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
                         const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling) {
+  if (plan.missing.size() != robot.links().size()) refuse("a plan that completePlan() has not made");
+  if (!bodies.missing.empty() && bodies.missing.size() != bodies.bodies.size())
+    refuse(std::to_string(bodies.missing.size()) + " reasons for " + std::to_string(bodies.bodies.size()) + " bodies");
   PlannedMotion result;
   result.samples = plan.trajectory.times;
   result.assumed = plan.assumed;
@@ -39,12 +72,15 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
 
 PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
                           const std::vector<UnreachablePair>& unreachable) {
+  complete(motion, is_moved);
   PlannedMotion result;
   result.samples = result.waypoints = motion.times;
   result.unchecked = reachableAlong(motion, is_moved, unreachable);
   const auto whole = std::make_shared<const CycleMotion>(std::move(motion));
   result.piece = [whole](std::size_t first, std::size_t last, CycleMotion& piece) {
     piece.missing = whole->missing;
+    piece.motion_error = whole->motion_error;
+    piece.spans.clear();
     piece.times.assign(whole->times.begin() + first, whole->times.begin() + last + 1);
     piece.X_WB.resize(whole->X_WB.size());
     for (std::size_t body = 0; body < piece.X_WB.size(); ++body) {

@@ -70,8 +70,8 @@ double fieldError(const FieldOptions& field) {
 
 /// Reads max_error and shares it out. What field, shell and chord_tolerance set themselves has to fit in.
 std::optional<ErrorBudget> readBudget(ParameterReader& reader) {
+  const double max_error = reader.positive("max_error", 1.0);
   if (!reader.has("max_error")) return std::nullopt;
-  const double max_error = reader.positive("max_error", 0.0);
   ParameterReader field = reader.group("field"), shell = reader.group("shell");
   GivenShares given;
   if (field.has("max_error")) given.field = field.positive("max_error", 0.0);

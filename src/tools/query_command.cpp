@@ -89,9 +89,13 @@ void writeImpacts(const DistanceField& field, const std::vector<Segment>& segmen
   out << "segment,t_earliest,t,t_latest,depth,depth_low,depth_high\n";
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     if (!impacts[i]) continue;
+    // Inside, it may be but caps that make it so.
+    const bool is_certain = !field.openings();
     const auto& [window, depth] = *impacts[i];
-    out << i << ',' << cell(window.earliest) << ',' << cell(window.time) << ',' << cell(window.latest) << ','
-        << cell(-depth.value) << ',' << cell(-depth.high) << ',' << cell(-depth.low) << '\n';
+    out << i << ',' << cell(window.earliest) << ',' << cell(window.time) << ','
+        << cell(is_certain ? window.latest : std::nullopt) << ','
+        << cell(std::clamp(-depth.value, -depth.high, -depth.low)) << ','
+        << cell(is_certain ? std::optional(-depth.high) : std::nullopt) << ',' << cell(-depth.low) << '\n';
   }
 }
 
@@ -140,7 +144,7 @@ void addQueryCommand(CLI::App& app) {
       "--impact", arguments->impact,
       "Instead of intervals, of each segment that may meet the surface when it first does, and how deep it "
       "comes: segment,t_earliest,t,t_latest,depth,depth_low,depth_high. The truth lies between the bounds; "
-      "empty: not known, as the point may only graze");
+      "empty: not known, as the point may only graze, or an opening's cap be all that it meets");
   arguments->resolution.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }

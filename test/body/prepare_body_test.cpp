@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "oracle/shapes.h"
 #include "sdf_ccd/sdf_ccd.h"
 
@@ -62,6 +64,44 @@ TEST(PrepareBody, GroundHasNoShell) {
   Monitor monitor({ground, prepareBody("ball", Box{{0.1, 0.1, 0.1}}, kMillimetre)});
   const Isometry3d still = Isometry3d::Identity();
   EXPECT_EQ(monitor.check({{still, still}, {at(0, 0, 0.2), at(0, 0, 0.05)}}).verdict, Verdict::kContact);
+}
+
+TEST(PrepareBody, RefusesPosesThatAreNone) {
+  BodyDescription scaled;
+  scaled.name = "scaled";
+  Isometry3d X_BG = Isometry3d::Identity();
+  X_BG.linear() *= 2.0;
+  scaled.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.1}}), X_BG, "box"});
+  try {
+    prepareBody(scaled, kMillimetre);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "scaled: the pose of box's rotation is not orthonormal");
+  }
+  scaled.geometry[0].X_BG.setIdentity();
+  scaled.X_frame_B.translation().x() = NAN;
+  EXPECT_THROW(prepareBody(scaled, kMillimetre), std::invalid_argument);
+}
+
+TEST(PrepareBody, TwoWithoutAShellAreNotPassedOver) {
+  Body ground = prepareBody("ground", HalfSpace{Vector3d::UnitZ(), 0.0}, kMillimetre);
+  Body wall = prepareBody("wall", HalfSpace{Vector3d::UnitX(), -1.0}, kMillimetre);
+  EXPECT_THROW(Monitor({ground, wall}), std::invalid_argument);
+  ground.is_world = wall.is_world = true;
+  EXPECT_NO_THROW(Monitor({ground, wall}));
+}
+
+TEST(PrepareBody, PosesThatDoNotTellTheWayAreRefused) {
+  Monitor monitor({prepareBody("bar", Box{{0.1, 0.02, 0.02}}, kMillimetre),
+                   prepareBody("box", Box{{0.02, 0.02, 0.02}}, kMillimetre)});
+  const Isometry3d still = at(0, 1, 0), start = Isometry3d::Identity(),
+                   half(Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitZ())),
+                   less(Eigen::AngleAxisd(3.1, Vector3d::UnitZ()));
+  EXPECT_THROW(monitor.check({{start, half}, {still, still}}), std::invalid_argument);
+  EXPECT_EQ(monitor.check({{start, less}, {still, still}}).verdict, Verdict::kClear);
+  Isometry3d mirrored = start;
+  mirrored.linear()(0, 0) = -1.0;
+  EXPECT_EQ(monitor.check({{start, mirrored}, {still, still}}).verdict, Verdict::kNotChecked);
 }
 
 TEST(PrepareBody, SaysWhatIsWrong) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
@@ -45,8 +47,9 @@ class CheckMotionTest : public ::testing::Test {
       trajectory.times.push_back(double(i));
       trajectory.states.emplace_back().positions["turn"] = angles[i];
     }
-    return checkMotion(scene, {},
-                       planAlong(robot_, completePlan(robot_, trajectory, {}, {}), bodiesOf(*scene, robot_), {}, {}));
+    const PlannedMotion plan =
+        planAlong(robot_, completePlan(robot_, trajectory, {}, {}), bodiesOf(*scene, robot_), {}, {});
+    return checkMotion(scene, {}, plan);
   }
 
   const RobotModel robot_{kRod};
@@ -93,7 +96,53 @@ TEST_F(CheckMotionTest, BodiesInUnknownFramesAreNotChecked) {
   const CycleResult result = turn(post("map", 2.0), {0.0, 1.0});
   EXPECT_EQ(result.verdict, Verdict::kNotChecked);
   ASSERT_EQ(result.pairs.size(), 1u);
-  EXPECT_NE(result.pairs[0].reason.find("the robot has no link map"), std::string::npos) << result.pairs[0].reason;
+  EXPECT_NE(result.pairs[0].reason.find("the robot has no link \"map\", the frame of post"), std::string::npos)
+      << result.pairs[0].reason;
+}
+
+TEST(PlanThrough, KeepsWhatIsNotKnownOfTheMotion) {
+  const auto scene = std::make_shared<const Scene>(makeScene(
+      {prepareBody("a", Box{{0.1, 0.1, 0.1}}, {5e-3, {}}), prepareBody("b", Box{{0.1, 0.1, 0.1}}, {5e-3, {}})}));
+  const Isometry3d still = Isometry3d::Identity(), apart(Eigen::Translation3d(0.3, 0.0, 0.0));
+  CycleMotion motion;
+  motion.times = {0.0, 1.0};
+  motion.X_WB = {{still, still}, {apart, apart}};
+  const auto verdict = [&](const CycleMotion& motion) {
+    const PlannedMotion plan = planThrough(motion, {true, true}, {});
+    return checkMotion(scene, {}, plan).verdict;
+  };
+  EXPECT_EQ(verdict(motion), Verdict::kClear);
+  CycleMotion unsure = motion;
+  unsure.motion_error = {0.2, 0.0};
+  EXPECT_EQ(verdict(unsure), Verdict::kUncertain);
+  CycleMotion lost = motion;
+  lost.missing = {"gone", ""};
+  lost.X_WB[0].clear();
+  EXPECT_EQ(verdict(lost), Verdict::kNotChecked);
+}
+
+TEST(PlanThrough, RefusesWhatDoesNotFit) {
+  const Isometry3d still = Isometry3d::Identity();
+  CycleMotion good;
+  good.times = {0.0, 1.0};
+  good.X_WB = {{still, still}, {still, still}};
+  UnreachablePair far;
+  far.body_a = 0;
+  far.body_b = 1;
+  far.ball_a = far.ball_b = {Vector3d::Zero(), 0.1};
+  EXPECT_NO_THROW(planThrough(good, {true, true}, {far}));
+  EXPECT_THROW(planThrough(good, {}, {far}), std::invalid_argument);
+  const auto expectRefused = [](CycleMotion motion, const std::function<void(CycleMotion&)>& spoil) {
+    spoil(motion);
+    EXPECT_THROW(planThrough(motion, {true, true}, {}), std::invalid_argument);
+  };
+  expectRefused(good, [](CycleMotion& motion) { motion.X_WB[1].pop_back(); });
+  expectRefused(good, [](CycleMotion& motion) { motion.times = {5.0, 6.0}; });
+  expectRefused(good, [](CycleMotion& motion) { motion.times = {0.0}; });
+  expectRefused(good, [](CycleMotion& motion) { motion.spans = {{0, 0}}; });
+  expectRefused(good, [](CycleMotion& motion) { motion.missing = {"one"}; });
+  expectRefused(good,
+                [](CycleMotion& motion) { motion.X_WB[0][1] = Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitZ()); });
 }
 
 }  // namespace

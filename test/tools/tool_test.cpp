@@ -225,6 +225,22 @@ TEST_F(Tool, QueryTellsBoundsOfImpactAndDepth) {
   EXPECT_LE(low, deepest + 1e-9);
   EXPECT_GE(high, deepest);
   EXPECT_NEAR(depth, deepest, high - low);
+  EXPECT_LE(low, depth);
+  EXPECT_LE(depth, high);
+  // What comes in by an opening meets a cap, if anything.
+  write("bin.off", toOff(test::binMesh(0.1)));
+  write("drop.csv", "0,0,1,0,0,0.05\n");
+  ASSERT_EQ(run("query --mesh bin.off --segments drop.csv --out drop_out.csv --impact --max-error 0.002").exit_code,
+            kDone);
+  std::istringstream dropped(readText(path("drop_out.csv")));
+  std::getline(dropped, line);
+  std::getline(dropped, line);
+  std::vector<std::string> cells;
+  std::istringstream row(line);
+  for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+  ASSERT_EQ(cells.size(), 7u) << line;
+  EXPECT_EQ(cells[3], "") << "it may meet nothing";
+  EXPECT_EQ(cells[5], "") << "it may be in nothing";
   expectRefused("query --field made/ball.field --segments in.csv --out b.csv --impact --first", "--sigma and --first");
 }
 

@@ -41,7 +41,8 @@ struct Body {
 
   /// The field of a body that is one element in the body's own frame.
   /// @throws std::logic_error if it is not.
-  const DistanceField& field() const;
+  const DistanceField& field() const&;
+  const DistanceField& field() const&& = delete;  ///< of a body that is gone before it is used
 };
 
 /// Holds the body's surface, frame B: its shell's points, else its fields' boxes. Of a half-space, what lies within

@@ -11,8 +11,11 @@ namespace sdf_ccd {
 
 /// A body with all that it may be checked with: field, shell and its tree, triangles. For whole robots and worlds
 /// buildScene() makes less, as it knows which pairs there are.
-/// @throws std::invalid_argument if the shape is not valid or the accuracy cannot be had; std::length_error if it would
-/// take too much memory.
+///
+/// Curved surfaces have a point every third of max_error, flat ones along their edges: a ball of 0.1 m takes 400,000
+/// points and seconds at 1 mm, a hundredth of that at 1 cm.
+/// @throws std::invalid_argument if the shape is not valid, or the accuracy cannot be had with the memory that a body
+/// may take: 256 MB of field, five million points.
 Body prepareBody(const std::string& name, const Primitive& primitive, const Accuracy& accuracy);
 
 /// The same of a mesh, in its frame; turned outward, and closed where it is not.

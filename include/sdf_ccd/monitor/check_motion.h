@@ -14,11 +14,13 @@ class MotionCheck {
   /// @param memory  as of a Monitor.
   MotionCheck(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,
               const CycleRequest& request, std::shared_ptr<MonitorMemory> memory = nullptr);
+  MotionCheck(std::shared_ptr<const Scene>, const MonitorOptions&, PlannedMotion&&, const CycleRequest&,
+              std::shared_ptr<MonitorMemory> = nullptr) = delete;
   ~MotionCheck();
 
   bool isDone() const;
 
-  /// Checks the next piece, of some milliseconds, and returns its motion.
+  /// Checks the next piece, of some milliseconds, and returns its motion, which holds until the next call.
   const CycleMotion& next();
 
   /// Of all pieces that were checked, and of the pairs that the scene leaves out though they may meet: the pairs' spans

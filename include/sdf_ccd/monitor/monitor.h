@@ -104,13 +104,16 @@ class Monitor {
   explicit Monitor(std::vector<Body> bodies, const MonitorOptions& options = {});
   ~Monitor();
 
+  /// @return what holds until the next run() or check(), which uses its memory again: copy what is to be kept.
   /// @throws std::invalid_argument if the motion's sizes do not fit the scene or its times do not increase.
   const CycleResult& run(const CycleMotion& motion, const CycleRequest& request);
 
-  /// The same for bodies that are all known at the same times.
-  /// @param X_WB      per body: its poses, two or more.
+  /// The same for bodies that are all known at the same times. Between two poses a body turns the shorter way round:
+  /// turns of half a revolution and more need poses in between.
+  /// @param X_WB      per body: poses of its own frame B, two or more; Body::X_frame_B is not applied.
   /// @param duration  from the first poses to the last; those between are evenly spaced [s].
-  /// @throws std::invalid_argument also if bodies have different numbers of poses.
+  /// @throws std::invalid_argument also if bodies have different numbers of poses, or two poses of a body do not tell
+  /// which way it turned (kAmbiguousTurn).
   const CycleResult& check(const std::vector<std::vector<Isometry3d>>& X_WB, double duration = 1.0,
                            const CycleRequest& request = {});
 

@@ -39,10 +39,10 @@ inline PlanOptions planOptions(const BodyOptions& options) {
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
                  const std::function<void(const std::string&, double)>& progress = {});
 
-/// A scene of bodies that are prepared already: all of its pairs, but those of two bodies of the world and of two that
-/// have no shell.
+/// A scene of bodies that are prepared already: all of its pairs, but those of two bodies of the world.
 /// @param motion_margin  as in BodyOptions [m].
-/// @throws std::invalid_argument if two bodies share a name.
+/// @throws std::invalid_argument if two bodies share a name, one has neither field nor shell, or two that are not both
+/// of the world have no shell to test.
 Scene makeScene(std::vector<Body> bodies, double motion_margin = 1e-3);
 
 /// The plan as one table for the log: body, geometry, field, shell, cells, bytes, error bound by source, pairs; below

@@ -1,10 +1,17 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <vector>
 
 #include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
+
+/// @throws std::invalid_argument, beginning with `what`, unless the pose is finite and its rotation orthonormal to
+/// 1e-6.
+void requirePose(const Isometry3d& X, const std::string& what);
 
 /// A ball in frame P that holds the points of interest.
 struct BoundingBall {
@@ -52,5 +59,11 @@ class ScrewMotion {
   Vector3d omega_;     // angular part of the twist, frame P [rad]
   Vector3d velocity_;  // linear part of the twist at P's origin, frame P [m]
 };
+
+/// From this angle on, two poses do not tell which way a frame has turned [rad].
+constexpr double kAmbiguousTurn = 3.14159265358979323846 - 1e-6;
+
+/// @throws std::invalid_argument, beginning with `what`, if a pose is kAmbiguousTurn or more from the one before.
+void requireUnambiguousTurns(const std::vector<Isometry3d>& poses, const std::string& what);
 
 }  // namespace sdf_ccd

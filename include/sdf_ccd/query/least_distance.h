@@ -7,7 +7,7 @@ namespace sdf_ccd {
 /// How near to the surface a moving point comes, or how deep inside, as far as a field knows.
 struct LeastDistance {
   double time;   ///< in [0, 1], where `value` is
-  double value;  ///< of the field, negative inside: the least, or nearly [m]
+  double value;  ///< of the field, negative inside: the least, or nearly; it may lie beyond the bounds [m]
   double low;    ///< the least true distance along the path is at least low
   double high;   ///< and at most high [m]
 };

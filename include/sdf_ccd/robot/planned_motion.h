@@ -36,12 +36,14 @@ struct PlannedBodies {
 /// All bodies along a trajectory of the robot's joints.
 /// @param robot  must outlive the motion.
 /// @param unreachable  pairs that the scene leaves out as out of reach.
-/// @throws as TrajectoryMotion.
+/// @throws as TrajectoryMotion; std::invalid_argument also if the plan is not complete.
 PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
                         const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling);
 
-/// All bodies through given poses, at the motion's times.
+/// All bodies through given poses, at the motion's times; between two of them each turns the shorter way round.
 /// @param is_moved  per body: whether the plan says where it goes, not the robot's joints.
+/// @throws std::invalid_argument if the motion's sizes do not fit each other, its first time is not 0, it has spans, or
+/// two poses of a body do not tell which way it turned (kAmbiguousTurn).
 PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
                           const std::vector<UnreachablePair>& unreachable);
 

@@ -28,9 +28,6 @@ RobotState stateAt(const RobotTrajectory& trajectory, double time);
 /// @throws std::invalid_argument if they do not begin and end at the same times.
 RobotTrajectory merged(const RobotTrajectory& joints, const RobotTrajectory& joints_and_root);
 
-/// From this angle on, two poses do not tell which way a frame has turned [rad].
-constexpr double kAmbiguousTurn = 3.14159265358979323846 - 1e-6;
-
 /// A body that moves with a link, or rests.
 struct CarriedBody {
   int link = -1;                             ///< by its index in RobotModel::links(); −1: the body rests

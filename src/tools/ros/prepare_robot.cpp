@@ -8,6 +8,7 @@
 #include "monitor/over_budget.h"
 #include "monitor_scene.h"
 #include "print.h"
+#include "storage/cache_directory.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -49,6 +50,8 @@ bool isComplete(const Scene& scene) {
 void prepareRobot(const MonitorConfig& config, const std::string& directory) {
   MonitorParameters parameters = readParameters(config);
   parameters.scene.cache_directory = fs::absolute(directory).lexically_normal().string();
+  fs::create_directories(parameters.scene.cache_directory);  // others may read it, unlike a cache of one's own
+  requireOwnDirectory(parameters.scene.cache_directory);
   const DescribedScene described = describeMonitored(parameters, config.urdf);
   const ScenePlan plan = affordablePlan(described, parameters.scene);
   std::cout << "expected         " << summary(*plan.expected) << "\n" << std::flush;
@@ -65,6 +68,8 @@ void prepareRobot(const MonitorConfig& config, const std::string& directory) {
   std::cout << planText(*scene, warnings);
   const bool is_complete = isComplete(*scene);
   const Kept kept = keptIn(parameters.scene.cache_directory);
+  for (const fs::directory_entry& entry : fs::directory_iterator(parameters.scene.cache_directory))
+    if (entry.path().extension() == ".lock") fs::remove(entry.path());
   std::cout << kept.files << " files, " << megabytes(kept.bytes)
             << "; the monitor loads them with cache_directory: " << parameters.scene.cache_directory
             << " and the same parameters" << std::endl;
