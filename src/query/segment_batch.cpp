@@ -20,11 +20,17 @@ namespace {
 
 using Hits = std::vector<SegmentHit>;
 
+[[noreturn]] void refuse(std::size_t segment) {
+  throw std::invalid_argument("segment query: segment " + std::to_string(segment) +
+                              " is not finite, or reaches farther than 1e12 m");
+}
+
 /// Segments [first, last), one by one.
 void askSingly(const DistanceField& field, const Segment* segments, std::size_t first, std::size_t last,
                const SegmentOptions& options, Hits& hits) {
   thread_local Intervals intervals;
   for (std::size_t i = first; i < last; ++i) {
+    if (!isWithinReach(segments[i])) refuse(i);
     segmentIntervals(field, segments[i], options, intervals);
     for (const Interval& found : intervals) {
       hits.push_back({static_cast<std::uint32_t>(i), static_cast<float>(found.enter), static_cast<float>(found.exit)});
@@ -43,10 +49,7 @@ class Chunk {
            const SegmentOptions& options, Hits& hits) {
     const bool first_only = stopsAtEnter(options.mode);
     const int refused = followRays(lanes, first_only, segments + first, count, work_);
-    if (refused >= 0) {
-      throw std::invalid_argument("segment query: segment " + std::to_string(first + refused) +
-                                  " is not finite, or reaches farther than 1e12 m");
-    }
+    if (refused >= 0) refuse(first + refused);
     for (const std::int32_t lost : work_.lost) retry(field, segments, first, lost, options);
     const std::size_t before = hits.size();
     hits.resize(before + work_.hits.size);

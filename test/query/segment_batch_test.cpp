@@ -340,7 +340,7 @@ TEST(SegmentBatch, RefusesWhatIsNotFiniteOrOutsideTheBand) {
 }
 
 TEST(SegmentBatch, NamesTheSegmentThatItRefuses) {
-  for (const DistanceField& field : {torus(), uniformTorus()}) {
+  for (const DistanceField& field : {torus(), uniformTorus(), DistanceField(Primitive(Sphere{0.1}))}) {
     for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 3e12}) {
       for (int k = 0; k < 6; ++k) {
         std::vector<Segment> segments(40, Segment{Vector3d::Zero(), Vector3d::Constant(0.01)});
