@@ -105,7 +105,7 @@ void requireUnambiguousTurns(const std::vector<Isometry3d>& poses, const std::st
     const Matrix3d R = poses[i - 1].linear().transpose() * poses[i].linear();
     if (!(R.transpose() * R).isIdentity(1e-5)) continue;  // no poses: whoever takes them says so
     if (R.determinant() > 0.0 && rotationLog(R).norm() >= kAmbiguousTurn)
-      throw std::invalid_argument(what + " turns by half a revolution up to pose " + std::to_string(i) +
+      throw std::invalid_argument(what + " turns by half a revolution up to poses " + std::to_string(i) +
                                   ": they do not tell which way, one between them would");
   }
 }

@@ -30,7 +30,7 @@ void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
   for (std::size_t body = 0; body < bodies; ++body) {
     std::vector<Isometry3d>& poses = motion.X_WB[body];
     if (!motion.missing[body].empty()) {
-      poses.resize(times, Isometry3d::Identity());  // they may be anything
+      poses.resize(times, Isometry3d::Identity());  // not read
       continue;
     }
     if (poses.size() != times)

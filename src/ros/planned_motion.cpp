@@ -161,14 +161,10 @@ std::vector<std::vector<Isometry3d>> linkPoses(const QueryMotion::Request& reque
       refuse("poses " + std::to_string(i) + " has " + std::to_string(poses.size()) + " for " +
              std::to_string(request.links.size()) + " links");
     }
-    for (std::size_t link = 0; link < poses.size(); ++link) {
-      X_WL[link].push_back(toIsometry(poses[link]));
-      if (i > 0 && ScrewMotion(X_WL[link][i - 1], X_WL[link][i]).angle() >= kAmbiguousTurn) {
-        refuse("link " + request.links[link] + " turns by half a revolution up to poses " + std::to_string(i) +
-               ": they do not tell which way, one between them would");
-      }
-    }
+    for (std::size_t link = 0; link < poses.size(); ++link) X_WL[link].push_back(toIsometry(poses[link]));
   }
+  for (std::size_t link = 0; link < X_WL.size(); ++link)
+    requireUnambiguousTurns(X_WL[link], "link " + request.links[link]);
   return X_WL;
 }
 

@@ -30,7 +30,7 @@ struct CycleMotion {
       motion_error;  ///< per body: distance of the true motion of its ball from X_WB's [m]; may be empty or infinite
 
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
-  /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs may be anything.
+  /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs are not read.
   std::vector<WaypointSpan> spans;
 };
 

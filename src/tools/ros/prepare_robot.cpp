@@ -38,11 +38,13 @@ bool isComplete(const Scene& scene) {
     std::cerr << "sdf_ccd: " << body.failure << std::endl;
     is_complete = false;
   }
-  for (const BodyReport& report : scene.reports)
-    for (const std::string& warning : report.warnings) {
-      if (warning.find("cache not used") == 0 || warning.find("not kept") == 0) throw std::runtime_error(warning);
-    }
   return is_complete;
+}
+
+void requireKept(const Scene& scene) {
+  for (const BodyReport& report : scene.reports)
+    for (const std::string& warning : report.warnings)
+      if (warning.find("cache not used") == 0 || warning.find("not kept") == 0) throw std::runtime_error(warning);
 }
 
 }  // namespace
@@ -67,9 +69,8 @@ void prepareRobot(const MonitorConfig& config, const std::string& directory) {
   if (!over.empty()) warnings.push_back(over);
   std::cout << planText(*scene, warnings);
   const bool is_complete = isComplete(*scene);
+  requireKept(*scene);
   const Kept kept = keptIn(parameters.scene.cache_directory);
-  for (const fs::directory_entry& entry : fs::directory_iterator(parameters.scene.cache_directory))
-    if (entry.path().extension() == ".lock") fs::remove(entry.path());
   std::cout << kept.files << " files, " << megabytes(kept.bytes)
             << "; the monitor loads them with cache_directory: " << parameters.scene.cache_directory
             << " and the same parameters" << std::endl;
