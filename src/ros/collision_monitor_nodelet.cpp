@@ -24,6 +24,7 @@ constexpr double kLateShown = 3.0;      // a contradiction by late transforms, i
 constexpr double kSending = 0.05;       // until the last messages have left [s]
 constexpr double kPatience = 2.0;       // until it is warned of what is not checked [s]
 constexpr double kWarnPeriod = 10.0;    // of such warnings [s]
+constexpr double kStaticPeriod = 2.0;   // at most as often static transforms are asked for again [s]
 
 /// What a thread has freed, glibc keeps for the heap of that thread: of threads that build and end, for nothing.
 void returnFreedMemory() {
@@ -188,17 +189,28 @@ void CollisionMonitor::logNowAndThen(const std::string& progress) {
   NODELET_INFO("%s", progress.c_str());
 }
 
-void CollisionMonitor::listen() {
+ros::Subscriber CollisionMonitor::listenTo(const std::string& tf_topic, bool is_static) {
   ros::NodeHandle node(getNodeHandle());
   node.setCallbackQueue(&tf_queue_);
-  const auto listenTo = [&](const std::string& topic, bool is_static) {
-    const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> add =
-        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { take(*message, is_static); };
-    return node.subscribe<tf2_msgs::TFMessage>(topic, 1000, add, ros::VoidConstPtr(),
-                                               ros::TransportHints().tcpNoDelay());
-  };
+  const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> add =
+      [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { take(*message, is_static); };
+  return node.subscribe<tf2_msgs::TFMessage>(tf_topic, 1000, add, ros::VoidConstPtr(),
+                                             ros::TransportHints().tcpNoDelay());
+}
+
+/// Whoever subscribes is sent all static transforms: among them those that had no room when no body needed them.
+void CollisionMonitor::hearStaticAgain() {
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - last_static_).toSec() < kStaticPeriod || !loop_->history().takeMissedStatic()) return;
+  last_static_ = now;
+  tf_static_subscriber_ = listenTo("/tf_static", true);
+}
+
+void CollisionMonitor::listen() {
   tf_subscriber_ = listenTo("/tf", false);
   tf_static_subscriber_ = listenTo("/tf_static", true);
+  ros::NodeHandle node(getNodeHandle());
+  node.setCallbackQueue(&tf_queue_);
   const boost::function<void(const sensor_msgs::JointStateConstPtr&)> watch =
       [this](const sensor_msgs::JointStateConstPtr& joints) { joint_watch_->add(*joints); };
   joint_subscriber_ = node.subscribe<sensor_msgs::JointState>("joint_states", 10, watch);
@@ -239,6 +251,7 @@ void CollisionMonitor::cycle() {
     forget("reset");
   }
   sayWhatIsDropped();
+  hearStaticAgain();
   switch (loop_->step(ros::Time::now(), outputs_->request(parameters_.max_points))) {
     case TfTracker::Step::kWaiting:
       if (!isSilent()) return diagnostics_->update(health_);

@@ -59,6 +59,8 @@ class CollisionMonitor : public nodelet::Nodelet {
   void buildFields();
   void logNowAndThen(const std::string& progress);
   void listen();
+  ros::Subscriber listenTo(const std::string& tf_topic, bool is_static);
+  void hearStaticAgain();
   void take(const tf2_msgs::TFMessage& message, bool is_static);
   void sayWhatIsDropped();
   void cycle();
@@ -96,6 +98,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   ros::WallTime last_late_;                       // when transforms contradicted a cycle
   std::string late_;                              // what was said of that
   ros::WallTime last_log_;                        // of the progress of building
+  ros::WallTime last_static_;                     // when /tf_static was listened to
   ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
 
   ros::Publisher state_publisher_;

@@ -94,6 +94,7 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, bool is
   const ros::Time stamp = is_static ? ros::Time() : ros::Time(sent.sec, sent.nsec);  // nsec may be above a second
   if (edges_.count(child) == 0 && !followed_.has(child) && others_[is_static] >= kMostOthers[is_static]) {
     ++not_kept_;
+    static_dropped_ |= is_static;
     return;
   }
   const TfPose pose = toTfPose(stamp, transform.transform);
@@ -144,6 +145,8 @@ void TfHistory::followAbove(const std::string& parent) {
     for (auto& [child, edge] : edges_) setFollowed(edge, followed_.has(child));
     return;
   }
+  const Way known = edgesUpwards(parent);
+  static_missed_ |= static_dropped_ && (known.empty() ? parent : known.back()->second.parent) != fixed_frame_;
   auto above = edges_.find(parent);
   for (; above != edges_.end() && !above->second.is_followed && followed_.has(above->first);
        above = edges_.find(above->second.parent)) {
@@ -285,6 +288,12 @@ std::string TfHistory::refusal() const {
 long TfHistory::notKept() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return not_kept_;
+}
+
+bool TfHistory::takeMissedStatic() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (static_missed_) static_dropped_ = false;
+  return std::exchange(static_missed_, false);
 }
 
 TfHistory::Way TfHistory::edgesUpwards(const std::string& frame) const {

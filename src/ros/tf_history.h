@@ -38,6 +38,7 @@ struct TfHistoryOptions {
 /// What nodes send cannot make it grow, or slow, without bound: about a million records are kept in all, those of a
 /// frame at twice a kilohertz at least where there are few. Of frames that are not followed, so that a query may be
 /// given in one, a thousand moving ones with their last records, as long as they come, and five thousand static ones.
+/// Static ones are sent once: takeMissedStatic() tells when one may be needed that had no room.
 /// Thread-safe.
 class TfHistory {
  public:
@@ -94,6 +95,10 @@ class TfHistory {
   /// Transforms of frames that are not followed and had no room.
   long notKept() const;
 
+  /// True once after a frame that is followed now has come to hang on one whose static transform may have been dropped:
+  /// whoever sent static transforms has to be asked for them again.
+  bool takeMissedStatic();
+
  private:
   struct Edge {  // from a frame to its parent
     std::string parent;
@@ -148,6 +153,8 @@ class TfHistory {
   long out_of_order_ = 0;
   long refused_ = 0;
   long not_kept_ = 0;
+  bool static_dropped_ = false;  // since takeMissedStatic() was true
+  bool static_missed_ = false;
   std::string refusal_;
 };
 

@@ -285,6 +285,29 @@ class MonitorTest(unittest.TestCase):
         self.send(0.0)
         self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
 
+    def test_static_frame_that_had_no_room_is_heard_when_a_body_hangs_on_it(self):
+        def static(frame, x):
+            transform = TransformStamped(header=Header(frame_id='base'), child_frame_id=frame)
+            transform.transform.translation.x = x
+            transform.transform.rotation.w = 1.0
+            return transform
+        fixed = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
+        fixed.publish(TFMessage([static('foreign%d' % i, 0.0) for i in range(6000)] + [static('carrier', 0.25)]))
+        rospy.sleep(1.0)
+
+        def carried():
+            self.send(None)
+            message = TFMessage([TransformStamped(header=Header(stamp=self.stamp, frame_id='carrier'),
+                                                  child_frame_id='ball')])
+            message.transforms[0].transform.translation.x = PLATE - RADIUS + 0.003 - 0.25
+            message.transforms[0].transform.rotation.w = 1.0
+            self.tf.publish(message)
+            return self.contacts.find(self.touching, 0.0)
+        end = time.monotonic() + 20.0
+        while carried() is None:
+            self.assertLess(time.monotonic(), end, 'the ball on its carrier is not seen')
+        fixed.unregister()
+
     def test_query_motion(self):
         self.send(0.0)
         answer = self.query_motion(trajectory('slide', [0.0, 0.3]))

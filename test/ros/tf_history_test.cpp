@@ -252,6 +252,23 @@ TEST(TfHistory, WhatIsAboveAWantedFrameIsFollowedInWhateverOrderItComes) {
   EXPECT_NEAR(xOf(history, "hand", 100.1), 6.0, 1e-12);
 }
 
+TEST(TfHistory, SaysWhenAStaticFrameMayBeNeededThatHadNoRoom) {
+  TfHistory history("map", {{"map", "hand"}, 10.0});
+  history.add(message({stampedTransform("map", "hand", 100.0, 3.0)}), false);
+  for (int i = 0; i < 6000; ++i) {
+    history.add(message({stampedTransform("map", "foreign" + std::to_string(i), 0.0, 0.0)}), true);
+  }
+  const geometry_msgs::TransformStamped tool = stampedTransform("map", "tool", 0.0, 1.0);
+  history.add(message({tool}), true);
+  EXPECT_FALSE(history.takeMissedStatic());  // nobody needs it
+  history.add(message({stampedTransform("tool", "hand", 101.0, 2.0)}), false);
+  EXPECT_NE(problemOf(history, "hand", 101.0), "");
+  EXPECT_TRUE(history.takeMissedStatic());
+  EXPECT_FALSE(history.takeMissedStatic());
+  history.add(message({tool}), true);  // as it is sent to who subscribes anew
+  EXPECT_NEAR(xOf(history, "hand", 101.0), 3.0, 1e-12);
+}
+
 TEST(TfHistory, PublishersThatDisagreeAboutParentsLeaveNothingBehind) {
   TfHistory history("world", {{"world", "hand"}, 10.0});
   for (int i = 0; i < 20000; ++i) {
