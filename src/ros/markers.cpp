@@ -187,10 +187,11 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
   }
   markers.markers.push_back(depth);
 
+  const double deepest = std::max(states_.pairs()[id].depth, pair.deepest.depth);  // as long as it is shown
   const std::string text = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + ": " +
-                           lengthText(pair.deepest.depth) + (seen ? "" : ", between samples");
+                           lengthText(deepest) + (seen ? "" : ", between samples");
   const ros::Time end = cycle.start + ros::Duration(cycle.motion.times.back());
-  shown_[id] = {end + ros::Duration(options_.hold), pair.deepest.p_W, text, pair.deepest.depth};
+  shown_[id] = {end + ros::Duration(options_.hold), pair.deepest.p_W, text, deepest};
 }
 
 }  // namespace sdf_ccd

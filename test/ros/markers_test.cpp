@@ -107,6 +107,14 @@ TEST_F(MarkersTest, ContactIsListedNumberedAndDeletedWhenItIsOld) {
   EXPECT_EQ(status(draw({0.0, 0.5})).find("CLEAR"), 0u);
 }
 
+TEST_F(MarkersTest, TheListSaysAsTheHeadlineHowDeepAHeldContactWas) {
+  draw({0.0, 0.15});
+  const std::string text = status(draw({0.0, 0.19}));
+  const double deep = std::stod(text.substr(9)), listed = std::stod(text.substr(text.find("ball1: ") + 7));
+  EXPECT_NEAR(deep, 50.0, 2.0) << text;  // [mm]
+  EXPECT_EQ(listed, deep) << text;
+}
+
 TEST_F(MarkersTest, SizesFollowTheRobot) {
   const auto size = [&](double distance) { return named(draw({0.0, distance}), "status")[0].scale.z; };
   const double small = size(0.5), large = size(8.0);
