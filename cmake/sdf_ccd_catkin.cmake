@@ -11,9 +11,10 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs trajectory_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES sdf_ccd_core
+  LIBRARIES sdf_ccd_core sdf_ccd_robot sdf_ccd_dynamics
   CATKIN_DEPENDS geometry_msgs message_runtime std_msgs std_srvs trajectory_msgs
-  DEPENDS EIGEN3)
+  DEPENDS EIGEN3
+  CFG_EXTRAS sdf_ccd_targets.cmake)
 
 set(SDF_CCD_BIN_DIR ${CATKIN_PACKAGE_BIN_DESTINATION})
 set(SDF_CCD_LIB_DIR ${CATKIN_PACKAGE_LIB_DESTINATION})

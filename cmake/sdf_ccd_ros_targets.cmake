@@ -8,7 +8,7 @@ if(SDF_CCD_ROS_SOURCES)
   add_dependencies(sdf_ccd_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
   target_include_directories(sdf_ccd_ros PUBLIC src)
   target_include_directories(sdf_ccd_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
-  target_link_libraries(sdf_ccd_ros sdf_ccd_core fmt::fmt ${catkin_LIBRARIES} ${SDF_CCD_YAML})
+  target_link_libraries(sdf_ccd_ros sdf_ccd_robot sdf_ccd_dynamics fmt::fmt ${catkin_LIBRARIES} ${SDF_CCD_YAML})
   install(TARGETS sdf_ccd_ros LIBRARY DESTINATION ${SDF_CCD_LIB_DIR})
 endif()
 

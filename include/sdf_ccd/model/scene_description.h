@@ -44,6 +44,12 @@ struct DisabledPair {
   std::string reason;  ///< "SRDF: Adjacent", "rigidly joined", …
 };
 
+/// A pair that a scene leaves out, though it would have to be checked.
+struct UncheckedPair {
+  int body_a = -1, body_b = -1;  ///< in SceneDescription::bodies
+  std::string reason;
+};
+
 struct SceneDescription {
   std::vector<BodyDescription> bodies;  ///< names are unique
   std::vector<DisabledPair> disabled;

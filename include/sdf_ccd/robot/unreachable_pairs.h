@@ -25,12 +25,6 @@ std::string beyondReach(const RobotModel::Slide& slide, double position);
 /// @param scene  when all pairs are disabled that will be.
 std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene);
 
-/// A pair that a scene leaves out, though it would have to be checked.
-struct UncheckedPair {
-  int body_a = -1, body_b = -1;
-  std::string reason;
-};
-
 /// The pairs whose prismatic joints do not stay within what they rest on, or are not known. Between two waypoints
 /// positions lie between those at both.
 std::vector<UncheckedPair> reachableAlong(const RobotModel& robot, const PlannedJoints& plan,
