@@ -77,15 +77,7 @@ void study(const NamedMesh& named, const StudyOptions& options) {
   const bool paper = isWanted(options.paper_meshes, named.name);
   for (const StudyField& wanted : studyFields(named, options)) {
     withField(named, wanted, [&](const DistanceField& field) {
-      if (!field.grid()) {
-        studyField(wanted.name, {named.mesh, field, wanted.cells, paper}, mesh_systems, cases, options);
-        return;
-      }
-      StudyField in_floats = wanted;
-      in_floats.options.sample_bits = 32;
-      withField(named, in_floats, [&](const DistanceField& floats) {
-        studyField(wanted.name, {named.mesh, field, wanted.cells, paper, &floats}, mesh_systems, cases, options);
-      });
+      studyField(wanted.name, {named.mesh, field, wanted.cells, paper}, mesh_systems, cases, options);
     });
   }
 }

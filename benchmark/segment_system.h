@@ -53,9 +53,8 @@ using SegmentSystems = std::vector<std::unique_ptr<SegmentSystem>>;
 struct FieldSubject {
   const TriangleMesh& mesh;
   const DistanceField& field;
-  int cells;                              ///< along the longest side; 0 for a field built to a maximum error
-  bool paper;                             ///< true if the paper's dense grids are wanted
-  const DistanceField* floats = nullptr;  ///< the same with samples of 32 bits, where both are to be compared
+  int cells;   ///< along the longest side; 0 for a field built to a maximum error
+  bool paper;  ///< true if the paper's dense grids are wanted
 };
 
 /// Every system is one file that adds itself here before main(): those that need only the mesh, and those that need

@@ -93,26 +93,6 @@ def against_embree(results):
     return table(['field', 'A first', 'A all', 'B1 first', 'B2 from outside', 'MB'], rows)
 
 
-def sample_bits(results):
-    """Uniform fields of 16 bits a sample beside those of 32: both in turn."""
-    questions = ('A/first', 'A/all', 'B2_outside/first')
-    pairs = (('sdf_ccd', 'sdf_ccd_float'), ('sdf_ccd_batch', 'sdf_ccd_float_batch'))
-
-    def both(case, systems, metric, scale=1.0):
-        values = [results.get('segment', case, system, metric) for system in systems]
-        return '-' if None in values else ' / '.join(number(scale * value) for value in values)
-
-    rows = []
-    for field in fields(results, 'segment', 4):
-        if results.get('segment', field, 'sdf_ccd_float', 'bytes') is None:
-            continue
-        rows.append([field, both(field, pairs[0], 'bytes', 1e-6),
-                     *(both('%s/%s' % (field, question), systems, 'ns_per_segment')
-                       for systems in pairs for question in questions)])
-    return table(['field', 'MB', 'A first', 'A all', 'B2 from outside', 'batch: A first', 'batch: A all',
-                  'batch: B2 from outside'], rows)
-
-
 def segments(results):
     """Every row of the study."""
     systems = [s for s in SEGMENT_SYSTEMS if s in results.systems('segment')]
@@ -199,7 +179,7 @@ def scaling(results):
     return table(['case', 'system', 'median', 'against one thread'], rows)
 
 
-TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree, 'sample_bits': sample_bits,
+TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
           'segments': segments, 'build': build, 'shells': shells, 'drops': drops, 'scaling': scaling,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,

@@ -90,13 +90,11 @@ class Seeds {
       add(is_adaptive ? "adaptive_field" : "field", name,
           inputOf(file.path(), is_adaptive ? "adaptive field" : "field", kFieldVersion));
     };
-    FieldOptions even, floats, adaptive;
-    even.cells = floats.cells = 4;
-    floats.sample_bits = 32;
+    FieldOptions even, adaptive;
+    even.cells = 4;
     adaptive.max_error = 0.1;
     const TriangleMesh box = test::boxMesh({0.1, 0.2, 0.3}), bin = test::binMesh(0.3);
     add_field("box", box, even);
-    add_field("floats", box, floats);
     add_field("bin", bin, even);
     add_field("box", box, adaptive);
     add_field("bin", bin, adaptive);

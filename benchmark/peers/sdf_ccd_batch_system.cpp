@@ -36,7 +36,6 @@ class BatchQuery : public SegmentSystem {
 
 const Registered kBatch{FieldFactory([](const FieldSubject& subject, SegmentSystems& systems) {
   systems.push_back(std::make_unique<BatchQuery>("sdf_ccd_batch", subject.field));
-  if (subject.floats) systems.push_back(std::make_unique<BatchQuery>("sdf_ccd_float_batch", *subject.floats));
 })};
 
 }  // namespace

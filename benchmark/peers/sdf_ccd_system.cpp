@@ -34,7 +34,6 @@ class SingleQuery : public SegmentSystem {
 
 const Registered kSingle{FieldFactory([](const FieldSubject& subject, SegmentSystems& systems) {
   systems.push_back(std::make_unique<SingleQuery>("sdf_ccd", subject.field));
-  if (subject.floats) systems.push_back(std::make_unique<SingleQuery>("sdf_ccd_float", *subject.floats));
 })};
 
 }  // namespace

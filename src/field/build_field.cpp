@@ -95,25 +95,20 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
         sampled.push_back(b);
         largest = std::max(largest, largestSample(shape, data.corners, b));
       }
-  const bool in_steps = options.sample_bits == 16;
   const std::size_t samples = sampled.size() * GridShape::kSamples;
-  const std::size_t bytes = coarse_bytes + samples * (in_steps ? sizeof(std::int16_t) : sizeof(float));
+  const std::size_t bytes = coarse_bytes + samples * sizeof(std::int16_t);
   if (bytes > options.max_bytes) refuse(bytes);
 
-  if (in_steps) shape.step = GridShape::stepFor(largest);
-  in_steps ? data.steps.resize(samples) : data.samples.resize(samples);
+  shape.step = GridShape::stepFor(largest);
+  data.samples.resize(samples);
   ProgressCounter counter(progress, sampled.size());
   const SpreadOrder order(sampled.size());  // for the progress, as in adaptive grids
   parallelFor(std::size_t{0}, sampled.size(), [&](std::size_t k) {
     const std::size_t i = order[k], first = i * GridShape::kSamples;
-    if (in_steps) {
-      std::array<float, GridShape::kSamples> metres;
-      sampler.fill(sampled[i], metres.data());
-      std::transform(metres.begin(), metres.end(), data.steps.begin() + std::ptrdiff_t(first),
-                     [&](float metres) { return shape.inSteps(metres); });
-    } else {
-      sampler.fill(sampled[i], data.samples.data() + first);
-    }
+    std::array<float, GridShape::kSamples> metres;
+    sampler.fill(sampled[i], metres.data());
+    std::transform(metres.begin(), metres.end(), data.samples.begin() + std::ptrdiff_t(first),
+                   [&](float metres) { return shape.inSteps(metres); });
     counter.add();
   });
   return std::make_shared<const SparseGrid>(shape, std::move(data));

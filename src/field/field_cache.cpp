@@ -12,7 +12,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Counts what the same options have meant: a field of an earlier meaning must not be taken for one of today's.
-constexpr double kMeaning = 4;
+constexpr double kMeaning = 5;
 
 /// Ends the name of the file that holds what is doubtful about a field.
 constexpr const char* kDoubt = ".doubt";
@@ -29,7 +29,7 @@ std::string firstLine(const std::string& path) {
 
 std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options) {
   return contentHash(mesh, {double(options.cells.value_or(0)), options.cell_size.value_or(0.0),
-                            options.max_error.value_or(0.0), options.band, double(options.sample_bits), kMeaning}) +
+                            options.max_error.value_or(0.0), options.band, kMeaning}) +
          ".field";
 }
 

@@ -12,7 +12,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "field";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 struct ShapeRecord {
   double origin[3];
@@ -22,12 +22,10 @@ struct ShapeRecord {
   double surface_min[3];
   double surface_max[3];
   std::int32_t bricks[3];
-  std::int32_t exact;        ///< GridShape::exact
   std::int32_t brick_cells;  ///< cells along a brick's side, so that another layout is never misread
-  std::int32_t sample_bits;  ///< 16: whole numbers of steps; 32: floats
   double step;               ///< GridShape::step
 };
-static_assert(sizeof(ShapeRecord) == 128, "the file's layout must not depend on the compiler");
+static_assert(sizeof(ShapeRecord) == 120, "the file's layout must not depend on the compiler");
 
 }  // namespace
 
@@ -40,9 +38,7 @@ void saveField(const DistanceField& field, const std::string& path) {
   record.cell = shape.cell;
   record.band = shape.band;
   record.error_bound = grid->errorBound();
-  record.exact = shape.exact ? 1 : 0;
   record.brick_cells = GridShape::kBrick;
-  record.sample_bits = grid->sampleBits();
   record.step = shape.step;
   for (int k = 0; k < 3; ++k) {
     record.origin[k] = shape.origin[k];
@@ -50,10 +46,8 @@ void saveField(const DistanceField& field, const std::string& path) {
     record.surface_max[k] = shape.surface_box.max()[k];
     record.bricks[k] = shape.bricks[k];
   }
-  std::vector<FileSection> sections = {{&record, sizeof record},
-                                       sectionOf(grid->corners()),
-                                       sectionOf(grid->words()),
-                                       shape.step > 0.0 ? sectionOf(grid->steps()) : sectionOf(grid->samples())};
+  std::vector<FileSection> sections = {
+      {&record, sizeof record}, sectionOf(grid->corners()), sectionOf(grid->words()), sectionOf(grid->samples())};
   addCaps(field.openings(), sections);
   writeCheckedFile(path, kKind, kVersion, sections);
 }
@@ -76,19 +70,11 @@ DistanceField loadField(const std::string& path) {
   shape.origin = Vector3d(record->origin);
   shape.surface_box = {Vector3d(record->surface_min), Vector3d(record->surface_max)};
   shape.bricks = Vector3i(record->bricks);
-  shape.exact = record->exact != 0;
   shape.step = record->step;
-  if (record->sample_bits != (shape.step > 0.0 ? 16 : 32)) {
-    throw std::runtime_error(path + ": damaged: samples of " + std::to_string(record->sample_bits) + " bits");
-  }
   SparseGrid::Arrays arrays;
   arrays.corners.data = file->section<float>(1, arrays.corners.size);
   arrays.words.data = file->section<std::uint32_t>(2, arrays.words.size);
-  if (shape.step > 0.0) {
-    arrays.steps.data = file->section<std::int16_t>(3, arrays.steps.size);
-  } else {
-    arrays.samples.data = file->section<float>(3, arrays.samples.size);
-  }
+  arrays.samples.data = file->section<std::int16_t>(3, arrays.samples.size);
   try {
     return DistanceField(std::make_shared<const SparseGrid>(shape, arrays, record->error_bound, file),
                          loadCaps(*file, 4, shape.surface_box));

@@ -16,7 +16,6 @@ void validate(const FieldOptions& options) {
   const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
   if (options.cell_size && !positive(*options.cell_size)) fail("cell_size must be positive", *options.cell_size);
   if (options.max_error && !positive(*options.max_error)) fail("max_error must be positive", *options.max_error);
-  if (options.sample_bits != 16 && options.sample_bits != 32) fail("sample_bits must be 16 or 32", options.sample_bits);
   if (!std::isfinite(options.band) || options.band < 0.0) fail("band must not be negative", options.band);
 }
 

@@ -210,13 +210,9 @@ StudyResult cellStudy(const StudyInput& input) {
     const double cell = study.side() / cells;
     FieldOptions options;
     options.cells = cells;
-    for (const int bits : {16, 32}) {
-      const double after = before + 0.5 * double(cells) * cells / all;
-      options.sample_bits = bits;
-      const std::string system = "sdf_ccd (uniform cells " + std::to_string(bits) + " bit)";
-      study.addField({system, millimetres(cell), cell}, options, before, after);
-      before = after;
-    }
+    const double after = before + double(cells) * cells / all;
+    study.addField({"sdf_ccd (uniform cells)", millimetres(cell), cell}, options, before, after);
+    before = after;
     study.addGrids(cells);
   }
   study.measure(result);

@@ -34,7 +34,7 @@ class LeastSearch {
  public:
   LeastSearch(const DistanceField& field, const Segment& segment)
       : field_(field),
-        grid_(field.grid() && field.grid()->shape().exact ? field.grid() : nullptr),
+        grid_(field.grid()),
         start_(segment.start),
         way_(segment.end - segment.start),
         length_(way_.norm()) {}

@@ -30,7 +30,7 @@ struct SphereSides::Vectors {
     vectors.uniform.reset();
     if (const AdaptiveGrid* grid = field.adaptive()) {
       vectors.adaptive.emplace(*grid, 0.0);
-    } else if (field.grid() && field.grid()->shape().exact) {
+    } else if (field.grid()) {
       vectors.uniform.emplace(*field.grid(), 0.0);
     } else {
       return nullptr;

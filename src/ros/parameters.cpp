@@ -100,8 +100,6 @@ FieldOptions readField(ParameterReader reader, const std::optional<ErrorBudget>&
     field.cell_size = reader.positive("cell_size", kDefaultCellSize);
   }
   field.band = reader.notNegative("band", field.band);
-  field.sample_bits = reader.integer("sample_bits", field.sample_bits, 1);
-  if (field.sample_bits != 16 && field.sample_bits != 32) reader.fail("sample_bits", "16 or 32");
   const double most = budget ? kKnobMegabytes : static_cast<double>(field.max_bytes >> 20);
   const double megabytes = reader.positive("max_megabytes", most);
   field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));

@@ -43,8 +43,8 @@ std::string describe(const DistanceField& field) {
            accuracy;
   }
   const Vector3i cells = field.grid()->shape().cells();
-  return fmt::format("{}×{}×{} cells of {:.4g} m, {} of them stored, {} bits a sample, ", cells.x(), cells.y(),
-                     cells.z(), field.grid()->shape().cell, field.cells(), field.grid()->sampleBits()) +
+  return fmt::format("{}×{}×{} cells of {:.4g} m, {} of them stored, ", cells.x(), cells.y(), cells.z(),
+                     field.grid()->shape().cell, field.cells()) +
          accuracy;
 }
 

@@ -16,19 +16,12 @@ void ResolutionOptions::addTo(CLI::App& command) {
   max_error_option_ = command.add_option("--max-error", max_error, "Largest error of a distance near the surface [m]");
   resolution_option_->excludes(cell_option_)->excludes(max_error_option_);
   cell_option_->excludes(max_error_option_);
-  sample_bits_option_ = command
-                            .add_option("--sample-bits", sample_bits,
-                                        "Of a sample where cells are of one size: 16 (default) or 32; half the memory "
-                                        "costs about 3e-4 of a cell of accuracy")
-                            ->check(CLI::IsMember({16, 32}))
-                            ->excludes(max_error_option_);
   band_option_ =
       command.add_option("--band", band, "Distances are accurate up to this from the surface [m]; at least two cells");
 }
 
 void ResolutionOptions::requireNone(const std::string& reason) const {
-  for (const CLI::Option* option :
-       {resolution_option_, cell_option_, max_error_option_, band_option_, sample_bits_option_}) {
+  for (const CLI::Option* option : {resolution_option_, cell_option_, max_error_option_, band_option_}) {
     if (option->count()) throw std::invalid_argument(option->get_name() + " says how a field is made, but " + reason);
   }
 }
@@ -36,7 +29,6 @@ void ResolutionOptions::requireNone(const std::string& reason) const {
 FieldOptions ResolutionOptions::fieldOptions(std::optional<double> default_cell) const {
   FieldOptions options;
   options.band = band;
-  options.sample_bits = sample_bits;
   if (resolution_option_->count()) {
     options.cells = cells;
   } else if (cell_option_->count()) {

@@ -15,9 +15,8 @@ struct ResolutionOptions {
   double cell_size = 0.0;
   double max_error = 0.0;
   double band = 0.0;
-  int sample_bits = FieldOptions().sample_bits;
 
-  /// Adds --resolution, --cell, --max-error, --band and --sample-bits.
+  /// Adds --resolution, --cell, --max-error and --band.
   void addTo(CLI::App& command);
 
   /// @throws std::invalid_argument, naming the option and the reason, if one was given although no field is made.
@@ -31,7 +30,6 @@ struct ResolutionOptions {
   CLI::Option* cell_option_ = nullptr;
   CLI::Option* max_error_option_ = nullptr;
   CLI::Option* band_option_ = nullptr;
-  CLI::Option* sample_bits_option_ = nullptr;
 };
 
 }  // namespace sdf_ccd::tools

@@ -18,7 +18,7 @@ TriangleMesh tetrahedron(double size) {
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
 
-enum class Grid { kAdaptive, kFiner, k16Bits, k32Bits };
+enum class Grid { kAdaptive, kFiner, kUniform };
 
 BodyOptions optionsFor(Grid grid, double scale) {
   BodyOptions scene;
@@ -26,7 +26,6 @@ BodyOptions optionsFor(Grid grid, double scale) {
     scene.field.max_error = scale * (grid == Grid::kFiner ? 2e-4 : 1e-3);
   } else {
     scene.field.cells = 32;
-    scene.field.sample_bits = grid == Grid::k16Bits ? 16 : 32;
   }
   scene.shell.spacing = scale * (grid == Grid::kFiner ? 0.02 : 0.03);
   scene.shell.edge_gap = scale * (grid == Grid::kFiner ? 1e-3 : 3e-3);
@@ -63,7 +62,7 @@ Duel makeDuel(int which, double scale, Grid grid, bool swapped = false) {
 struct Tellings {
   explicit Tellings(int which) : swapped(makeDuel(which, 1.0, Grid::kAdaptive, true)) {
     for (const double scale : kScales) scaled.push_back(makeDuel(which, scale, Grid::kAdaptive));
-    for (const Grid grid : {Grid::kFiner, Grid::k16Bits, Grid::k32Bits}) grids.push_back(makeDuel(which, 1.0, grid));
+    for (const Grid grid : {Grid::kFiner, Grid::kUniform}) grids.push_back(makeDuel(which, 1.0, grid));
   }
 
   std::vector<Duel> scaled, grids;

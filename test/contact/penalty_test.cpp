@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_case.h"
-#include "field/uniform/sparse_grid.h"
+#include "oracle/sampled_function.h"
 #include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd {
@@ -28,23 +28,11 @@ ContactOptions onlyDamping(double damping) {
 
 /// A brick of smooth but curved values, so that every cell is a different trilinear function.
 DistanceField curvedField() {
-  GridShape shape;
-  shape.origin = Vector3d::Constant(-0.4);
-  shape.cell = 0.1;
-  shape.bricks = Vector3i::Ones();
-  shape.band = 0.2;
-  shape.surface_box = AlignedBox3d(Vector3d::Constant(-0.4), Vector3d::Constant(0.4));
   const auto value = [](const Vector3d& p) {
-    return 0.9 * p.z() - 0.1 + 0.05 * std::sin(9.0 * p.x()) * std::cos(7.0 * p.y()) + 0.02 * std::sin(11.0 * p.z());
+    const double wave = 0.05 * std::sin(9.0 * p.x()) * std::cos(7.0 * p.y()) + 0.02 * std::sin(11.0 * p.z());
+    return 0.75 * (0.9 * p.z() - 0.1 + wave);
   };
-  GridData data;
-  data.slots = {0};
-  for (int corner = 0; corner < 8; ++corner)
-    data.corners.push_back(float(value(Vector3d(corner & 1, corner >> 1 & 1, corner >> 2).array() * 0.8 - 0.4)));
-  for (int z = 0; z <= 8; ++z)
-    for (int y = 0; y <= 8; ++y)
-      for (int x = 0; x <= 8; ++x) data.samples.push_back(float(value(Vector3d(x, y, z).array() * 0.1 - 0.4)));
-  return DistanceField(std::make_shared<SparseGrid>(shape, std::move(data)));
+  return test::sampledFunction(value, Vector3i::Ones(), 0.1, 0.2);
 }
 
 TEST(Penalty, SphereOnPlaneHasClosedFormsWhateverTheSpacing) {

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 6;  // of a uniform field's file
+constexpr std::uint32_t kVersion = 7;  // of a uniform field's file
 
 /// A directory of this test's own.
 class FieldFile : public testing::Test {
@@ -51,11 +51,6 @@ class FieldFile : public testing::Test {
   FieldOptions adaptive() const {
     FieldOptions options;
     options.max_error = 0.004;
-    return options;
-  }
-  FieldOptions floats() const {
-    FieldOptions options = options_;
-    options.sample_bits = 32;
     return options;
   }
   void expectDamageIsNoticed(const FieldOptions& options) const;
@@ -98,15 +93,11 @@ void expectNumbers(const DistanceField& field, test::Random& random) {
 }
 
 TEST_F(FieldFile, RoundTripIsExact) {
-  for (const int bits : {16, 32}) {
-    options_.sample_bits = bits;
-    const DistanceField field = buildField(mesh_, options_);
-    saveField(field, path("a.field"));
-    const DistanceField loaded = loadField(path("a.field"));
-    expectSame(field, loaded);
-    EXPECT_EQ(loaded.grid()->sampleBits(), bits);
-    EXPECT_EQ(loaded.bytes(), field.bytes());
-  }
+  const DistanceField field = buildField(mesh_, options_);
+  saveField(field, path("a.field"));
+  const DistanceField loaded = loadField(path("a.field"));
+  expectSame(field, loaded);
+  EXPECT_EQ(loaded.bytes(), field.bytes());
   EXPECT_EQ(fileCount(), 1U) << "a temporary file was left";
   EXPECT_TRUE(isCheckedFile(path("a.field"), "field"));
   EXPECT_FALSE(isCheckedFile(path("a.field"), "shell"));
@@ -196,29 +187,22 @@ void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
 TEST_F(FieldFile, BadStepsAreRefused) {
   saveField(buildField(mesh_, options_), path("a.field"));
   const test::MendedFile good(path("a.field"), "field", kVersion);
-  const auto loadWith = [&](double step, std::int32_t sample_bits) {
+  const auto loadWith = [&](double step) {
     good.write(path("b.field"), [&](auto& sections) {
-      // The shape ends with them.
-      test::put(sample_bits, sections[0].size() - 12, sections[0]);
-      test::put(step, sections[0].size() - 8, sections[0]);
+      test::put(step, sections[0].size() - sizeof step, sections[0]);  // the shape ends with it
     });
     return loadField(path("b.field"));
   };
-  EXPECT_EQ(loadWith(1e-5, 16).grid()->shape().step, 1e-5);
-  for (const double step : {-1e-5, std::nan(""), HUGE_VAL}) {
-    EXPECT_THROW(loadWith(step, 16), std::runtime_error) << step;
-    EXPECT_THROW(loadWith(step, 32), std::runtime_error) << step;
+  EXPECT_EQ(loadWith(1e-5).grid()->shape().step, 1e-5);
+  for (const double step : {0.0, -1e-5, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(loadWith(step), std::runtime_error) << step;
   }
-  EXPECT_THROW(loadWith(0.0, 32), std::runtime_error);
-  EXPECT_THROW(loadWith(0.0, 16), std::runtime_error);
-  EXPECT_THROW(loadWith(1e-5, 32), std::runtime_error);
-  EXPECT_THROW(loadWith(1e-5, 8), std::runtime_error);
 }
 
 /// Of whatever numbers a file whose checksum fits holds: they are refused, or queries end and answer in numbers.
 TEST_F(FieldFile, NoNumbersBreakQueries) {
   int refused = 0, asked = 0;
-  for (const FieldOptions& options : {options_, floats(), adaptive()}) {
+  for (const FieldOptions& options : {options_, adaptive()}) {
     saveField(buildField(test::binMesh(0.3), options), path("a.field"));
     const test::MendedFile good(path("a.field"), options.max_error ? "adaptive field" : "field", kVersion);
     test::Random random(3);
@@ -340,9 +324,6 @@ TEST_F(FieldFile, CacheKeyIsTheContent) {
   FieldOptions wider = options_;
   wider.band = 0.1;
   EXPECT_NE(fieldFileName(mesh_, wider), name);
-  FieldOptions floats = options_;
-  floats.sample_bits = 32;
-  EXPECT_NE(fieldFileName(mesh_, floats), name);
   EXPECT_EQ(fieldFileName(mesh_, options_), name);
 }
 

@@ -99,42 +99,11 @@ void compareRandom(const DistanceField& field, std::uint64_t seed, Agreement& ag
 }
 
 TEST(SegmentQuery, EqualsUniformWalkOnTorus) {
-  for (const int bits : {16, 32}) {
-    FieldOptions options;
-    options.cells = 48;
-    options.sample_bits = bits;
-    Agreement agreement;
-    compareRandom(buildField(test::torusMesh(0.2, 0.08, 48, 24), options), 1, agreement);
-    EXPECT_GT(agreement.spans, segmentCount() / 20);
-  }
-}
-
-/// Sixteen bits move hits by their rounding, along paths that do not graze.
-TEST(SegmentQuery, SixteenBitsMoveHitsByTheirRounding) {
   FieldOptions options;
   options.cells = 48;
-  const TriangleMesh mesh = test::torusMesh(0.2, 0.08, 48, 24);
-  const DistanceField steps = buildField(mesh, options);
-  options.sample_bits = 32;
-  const DistanceField floats = buildField(mesh, options);
-  const double rounding = steps.grid()->rounding();
-  Random random(12);
-  long hits = 0, other = 0;
-  for (int i = 0; i < segmentCount(); ++i) {
-    const Segment s = randomSegment(floats, random, i % 4);
-    const Intervals exact = segmentIntervals(floats, s), rounded = segmentIntervals(steps, s);
-    other += exact.size() != rounded.size();
-    if (exact.size() != rounded.size()) continue;
-    for (std::size_t k = 0; k < exact.size(); ++k) {
-      ++hits;
-      for (const double t : {rounded[k].enter, rounded[k].exit}) {
-        if (t == 0.0 || t == 1.0) continue;
-        ASSERT_LE(std::abs(floats.sample(s.start + t * (s.end - s.start)).value), rounding + 1e-9);
-      }
-    }
-  }
-  EXPECT_GT(hits, segmentCount() / 20);
-  EXPECT_LT(other, hits / 200);
+  Agreement agreement;
+  compareRandom(buildField(test::torusMesh(0.2, 0.08, 48, 24), options), 1, agreement);
+  EXPECT_GT(agreement.spans, segmentCount() / 20);
 }
 
 TEST(SegmentQuery, EqualsUniformWalkOnThinPlate) {
@@ -175,12 +144,12 @@ TEST(SegmentQuery, EqualsUniformWalkOnAdaptivePlate) {
 
 TEST(SegmentQuery, EqualsUniformWalkOnNoise) {
   const auto noise = [](const Vector3d& p) {
-    if (std::max({std::abs(p.x()), 0.5 * std::abs(p.y()), std::abs(p.z())}) > 0.0799) return 1.0;  // as far away is
+    if (std::max({std::abs(p.x()), 0.5 * std::abs(p.y()), std::abs(p.z())}) > 0.0799) return 0.005;  // as far away is
     Random random(std::uint64_t(std::llround(p.x() * 100) * 1000003 + std::llround(p.y() * 100) * 1009 +
                                 std::llround(p.z() * 100)));
-    return test::uniform(random, -1, 1);
+    return test::uniform(random, -0.005, 0.005);
   };
-  const auto field = test::sampledFunction(noise, {2, 4, 2}, 0.01, 0.5);
+  const auto field = test::sampledFunction(noise, {2, 4, 2}, 0.01, 0.0025);
   Agreement agreement;
   compareRandom(field, 4, agreement);
   EXPECT_GT(agreement.double_crossings, segmentCount() / 4);
@@ -189,16 +158,17 @@ TEST(SegmentQuery, EqualsUniformWalkOnNoise) {
 
 TEST(SegmentQuery, EqualsUniformWalkWhenGrazing) {
   // Along the edges of a wave whose crests just reach the isosurface.
+  constexpr double kSlope = 0.6;
   const auto field = test::sampledFunction(
-      [](const Vector3d& p) { return 0.02 * std::sin(60 * p.x()) * std::sin(50 * p.y()) + p.z(); }, {3, 3, 2}, 0.01,
-      0.05);
+      [](const Vector3d& p) { return kSlope * (0.02 * std::sin(60 * p.x()) * std::sin(50 * p.y()) + p.z()); },
+      {3, 3, 2}, 0.01, 0.03);
   Random random(5);
   Agreement agreement;
   for (int i = 0; i < segmentCount(); ++i) {
     const AlignedBox3d box = test::latticeOf(field).box();
     Segment s{test::uniformIn(random, box), test::uniformIn(random, box)};
     // Start and end at the same height, at which a crest is just touched somewhere.
-    const double height = field.sample(s.start).value - s.start.z();
+    const double height = field.sample(s.start).value / kSlope - s.start.z();
     s.start.z() = s.end.z() = -height + test::uniform(random, -1e-6, 1e-6);
     expectAgreement(field, s, 0.0, agreement);
     if (HasFatalFailure()) return;

@@ -206,12 +206,11 @@ constexpr Motions kMotions[] = {
 TEST(ShellQuery, EqualsLinearScanOnMotionsOfAllKinds) {
   Random random(11);
   const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);
-  FieldOptions adaptive, floats, steps;
+  FieldOptions adaptive, uniform;
   adaptive.max_error = 0.001;
-  steps.cells = floats.cells = 48;
-  floats.sample_bits = 32;
-  const std::vector<DistanceField> fields{buildField(torus, adaptive), buildField(torus, steps),
-                                          buildField(torus, floats), DistanceField(Primitive(Sphere{0.15}))};
+  uniform.cells = 48;
+  const std::vector<DistanceField> fields{buildField(torus, adaptive), buildField(torus, uniform),
+                                          DistanceField(Primitive(Sphere{0.15}))};
   ShellOptions spacing;
   spacing.spacing = 0.01;
   PointShell shell = sampleSurface(torus, spacing);

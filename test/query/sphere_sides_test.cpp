@@ -18,17 +18,15 @@ const BoundingBall kShell{{0.05, -0.02, 0.01}, 0.4};  // of the spheres' centres
 std::vector<DistanceField> buildFields() {
   const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);
   std::vector<DistanceField> all;
-  const auto add = [&](const TriangleMesh& mesh, int cells, double max_error, int bits) {
+  const auto add = [&](const TriangleMesh& mesh, int cells, double max_error) {
     FieldOptions options;
     if (cells > 0) options.cells = cells;
     if (max_error > 0.0) options.max_error = max_error;
-    options.sample_bits = bits;
     all.push_back(buildField(mesh, options));
   };
-  add(torus, 0, 1e-3, 16);
-  add(torus, 48, 0.0, 16);
-  add(torus, 48, 0.0, 32);
-  add(torus, 0, 4e-3, 16);
+  add(torus, 0, 1e-3);
+  add(torus, 48, 0.0);
+  add(torus, 0, 4e-3);
   return all;
 }
 

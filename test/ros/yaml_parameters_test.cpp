@@ -85,7 +85,6 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.srdf_parameter, defaults.srdf_parameter);
   EXPECT_EQ(documented.scene.field.cell_size, defaults.scene.field.cell_size);
   EXPECT_EQ(documented.scene.field.max_bytes, defaults.scene.field.max_bytes);
-  EXPECT_EQ(documented.scene.field.sample_bits, defaults.scene.field.sample_bits);
   EXPECT_EQ(documented.scene.shell.spacing, defaults.scene.shell.spacing);
   EXPECT_EQ(documented.scene.shell.edge_gap, defaults.scene.shell.edge_gap);
   EXPECT_EQ(documented.scene.shell.vertex_spacing, defaults.scene.shell.vertex_spacing);
@@ -124,7 +123,6 @@ TEST(YamlParameters, OneKnobSetsTheSharesThatAreNotGiven) {
 
   EXPECT_FALSE(parse("").scene.max_error);
   EXPECT_EQ(parse("").scene.field.cell_size, 0.004);
-  EXPECT_EQ(parse("field: {sample_bits: 32}").scene.field.sample_bits, 32);
 }
 
 TEST(YamlParameters, WhatContradictsTheKnobIsNamed) {
@@ -136,7 +134,6 @@ TEST(YamlParameters, WhatContradictsTheKnobIsNamed) {
   EXPECT_NE(errorOf("max_error: -0.001").find("~/max_error is -0.001"), std::string::npos);
   EXPECT_NE(errorOf("max_error: 0.001\nfield: {cell_size: 0.0002, max_error: 0.0002}").find("only one of cells"),
             std::string::npos);
-  EXPECT_NE(errorOf("field: {sample_bits: 8}").find("~/field/sample_bits is 8, expected 16 or 32"), std::string::npos);
 }
 
 TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {

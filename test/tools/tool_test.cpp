@@ -76,21 +76,6 @@ TEST_F(Tool, BuildSaysWhatItIsExpectedToTakeAndRefusesTooMuch) {
   EXPECT_FALSE(fs::exists(path("none")));
 }
 
-TEST_F(Tool, SamplesHaveSixteenBitsUnlessToldOtherwise) {
-  ASSERT_EQ(run("build --mesh ball.off --out made --resolution 32").exit_code, kDone);
-  ASSERT_EQ(run("build --mesh ball.off --out floats --resolution 32 --sample-bits 32").exit_code, kDone);
-  EXPECT_NE(run("info made/ball.field").out.find("16 bits a sample"), std::string::npos);
-  EXPECT_NE(run("info floats/ball.field").out.find("32 bits a sample"), std::string::npos);
-  const DistanceField steps = loadField(path("made/ball.field").string());
-  const DistanceField floats = loadField(path("floats/ball.field").string());
-  EXPECT_LT(steps.bytes(), 0.6 * double(floats.bytes()));
-  EXPECT_GT(steps.errorBound(), floats.errorBound());
-  EXPECT_LT(steps.errorBound(), 1.001 * floats.errorBound());
-  expectRefused("build --mesh ball.off --out no --sample-bits 8", "--sample-bits");
-  expectRefused("build --mesh ball.off --out no --max-error 0.01 --sample-bits 16", "--max-error");
-  expectRefused("info made/ball.field --sample-bits 16", "--sample-bits");
-}
-
 TEST_F(Tool, InfoTellsWhatFilesHold) {
   ASSERT_EQ(run("build --mesh ball.off --out made --resolution 16").exit_code, kDone);
   EXPECT_NE(run("info made/ball.field").out.find("cells of 0.0625 m"), std::string::npos);
@@ -509,7 +494,7 @@ TEST_F(Tool, WorkPrecisionWritesATableAndAPlot) {
             "missed,queries");
   int rows = 0;
   for (; std::getline(csv, line); ++rows) EXPECT_EQ(line.substr(0, 5), "cell,");
-  EXPECT_EQ(rows, 24);  // hits, hits in a batch and depths at four cell sizes, of 16 and 32 bits a sample
+  EXPECT_EQ(rows, 12);  // hits, hits in a batch and depths at four cell sizes
   EXPECT_EQ(fs::exists(path("study/cell.svg")), has_gnuplot);
   EXPECT_EQ(fs::exists(path("study/cell.svg.part")), false);
 }

@@ -15,9 +15,6 @@ struct FieldOptions {
   /// field has a larger DistanceField::errorBound().
   std::optional<double> max_error;
   double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken
-  /// Of a sample where cells are of one size: 16 (whole steps, which add about 3e-4 of a cell to the error; more where
-  /// the band is wide) or 32 (floats).
-  int sample_bits = 16;
   std::size_t max_bytes = std::size_t{4} << 30;  ///< larger fields are refused, with the cell size that would fit
 };
 

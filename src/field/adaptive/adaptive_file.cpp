@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 struct ShapeRecord {
   double origin[3];

@@ -14,7 +14,6 @@ namespace sdf_ccd {
 /// sample beside that line by δ at a distance R from p is off by about δ²/2R. Hence those that lie nearest to the line,
 /// one per layer of samples, as far as there are any: a few thousandths of a cell where the surface is smooth, against
 /// the √3/2 that hold for any 1-Lipschitz function.
-/// @param grid      exact (GridShape::exact).
 /// @param p_F       within the grid's box.
 /// @param gradient  of the interpolated distance at p; only says where to look.
 DistanceBounds sampleBracket(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient);

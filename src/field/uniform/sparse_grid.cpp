@@ -47,10 +47,8 @@ std::vector<std::uint32_t> brickWords(const GridShape& shape, const GridData& da
         const std::size_t i = shape.brickIndex(brick);
         if (data.slots[i] != SparseGrid::kFar) {
           words[i] = brick_word::slot(data.slots[i]);
-        } else if (shape.exact) {
-          words[i] = search.ball(brick).word();
         } else {
-          words[i] = EmptySphere{{}, 0, data.corners[shape.cornerIndex(brick)] < 0.0F}.word();
+          words[i] = search.ball(brick).word();
         }
       }
   });
@@ -63,7 +61,7 @@ SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
   const auto owned = std::make_shared<OwnedGrid>();
   owned->data = std::move(data);
   const std::vector<std::int32_t>& slots = owned->data.slots;
-  arrays_ = {viewOf(owned->data.corners), {}, viewOf(owned->data.samples), viewOf(owned->data.steps)};
+  arrays_ = {viewOf(owned->data.corners), {}, viewOf(owned->data.samples)};
   if (slots.size() != shape.brickCount() || arrays_.corners.size != shape.cornerCount()) {
     throw std::invalid_argument("sparse grid: " + std::to_string(slots.size()) + " slots and " +
                                 std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
@@ -72,10 +70,7 @@ SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
   arrays_.words = viewOf(owned->words);
   owned->data.slots = {};
   owner_ = owned;
-  double largest = GridShape::kMostSteps * shape.step;
-  for (std::size_t i = 0; i < arrays_.samples.size; ++i) {
-    largest = std::max(largest, std::abs(double(arrays_.samples[i])));
-  }
+  const double largest = GridShape::kMostSteps * shape.step;
   error_bound_ = kHalfSqrt3 * shape_.cell + rounding() + 2.0 * largest * std::numeric_limits<float>::epsilon();
   check();
 }
@@ -100,11 +95,10 @@ void SparseGrid::check() const {
   if (arrays_.corners.size != shape_.cornerCount()) {
     fail(std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
   }
-  if (!(shape_.step >= 0.0) || !std::isfinite(shape_.step)) fail("step " + std::to_string(shape_.step));
-  if ((shape_.step > 0.0 ? arrays_.samples.size : arrays_.steps.size) != 0) fail("samples of the other kind");
-  if (sampleCount() % GridShape::kSamples != 0) fail("samples end within a brick");
-  if (!allFinite(arrays_.corners) || !allFinite(arrays_.samples)) fail("a sample is no number");
-  const auto stored = static_cast<std::uint32_t>(sampleCount() / GridShape::kSamples);
+  if (!(shape_.step > 0.0) || !std::isfinite(shape_.step)) fail("step " + std::to_string(shape_.step));
+  if (arrays_.samples.size % GridShape::kSamples != 0) fail("samples end within a brick");
+  if (!allFinite(arrays_.corners)) fail("a corner is no number");
+  const auto stored = static_cast<std::uint32_t>(arrays_.samples.size / GridShape::kSamples);
   for (std::size_t i = 0; i < arrays_.words.size; ++i) {
     const std::uint32_t word = arrays_.words[i];
     if (!brick_word::isFar(word) && word >> 1 >= stored) fail("slot " + std::to_string(word >> 1));
@@ -117,7 +111,7 @@ std::array<double, 8> SparseGrid::brickCorners(const Vector3i& brick) const {
 
 std::size_t SparseGrid::bytes() const {
   return arrays_.corners.size * sizeof(float) + arrays_.words.size * sizeof(std::uint32_t) +
-         arrays_.samples.size * sizeof(float) + arrays_.steps.size * sizeof(std::int16_t);
+         arrays_.samples.size * sizeof(std::int16_t);
 }
 
 Vector3d trilinearGradient(const std::array<double, 8>& c, const Vector3d& u) {

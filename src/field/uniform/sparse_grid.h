@@ -24,8 +24,7 @@ struct GridShape {
   Vector3i bricks = Vector3i::Zero();  ///< per axis
   double band = 0.0;                   ///< [m]
   AlignedBox3d surface_box;            ///< of the mesh [m]
-  bool exact = false;  ///< values are true distances, to rounding: a ball of that radius about them is free of surface
-  double step = 0.0;   ///< of samples that are whole numbers of 16 bits [m]; 0: samples are floats
+  double step = 0.0;                   ///< that samples count in whole numbers of 16 bits [m]
 
   static constexpr double kMostSteps = 32767.0;  ///< of a sample
   /// For samples whose magnitude is at most `largest` [m].
@@ -44,12 +43,11 @@ struct GridShape {
   AlignedBox3d box() const { return {origin, origin + cell * cells().cast<double>()}; }
 };
 
-/// The values a grid is made of.
+/// The values a grid is made of: those of a 1-Lipschitz function, so that no surface is nearer than they say.
 struct GridData {
-  std::vector<float> corners;       ///< distance at every brick's corners, x fastest [m]
-  std::vector<std::int32_t> slots;  ///< per brick: where its samples lie, or kFar
-  std::vector<float> samples;       ///< kSamples per slot, x fastest [m]
-  std::vector<std::int16_t> steps;  ///< in their place where the shape has a step: how many of it
+  std::vector<float> corners;         ///< distance at every brick's corners, x fastest [m]
+  std::vector<std::int32_t> slots;    ///< per brick: where its samples lie, or kFar
+  std::vector<std::int16_t> samples;  ///< kSamples per slot, x fastest [GridShape::step]
 };
 
 /// What a brick's word says: with its last bit set a slot, above it; else a EmptySphere about a brick's corner.
@@ -75,10 +73,9 @@ class SparseGrid {
   SparseGrid(const GridShape& shape, GridData data);
 
   struct Arrays {
-    View<float> corners;        ///< as GridData
-    View<std::uint32_t> words;  ///< per brick
-    View<float> samples;        ///< as GridData
-    View<std::int16_t> steps;   ///< as GridData
+    View<float> corners;         ///< as GridData
+    View<std::uint32_t> words;   ///< per brick
+    View<std::int16_t> samples;  ///< as GridData
   };
 
   /// The same on memory that `owner` keeps alive (a file's).
@@ -87,10 +84,7 @@ class SparseGrid {
   const GridShape& shape() const { return shape_; }
   View<float> corners() const { return arrays_.corners; }
   View<std::uint32_t> words() const { return arrays_.words; }
-  View<float> samples() const { return arrays_.samples; }
-  View<std::int16_t> steps() const { return arrays_.steps; }
-  int sampleBits() const { return shape_.step > 0.0 ? 16 : 32; }
-  std::size_t sampleCount() const { return arrays_.samples.size + arrays_.steps.size; }
+  View<std::int16_t> samples() const { return arrays_.samples; }
 
   /// What whole numbers of steps change a sample by at most, and so all that is interpolated between samples [m].
   double rounding() const { return 0.5 * shape_.step; }
@@ -100,19 +94,20 @@ class SparseGrid {
   double errorBound() const { return error_bound_; }
 
   std::size_t bytes() const;
-  std::size_t storedCells() const { return sampleCount() / GridShape::kSamples * 512; }
+  std::size_t storedCells() const { return arrays_.samples.size / GridShape::kSamples * 512; }
 
   /// Corner values of a cell in a brick with samples: bit 0 of the index is x, bit 1 y, bit 2 z.
   std::array<double, 8> cellCorners(std::int32_t slot, const Vector3i& cell_in_brick) const {
-    const std::size_t first = sampleIndex(slot, cell_in_brick);
-    return shape_.step > 0.0 ? cornersFrom(arrays_.steps.data + first, shape_.step)
-                             : cornersFrom(arrays_.samples.data + first, 1.0);
+    constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
+    const std::int16_t* s = arrays_.samples.data + sampleIndex(slot, cell_in_brick);
+    const double step = shape_.step;
+    return {step * s[0],  step * s[1],      step * s[kY],      step * s[kY + 1],
+            step * s[kZ], step * s[kZ + 1], step * s[kZ + kY], step * s[kZ + kY + 1]};
   }
 
   /// A sample of a brick [m], `place` of 0 to kBrick per axis.
   double sample(std::int32_t slot, const Vector3i& place) const {
-    const std::size_t i = sampleIndex(slot, place);
-    return shape_.step > 0.0 ? shape_.step * arrays_.steps[i] : double(arrays_.samples[i]);
+    return shape_.step * arrays_.samples[sampleIndex(slot, place)];
   }
 
   /// Distances at a brick's corners, ordered like cellCorners().
@@ -135,13 +130,6 @@ class SparseGrid {
   static std::size_t sampleIndex(std::int32_t slot, const Vector3i& place) {
     return std::size_t(slot) * GridShape::kSamples + (place.z() * GridShape::kSide + place.y()) * GridShape::kSide +
            place.x();
-  }
-
-  template <class Sample>
-  static std::array<double, 8> cornersFrom(const Sample* s, double unit) {
-    constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
-    return {unit * s[0],  unit * s[1],      unit * s[kY],      unit * s[kY + 1],
-            unit * s[kZ], unit * s[kZ + 1], unit * s[kZ + kY], unit * s[kZ + kY + 1]};
   }
 
   GridShape shape_;

@@ -63,7 +63,7 @@ FieldSample sampleWithin(const SparseGrid& grid, const Vector3d& p_F) {
   const LocatedCell cell = locate(grid, p_F);
   const FieldValue at = interpolateIn(cell);
   const double error = errorAt(grid, cell, at.value);
-  if (!cell.sampled || !grid.shape().exact) return {farValue(grid, cell, at.value), error, at.gradient};
+  if (!cell.sampled) return {farValue(grid, cell, at.value), error, at.gradient};
   const DistanceBounds bracket = sampleBracket(grid, p_F, at.gradient);
   return {at.value, std::min(error, std::max(bracket.high - at.value, at.value - bracket.low)), at.gradient};
 }

@@ -102,7 +102,7 @@ class BrickSample {
 
 FieldCost expectedUniform(const Solid& solid, const FieldOptions& options) {
   const GridShape shape = uniformShape(boundingBox(solid.boundary()), options);
-  return BrickSample(solid, shape).run(options.sample_bits / 8.0);
+  return BrickSample(solid, shape).run(double(sizeof(std::int16_t)));
 }
 
 }  // namespace sdf_ccd

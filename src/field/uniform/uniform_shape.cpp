@@ -17,7 +17,6 @@ double cellSize(const FieldOptions& options, const AlignedBox3d& surface_box) {
 GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& options) {
   GridShape shape;
   shape.surface_box = surface_box;
-  shape.exact = true;
   shape.cell = cellSize(options, shape.surface_box);
   shape.band = std::max(options.band, 2.0 * shape.cell);
   // Padded so that no value within the band, nor its interpolation, reaches the grid's boundary.

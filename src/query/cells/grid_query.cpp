@@ -49,11 +49,8 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
       passFree(kBrick * brick, kBrick, ball, ball_exit, walk, intervals);
     } else {
       const std::int32_t slot = grid.slot(brick);
-      FreeBall ball{Vector3d::Zero(), 0.0, false};
-      if (grid.shape().exact) {
-        const Vector3d place = segment.start + walk.t() * (segment.end - segment.start);
-        ball = sampleBall(grid, brick, slot, place, sigma);
-      }
+      const Vector3d place = segment.start + walk.t() * (segment.end - segment.start);
+      const FreeBall ball = sampleBall(grid, brick, slot, place, sigma);
       const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
       const double t_ball = ball_exit(ball.center, ball.radius, walk.t());
       if (t_ball > t_exit) {

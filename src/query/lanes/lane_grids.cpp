@@ -50,15 +50,11 @@ UniformLanes::UniformLanes(const SparseGrid& grid, double sigma_metres) {
   setBox(*this, shape.origin, GridShape::kBrick * shape.cell / kUnits, shape.bricks, grid.words().data);
   ball_place = 0.0F;
   samples = grid.samples().data;
-  const bool in_steps = shape.step > 0.0;
-  steps = in_steps ? grid.steps().data : nullptr;
-  const double unit = in_steps ? shape.step : 1.0;
-  sigma = static_cast<float>(sigma_metres / unit);
-  per_sample = static_cast<float>(unit * units_per_metre);
+  sigma = static_cast<float>(sigma_metres / shape.step);
+  per_sample = static_cast<float>(shape.step * units_per_metre);
   rounding = static_cast<float>(2.0 * grid.rounding() * units_per_metre);
   margin = static_cast<float>((std::abs(sigma_metres) + grid.errorBound()) * units_per_metre);
   leaf_margin = std::numeric_limits<float>::max();  // the balls about the next cell's samples reach further
-  exact = shape.exact;
 }
 
 }  // namespace sdf_ccd

@@ -47,7 +47,6 @@ struct NearestSample {
 
 /// Reads the samples that are nearest to the rays.
 inline void fetchBelow(const UniformLanes& g, const RayQueue& queue, Fetched& fetched) {
-  if (!g.exact) return;
   const MI all = hn::FirstN(n, hn::Lanes(n));
   for (int i = 0; i < queue.size; i += static_cast<int>(hn::Lanes(n))) {
     const NearestSample nearest(Lanes(queue, i, all));
@@ -55,11 +54,7 @@ inline void fetchBelow(const UniformLanes& g, const RayQueue& queue, Fetched& fe
     hn::StoreU(hn::Add(hn::Mul(row, whole(GridShape::kSide)), nearest.x[0]), n, fetched.word.data() + i);
   }
   const auto sampleOf = [&](int i) { return std::size_t(queue.place[i]) * GridShape::kSamples + fetched.word[i]; };
-  if (g.steps) {
-    for (int i = 0; i < queue.size; ++i) fetched.word[i] = g.steps[sampleOf(i)];
-  } else {
-    for (int i = 0; i < queue.size; ++i) std::memcpy(&fetched.word[i], g.samples + sampleOf(i), sizeof(float));
-  }
+  for (int i = 0; i < queue.size; ++i) fetched.word[i] = g.samples[sampleOf(i)];
 }
 
 /// The ball about the sample nearest to each lane, in a brick: no place of it has the value sigma (design §3.3).
@@ -74,7 +69,7 @@ inline SampleBall nearestBall(const UniformLanes& g, const Lanes& lanes, const F
   const NearestSample nearest(lanes);
   SampleBall ball{{nearest.center[0], nearest.center[1], nearest.center[2]}, {}, {}};
   const VI word = hn::LoadU(n, fetched.word.data() + first);
-  const VF above = hn::Sub(g.steps ? hn::ConvertTo(f, word) : hn::BitCast(f, word), real(g.sigma));
+  const VF above = hn::Sub(hn::ConvertTo(f, word), real(g.sigma));
   ball.inside = asWhole(hn::Lt(above, real(0.0F)));
   // Less what single precision makes of it.
   const VF free = hn::MulAdd(hn::Abs(above), real(g.per_sample * (1.0F - 1e-5F)), real(-0.02F - g.rounding));
@@ -83,43 +78,25 @@ inline SampleBall nearestBall(const UniformLanes& g, const Lanes& lanes, const F
   return ball;
 }
 
-/// Reads the corners of the rays' cells: those that are next to each other along x lie together.
-/// @param words  that a pair takes.
-template <int words, class Sample>
-inline void fetchPairs(const Sample* samples, const RayQueue& queue, Fetched& fetched) {
-  static_assert(words * sizeof(std::int32_t) == 2 * sizeof(Sample), "two samples");
+/// Reads the corners of the rays' cells: those that are next to each other along x lie together, in a word.
+inline void fetchLeaves(const UniformLanes& g, const RayQueue& queue, Fetched& fetched) {
   constexpr int kSide = GridShape::kSide;
   for (int i = 0; i < queue.size; ++i) {
     const auto in_brick = [&](int k) { return (queue.cell[k][i] >> UniformLanes::kLogCell) & (GridShape::kBrick - 1); };
-    const Sample* first = samples + std::size_t(queue.place[i]) * GridShape::kSamples +
-                          (in_brick(2) * kSide + in_brick(1)) * kSide + in_brick(0);
-    const Sample* pairs[] = {first, first + kSide, first + kSide * kSide, first + kSide * kSide + kSide};
-    for (int k = 0; k < 4; ++k) std::memcpy(&fetched.pairs[k][words * i], pairs[k], 2 * sizeof(Sample));
+    const std::int16_t* first = g.samples + std::size_t(queue.place[i]) * GridShape::kSamples +
+                                (in_brick(2) * kSide + in_brick(1)) * kSide + in_brick(0);
+    const std::int16_t* pairs[] = {first, first + kSide, first + kSide * kSide, first + kSide * kSide + kSide};
+    for (int k = 0; k < 4; ++k) std::memcpy(&fetched.pairs[k][i], pairs[k], sizeof(std::int32_t));
   }
 }
 
-inline void fetchLeaves(const UniformLanes& g, const RayQueue& queue, Fetched& fetched) {
-  if (g.steps) {
-    fetchPairs<1>(g.steps, queue, fetched);
-  } else {
-    fetchPairs<2>(g.samples, queue, fetched);
-  }
-}
-
-/// Of each lane's cell, in metres or steps.
+/// Of each lane's cell, in steps.
 inline LeafCorners leafCorners(const UniformLanes& g, const Lanes& /*lanes*/, const Fetched& fetched, int first) {
   LeafCorners corners;
   for (int k = 0; k < 4; ++k) {
-    if (g.steps) {
-      const VI both = hn::LoadU(n, fetched.pairs[k].data() + first);  // the left one's bits are the lower ones
-      corners.corner[2 * k] = hn::ConvertTo(f, hn::ShiftRight<16>(hn::ShiftLeft<16>(both)));
-      corners.corner[2 * k + 1] = hn::ConvertTo(f, hn::ShiftRight<16>(both));
-    } else {
-      VI even, odd;
-      hn::LoadInterleaved2(n, fetched.pairs[k].data() + 2 * first, even, odd);
-      corners.corner[2 * k] = hn::BitCast(f, even);
-      corners.corner[2 * k + 1] = hn::BitCast(f, odd);
-    }
+    const VI both = hn::LoadU(n, fetched.pairs[k].data() + first);  // the left one's bits are the lower ones
+    corners.corner[2 * k] = hn::ConvertTo(f, hn::ShiftRight<16>(hn::ShiftLeft<16>(both)));
+    corners.corner[2 * k + 1] = hn::ConvertTo(f, hn::ShiftRight<16>(both));
   }
   corners.iso = real(g.sigma);
   corners.step = real(g.per_sample);

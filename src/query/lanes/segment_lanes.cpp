@@ -243,7 +243,6 @@ class Follower {
   /// In a brick: through the ball about the nearest sample, if that takes the lane out of its cell; else to the cell.
   HWY_INLINE void descend(const UniformLanes& grid, Lanes& lanes, MI used, int first) {
     const VI log_cell = whole(UniformLanes::kLogCell);
-    if (!grid.exact) return wait(used, lanes, lanes.place, log_cell, work_.leaf);
     const SampleBall ball = nearestBall(grid, lanes, work_.fetched, first);
     const VF t_ball = ballExit(lanes, ball.center, ball.radius2);
     const Exits exits = exitsOf(lanes, log_cell);

@@ -46,12 +46,10 @@ struct UniformLanes : LaneBox {
 
   UniformLanes(const SparseGrid& grid, double sigma);
 
-  const float* samples;       ///< [m]
-  const std::int16_t* steps;  ///< null where samples are floats
-  float sigma;                ///< in what samples count, metres or steps
-  float per_sample;           ///< units in one of those
-  float rounding;             ///< by which two samples may differ more than their distances do [units]
-  bool exact;                 ///< samples are distances: no surface within their balls
+  const std::int16_t* samples;  ///< [steps]
+  float sigma;                  ///< [steps]
+  float per_sample;             ///< units in a step
+  float rounding;               ///< by which two samples may differ more than their distances do [units]
 };
 
 /// By the bits of a mask of eight lanes: those that are set, in order; then zeros.

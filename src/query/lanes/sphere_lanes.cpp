@@ -77,7 +77,7 @@ HWY_INLINE FreeBalls sampleBalls(const UniformLanes& g, const Lanes& lanes, cons
   const VI word = hn::LoadU(n, fetched.word.data());
   FreeBalls balls;
   for (int k = 0; k < 3; ++k) balls.center[k] = nearest.center[k];
-  balls.setDistance(hn::Mul(g.steps ? hn::ConvertTo(f, word) : hn::BitCast(f, word), real(g.per_sample)), g.rounding);
+  balls.setDistance(hn::Mul(hn::ConvertTo(f, word), real(g.per_sample)), g.rounding);
   return balls;
 }
 
