@@ -62,7 +62,6 @@ BodyOptions sceneOptions(double max_error, MonitorOptions& monitor) {
     return options;
   }
   BodyOptions options = optionsFor({max_error});
-  options.field.max_bytes = std::size_t{256} << 20;
   options.shell.vertex_spacing = 0.002;
   monitor.chords.tolerance = options.motion_margin / ErrorBudget::kChords;
   return options;

@@ -10,7 +10,7 @@
 namespace sdf_ccd::fuzz {
 
 // Of the present files; where they have grown, make_seeds says so.
-constexpr std::uint32_t kFieldVersion = 7, kShellVersion = 3;
+constexpr std::uint32_t kFieldVersion = 7, kShellVersion = 4;
 
 /// Writes an input as a checked file whose checksum fits, so that what is behind it is read. The input is the
 /// concatenation of sections, each after its size (four bytes); what is missing at the end is left out.
@@ -27,12 +27,12 @@ inline void writeMended(const std::uint8_t* data, std::size_t size, const InputF
     data += sections.back().bytes;
     size -= sections.back().bytes;
   }
-  writeCheckedFile(file.path(), kind, version, sections);
+  writeCheckedFile(file.path(), {kind, version}, sections);
 }
 
 /// The input that writeMended() makes a file of.
 inline std::string inputOf(const std::string& path, const char* kind, std::uint32_t version) {
-  const auto file = CheckedFile::open(path, kind, version);
+  const auto file = CheckedFile::open(path, {kind, version});
   std::string input;
   for (std::size_t i = 0; i < file->sectionCount(); ++i) {
     std::size_t count = 0;

@@ -28,11 +28,8 @@ Body prepareBody(const std::string& name, const TriangleMesh& mesh, const Accura
 }
 
 Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
-  constexpr std::size_t kFieldBytes = std::size_t{256} << 20, kPoints = 5'000'000;
   BodyOptions options = optionsFor(accuracy);
   options.max_error.reset();  // what cannot be had is refused, not made coarser
-  options.field.max_bytes = kFieldBytes;
-  options.shell.max_points = kPoints;
   MeshPool pool(options);
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();

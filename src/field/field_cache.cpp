@@ -39,8 +39,9 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
   validate(options);
   std::optional<DistanceField> field;
   std::string doubt;
+  const std::string name = fieldFileName(source.mesh(), options);
   const auto load = [&](const std::string& path) {
-    field = loadField(path);
+    field = loadField(path, name);
     doubt = firstLine(path + kDoubt);
   };
   const auto make = [&] {
@@ -49,9 +50,9 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
   };
   const auto save = [&](const std::string& path) {
     if (!doubt.empty()) std::ofstream(path + kDoubt) << doubt << std::endl;
-    saveField(*field, path);
+    saveField(*field, path, name);
   };
-  CacheOutcome outcome = cache.get(fieldFileName(source.mesh(), options), {load, make, save});
+  CacheOutcome outcome = cache.get(name, {load, make, save});
   if (!doubt.empty()) outcome.warning += (outcome.warning.empty() ? "" : "; ") + doubt;
   return {std::move(*field), outcome};
 }

@@ -42,11 +42,14 @@ bool sameKeys(const Map& a, const Map& b) {
          std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) { return x.first == y.first; });
 }
 
-void requireTold(const std::string& what, const Isometry3d& X_start, const Isometry3d& X_end, std::size_t waypoint) {
-  if (!X_start.matrix().allFinite() || !X_end.matrix().allFinite()) refuse(what + ": a pose is not finite");
-  if (angleBetween(X_start, X_end) < kAmbiguousTurn) return;
-  refuse(what + " turns by half a revolution up to waypoint " + std::to_string(waypoint) +
-         ": its poses do not tell which way, one between them would");
+/// Poses of all states that tell which way they turned: those of the root, or of a joint.
+template <class PoseOf>
+void requirePoses(const std::vector<RobotState>& states, const PoseOf& pose_of, const std::string& what) {
+  std::vector<Isometry3d> poses;
+  for (const RobotState& state : states) poses.push_back(pose_of(state));
+  for (const Isometry3d& pose : poses)
+    if (!pose.matrix().allFinite()) refuse(what + ": a pose is not finite");
+  requireUnambiguousTurns(poses, what);
 }
 
 /// The last waypoint of those that the time lies between.
@@ -138,10 +141,12 @@ TrajectoryMotion::TrajectoryMotion(const RobotModel& robot, const RobotTrajector
     if (!sameKeys(states[i].positions, states[0].positions) || !sameKeys(states[i].poses, states[0].poses)) {
       refuse("waypoint " + std::to_string(i) + " does not name the joints of the first one");
     }
-    requireTold("the robot's root", states[i - 1].X_WR, states[i].X_WR, i);
-    for (const auto& [joint, pose] : states[i].poses) {
-      requireTold("joint " + joint, states[i - 1].poses.at(joint), pose, i);
-    }
+  }
+  requirePoses(
+      states, [](const RobotState& state) { return state.X_WR; }, "the robot's root");
+  for (const auto& joint : states[0].poses) {
+    requirePoses(
+        states, [&](const RobotState& state) { return state.poses.at(joint.first); }, "joint " + joint.first);
   }
 }
 

@@ -12,10 +12,6 @@ namespace {
 constexpr double kDefaultCellSize = 0.004;  // [m]
 constexpr double kLongestCycle = 3600.0;    // so long transforms have to be kept [s]
 
-// What one field and one shell may cost under max_error before they are made coarser.
-constexpr double kKnobMegabytes = 256.0;
-constexpr std::size_t kKnobPoints = 3'000'000;
-
 Isometry3d readPose(ParameterReader& reader) {
   const Vector3d rpy = reader.vector("rpy", Vector3d::Zero());
   return Eigen::Translation3d(reader.vector("xyz", Vector3d::Zero())) * Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
@@ -100,8 +96,8 @@ FieldOptions readField(ParameterReader reader, const std::optional<ErrorBudget>&
     field.cell_size = reader.positive("cell_size", kDefaultCellSize);
   }
   field.band = reader.notNegative("band", field.band);
-  const double most = budget ? kKnobMegabytes : static_cast<double>(field.max_bytes >> 20);
-  const double megabytes = reader.positive("max_megabytes", most);
+  const std::size_t most = budget ? kMostFieldBytes : field.max_bytes;
+  const double megabytes = reader.positive("max_megabytes", static_cast<double>(most >> 20));
   field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
   reader.finish();
   return field;
@@ -111,7 +107,7 @@ ShellOptions readShell(ParameterReader reader, const std::optional<ErrorBudget>&
   ShellOptions shell;
   shell.spacing = reader.positive("spacing", budget ? budget->face_spacing : 0.005);
   shell.edge_gap = reader.notNegative("edge_gap", budget ? budget->edge_gap : shell.edge_gap);
-  if (budget) shell.max_points = kKnobPoints;
+  if (budget) shell.max_points = kMostShellPoints;
   shell.vertex_spacing = reader.notNegative("vertex_spacing", 0.002);
   shell.seed = reader.integer("seed", static_cast<int>(shell.seed), 0);
   reader.finish();

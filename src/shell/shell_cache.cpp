@@ -16,9 +16,9 @@ CachedShell cachedShell(const FileCache& cache, const SolidSource& source, const
   const std::string name = contentHash(source.mesh(), {options.spacing, options.edge_gap, double(options.has_siblings),
                                                        options.vertex_spacing, double(options.seed), kMeaning}) +
                            ".shell";
-  cached.outcome = cache.get(name, {[&](const std::string& path) { cached.shell = loadShell(path); },
+  cached.outcome = cache.get(name, {[&](const std::string& path) { cached.shell = loadShell(path, name); },
                                     [&] { cached.shell = sampleSurface(source.solid(), options); },
-                                    [&](const std::string& path) { saveShell(cached.shell, path); }});
+                                    [&](const std::string& path) { saveShell(cached.shell, path, name); }});
   return cached;
 }
 

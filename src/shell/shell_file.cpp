@@ -10,7 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "shell";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 static_assert(sizeof(Vector3d) == 3 * sizeof(double), "points are written as three numbers each");
 
@@ -27,17 +27,17 @@ std::size_t firstBad(View<Vector3d> points, View<Vector3d> normals, View<double>
 
 }  // namespace
 
-void saveShell(const PointShell& shell, const std::string& path) {
+void saveShell(const PointShell& shell, const std::string& path, const std::string& key) {
   const double radii[] = {shell.covering_radius, shell.edge_radius, shell.flatness};
-  writeCheckedFile(path, kKind, kVersion,
+  writeCheckedFile(path, {kKind, kVersion, key},
                    {{radii, sizeof radii},
                     {shell.points.data(), shell.points.size() * sizeof(Vector3d)},
                     {shell.normals.data(), shell.normals.size() * sizeof(Vector3d)},
                     {shell.areas.data(), shell.areas.size() * sizeof(double)}});
 }
 
-PointShell loadShell(const std::string& path) {
-  const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kKind, kVersion);
+PointShell loadShell(const std::string& path, const std::string& key) {
+  const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, {kKind, kVersion, key});
   std::size_t numbers = 0, points = 0, normals = 0, areas = 0;
   const auto* radii = file->section<double>(0, numbers);
   const auto* point = file->section<Vector3d>(1, points);

@@ -1,6 +1,7 @@
 #include "storage/checked_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -25,6 +26,7 @@ constexpr char kMagic[8] = {'S', 'D', 'F', '_', 'C', 'C', 'D', '\n'};
 constexpr std::uint32_t kByteOrder = 0x01020304;
 constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kMaxSections = 64;
+constexpr std::size_t kKeyBytes = 64;  // behind the header, with zeros to its end; the section table follows
 
 struct Header {
   char magic[8];
@@ -33,7 +35,7 @@ struct Header {
   std::uint32_t byte_order;
   std::uint64_t file_bytes;
   std::uint64_t section_count;
-  std::uint64_t checksum;  ///< of the section table and the sections, see Checksum
+  std::uint64_t checksum;  ///< of all that follows, see Checksum
 };
 static_assert(sizeof(Header) == 56, "the file's layout must not depend on the compiler");
 
@@ -47,6 +49,8 @@ struct SectionEntry {
   std::uint64_t offset;
   std::uint64_t bytes;
 };
+
+constexpr std::size_t kTable = sizeof(Header) + kKeyBytes;  // where the section table begins
 
 std::size_t aligned(std::size_t offset) {
   return (offset + kAlignment - 1) / kAlignment * kAlignment;
@@ -159,23 +163,28 @@ class OpenFile {
   std::size_t bytes_ = 0;
 };
 
-void requireHeader(const std::string& path, Header header, const std::string& kind, std::uint32_t version,
-                   std::size_t bytes) {
+void requireHeader(const std::string& path, Header header, const FileKind& kind, std::size_t bytes) {
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) fail(path, "not a file of sdf_ccd");
-  if (!isKind(header, kind)) {
+  if (!isKind(header, kind.name)) {
     header.kind[sizeof header.kind - 1] = '\0';
-    fail(path, "holds a " + std::string(header.kind) + ", not a " + kind);
+    fail(path, "holds a " + std::string(header.kind) + ", not a " + kind.name);
   }
   if (header.byte_order != kByteOrder) fail(path, "written in another byte order");
-  if (header.version != version) {
-    fail(path, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(version));
+  if (header.version != kind.version) {
+    fail(path, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(kind.version));
   }
   if (header.file_bytes != bytes) {
     fail(path, "truncated: " + std::to_string(bytes) + " of " + std::to_string(header.file_bytes) + " bytes");
   }
-  if (header.section_count > kMaxSections || sizeof(Header) + header.section_count * sizeof(SectionEntry) > bytes) {
+  if (header.section_count > kMaxSections || kTable + header.section_count * sizeof(SectionEntry) > bytes) {
     fail(path, "damaged: " + std::to_string(header.section_count) + " sections");
   }
+}
+
+void requireKey(const std::string& path, const char* start, const std::string& key) {
+  const char* written = start + sizeof(Header);
+  const std::string found(written, strnlen(written, kKeyBytes));
+  if (!key.empty() && found != key) fail(path, "holds what was made as " + (found.empty() ? "nothing" : found));
 }
 
 std::vector<FileSection> sectionsOf(const std::string& path, const Header& header, const char* start,
@@ -183,7 +192,7 @@ std::vector<FileSection> sectionsOf(const std::string& path, const Header& heade
   std::vector<FileSection> sections;
   for (std::size_t i = 0; i < header.section_count; ++i) {
     SectionEntry entry;
-    std::memcpy(&entry, start + sizeof(Header) + i * sizeof entry, sizeof entry);
+    std::memcpy(&entry, start + kTable + i * sizeof entry, sizeof entry);
     if (entry.offset > bytes || entry.bytes > bytes - entry.offset || entry.offset % kAlignment != 0) {
       fail(path, "damaged: section " + std::to_string(i) + " lies outside the file");
     }
@@ -225,26 +234,28 @@ class NewFile {
 
 }  // namespace
 
-void writeCheckedFile(const std::string& path, const std::string& kind, std::uint32_t version,
-                      const std::vector<FileSection>& sections) {
-  if (kind.size() >= sizeof(Header::kind) || sections.size() > kMaxSections) {
-    throw std::invalid_argument("checked file: kind \"" + kind + "\" or section count out of range");
+void writeCheckedFile(const std::string& path, const FileKind& kind, const std::vector<FileSection>& sections) {
+  if (kind.name.size() >= sizeof(Header::kind) || kind.key.size() >= kKeyBytes || sections.size() > kMaxSections) {
+    throw std::invalid_argument("checked file: kind \"" + kind.name + "\", key \"" + kind.key +
+                                "\" or section count out of range");
   }
   std::vector<SectionEntry> table;
-  std::size_t offset = aligned(sizeof(Header) + sections.size() * sizeof(SectionEntry));
+  std::size_t offset = aligned(kTable + sections.size() * sizeof(SectionEntry));
   for (const FileSection& section : sections) {
     table.push_back({offset, section.bytes});
     offset = aligned(offset + section.bytes);
   }
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof kMagic);
-  std::memcpy(header.kind, kind.data(), kind.size());
-  header.version = version;
+  std::memcpy(header.kind, kind.name.data(), kind.name.size());
+  header.version = kind.version;
   header.byte_order = kByteOrder;
   header.file_bytes = offset;
   header.section_count = sections.size();
 
-  // Checksummed as it is written: table, sections and the zeros between them.
+  // Checksummed as it is written: key, table, sections and the zeros between them.
+  std::array<char, kKeyBytes> key{};
+  std::copy(kind.key.begin(), kind.key.end(), key.begin());
   static constexpr char kZeros[kAlignment] = {};
   const auto eachPiece = [&](auto&& piece) {
     std::size_t at = sizeof(Header);
@@ -252,6 +263,7 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
       if (bytes > 0) piece(data, bytes);
       at += bytes;
     };
+    emit(key.data(), key.size());
     emit(table.data(), table.size() * sizeof(SectionEntry));
     for (const FileSection& section : sections) {
       emit(kZeros, aligned(at) - at);
@@ -269,14 +281,14 @@ void writeCheckedFile(const std::string& path, const std::string& kind, std::uin
   file.place();
 }
 
-std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, const std::string& kind,
-                                                     std::uint32_t version) {
+std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, const FileKind& kind) {
   const OpenFile opened(path);
   const Header header = opened.header();
-  requireHeader(path, header, kind, version, opened.bytes());
+  requireHeader(path, header, kind, opened.bytes());
   Memory memory = allocate(path, opened.bytes());
   auto* start = static_cast<char*>(memory.get());
   if (opened.readAfterHeader(start) != header.checksum) fail(path, "damaged: the checksum does not fit");
+  requireKey(path, start, kind.key);
   std::vector<FileSection> sections = sectionsOf(path, header, start, opened.bytes());
   return std::shared_ptr<const CheckedFile>(new CheckedFile(path, std::move(memory), std::move(sections)));
 }

@@ -21,21 +21,26 @@ FileSection sectionOf(const View<T>& view) {
   return {view.data, view.size * sizeof(T)};
 }
 
-/// Writes sections as one little-endian file with kind, version and a checksum over everything. The file appears
+/// What a file holds, and how.
+struct FileKind {
+  std::string name;       ///< up to 15 characters: "field", "shell"
+  std::uint32_t version;  ///< of the sections' layout
+  std::string key = {};   ///< what the content was made from, up to 63 characters; empty: whatever that was
+};
+
+/// Writes sections as one little-endian file with kind, version, key and a checksum over everything. The file appears
 /// under `path` complete or not at all: it gets its name when it is written and synced.
-/// @param kind  what the file holds, up to 15 characters: "field", "shell".
 /// @throws std::runtime_error naming the path and the reason.
-void writeCheckedFile(const std::string& path, const std::string& kind, std::uint32_t version,
-                      const std::vector<FileSection>& sections);
+void writeCheckedFile(const std::string& path, const FileKind& kind, const std::vector<FileSection>& sections);
 
 /// A file of writeCheckedFile(), read into memory of its own: what happens to the file later changes nothing. Sections
 /// are aligned to 64 bytes.
 class CheckedFile {
  public:
-  /// @throws std::runtime_error naming the path and what is wrong: missing, not of this kind, another version,
+  /// @param kind  with a key, the file must have that.
+  /// @throws std::runtime_error naming the path and what is wrong: missing, not of this kind, another version or key,
   /// truncated, damaged.
-  static std::shared_ptr<const CheckedFile> open(const std::string& path, const std::string& kind,
-                                                 std::uint32_t version);
+  static std::shared_ptr<const CheckedFile> open(const std::string& path, const FileKind& kind);
   CheckedFile(const CheckedFile&) = delete;
   CheckedFile& operator=(const CheckedFile&) = delete;
 

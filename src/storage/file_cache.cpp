@@ -2,10 +2,12 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -59,8 +61,29 @@ class FileLock {
 
 }  // namespace
 
+/// Of a file that keeps its name when another takes its place. Equal to itself alone; none where there is no file.
+struct FileCache::Identity {
+  bool exists = false;
+  dev_t device = 0;
+  ino_t number = 0;
+  std::int64_t seconds = 0, nanoseconds = 0;  ///< of its last change
+
+  explicit Identity(const std::string& path) {
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0) return;
+    exists = true;
+    device = status.st_dev;
+    number = status.st_ino;
+    seconds = status.st_ctim.tv_sec;
+    nanoseconds = status.st_ctim.tv_nsec;
+  }
+  bool operator==(const Identity& other) const {
+    return exists == other.exists && device == other.device && number == other.number && seconds == other.seconds &&
+           nanoseconds == other.nanoseconds;
+  }
+};
+
 bool FileCache::load(const std::string& path, const Actions& actions, CacheOutcome& outcome) {
-  if (access(path.c_str(), F_OK) != 0) return false;
   try {
     requireOwnFile(path);
     actions.load(path);
@@ -77,17 +100,19 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
   CacheOutcome outcome;
   std::unique_ptr<FileLock> lock;
   const std::string path = directory_ + "/" + name;
+  const Identity found(directory_.empty() ? "" : path);
   if (!directory_.empty()) {
     try {
       requireOwnDirectory(directory_);
       // Files appear whole, so what is there needs no lock: the directory may be one that this process cannot write to.
-      if (load(path, actions, outcome)) return outcome;
+      if (found.exists && load(path, actions, outcome)) return outcome;
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
       outcome.warning = std::string("cache not used: ") + error.what();
     }
   }
-  if (lock && load(path, actions, outcome)) return outcome;  // made while this process waited
+  // Made while this process waited; what was no good before is not read again.
+  if (const Identity now(path); lock && now.exists && !(now == found) && load(path, actions, outcome)) return outcome;
   actions.make();
   if (!lock) return outcome;
   try {

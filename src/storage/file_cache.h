@@ -38,6 +38,7 @@ class FileCache {
   CacheOutcome get(const std::string& name, const Actions& actions) const;
 
  private:
+  struct Identity;
   static bool load(const std::string& path, const Actions& actions, CacheOutcome& outcome);
 
   std::string directory_;

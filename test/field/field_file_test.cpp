@@ -155,7 +155,7 @@ TEST_F(FieldFile, BadOpeningsAreRefused) {
 
 TEST_F(FieldFile, AdaptiveFileOfAnotherVersionIsRefused) {
   const int value = 7;
-  writeCheckedFile(path("old"), "adaptive field", 1, {{&value, sizeof value}});
+  writeCheckedFile(path("old"), {"adaptive field", 1}, {{&value, sizeof value}});
   EXPECT_TRUE(isFieldFile(path("old")));
   EXPECT_THROW(loadField(path("old")), std::runtime_error);
 }
@@ -250,8 +250,8 @@ TEST_F(FieldFile, EveryDamageOfAnAdaptiveFieldIsNoticed) {
 /// Large files are checked in pieces, which sections and zeros between them do not end at.
 TEST_F(FieldFile, DamageOfLargeFilesIsNoticed) {
   const std::vector<char> first((1 << 20) - 7, 'a'), second((3 << 20) + 5, 'b');
-  writeCheckedFile(path("large"), "test", 1, {{first.data(), first.size()}, {second.data(), second.size()}});
-  const auto file = CheckedFile::open(path("large"), "test", 1);
+  writeCheckedFile(path("large"), {"test", 1}, {{first.data(), first.size()}, {second.data(), second.size()}});
+  const auto file = CheckedFile::open(path("large"), {"test", 1});
   std::size_t count = 0;
   const char* read_back = file->section<char>(1, count);
   EXPECT_EQ(std::vector<char>(read_back, read_back + count), second);
@@ -260,7 +260,7 @@ TEST_F(FieldFile, DamageOfLargeFilesIsNoticed) {
     std::string bad = good;
     bad[at] ^= 1;
     write(path("bad"), bad);
-    EXPECT_THROW(CheckedFile::open(path("bad"), "test", 1), std::runtime_error) << at;
+    EXPECT_THROW(CheckedFile::open(path("bad"), {"test", 1}), std::runtime_error) << at;
   }
 }
 
@@ -280,13 +280,13 @@ TEST_F(FieldFile, SaysWhatIsWrong) {
   write(path("text"), std::string(1000, 'x'));
   EXPECT_NE(reason(path("text")).find("not a file of sdf_ccd"), std::string::npos);
   const int value = 7;
-  writeCheckedFile(path("other"), "shell", 1, {{&value, sizeof value}});
+  writeCheckedFile(path("other"), {"shell", 1}, {{&value, sizeof value}});
   EXPECT_NE(reason(path("other")).find("holds a shell"), std::string::npos);
-  writeCheckedFile(path("later"), "field", 99, {{&value, sizeof value}});
+  writeCheckedFile(path("later"), {"field", 99}, {{&value, sizeof value}});
   EXPECT_NE(reason(path("later")).find("version 99"), std::string::npos);
-  writeCheckedFile(path("earlier"), "field", kVersion - 1, {{&value, sizeof value}});
+  writeCheckedFile(path("earlier"), {"field", kVersion - 1}, {{&value, sizeof value}});
   EXPECT_NE(reason(path("earlier")).find("version " + std::to_string(kVersion - 1)), std::string::npos);
-  writeCheckedFile(path("short"), "field", kVersion, {{&value, sizeof value}});
+  writeCheckedFile(path("short"), {"field", kVersion}, {{&value, sizeof value}});
   EXPECT_NE(reason(path("short")).find("damaged"), std::string::npos);
   EXPECT_THROW(saveField(DistanceField(Primitive(Sphere{1})), path("s")), std::invalid_argument);
   EXPECT_THROW(saveField(buildField(mesh_, options_), path("no/such/folder")), std::runtime_error);
@@ -310,6 +310,28 @@ TEST_F(FieldFile, CacheBuildsOnceAndRebuildsDamage) {
   EXPECT_NE(third.outcome.warning.find("damaged"), std::string::npos);
   expectSame(first.field, third.field);
   EXPECT_TRUE(cachedField(cache, mesh_, options_).outcome.from_cache);
+}
+
+/// Names are what tells one file of a cache from another: who swaps two gets neither.
+TEST_F(FieldFile, CachedFilesUnderOthersNamesAreMadeAgain) {
+  const TriangleMesh box = test::boxMesh({0.2, 0.1, 0.1});
+  const FileCache cache(directory_);
+  for (const FieldOptions& options : {options_, adaptive()}) {
+    const CachedField ring = cachedField(cache, mesh_, options);
+    const std::string names[] = {fieldFileName(mesh_, options), fieldFileName(box, options)};
+    cachedField(cache, box, options);
+    fs::rename(path(names[0]), path("swapped"));
+    fs::rename(path(names[1]), path(names[0]));
+    fs::rename(path("swapped"), path(names[1]));
+    EXPECT_NO_THROW(loadField(path(names[0])));
+    const CachedField again = cachedField(cache, mesh_, options);
+    EXPECT_FALSE(again.outcome.from_cache);
+    EXPECT_NE(again.outcome.warning.find("holds what was made as " + names[1]), std::string::npos)
+        << again.outcome.warning;
+    expectSame(ring.field, again.field);
+    EXPECT_TRUE(cachedField(cache, mesh_, options).outcome.from_cache);
+    EXPECT_FALSE(cachedField(cache, box, options).outcome.from_cache);
+  }
 }
 
 TEST_F(FieldFile, CacheKeyIsTheContent) {
@@ -341,7 +363,7 @@ TEST_F(FieldFile, NothingStaysOfWhoeverIsKilledWhileWriting) {
     const pid_t child = fork();
     if (child == 0) {
       for (int k = 0;; ++k) {
-        writeCheckedFile(path(std::to_string(k)), "field", kVersion, {{data.data(), data.size()}});
+        writeCheckedFile(path(std::to_string(k)), {"field", kVersion}, {{data.data(), data.size()}});
       }
     }
     usleep(1000 * (3 + i));
@@ -349,7 +371,7 @@ TEST_F(FieldFile, NothingStaysOfWhoeverIsKilledWhileWriting) {
     waitpid(child, nullptr, 0);
     for (const auto& entry : fs::directory_iterator(directory_)) {
       EXPECT_EQ(entry.path().extension(), "") << entry.path() << " was left";
-      EXPECT_NO_THROW(CheckedFile::open(entry.path(), "field", kVersion));
+      EXPECT_NO_THROW(CheckedFile::open(entry.path(), {"field", kVersion}));
       fs::remove(entry.path());
     }
   }

@@ -18,7 +18,7 @@ class MendedFile {
 
   MendedFile(const std::string& path, std::string kind, std::uint32_t version)
       : kind_(std::move(kind)), version_(version) {
-    const auto file = CheckedFile::open(path, kind_, version_);
+    const auto file = CheckedFile::open(path, {kind_, version_});
     for (std::size_t i = 0; i < file->sectionCount(); ++i) {
       std::size_t count = 0;
       const char* data = file->section<char>(i, count);
@@ -33,7 +33,7 @@ class MendedFile {
     change(sections);
     std::vector<FileSection> views;
     for (const std::string& section : sections) views.push_back({section.data(), section.size()});
-    writeCheckedFile(path, kind_, version_, views);
+    writeCheckedFile(path, {kind_, version_}, views);
   }
 
  private:

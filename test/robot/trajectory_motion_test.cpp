@@ -250,10 +250,9 @@ TEST(TrajectoryMotion, RefusesWhatIsNoTrajectory) {
   EXPECT_NE(refusal(twoArms({{"x", 0.0}}, {{"x", 0.0}})).find("has no joint x"), std::string::npos);
   trajectory = twoArms({}, {});
   trajectory.states[1].X_WR = Isometry3d(Eigen::AngleAxisd(kPi - 1e-7, Vector3d::UnitX()));
-  EXPECT_EQ(
-      refusal(trajectory),
-      "the robot's root turns by half a revolution up to waypoint 1: its poses do not tell which way, one between "
-      "them would");
+  EXPECT_EQ(refusal(trajectory),
+            "the robot's root turns by half a revolution up to poses 1: they do not tell which way, one between "
+            "them would");
   trajectory.states[1].X_WR = Isometry3d(Eigen::AngleAxisd(kPi - 1e-5, Vector3d::UnitX()));
   EXPECT_EQ(refusal(trajectory), "not refused");
 }

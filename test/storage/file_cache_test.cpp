@@ -69,6 +69,21 @@ TEST_F(FileCacheTest, WhatIsThereNeedsNoLock) {
   EXPECT_FALSE(is_made_);
 }
 
+TEST_F(FileCacheTest, WhatIsDamagedIsReadOnce) {
+  flock(lock_, LOCK_UN);
+  std::ofstream(directory_ + "/thing") << "damaged";
+  int read = 0;
+  FileCache::Actions damaged = actions();
+  damaged.load = [&](const std::string&) {
+    ++read;
+    throw std::runtime_error("damaged");
+  };
+  const CacheOutcome outcome = FileCache(directory_).get("thing", damaged);
+  EXPECT_EQ(read, 1);
+  EXPECT_TRUE(is_saved_);
+  EXPECT_EQ(outcome.warning, "made again: damaged");
+}
+
 TEST_F(FileCacheTest, ALockThatIsFreedInTimeIsTaken) {
   std::thread other([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -23,7 +24,11 @@ struct BodyOptions {
   std::optional<double> max_error;
 };
 
-/// The options that keep an accuracy: its max_error shared out to field, edges and motions (see shareOut()).
+/// What a body's field and shell may take where an accuracy is asked for, whatever that is.
+constexpr std::size_t kMostFieldBytes = std::size_t{256} << 20, kMostShellPoints = 3'000'000;
+
+/// The options that keep an accuracy: its max_error shared out to field, edges and motions (see shareOut()), with
+/// kMostFieldBytes and kMostShellPoints.
 /// @throws std::invalid_argument as shareOut().
 BodyOptions optionsFor(const Accuracy& accuracy);
 

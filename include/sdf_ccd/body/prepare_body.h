@@ -15,7 +15,7 @@ namespace sdf_ccd {
 /// Curved surfaces have a point every third of max_error, flat ones along their edges: a ball of 0.1 m takes 400,000
 /// points and seconds at 1 mm, a hundredth of that at 1 cm.
 /// @throws std::invalid_argument if the shape is not valid, or the accuracy cannot be had with the memory that a body
-/// may take: 256 MB of field, five million points.
+/// may take: kMostFieldBytes of field, kMostShellPoints.
 Body prepareBody(const std::string& name, const Primitive& primitive, const Accuracy& accuracy);
 
 /// The same of a mesh, in its frame; turned outward, and closed where it is not.

@@ -4,62 +4,40 @@
 
 #include "field/adaptive/adaptive_grid.h"
 #include "field/caps_file.h"
+#include "field/grid_record.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr std::uint32_t kVersion = 7;
 
-struct ShapeRecord {
-  double origin[3];
-  double cell;
-  double band;
-  double error_bound;
-  double surface_min[3];
-  double surface_max[3];
-  std::int32_t size[3];
-  std::int32_t units;  ///< smallest blocks along a top cell's side, so that another layout is never misread
-};
-static_assert(sizeof(ShapeRecord) == 112, "the file's layout must not depend on the compiler");
-static_assert(sizeof(NodeBases) == 12 && sizeof(AdaptiveNode) == 64 && sizeof(SplitLeaves) == 64, "as above");
+static_assert(sizeof(NodeBases) == 12 && sizeof(AdaptiveNode) == 64 && sizeof(SplitLeaves) == 64,
+              "the file's layout must not depend on the compiler");
 
 }  // namespace
 
-void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path) {
+void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path,
+                  const std::string& key) {
   const AdaptiveShape& shape = grid.shape();
-  ShapeRecord record{};
-  record.cell = shape.cell;
-  record.band = shape.band;
-  record.error_bound = shape.error_bound;
-  record.units = AdaptiveShape::kUnits;
-  for (int k = 0; k < 3; ++k) {
-    record.origin[k] = shape.origin[k];
-    record.surface_min[k] = shape.surface_box.min()[k];
-    record.surface_max[k] = shape.surface_box.max()[k];
-    record.size[k] = shape.size[k];
-  }
+  const GridRecord record = gridRecord(shape, shape.size, shape.error_bound, AdaptiveShape::kUnits);
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
   std::vector<FileSection> sections = {{&record, sizeof record},     sectionOf(arrays.top),    sectionOf(arrays.nodes),
                                        sectionOf(arrays.bases),      sectionOf(arrays.leaves), sectionOf(arrays.splits),
                                        sectionOf(arrays.leaf_errors)};
   addCaps(openings, sections);
-  writeCheckedFile(path, kAdaptiveFileKind, kVersion, sections);
+  writeCheckedFile(path, {kAdaptiveFileKind, kVersion, key}, sections);
 }
 
-DistanceField loadAdaptive(const std::string& path) {
-  const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, kAdaptiveFileKind, kVersion);
+DistanceField loadAdaptive(const std::string& path, const std::string& key) {
+  const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, {kAdaptiveFileKind, kVersion, key});
   std::size_t records = 0;
-  const auto* record = file->section<ShapeRecord>(0, records);
-  if (records != 1 || record->units != AdaptiveShape::kUnits) {
+  const auto* record = file->section<GridRecord>(0, records);
+  if (records != 1 || record->divisions != AdaptiveShape::kUnits) {
     throw std::runtime_error(path + ": damaged: no shape of this layout");
   }
   AdaptiveShape shape;
-  shape.cell = record->cell;
-  shape.band = record->band;
+  setShape(*record, shape, shape.size);
   shape.error_bound = record->error_bound;
-  shape.origin = Vector3d(record->origin);
-  shape.surface_box = {Vector3d(record->surface_min), Vector3d(record->surface_max)};
-  shape.size = Vector3i(record->size);
   AdaptiveGrid::Arrays arrays;
   arrays.top.data = file->section<std::uint32_t>(1, arrays.top.size);
   arrays.nodes.data = file->section<AdaptiveNode>(2, arrays.nodes.size);

@@ -12,10 +12,11 @@ namespace sdf_ccd {
 /// The kind of checked file that holds an adaptive grid.
 constexpr char kAdaptiveFileKind[] = "adaptive field";
 
-/// @param openings  null where there are none.
-void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path);
+/// As saveField(). @param openings  null where there are none.
+void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path,
+                  const std::string& key);
 
-/// @throws std::runtime_error naming the path and what is wrong with the file.
-DistanceField loadAdaptive(const std::string& path);
+/// As loadField().
+DistanceField loadAdaptive(const std::string& path, const std::string& key);
 
 }  // namespace sdf_ccd

@@ -124,11 +124,7 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
   if (!is_complete) {
     std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
   }
-  for (const Body& body : scene.bodies) {
-    if (body.failure.empty()) continue;
-    std::cerr << "sdf_ccd: not checked: " << body.failure << std::endl;
-    is_complete = false;
-  }
+  is_complete &= areAllMade(scene);
   if (statistics.neverChecked() > 0) {
     std::cerr << "sdf_ccd: " << statistics.neverChecked() << " pairs were checked in no cycle, as "
               << statistics.whyNotChecked() << std::endl;

@@ -1,6 +1,7 @@
 #include "monitor_scene.h"
 
 #include <filesystem>
+#include <iostream>
 
 #include "progress_bar.h"
 
@@ -18,6 +19,16 @@ std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const
     if (interrupt.asked()) throw Interrupted();
     bar(share);
   });
+}
+
+bool areAllMade(const Scene& scene) {
+  bool are_made = true;
+  for (const Body& body : scene.bodies) {
+    if (body.failure.empty()) continue;
+    std::cerr << "sdf_ccd: not checked: " << body.failure << std::endl;
+    are_made = false;
+  }
+  return are_made;
 }
 
 std::string planText(const Scene& scene, const std::vector<std::string>& warnings) {

@@ -19,6 +19,9 @@ DescribedScene describeMonitored(const MonitorParameters& parameters, const std:
 std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const ScenePlan& plan,
                                           const BodyOptions& options, const Interrupt& interrupt);
 
+/// Names on stderr the bodies that could not be made, which no cycle checks; whether there are none.
+bool areAllMade(const Scene& scene);
+
 /// The plan's table, and a line for each warning.
 std::string planText(const Scene& scene, const std::vector<std::string>& warnings);
 

@@ -30,17 +30,6 @@ Kept keptIn(const std::string& directory) {
   return kept;
 }
 
-/// Names on stderr what is not there for the monitor to load; whether there is nothing of that kind.
-bool isComplete(const Scene& scene) {
-  bool is_complete = true;
-  for (const Body& body : scene.bodies) {
-    if (body.failure.empty()) continue;
-    std::cerr << "sdf_ccd: " << body.failure << std::endl;
-    is_complete = false;
-  }
-  return is_complete;
-}
-
 void requireKept(const Scene& scene) {
   for (const BodyReport& report : scene.reports)
     for (const std::string& warning : report.warnings)
@@ -68,7 +57,7 @@ void prepareRobot(const MonitorConfig& config, const std::string& directory) {
   const std::string over = overBudget(*scene, parameters.scene);
   if (!over.empty()) warnings.push_back(over);
   std::cout << planText(*scene, warnings);
-  const bool is_complete = isComplete(*scene);
+  const bool is_complete = areAllMade(*scene);
   requireKept(*scene);
   const Kept kept = keptIn(parameters.scene.cache_directory);
   std::cout << kept.files << " files, " << megabytes(kept.bytes)
