@@ -1,4 +1,5 @@
 #include "dynamics/simulation_file.h"
+#include "oracle/parameter_name.h"
 
 #include <gtest/gtest.h>
 
@@ -170,7 +171,8 @@ TEST_P(ShippedScene, KeepsItsReactionsAndItsEnergy) {
   EXPECT_GE(contacts, 60);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::Values("drop", "bowls", "stack", "top", "wedge", "nut", "pile"));
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::Values("drop", "bowls", "stack", "top", "wedge", "nut", "pile"),
+                         test::ParameterName());
 
 }  // namespace
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 #include "geometry/solid_boundary.h"
 #include "geometry/triangle.h"
 #include "oracle/open_shapes.h"
+#include "oracle/parameter_name.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/field/build_field.h"
@@ -151,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(, RealOpenMesh,
                          testing::Values("meshes/teapot.obj", "meshes/bunny_lowres_npm.off",
                                          "robots/pr2_description/urdf/meshes/shoulder_v0/shoulder_lift.stl",
                                          "robots/pr2_description/urdf/meshes/torso_v0/torso_lift.stl",
-                                         "robots/pr2_description/urdf/meshes/gripper_v0/l_finger.stl"));
+                                         "robots/pr2_description/urdf/meshes/gripper_v0/l_finger.stl"),
+                         test::ParameterName());
 
 }  // namespace
 }  // namespace sdf_ccd

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/triangle_tree.h"
+#include "oracle/parameter_name.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/import/mesh_file.h"
@@ -221,7 +222,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Expected{"robots/panda_description/meshes/collision/link0.stl", 1, 0, true, 3.0e-3},
                       Expected{"robots/pr2_description/urdf/meshes/base_v0/base.stl", 1, 26, false, 0.0887},
                       Expected{"robots/example-robot-data/robots/ur_description/meshes/ur5/collision/wrist3.stl", 5, 0,
-                               true, 1.38e-4}));
+                               true, 1.38e-4}),
+    test::ParameterName());
 
 }  // namespace
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 
 #include "geometry/triangle.h"
 #include "oracle/open_shapes.h"
+#include "oracle/parameter_name.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
@@ -206,7 +207,8 @@ INSTANTIATE_TEST_SUITE_P(, RealOpenings,
                                          "robots/pr2_description/urdf/meshes/torso_v0/torso_lift.stl",
                                          "robots/pr2_description/urdf/meshes/base_v0/base.stl",
                                          "robots/pr2_description/urdf/meshes/gripper_v0/l_finger.stl",
-                                         "robots/pr2_description/urdf/meshes/head_v0/head_tilt.stl"));
+                                         "robots/pr2_description/urdf/meshes/head_v0/head_tilt.stl"),
+                         test::ParameterName());
 
 }  // namespace
 }  // namespace sdf_ccd

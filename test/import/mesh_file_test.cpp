@@ -9,6 +9,7 @@
 
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
+#include "oracle/parameter_name.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
@@ -245,7 +246,8 @@ INSTANTIATE_TEST_SUITE_P(
                       RobotMesh{"pr2_description/urdf/meshes/base_v0/base.dae", 1200, 0.669},  // Y_UP
                       RobotMesh{"pr2_description/kinect.dae", 6752, 0.00276},  // centimetres, scaled by 0.001 besides
                       RobotMesh{"example-robot-data/robots/allegro_hand_description/meshes/base_link.STL", 3276,
-                                0.113}));
+                                0.113}),
+    test::ParameterName());
 
 }  // namespace
 }  // namespace sdf_ccd

@@ -20,4 +20,4 @@ inline bool exists(const std::string& path) {
 
 /// Skips the test, naming the file, where real data is absent.
 #define SDF_CCD_NEEDS_DATA(name) \
-  if (!sdf_ccd::test::exists(sdf_ccd::test::dataPath(name))) GTEST_SKIP() << "needs shared/data/" << (name)
+  if (!sdf_ccd::test::exists(sdf_ccd::test::dataPath(name))) GTEST_SKIP() << "needs " << sdf_ccd::test::dataPath(name)

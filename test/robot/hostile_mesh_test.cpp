@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/hostile_files.h"
+#include "oracle/parameter_name.h"
 #include "robot/read_text.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/monitor/scene_plan.h"
@@ -100,11 +101,7 @@ TEST_P(HostileMesh, StartsNoLater) {
             leastSeconds("package://sdf_ccd/config/demo/meshes/forearm.obj") + 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hostile, HostileMesh, ::testing::ValuesIn(test::hostileMeshes()), [](const auto& info) {
-  std::string name = info.param;
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Hostile, HostileMesh, ::testing::ValuesIn(test::hostileMeshes()), test::ParameterName());
 
 TEST(HostileMesh, ThePrismIsWhole) {
   const SceneDescription arm = armWith("file://" + test::hostilePath("prism_12.off"));

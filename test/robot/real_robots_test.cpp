@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
 #include "robot/read_text.h"
 #include "sdf_ccd/robot/robot_scene.h"
@@ -64,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
         RealRobot{"example-robot-data/robots/kinova_description/robots/kinova.urdf",
                   "example-robot-data/robots/kinova_description/srdf/kinova.srdf", 11, 21, 34},
         RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_left_hand.urdf", "", 21, 25, 185},
-        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_right_hand.urdf", "", 21, 25, 185}));
+        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_right_hand.urdf", "", 21, 25, 185}),
+    test::ParameterName());
 
 }  // namespace
 }  // namespace sdf_ccd
