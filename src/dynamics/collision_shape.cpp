@@ -1,8 +1,10 @@
-#include <limits>
+#include <algorithm>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
+#include "body/body_builder.h"
 #include "dynamics/rigid_body.h"
-#include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd {
 namespace {
@@ -20,8 +22,15 @@ BoundingBall ballAround(const CollisionShape& shape) {
   return ball;
 }
 
-CollisionShape finished(CollisionShape shape) {
-  shape.tree = buildSphereTree(shape.shell);
+CollisionShape shapeOf(GeometryDescription geometry, const BodyOptions& options) {
+  BodyDescription description;
+  description.geometry.push_back(std::move(geometry));
+  BodyNeeds needs;
+  needs.shell = whyNoShell(description).empty();
+  MeshPool pool(options);
+  Body body = buildBody(description, needs, options, pool, {}).body;
+  if (!body.failure.empty()) throw std::invalid_argument(body.failure);
+  CollisionShape shape{body.parts.front().field, std::move(body.shell), std::move(body.tree), {}};
   shape.ball = ballAround(shape);
   return shape;
 }
@@ -31,23 +40,25 @@ CollisionShape finished(CollisionShape shape) {
 CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const ShellOptions& shell) {
   // Nowhere inside is the surface farther than half the smallest side of its box.
   field.band = std::max(field.band, 0.5 * boundingBox(mesh_B).sizes().minCoeff());
-  CollisionShape shape;
-  shape.field = buildField(mesh_B, field);
-  shape.shell = sampleSurface(mesh_B, shell);
-  return finished(std::move(shape));
+  BodyOptions options;
+  options.field = field;
+  options.shell = shell;
+  options.motion_margin = 0.0;
+  return shapeOf({std::make_shared<const TriangleMesh>(mesh_B), Isometry3d::Identity(), "mesh"}, options);
 }
 
 CollisionShape makeShape(const Primitive& primitive, const ShellOptions& shell) {
-  CollisionShape shape;
-  shape.field = DistanceField(primitive);
-  if (!isHalfSpace(primitive)) shape.shell = sampleSurface(primitive, shell);
-  return finished(std::move(shape));
+  BodyOptions options;
+  options.shell = shell;
+  return shapeOf({primitive, Isometry3d::Identity(), "primitive"}, options);
 }
 
 CollisionShape makeShape(PointShell shell) {
   CollisionShape shape;
   shape.shell = std::move(shell);
-  return finished(std::move(shape));
+  shape.tree = buildSphereTree(shape.shell);
+  shape.ball = ballAround(shape);
+  return shape;
 }
 
 }  // namespace sdf_ccd

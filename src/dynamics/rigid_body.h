@@ -26,8 +26,8 @@ struct CollisionShape {
 
 /// A shape's field and shell from a closed mesh. The field holds exact samples all through the solid, so that deep
 /// overlaps have a depth.
-/// @param mesh_B  oriented, about the centre of mass.
-/// @throws what buildField() and sampleSurface() throw.
+/// @param mesh_B  about the centre of mass; its components are turned outward.
+/// @throws std::invalid_argument if they cannot be made.
 CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const ShellOptions& shell);
 
 /// The same of a primitive: the field is exact. A half-space has no shell.
