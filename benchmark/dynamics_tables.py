@@ -1,10 +1,8 @@
 """Tables of the studies `stability` and `extreme`."""
+from results import number
+
 SCHEMES = ['continuous', 'discrete', 'implicit']
 OUTCOMES = {0: 'stable', 1: 'stopped', 2: 'bad'}
-
-
-def number(value):
-    return '-' if value is None else '%.3g' % value
 
 
 def chart(results):

@@ -1,8 +1,5 @@
 """Tables of the studies `bound`, `truth` and `work-precision`."""
-
-
-def number(value):
-    return '-' if value is None else '%.3g' % value
+from results import number
 
 
 def bound(results):

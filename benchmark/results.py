@@ -1,5 +1,15 @@
-"""Reads results.csv of the studies: study,case,system,metric,value,unit,runs."""
+"""Reads results.csv of the studies (study,case,system,metric,value,unit,runs), and writes its numbers."""
 import csv
+
+
+def number(value, unit=''):
+    """Three digits, or a dash for what was not measured."""
+    if value is None:
+        return '-'
+    text = '%.3g' % value
+    if 'e' in text and 1e-2 <= abs(value) < 1e7:
+        text = '%d' % round(value)
+    return text + unit
 
 
 class Results:

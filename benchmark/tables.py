@@ -14,7 +14,7 @@ import dynamics_tables
 import meshes_tables
 import precision_tables
 import robots_tables
-from results import Results
+from results import Results, number
 
 SEGMENT_SYSTEMS = ['paper_uniform', 'paper_octree', 'sdf_ccd', 'sdf_ccd_batch', 'openvdb', 'embree', 'embree16',
                    'bullet', 'cgal']
@@ -31,16 +31,6 @@ PAPER_SIMULATION = {'bunny777': (2600, 8.0, 2.5), 'blob777': (2600, 8.0, 2.5), '
 TARGETS = {'bunny3k/1e-3': (2.5, 2.1, 3.3, 4.0, 2.0), 'bunny3k/1e-4': (1.7, 1.4, 2.9, 3.0, 8.0),
            'bunny75k/1e-3': (3.3, 2.8, 4.5, 6.0, 2.0), 'bunny75k/1e-4': (2.3, 1.9, 3.8, 4.0, 5.0),
            'dragon871k/1e-4': (4.0, 3.0, None, None, None)}
-
-
-def number(value, unit=''):
-    """Three digits, or a dash for what was not measured."""
-    if value is None:
-        return '-'
-    text = '%.3g' % value
-    if 'e' in text and 1e-2 <= abs(value) < 1e7:
-        text = '%d' % round(value)
-    return text + unit
 
 
 def ratio(slow, fast, target=None):

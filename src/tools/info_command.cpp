@@ -108,7 +108,7 @@ void run(const Arguments& arguments) {
   OutputFile out(arguments.out);
   const std::optional<DistanceField> field = inspect(arguments);
   if (!field) throw std::runtime_error(arguments.file + ": a shell has no slice");
-  writePng(drawSlice(*field, slice), out.stream());
+  out.stream() << drawSlice(*field, slice);
   out.commit();
 }
 

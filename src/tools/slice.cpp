@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
+#include <cairo.h>
+
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
-#include "pixel_font.h"
 #include "print.h"
 
 namespace sdf_ccd::tools {
@@ -19,22 +21,68 @@ constexpr int kMinSide = 200;
 constexpr int kMargin = 20;
 constexpr int kLegendWidth = 190;
 constexpr int kFooter = 60;
-constexpr int kFont = 3;
+constexpr double kFont = 15.0;
 
-constexpr Color kCap{255, 140, 0};  ///< where the surface closes an opening of the mesh
-
-Color mixed(const Vector3d& a, const Vector3d& b, double t) {
-  const Vector3d c = a + t * (b - a);
-  return {static_cast<std::uint8_t>(c.x()), static_cast<std::uint8_t>(c.y()), static_cast<std::uint8_t>(c.z())};
-}
+using Color = Vector3d;  // red, green, blue, 0 to 255
+const Color kBlack(0, 0, 0), kGrey(120, 120, 120);
+const Color kCap(255, 140, 0);  // where the surface closes an opening of the mesh
 
 /// Blue for −band, white for 0, red for +band; beyond the band what is known is only a bound, shown paler.
 Color colorOf(double distance, double band) {
-  static const Vector3d kBlue(33, 102, 172), kWhite(247, 247, 247), kRed(178, 24, 43);
-  const Vector3d& end = distance < 0.0 ? kBlue : kRed;
-  const double share = std::min(std::abs(distance) / band, 1.0);
-  return std::abs(distance) <= band ? mixed(kWhite, end, share) : mixed(kWhite, end, 0.35);
+  static const Color kBlue(33, 102, 172), kWhite(247, 247, 247), kRed(178, 24, 43);
+  const double share = std::abs(distance) <= band ? std::abs(distance) / band : 0.35;
+  return kWhite + share * ((distance < 0.0 ? kBlue : kRed) - kWhite);
 }
+
+/// A white picture that rectangles and texts are put on.
+class Picture {
+ public:
+  Picture(int width, int height)
+      : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), cairo_(cairo_create(surface_.get())) {
+    cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_NONE);
+    cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo_.get(), kFont);
+    fill({0, 0, width, height}, Color(255, 255, 255));
+  }
+
+  void fill(const cairo_rectangle_int_t& area, const Color& color) {
+    setColor(color);
+    cairo_rectangle(cairo_.get(), area.x, area.y, area.width, area.height);
+    cairo_fill(cairo_.get());
+  }
+
+  /// From (x, y) on, the line's foot.
+  void write(int x, int y, const std::string& text) {
+    setColor(kBlack);
+    cairo_move_to(cairo_.get(), x, y);
+    cairo_show_text(cairo_.get(), text.c_str());
+  }
+
+  std::string png() const {
+    std::string bytes;
+    const auto append = [](void* to, const unsigned char* from, unsigned count) {
+      static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(from), count);
+      return CAIRO_STATUS_SUCCESS;
+    };
+    const cairo_status_t status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
+    if (status != CAIRO_STATUS_SUCCESS)
+      throw std::runtime_error(std::string("cairo: ") + cairo_status_to_string(status));
+    return bytes;
+  }
+
+ private:
+  struct Destroy {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
+  };
+
+  void setColor(const Color& color) {
+    cairo_set_source_rgb(cairo_.get(), color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+  }
+
+  std::unique_ptr<cairo_surface_t, Destroy> surface_;
+  std::unique_ptr<cairo_t, Destroy> cairo_;
+};
 
 /// The plane cut out of the field's box, as a raster.
 struct Raster {
@@ -76,7 +124,7 @@ bool crosses(const std::vector<double>& corners, int stride, std::size_t i, doub
   return (*std::min_element(v, v + 4) <= level) && (*std::max_element(v, v + 4) > level);
 }
 
-void drawField(Image& image, const DistanceField& field, const Raster& raster) {
+void drawField(Picture& picture, const DistanceField& field, const Raster& raster) {
   const int stride = raster.width + 1;
   std::vector<double> corners(std::size_t(stride) * (raster.height + 1));
   for (int y = 0; y <= raster.height; ++y) {
@@ -88,10 +136,8 @@ void drawField(Image& image, const DistanceField& field, const Raster& raster) {
   for (int y = 0; y < raster.height; ++y) {
     for (int x = 0; x < raster.width; ++x) {
       const std::size_t i = std::size_t(y) * stride + x;
-      image.set(kMargin + x, kMargin + y, colorOf(corners[i], band));
-      if (crosses(corners, stride, i, band) || crosses(corners, stride, i, -band)) {
-        image.set(kMargin + x, kMargin + y, Color{120, 120, 120});
-      }
+      const bool is_edge = crosses(corners, stride, i, band) || crosses(corners, stride, i, -band);
+      picture.fill({kMargin + x, kMargin + y, 1, 1}, is_edge ? kGrey : colorOf(corners[i], band));
     }
   }
   const OpeningCaps* caps = field.openings();
@@ -99,46 +145,38 @@ void drawField(Image& image, const DistanceField& field, const Raster& raster) {
     for (int x = 0; x < raster.width; ++x) {
       if (!crosses(corners, stride, std::size_t(y) * stride + x, 0.0)) continue;
       const bool is_cap = caps && caps->isWithin(raster.at(x, y), field.errorBound() + 2.0 * raster.pixel);
-      for (const int dx : {0, 1}) {
-        for (const int dy : {0, 1}) image.set(kMargin + x + dx, kMargin + y + dy, is_cap ? kCap : Color{0, 0, 0});
-      }
+      picture.fill({kMargin + x, kMargin + y, 2, 2}, is_cap ? kCap : kBlack);
     }
   }
 }
 
-void drawLegend(Image& image, const DistanceField& field, const Raster& raster) {
+void drawLegend(Picture& picture, const DistanceField& field, const Raster& raster) {
   const int left = 2 * kMargin + raster.width;
   const double band = field.band();
   const double top = 1.25 * band;  // the pale ends show what lies beyond the band
-  const auto rowOf = [&](double distance) {
-    return kMargin + static_cast<int>((1.0 - (distance + top) / (2.0 * top)) * (raster.height - 1));
-  };
   for (int y = 0; y < raster.height; ++y) {
     const double distance = top * (1.0 - 2.0 * y / (raster.height - 1));
-    for (int x = 0; x < kMargin; ++x) image.set(left + x, kMargin + y, colorOf(distance, band));
+    picture.fill({left, kMargin + y, kMargin, 1}, colorOf(distance, band));
   }
   for (const double distance : {-band, -band / 2, 0.0, band / 2, band}) {
-    const int row = rowOf(distance);
-    const bool is_surface = distance == 0.0;
-    const bool is_edge = std::abs(distance) == band;
-    for (int x = is_surface || is_edge ? 0 : kMargin; x < kMargin + 6; ++x) {
-      image.set(left + x, row, is_edge ? Color{120, 120, 120} : Color{0, 0, 0});
-      if (is_surface) image.set(left + x, row + 1, Color{0, 0, 0});
-    }
+    const int row = kMargin + static_cast<int>((1.0 - (distance + top) / (2.0 * top)) * (raster.height - 1));
+    const bool is_surface = distance == 0.0, is_edge = std::abs(distance) == band;
+    const int begin = is_surface || is_edge ? 0 : kMargin;
+    picture.fill({left + begin, row, kMargin + 6 - begin, is_surface ? 2 : 1}, is_edge ? kGrey : kBlack);
     const std::string label = (distance > 0.0 ? "+" : "") + shortly(distance) + " m";
-    drawText(image, left + kMargin + 12, row - kFont * kGlyphHeight / 2, label, kFont);
+    picture.write(left + kMargin + 12, row + static_cast<int>(0.35 * kFont), label);
   }
 }
 
 /// The axes' names: of the columns below the right end, of the rows beside the upper end.
-void drawAxisNames(Image& image, const Raster& raster) {
-  const int letter = 3 * kFont;
-  drawText(image, kMargin + raster.width - letter, kMargin + raster.height + 4, std::string(1, "xyz"[raster.right]),
-           kFont);
-  drawText(image, (kMargin - letter) / 2, kMargin, std::string(1, "xyz"[raster.up]), kFont);
+void drawAxisNames(Picture& picture, const Raster& raster) {
+  const int letter = static_cast<int>(0.6 * kFont), height = static_cast<int>(0.7 * kFont);
+  picture.write(kMargin + raster.width - letter, kMargin + raster.height + 4 + height,
+                std::string(1, "xyz"[raster.right]));
+  picture.write((kMargin - letter) / 2, kMargin + height, std::string(1, "xyz"[raster.up]));
 }
 
-void drawLengthScale(Image& image, const Raster& raster, const Slice& slice) {
+void drawLengthScale(Picture& picture, const Raster& raster, const Slice& slice) {
   // 1, 2 or 5 times a power of ten, at most a third of the picture.
   const double longest = raster.pixel * raster.width / 3.0;
   double length = std::pow(10.0, std::floor(std::log10(longest)));
@@ -150,12 +188,10 @@ void drawLengthScale(Image& image, const Raster& raster, const Slice& slice) {
   }
   const int row = kMargin + raster.height + kMargin / 2;
   const int pixels = static_cast<int>(length / raster.pixel);
-  for (int x = 0; x <= pixels; ++x) {
-    const int half = x == 0 || x == pixels ? 4 : 1;
-    for (int y = -half; y <= half; ++y) image.set(kMargin + x, row + y, Color{0, 0, 0});
-  }
+  picture.fill({kMargin, row - 1, pixels, 3}, kBlack);
+  for (const int end : {0, pixels}) picture.fill({kMargin + end, row - 4, 1, 9}, kBlack);
   const std::string plane = std::string(1, "xyz"[slice.axis]) + "=" + shortly(slice.place) + " m";
-  drawText(image, kMargin, row + 10, shortly(length) + " m  " + plane, kFont);
+  picture.write(kMargin, row + 10 + static_cast<int>(kFont), shortly(length) + " m  " + plane);
 }
 
 }  // namespace
@@ -170,14 +206,14 @@ Slice parseSlice(const std::string& text) {
   return {text[0] - 'x', place};
 }
 
-Image drawSlice(const DistanceField& field, const Slice& slice) {
+std::string drawSlice(const DistanceField& field, const Slice& slice) {
   const Raster raster = rasterOf(field, slice);
-  Image image(raster.width + 2 * kMargin + kLegendWidth, raster.height + kMargin + kFooter);
-  drawField(image, field, raster);
-  drawLegend(image, field, raster);
-  drawAxisNames(image, raster);
-  drawLengthScale(image, raster, slice);
-  return image;
+  Picture picture(raster.width + 2 * kMargin + kLegendWidth, raster.height + kMargin + kFooter);
+  drawField(picture, field, raster);
+  drawLegend(picture, field, raster);
+  drawAxisNames(picture, raster);
+  drawLengthScale(picture, raster, slice);
+  return picture.png();
 }
 
 }  // namespace sdf_ccd::tools

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "image.h"
 #include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd::tools {
@@ -19,7 +18,8 @@ Slice parseSlice(const std::string& text);
 /// Draws a slice through a field's box: blue inside, white at the surface, red outside; the surface black, the edge of
 /// the band grey and distances beyond it pale; beside it the scale of distances, below it one of lengths,
 /// and the names of the axes that point right and up.
+/// @return a PNG file's bytes.
 /// @throws std::invalid_argument if the plane does not meet the box.
-Image drawSlice(const DistanceField& field, const Slice& slice);
+std::string drawSlice(const DistanceField& field, const Slice& slice);
 
 }  // namespace sdf_ccd::tools
