@@ -12,7 +12,6 @@
 #include "field/adaptive/adaptive_grid.h"
 #include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/contact/penalty.h"
-#include "sdf_ccd/query/impact_window.h"
 #include "sdf_ccd/query/least_distance.h"
 #include "sdf_ccd/query/segment_batch.h"
 #include "study_fields.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/mass_properties.h"
-#include "dynamics/simulation.h"
 #include "geometry/generated_mesh.h"
 #include "results.h"
+#include "sdf_ccd/dynamics/rigid_world.h"
+#include "sdf_ccd/dynamics/simulation.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

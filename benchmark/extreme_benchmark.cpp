@@ -9,10 +9,10 @@
 #include <functional>
 #include <limits>
 
-#include "dynamics/simulation_file.h"
 #include "geometry/generated_mesh.h"
 #include "oracle/bodies.h"
 #include "results.h"
+#include "sdf_ccd/dynamics/simulation.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "model/error_budget.h"
 #include "monitor/scene_cost.h"
 #include "results.h"
-#include "sdf_ccd/model/error_budget.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
 #include "study.h"

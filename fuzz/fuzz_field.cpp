@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "mended.h"
-#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/query/segment_batch.h"
 
 namespace sdf_ccd::fuzz {

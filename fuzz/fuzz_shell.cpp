@@ -2,8 +2,7 @@
 #include <cmath>
 
 #include "mended.h"
-#include "sdf_ccd/shell/shell_file.h"
-#include "sdf_ccd/shell/sphere_tree.h"
+#include "sdf_ccd/shell/point_shell.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

@@ -1,8 +1,8 @@
 // A scene to simulate. Large numbers are left out: they are work, not damage, and a run takes long.
 #include <algorithm>
 
-#include "dynamics/simulation_file.h"
 #include "fuzz_input.h"
+#include "sdf_ccd/dynamics/simulation.h"
 
 namespace {
 

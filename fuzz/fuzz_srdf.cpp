@@ -1,6 +1,6 @@
 // A robot's semantic description.
 #include "fuzz_input.h"
-#include "sdf_ccd/robot/srdf.h"
+#include "sdf_ccd/robot/robot_scene.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   sdf_ccd::fuzz::attempt([&] { sdf_ccd::parseSrdf(sdf_ccd::fuzz::toText(data, size), "fuzz"); });

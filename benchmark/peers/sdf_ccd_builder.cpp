@@ -1,5 +1,5 @@
 #include "build_systems.h"
-#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd::benchmark {

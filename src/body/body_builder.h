@@ -5,7 +5,6 @@
 #include "body/body_surface.h"
 #include "body/mesh_pool.h"
 #include "sdf_ccd/body/body.h"
-#include "sdf_ccd/body/body_report.h"
 #include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {

@@ -1,6 +1,6 @@
 #include "sdf_ccd/body/body_options.h"
 
-#include "sdf_ccd/model/error_budget.h"
+#include "model/error_budget.h"
 
 namespace sdf_ccd {
 

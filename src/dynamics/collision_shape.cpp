@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "body/body_builder.h"
-#include "dynamics/rigid_body.h"
+#include "sdf_ccd/dynamics/rigid_world.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,32 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "dynamics/rigid_world.h"
+#include "sdf_ccd/dynamics/simulation.h"
 
 namespace sdf_ccd {
-
-/// How contact enters a time step.
-enum class Scheme {
-  /// The paper's §4: symplectic Euler under the force and torque averaged over the last step's continuous contact
-  /// (Eq. 8-11). A persistent contact (s = ωΔt, damping ratio ζ) is stable only for s/4 < ζ < 1/s (design §3.10).
-  kContinuous,
-  /// What the paper compares with: symplectic Euler under penalty and damping forces at the sampled pose; stable for
-  /// s² + 4ζs < 4.
-  kDiscrete,
-  /// Ours: backward Euler by Newton's method on the 6×6 stiffness and damping blocks of all contact points, contacts
-  /// found continuously. A persistent contact is stable at any step. A step whose energy would grow is halved. It
-  /// costs accuracy: at ζ = 0 a contact oscillation is damped as by ζ ≈ s/2, so impacts that last few steps lose most
-  /// of their energy. Needs field normals.
-  kImplicit
-};
-
-const char* toString(Scheme scheme);
-
-/// @throws std::invalid_argument for any other name.
-Scheme schemeOf(const std::string& name);
 
 /// What happened in a step.
 struct StepReport {

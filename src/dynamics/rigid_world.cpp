@@ -1,9 +1,8 @@
-#include "dynamics/rigid_world.h"
+#include "sdf_ccd/dynamics/rigid_world.h"
 
 #include <cmath>
 
 #include "common/number_text.h"
-#include "dynamics/mass_properties.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "dynamics/mass_properties.h"
-#include "dynamics/rigid_body.h"
+#include "sdf_ccd/dynamics/rigid_world.h"
 #include "yaml_map.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "dynamics/simulation.h"
+#include "sdf_ccd/dynamics/simulation.h"
 
 #include <chrono>
 #include <cmath>
@@ -51,22 +51,29 @@ void requireComputable(const RigidWorld& world, const std::vector<BodyState>& st
 }  // namespace
 
 Simulation::Simulation(RigidWorld world, std::vector<BodyState> states, Scheme scheme, double step)
-    : world_(std::make_unique<const RigidWorld>(std::move(world))), states_(std::move(states)), step_(step) {
+    : world_(std::make_unique<const RigidWorld>(std::move(world))),
+      states_(std::move(states)),
+      step_(step),
+      report_(std::make_unique<StepReport>()) {
   if (!(step > 0.0) || !std::isfinite(step)) {
     throw std::invalid_argument("simulation: the time step must be finite and positive, got " + numberText(step));
   }
   validate(*world_, states_);
   integrator_ = makeIntegrator(scheme, *world_);
   requireComputable(*world_, states_, 0);
-  measureContacts(*world_, states_, report_);
+  measureContacts(*world_, states_, *report_);
   record_ = measured(states_, 0);
 }
+
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
 
 const StepRecord& Simulation::advance() {
   const auto start = std::chrono::steady_clock::now();
   std::vector<BodyState> states = states_;
   const long step = record_.step + 1;
-  integrator_->advance(step_, step, states, report_);
+  integrator_->advance(step_, step, states, *report_);
   requireComputable(*world_, states, step);
   torque_work_ += workOfTorques(states_, states);
   record_ = measured(states, step);
@@ -101,13 +108,13 @@ StepRecord Simulation::measured(const std::vector<BodyState>& states, long step)
     highest = kinetic;
     fastest = b;
   }
-  record.elastic = report_.elastic_energy;
+  record.elastic = report_->elastic_energy;
   record.momentum = totalMomentum(*world_, states);
-  record.reaction_error = reactionError(report_.impulses);
-  record.energy_excess = report_.energy_excess;
-  record.deepest = report_.deepest;
-  record.contacts = report_.contacts;
-  record.solves = report_.solves;
+  record.reaction_error = reactionError(report_->impulses);
+  record.energy_excess = report_->energy_excess;
+  record.deepest = report_->deepest;
+  record.contacts = report_->contacts;
+  record.solves = report_->solves;
   const bool finite = std::isfinite(record.energy() + record.reaction_error + record.energy_excess + record.deepest) &&
                       record.momentum.force.allFinite() && record.momentum.torque.allFinite();
   if (!finite) {

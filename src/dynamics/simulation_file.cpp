@@ -1,4 +1,4 @@
-#include "dynamics/simulation_file.h"
+#include "sdf_ccd/dynamics/simulation.h"
 
 #include <cmath>
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "geometry/closed_solid.h"
-#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/field/distance_field.h"
 #include "storage/content_hash.h"
 
 namespace sdf_ccd {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/closed_solid.h"
-#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd {
 

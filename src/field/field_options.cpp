@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/field/build_field.h"
 
 #include <cmath>
 #include <stdexcept>

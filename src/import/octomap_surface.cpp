@@ -1,4 +1,4 @@
-#include "sdf_ccd/import/octomap_surface.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 #include <stdexcept>
 

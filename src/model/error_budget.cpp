@@ -1,4 +1,4 @@
-#include "sdf_ccd/model/error_budget.h"
+#include "model/error_budget.h"
 
 #include <algorithm>
 #include <cmath>

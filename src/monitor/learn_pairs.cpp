@@ -6,8 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "model/error_budget.h"
 #include "robot/joint_sampler.h"
-#include "sdf_ccd/model/error_budget.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
 #include "state_verdicts.h"
 

@@ -8,9 +8,9 @@
 
 #include "common/number_text.h"
 #include "common/parallel_for.h"
+#include "model/error_budget.h"
 #include "pair_checker.h"
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/model/error_budget.h"
 #include "summarise.h"
 
 namespace sdf_ccd {

@@ -5,8 +5,8 @@
 #include "random_inputs.h"
 #include "sdf_ccd/contact/penalty.h"
 #include "sdf_ccd/query/shell_query.h"
+#include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
-#include "sdf_ccd/shell/sphere_tree.h"
 
 /// Shells that move against fields, as the studies of contact ask them.
 namespace sdf_ccd::precision {

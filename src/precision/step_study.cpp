@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/simulation.h"
 #include "random_inputs.h"
+#include "sdf_ccd/dynamics/simulation.h"
 #include "studies.h"
 #include "timing.h"
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/interval.h"
+#include "sdf_ccd/query/segment_query.h"
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@
 
 #include <tinyxml2.h>
 
-#include "sdf_ccd/robot/resource.h"
+#include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
 namespace {

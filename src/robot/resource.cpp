@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/resource.h"
+#include "sdf_ccd/robot/robot_scene.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/srdf.h"
+#include "sdf_ccd/robot/robot_scene.h"
 
 #include <cmath>
 #include <locale>

@@ -6,7 +6,6 @@
 #include "common/shown_text.h"
 #include "ros/fetch_http.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "sdf_ccd/import/octomap_surface.h"
 
 namespace sdf_ccd {
 namespace {

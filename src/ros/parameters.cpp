@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "field/uniform/sparse_grid.h"
+#include "model/error_budget.h"
 #include "ros/parameter_reader.h"
-#include "sdf_ccd/model/error_budget.h"
 
 namespace sdf_ccd {
 namespace {

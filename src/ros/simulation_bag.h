@@ -4,8 +4,8 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
-#include "dynamics/simulation_file.h"
 #include "ros/bag_writer.h"
+#include "sdf_ccd/dynamics/simulation.h"
 
 namespace sdf_ccd {
 

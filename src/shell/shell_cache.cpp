@@ -1,6 +1,6 @@
 #include "shell/shell_cache.h"
 
-#include "sdf_ccd/shell/shell_file.h"
+#include "sdf_ccd/shell/point_shell.h"
 #include "storage/content_hash.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/sphere_tree.h"
+#include "sdf_ccd/shell/point_shell.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "geometry/closed_solid.h"
 #include "monitor/scene_cost.h"
-#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
 namespace sdf_ccd::tools {

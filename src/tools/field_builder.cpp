@@ -8,9 +8,9 @@
 #include "print.h"
 #include "progress_bar.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
-#include "sdf_ccd/shell/shell_file.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -11,11 +11,10 @@
 #include "output_file.h"
 #include "print.h"
 #include "resolution_options.h"
-#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "sdf_ccd/import/octomap_surface.h"
-#include "sdf_ccd/shell/shell_file.h"
+#include "sdf_ccd/shell/point_shell.h"
 #include "slice.h"
 #include "storage/checked_file.h"
 

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd::tools {
 

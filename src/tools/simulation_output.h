@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "dynamics/simulation_file.h"
 #include "output_file.h"
+#include "sdf_ccd/dynamics/simulation.h"
 
 namespace sdf_ccd::tools {
 

@@ -1,4 +1,4 @@
-#include "dynamics/mass_properties.h"
+#include "sdf_ccd/dynamics/rigid_world.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "dynamics/simulation_file.h"
 #include "oracle/parameter_name.h"
+#include "sdf_ccd/dynamics/simulation.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,6 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "sdf_ccd/import/octomap_surface.h"
 
 namespace sdf_ccd {
 namespace {

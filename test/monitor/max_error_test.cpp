@@ -6,9 +6,9 @@
 #include <string>
 
 #include "body/mesh_pool.h"
+#include "model/error_budget.h"
 #include "monitor/scene_case.h"
 #include "monitor/scene_cost.h"
-#include "sdf_ccd/model/error_budget.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dynamics/mass_properties.h"
-#include "dynamics/simulation.h"
 #include "oracle/shapes.h"
+#include "sdf_ccd/dynamics/rigid_world.h"
+#include "sdf_ccd/dynamics/simulation.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
 /// Rigid bodies for tests and studies.

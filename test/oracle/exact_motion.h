@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "robot/trajectory_motion.h"
 #include "sdf_ccd/motion/screw_motion.h"
-#include "sdf_ccd/robot/trajectory_motion.h"
 
 /// Motions in long double, straight from their definitions, and how far a sampled motion is from them.
 namespace sdf_ccd::test {

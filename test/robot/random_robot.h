@@ -4,7 +4,7 @@
 #include <string>
 
 #include "oracle/random.h"
-#include "sdf_ccd/robot/trajectory_motion.h"
+#include "robot/trajectory_motion.h"
 
 /// Robots and trajectories that nobody would build.
 namespace sdf_ccd::test {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/trajectory_motion.h"
+#include "robot/trajectory_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "oracle/random.h"
+#include "robot/trajectory_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
-#include "sdf_ccd/robot/trajectory_motion.h"
 
 namespace sdf_ccd {
 namespace {

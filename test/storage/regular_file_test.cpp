@@ -9,7 +9,6 @@
 
 #include "import/fake_reader.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "sdf_ccd/import/octomap_surface.h"
 
 namespace sdf_ccd {
 namespace {

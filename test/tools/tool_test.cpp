@@ -7,9 +7,9 @@
 
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
-#include "sdf_ccd/field/field_file.h"
+#include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/query/segment_query.h"
-#include "sdf_ccd/shell/shell_file.h"
+#include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/motion/screw_motion.h"
+#include "sdf_ccd/query/verdict.h"
 #include "sdf_ccd/shell/point_shell.h"
-#include "sdf_ccd/shell/sphere_tree.h"
 
 namespace sdf_ccd {
 
@@ -48,5 +49,23 @@ struct Body {
 /// Holds the body's surface, frame B: its shell's points, else its fields' boxes. Of a half-space, what lies within
 /// 10 m of the body's origin.
 BoundingBall motionBall(const Body& body);
+
+/// What was built for one body; a row of the plan's table.
+struct BodyReport {
+  std::string name;
+  std::string geometry;         ///< "mesh (300 triangles, closed)", "box", …
+  std::string field;            ///< "cached", "built 1.2 s", "exact", "shared", "left out"
+  std::size_t field_bytes = 0;  ///< a mesh that several bodies have counts for the first
+  std::size_t cells = 0;        ///< stored cells
+  double field_error = 0.0;     ///< [m]
+  std::size_t shell_points = 0;
+  std::size_t shell_bytes = 0;
+  std::size_t witnesses = 0;  ///< Body::witnesses
+  double gap = 0.0;           ///< between its shell's points, against a body with a like shell [m]
+  std::size_t pairs = 0;
+  ErrorBound bound;   ///< the largest of its pairs; chord: what the options allow for
+  std::string solid;  ///< what of its meshes lies inside their solids and was left out; empty if nothing, or cached
+  std::vector<std::string> warnings;
+};
 
 }  // namespace sdf_ccd

@@ -4,11 +4,16 @@
 #include <optional>
 #include <string>
 
-#include "sdf_ccd/field/field_options.h"
-#include "sdf_ccd/model/accuracy.h"
+#include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
 namespace sdf_ccd {
+
+/// What is wanted of bodies that are prepared to be checked.
+struct Accuracy {
+  double max_error = 1e-3;           ///< of a verdict about two of them, but for what motions add [m]
+  std::string cache_directory = {};  ///< where what was made is kept, and found again; empty: nowhere
+};
 
 /// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing, or edge_gap if there is
 /// one, + the field's own error + motion_margin), so that they hold the margin at which a pair ceases to be CLEAR; at
@@ -19,17 +24,17 @@ struct BodyOptions {
   double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
   std::string cache_directory;  ///< empty: nothing is read or written
 
-  /// The bound that field, shell and motion_margin are shares of (see error_budget.h) [m]. If it is set, a field or
-  /// shell that would be too large is made coarser, and its body's report says so; else the body cannot be checked.
+  /// The bound that field, shell and motion_margin are shares of [m]. If it is set, a field or shell that would be too
+  /// large is made coarser, and its body's report says so; else the body cannot be checked.
   std::optional<double> max_error;
 };
 
 /// What a body's field and shell may take where an accuracy is asked for, whatever that is.
 constexpr std::size_t kMostFieldBytes = std::size_t{256} << 20, kMostShellPoints = 3'000'000;
 
-/// The options that keep an accuracy: its max_error shared out to field, edges and motions (see shareOut()), with
+/// The options that keep an accuracy: its max_error shared out to field, edges and motions as 55 : 35 : 9, with
 /// kMostFieldBytes and kMostShellPoints.
-/// @throws std::invalid_argument as shareOut().
+/// @throws std::invalid_argument if it is below a nanometre.
 BodyOptions optionsFor(const Accuracy& accuracy);
 
 }  // namespace sdf_ccd

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "sdf_ccd/body/body.h"
+#include "sdf_ccd/body/body_options.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/model/accuracy.h"
 #include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {

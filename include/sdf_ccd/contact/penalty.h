@@ -2,13 +2,36 @@
 
 #include <vector>
 
-#include "sdf_ccd/contact/wrench.h"
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/motion/chords.h"
 #include "sdf_ccd/query/shell_query.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
+
+/// Force [N] and torque [N·m] about a reference point, or impulse [N·s] and angular impulse [N·m·s], in the axes of
+/// one frame. Which point and which frame is said where it is used.
+struct Wrench {
+  Vector3d force = Vector3d::Zero();
+  Vector3d torque = Vector3d::Zero();
+
+  Wrench& operator+=(const Wrench& other) {
+    force += other.force;
+    torque += other.torque;
+    return *this;
+  }
+};
+
+inline Wrench operator*(double factor, const Wrench& w) {
+  return {factor * w.force, factor * w.torque};
+}
+
+/// The wrench `w_C`, about C's origin in C's axes, about B's origin in B's axes.
+inline Wrench expressedIn(const Isometry3d& X_CB, const Wrench& w_C) {
+  const Matrix3d R_BC = X_CB.linear().transpose();
+  return {R_BC * w_C.force, R_BC * (w_C.torque - X_CB.translation().cross(w_C.force))};
+}
 
 enum class StiffnessPer { kArea, kPoint };
 enum class NormalSource { kField, kShell };

@@ -1,10 +1,30 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <optional>
+
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/field/field_options.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {
+
+/// Called from one thread at a time with the share done, from 0 to 1.
+using Progress = std::function<void(double)>;
+
+/// How fine a field is. Exactly one of the first three is set.
+struct FieldOptions {
+  std::optional<int> cells;         ///< cells along the longest side of the surface's box
+  std::optional<double> cell_size;  ///< [m]
+  /// |interpolated − true distance| in the band [m]; cells of several sizes. Where the smallest ones do not do the
+  /// field has a larger DistanceField::errorBound().
+  std::optional<double> max_error;
+  double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken
+  std::size_t max_bytes = std::size_t{4} << 30;  ///< larger fields are refused, with the cell size that would fit
+};
+
+/// Throws std::invalid_argument, with the value, for options that no field can have.
+void validate(const FieldOptions& options);
 
 class ClosedSolid;
 class Solid;

@@ -7,7 +7,6 @@
 
 #include "sdf_ccd/body/body.h"
 #include "sdf_ccd/body/body_options.h"
-#include "sdf_ccd/body/body_report.h"
 #include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/monitor/scene_plan.h"
 #include "sdf_ccd/query/verdict.h"

@@ -1,9 +1,22 @@
 #pragma once
 
+#include <vector>
+
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/interval.h"
 
 namespace sdf_ccd {
+
+/// Closed interval of a parameter; enter ≤ exit.
+struct Interval {
+  double enter;
+  double exit;
+};
+
+/// Disjoint and increasing.
+using Intervals = std::vector<Interval>;
+
+/// Sorts intervals and joins those that overlap or lie within `gap` of each other.
+void mergeIntervals(Intervals& intervals, double gap = 0.0);
 
 /// A point's straight path, frame F [m]; t = 0 at the start and 1 at the end.
 struct Segment {

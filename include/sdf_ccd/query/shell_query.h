@@ -4,9 +4,8 @@
 
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/motion/chords.h"
-#include "sdf_ccd/query/interval.h"
 #include "sdf_ccd/query/segment_query.h"
-#include "sdf_ccd/shell/sphere_tree.h"
+#include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
 

@@ -7,8 +7,7 @@
 
 #include "sdf_ccd/motion/cycle_motion.h"
 #include "sdf_ccd/motion/sample_motion.h"
-#include "sdf_ccd/robot/planned_joints.h"
-#include "sdf_ccd/robot/trajectory_motion.h"
+#include "sdf_ccd/robot/robot_trajectory.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
 
 namespace sdf_ccd {

@@ -1,14 +1,56 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sdf_ccd/model/scene_description.h"
-#include "sdf_ccd/robot/resource.h"
 #include "sdf_ccd/robot/robot_model.h"
-#include "sdf_ccd/robot/srdf.h"
 
 namespace sdf_ccd {
+
+struct Resource {
+  std::string bytes;
+  std::string name;     ///< its ending tells the format
+  std::string warning;  ///< e.g. "found link.STL, the URDF says link.stl"; empty if there is none
+};
+
+/// Fetches what a URI names; throws std::runtime_error, with the URI and the reason, if it cannot.
+using ResourceLoader = std::function<Resource(const std::string& uri)>;
+
+/// Directory of a ROS package, empty if there is none.
+using PackageFinder = std::function<std::string(const std::string& package)>;
+
+/// Looks below the directories of ROS_PACKAGE_PATH, as rospack does: for package.xml (its `name` counts, not the
+/// folder's) and manifest.xml; not below a package, a hidden folder, `rospack_nosubdirs` or CATKIN_IGNORE (also
+/// AMENT_IGNORE, COLCON_IGNORE). Of equal names the first wins. Crawls at the first question and remembers; may be
+/// asked from several threads.
+PackageFinder packagesFromEnvironment();
+
+/// Reads `file://`, `package://` (also with a third slash) and plain paths (relative to `base_directory`). A file or
+/// folder whose name differs only by case is taken, with a warning.
+/// @throws std::runtime_error, with the URI and the reason: no such package or file, a directory, not readable, another
+/// scheme, `..` in a package URI.
+Resource loadLocalResource(const std::string& uri, const PackageFinder& packages, const std::string& base_directory);
+
+/// What is used of an SRDF file. Names are not compared with any robot here.
+struct Srdf {
+  std::vector<DisabledPair> disabled;                 ///< reason: "SRDF: " and the file's
+  std::map<std::string, JointPositions> states;       ///< "group/state"; "state" where the file names no group
+  std::vector<std::string> disabled_by_default;       ///< links that are checked against those of `enabled` alone
+  std::map<std::string, std::string> virtual_joints;  ///< child link by name; parent frame and type are not used
+  std::vector<std::pair<std::string, std::string>> enabled;  ///< overrides disabled_by_default, and adjacency
+};
+
+/// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions`, `group_state` and
+/// `virtual_joint`. As in MoveIt, a
+/// pair that is both disabled and enabled is disabled. Joints with several values in a state (planar, floating) are
+/// left out of it.
+/// @param source  where the text is from, for errors; may be empty.
+/// @throws std::runtime_error, with source, line and reason, if the text is no SRDF.
+Srdf parseSrdf(const std::string& xml, const std::string& source = {});
 
 struct RobotSceneOptions {
   bool check_adjacent = false;  ///< also check links with one joint between them

@@ -5,7 +5,7 @@
 
 #include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/motion/cycle_motion.h"
-#include "sdf_ccd/robot/planned_joints.h"
+#include "sdf_ccd/robot/robot_trajectory.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 
 #include "field/adaptive/adaptive_grid.h"
 #include "geometry/solid_boundary.h"
-#include "sdf_ccd/field/field_options.h"
+#include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/query/interval.h"
+#include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {
 

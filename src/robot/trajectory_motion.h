@@ -1,39 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "sdf_ccd/motion/sample_motion.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot/robot_trajectory.h"
 
 namespace sdf_ccd {
-
-/// Where a robot is at one time.
-struct RobotState {
-  Isometry3d X_WR = Isometry3d::Identity();  ///< its root link
-  JointPositions positions;                  ///< as RobotModel::forwardKinematics() takes them, as the following
-  JointPoses poses;
-};
-
-/// Waypoints; between two of them every joint moves evenly. Positions change linearly. What is given as a pose slides
-/// linearly and turns evenly (slerp) the shortest way about an axis that does not turn: joints' frames and the root.
-struct RobotTrajectory {
-  std::vector<double> times;       ///< [s], increasing
-  std::vector<RobotState> states;  ///< one per time; all name the same joints
-};
-
-/// Where the robot is at a time from the first to the last. @throws std::out_of_range if two states name other joints.
-RobotState stateAt(const RobotTrajectory& trajectory, double time);
-
-/// Both at once, with the waypoints of both; the root is where the second has it.
-/// @throws std::invalid_argument if they do not begin and end at the same times.
-RobotTrajectory merged(const RobotTrajectory& joints, const RobotTrajectory& joints_and_root);
-
-/// A body that moves with a link, or rests.
-struct CarriedBody {
-  int link = -1;                             ///< by its index in RobotModel::links(); −1: the body rests
-  Isometry3d X_LB = Isometry3d::Identity();  ///< its frame in the link's; of a body that rests, in the world
-  BoundingBall ball_B;                       ///< holds its points
-};
 
 /// The motion of bodies that a robot carries along a trajectory, with a bound of what happens between two times: from
 /// the joints' rates and reaches along each body's chain (ChainDerivatives), whatever the poses at these times are.
