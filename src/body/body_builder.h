@@ -35,9 +35,9 @@ struct BuiltBody {
 /// that cannot be, Body::failure says why. Body::surface is left out: see surfaceOf().
 ///
 /// Shell points deeper inside a sibling part than the covering radius are left out. The radius stays true for the
-/// union: a place q of its surface is outside the sibling, so (distances being 1-Lipschitz) the point nearest to q is
-/// no deeper in it than the radius, and kept. Kept points inside a sibling stand for no area. Siblings that are meshes
-/// count only where their field is built and their sign is trusted.
+/// union: a location q of its surface is outside the sibling, so (distances being 1-Lipschitz) the point nearest to q
+/// is no deeper in it than the radius, and kept. Kept points inside a sibling stand for no area. Siblings that are
+/// meshes count only where their field is built and their sign is trusted.
 /// @param progress  called with the share of the body's fields done.
 BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                     MeshPool& pool, const Progress& progress);

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// A part's shell, and its field if it may be asked what lies inside it.
+/// A part's shell, and its field if that knows what lies inside it.
 struct ShellPart {
   Isometry3d X_BG;
   PointShell shell;            ///< frame G

@@ -39,7 +39,7 @@ struct ChordPoint {
   Vector3d position(double s) const { return start + s * step; }
   Vector3d inward(double s) const { return ((1.0 - s) * inward_start + s * inward_end).normalized(); }
 
-  /// Of the shell's point relative to the field's body at the same place: v_A + ω_A×r_A − v_B − ω_B×r_B of Eq. 10,
+  /// Of the shell's point relative to the field's body at the same point: v_A + ω_A×r_A − v_B − ω_B×r_B of Eq. 10,
   /// seen from F [m/s].
   Vector3d velocity() const { return step / duration; }
 };

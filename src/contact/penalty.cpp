@@ -25,7 +25,7 @@ struct Node {
 const std::array<Node, 3> kGauss = {
     {{0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}}};
 
-// Two parts at the same place: their values differ by the rounding of their poses [m].
+// Two parts in the same position: their values differ by the rounding of their poses [m].
 constexpr double kTie = 1e-9;
 
 class Integrator {

@@ -27,7 +27,7 @@ constexpr double kFarthest = 1e11;
 // So that sums over all bodies stay finite.
 constexpr double kLargest = 1e290;
 
-/// @throws SimulationError for a body whose place, energy or momentum is beyond what can be computed.
+/// @throws SimulationError for a body whose position, energy or momentum is beyond what can be computed.
 void requireComputable(const RigidWorld& world, const std::vector<BodyState>& states, long step) {
   for (std::size_t b = 0; b < states.size(); ++b) {
     const RigidBody& body = world.bodies[b];

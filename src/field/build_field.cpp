@@ -39,7 +39,7 @@ bool needsSamples(const BrickSampler& sampler, const GridShape& shape, const std
   return sampler.surface().tree().closestPoint(center, reach).distance < reach;
 }
 
-/// What no sample of a brick exceeds: distances differ by no more than places do.
+/// What no sample of a brick exceeds: distances differ by no more than their points are apart.
 double largestSample(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick) {
   double nearest = TriangleTree::kInfinity;
   for (int k = 0; k < 8; ++k) {

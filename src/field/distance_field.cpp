@@ -12,7 +12,7 @@ namespace sdf_ccd {
 
 namespace {
 
-/// The sample at a place outside a grid: no nearer than the surface's box, no farther than by way of the place
+/// The sample at a point outside a grid: no nearer than the surface's box, no farther than by way of the point
 /// `boundary_F` of the grid that is nearest to it.
 FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, const Vector3d& boundary_F,
                           const FieldSample& at_boundary) {
@@ -73,7 +73,7 @@ FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
   FieldSample known = sample(p_F);
   if (!openings_) return known;
   // The mesh is no nearer than the closed surface; and no farther, or no farther than by way of the nearest cap if that
-  // may be the nearest place.
+  // may be the nearest point.
   const double near = std::abs(known.value) + known.error;
   const bool by_cap = openings_->isWithin(p_F, near);
   const double far = by_cap ? std::max(near, openings_->meshWithin(p_F)) : near;

@@ -9,8 +9,8 @@ namespace sdf_ccd {
 /// A ball free of surface: what a coarse cell says in whose neighbourhood there is none.
 ///
 /// A query skips to where a segment leaves the ball (design §3.3). The ball about the cell's own centre ends at the
-/// surface; one about a place farther out touches the surface there too, holds the first, and is left later by all
-/// segments that do not run straight at the surface. So the centre is the place, of a lattice as wide as the cells, out
+/// surface; one about a point farther out touches the surface there too, holds the first, and is left later by all
+/// segments that do not run straight at the surface. So the centre is the point, of a lattice as wide as the cells, out
 /// to which the distance grows as fast as a distance can.
 struct EmptySphere {
   static constexpr int kMostOffset = 15;

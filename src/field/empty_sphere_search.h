@@ -23,7 +23,7 @@ class EmptySphereSearch {
   float distance(const Vector3i& place) const {
     return distances_[(std::size_t(place.z()) * places_.y() + place.y()) * places_.x() + place.x()];
   }
-  /// Of the places next to a cell's centre the farthest from the surface.
+  /// Of the points next to a cell's centre the farthest from the surface.
   Vector3i farthest(const Vector3i& cell) const;
   /// Out of the surface, or into it: away from it.
   Vector3d away(const Vector3i& place) const;

@@ -20,7 +20,7 @@ struct Deviation {
 
 /// What the gradients of φ in a cube say of the error of an interpolant there.
 ///
-/// On the way from a corner a to a place x the distance grows at least by m(x − a), m(v) the least of g·v over all
+/// On the way from a corner a to a point x the distance grows at least by m(x − a), m(v) the least of g·v over all
 /// gradients g in the cube: φ(x) ≥ φ(a) + m(x − a). That holds for each corner, hence for means of what two of them
 /// say. The right-hand side is concave, so that it is nowhere below what is interpolated between its values at the
 /// cube's corners. An interpolant, less that: its largest value at a corner bounds how far it is above φ. Two corners

@@ -4,7 +4,7 @@
 
 #include "sdf_ccd/common/eigen_types.h"
 
-/// Whether the numbers of a grid's shape, which may come from a file, are those of a place.
+/// Whether the numbers of a grid's shape, which may come from a file, are those of a grid that may be.
 namespace sdf_ccd {
 
 inline bool isSurfaceBox(const AlignedBox3d& box) {

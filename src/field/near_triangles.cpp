@@ -15,18 +15,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What rounding may take from a distance, relative to the cube it is compared in.
 constexpr double kSlack = 1e-9;
 
-/// How far a triangle may be from the centre of a cube and still be the closest to a place in it: that place is within
+/// How far a triangle may be from the centre of a cube and still be the closest to a point in it: that point is within
 /// distance + radius of the surface, and the centre within another radius of it.
 double reach(const SurfaceIndex& surface, const SpaceCube& cube, double distance) {
   return (std::abs(distance) + 2.0 * cube.radius()) * (1.0 + kSlack) + surface.exact().solid().seam();
 }
 
-/// Whether a triangle can be nearer to a place of a cube than another whose distances from the corners are given.
+/// Whether a triangle can be nearer to a point of a cube than another whose distances from the corners are given.
 ///
 /// A triangle's distance is convex. So it exceeds its tangent at the centre; and that of the other triangle nowhere
 /// exceeds what is interpolated between the corners. A tangent that is above at each corner is above all over.
 /// @param distance  at the cube's centre, or less [m].
-/// @param way       to the centre from the place that it is the distance to, or a longer one: the gradient's direction.
+/// @param way       to the centre from the point that it is the distance to, or a longer one: the gradient's direction.
 /// @param length    of the way [m].
 SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& way, double length, double side,
                                  const PlaceLanes::Lane& other) {

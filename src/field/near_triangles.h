@@ -71,7 +71,7 @@ struct DirectionCone {
   double sine = 1.0;
 };
 
-/// The triangles that can be the closest one to a place in a cube, and the signed distances they give there.
+/// The triangles that can be the closest one to a point in a cube, and the signed distances they give there.
 class NearTriangles {
  public:
   NearTriangles() = default;
@@ -81,16 +81,16 @@ class NearTriangles {
   NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube, double distance, const std::int32_t* ids,
                 std::size_t count);
 
-  /// Signed distance at a place of the cube.
+  /// Signed distance at a point of the cube.
   double signedDistance(const Vector3d& p) const;
 
-  /// Signed distances at eight places of the cube, of which `count` are asked for.
+  /// Signed distances at eight points of the cube, of which `count` are wanted.
   void signedDistances(const PlaceLanes& places, int count, PlaceLanes::Lane& distances) const;
 
   /// Holds the gradient of the signed distance wherever it is defined in the cube.
   const DirectionCone& gradientCone() const { return cone_; }
 
-  /// The sign at a place of the cube, `distance` from the surface, where its closest triangles do not tell it.
+  /// The sign at a point of the cube, `distance` from the surface, where its closest triangles do not tell it.
   int signFarther(const Vector3d& p, double distance) const;
 
   const SurfaceIndex& surface() const { return *surface_; }
@@ -100,7 +100,7 @@ class NearTriangles {
   std::int32_t triangle(std::size_t i) const { return ids_[i]; }
 
  private:
-  /// The closest place, and what the triangles that hold it say of the sign: 0 if they do not agree.
+  /// The closest point, and what the triangles that hold it say of the sign: 0 if they do not agree.
   struct Closest {
     double distance;
     Vector3d point;
@@ -118,7 +118,7 @@ class NearTriangles {
   DirectionCone cone_;
 };
 
-/// Writes the signed distances at places of a cube to where they belong, eight at a time.
+/// Writes the signed distances at points of a cube to where they belong, eight at a time.
 template <class Value>
 class DistanceWriter {
  public:
@@ -164,7 +164,7 @@ class NearCube {
   NearTriangles near_;
 };
 
-/// The triangles near each octant of a cube, ordered like corners. Lists are made when asked for.
+/// The triangles near each octant of a cube, ordered like corners. Lists are made when needed.
 class NearOctants {
  public:
   explicit NearOctants(const NearTriangles& around);

@@ -9,7 +9,7 @@ namespace sdf_ccd {
 /// Where a field's surface is no surface of its mesh: triangles that close the mesh's openings (see findOpenings()).
 class OpeningCaps {
  public:
-  /// @param reach  per triangle: no place of it is farther from the mesh [m].
+  /// @param reach  per triangle: no point of it is farther from the mesh [m].
   /// @throws std::invalid_argument if the mesh is not valid, or the reaches do not fit it.
   OpeningCaps(TriangleMesh mesh, std::vector<double> reach);
 

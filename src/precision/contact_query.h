@@ -8,7 +8,7 @@
 #include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
-/// Shells that move against fields, as the studies of contact ask them.
+/// Shells that move against fields, as the studies of contact query them.
 namespace sdf_ccd::precision {
 
 /// A shell with its tree.

@@ -16,7 +16,7 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr double kDeepest = 0.005;  ///< of the places [box sides]
+constexpr double kDeepest = 0.005;  ///< of the points [box sides]
 constexpr double kFree = 0.06;  ///< that segments begin away from the surface at least: outside the coarsest field too
 
 double sideOf(const TriangleMesh& mesh) {
@@ -45,7 +45,7 @@ struct ExactHits {
   }
 };
 
-/// Places just inside the mesh, with their distance.
+/// Points just inside the mesh, with their distance.
 struct ExactDepths {
   std::vector<Vector3d> places;
   std::vector<double> distances;

@@ -19,7 +19,7 @@ Vector3d direction(Random& random);
 /// Uniform over all orientations (Shoemake 1992).
 Matrix3d rotation(Random& random);
 
-/// Places of a mesh's surface, uniform by area, independent of each other.
+/// Points of a mesh's surface, uniform by area, independent of each other.
 class SurfacePlaces {
  public:
   /// @param mesh  must outlive this.

@@ -7,13 +7,13 @@
 #include "measurement.h"
 #include "peers.h"
 
-/// Studies of error against run time. Each asks the same queries of every system at every setting, in turn, on one
+/// Studies of error against run time. Each runs the same queries on every system at every setting, in turn, on one
 /// thread, and compares the answers with the truth.
 namespace sdf_ccd::precision {
 
 struct StudyInput {
   TriangleMesh mesh;   ///< closed and oriented (see orientOutward())
-  int queries = 2000;  ///< segments and places; of motions of bodies fewer, a twentieth to a fortieth
+  int queries = 2000;  ///< segments and points; of motions of bodies fewer, a twentieth to a fortieth
   bool quick = false;  ///< without the finest settings
   Peers peers;         ///< other libraries
   std::function<void(double)> progress = [](double) {};  ///< the share done

@@ -15,7 +15,7 @@ struct ExtentBall {
 /// `geometry` must not be empty.
 ExtentBall extentBall(const std::vector<GeometryDescription>& geometry);
 
-/// No place of the geometry is nearer to p (in the body's frame) than this [m]; may be negative inside.
+/// No location of the geometry is nearer to p (in the body's frame) than this [m]; may be negative inside.
 double distanceBelow(const std::vector<GeometryDescription>& geometry, const Vector3d& p);
 
 }  // namespace sdf_ccd

@@ -16,7 +16,7 @@ namespace sdf_ccd {
 /// revolution; so also of revolute joints without limits, that is with two equal ones. In the fourth every limited
 /// joint stands at one of its limits with probability ½: there arms are folded farthest. Mimic joints follow their
 /// leaders (RobotModel::forwardKinematics()). Planar and floating joints, and prismatic ones without limits, range over
-/// places that nothing bounds; they are left where they are (see unbounded()).
+/// locations that nothing bounds; they are left where they are (see unbounded()).
 class JointSampler {
  public:
   JointSampler(const RobotModel& robot, std::uint64_t seed);

@@ -12,10 +12,10 @@ namespace sdf_ccd {
 /// have no neighbour over them, and so among the edges below.
 ///
 /// What lies between points of faces does not count, because faces alone never touch first. Let E be the edges of a
-/// surface's flat pieces: away from E a surface is a plane nearby. Of the places where surfaces A and B meet, take an
-/// extreme point x of their convex hull. Were x neither on E_A nor on E_B, two planes would meet there, along a line
+/// surface's flat pieces: away from E a surface is a plane nearby. Of the locations where surfaces A and B meet, take
+/// an extreme point x of their convex hull. Were x neither on E_A nor on E_B, two planes would meet there, along a line
 /// through x, and x not be extreme. So x lies on an edge of one of them, say A, and on B; a point of A's shell is
-/// within A's edge radius of it. (Disjoint surfaces: of the nearest places the extreme one, by the same argument.)
+/// within A's edge radius of it. (Disjoint surfaces: of the nearest locations the extreme one, by the same argument.)
 /// Where pieces deviate from planes by `flatness`, the planes do not meet but pass each other within the sum of both,
 /// and point and field are off by as much again: twice the sum in all. One body wholly inside the other has a point
 /// inside it.

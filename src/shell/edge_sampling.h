@@ -19,7 +19,7 @@ struct EdgeSampling {
         covering(options.has_siblings ? 0.9 * options.edge_gap : options.edge_gap) {}
 };
 
-/// Whether points on edges are asked for.
+/// Whether points on edges are wanted.
 inline bool hasEdges(const ShellOptions& options) {
   return options.edge_gap > 0.0 && options.edge_gap < options.spacing;
 }

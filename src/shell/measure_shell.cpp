@@ -57,7 +57,7 @@ double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double 
   const CancelPoint cancel;
   const Vector3d any = Vector3d::Zero();
   std::vector<double> reached2(chunks(mesh), 0.0);
-  // Some place of each triangle first: the better the bound from below, the fewer pieces need cutting.
+  // Some location of each triangle first: the better the bound from below, the fewer pieces need cutting.
   forEachChunk(mesh, [&](std::size_t chunk, int first, int last) {
     for (int i = first; i < last; ++i) {
       reached2[chunk] = std::max(reached2[chunk], nearest.find(SurfacePiece::of(mesh, i).centroid(), any).distance2);

@@ -64,7 +64,7 @@ class PieceWalk {
   /// Looking for points once for a larger piece and sharing them out is cheaper than looking for each small one.
   static constexpr double kGather = 3;
 
-  /// A point that is nearest to some place of the piece is at most this much farther from the piece's centre than
+  /// A point that is nearest to some location of the piece is at most this much farther from the piece's centre than
   /// the centre's nearest point: there and back.
   static double margin(const SurfacePiece& piece, const Vector3d& center) {
     return 2 * std::sqrt(piece.farthest2(center)) * (1 + 1e-12);

@@ -8,7 +8,7 @@
 
 namespace sdf_ccd {
 
-/// A growing set of oriented points that can be asked for those within a fixed distance of a place.
+/// A growing set of oriented points, and queries for those within a fixed distance of a location.
 ///
 /// Cells are twice that distance wide, so that eight of them hold all candidates. Cells that hash to one bucket
 /// share its list; the visitor measures distances itself.

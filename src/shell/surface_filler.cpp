@@ -122,7 +122,7 @@ void SurfaceFiller::addVertices() {
 void SurfaceFiller::fillEdges(const std::vector<SurfaceEdge>& edges, double edge_radius) {
   if (edges.empty()) return;
   const double radius = edge_radius * (1.0 - 1e-9);  // neighbouring parts must overlap in spite of rounding
-  PointGrid near(1.2 * radius);                      // from places that far apart, all points within it of an edge
+  PointGrid near(1.2 * radius);                      // from locations that far apart, all points within it of an edge
   for (const Vector3d& p : shell_.points) near.insert(p);
   for (const SurfaceEdge& edge : edges) {
     cancel_.check();

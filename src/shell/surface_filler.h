@@ -11,7 +11,7 @@
 
 namespace sdf_ccd {
 
-/// Adds points to a shell until no place of the mesh is farther than options.spacing from one that faces its way, or
+/// Adds points to a shell until no location of the mesh is farther than options.spacing from one that faces its way, or
 /// until that is cancelled.
 class SurfaceFiller {
  public:
@@ -20,9 +20,9 @@ class SurfaceFiller {
 
   /// The mesh's vertices, thinned to options.vertex_spacing.
   void addVertices();
-  /// Points along edges, until no place of one is farther than `radius` from a point [m].
+  /// Points along edges, until no location of one is farther than `radius` from a point [m].
   void fillEdges(const std::vector<SurfaceEdge>& edges, double radius);
-  /// Poisson-disk sampling: random places, kept if no point that faces their way is nearer than the spacing.
+  /// Poisson-disk sampling: random locations, kept if no point that faces their way is nearer than the spacing.
   void throwDarts();
   /// Halves triangles until one point covers each piece; adds a point wherever none does.
   void fillGaps();

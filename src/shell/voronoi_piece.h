@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// A shell's point that may be nearest to some place of a piece of surface.
+/// A shell's point that may be nearest to some location of a piece of surface.
 struct Candidate {
   Vector3d point;
   std::int32_t index;
@@ -32,7 +32,7 @@ class CellPolygon {
  public:
   explicit CellPolygon(const SurfacePiece& piece);
 
-  /// Keeps what is nearer to p than to q; all or nothing if they are at the same place, as `wins_ties` says.
+  /// Keeps what is nearer to p than to q; all or nothing if they are at the same location, as `wins_ties` says.
   void keepNearer(const Vector3d& p, const Vector3d& q, bool wins_ties);
 
   bool empty() const { return size_ == 0; }

@@ -41,7 +41,7 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
 
  private:
-  /// Asks again and again, as a call that waits could not be cancelled.
+  /// Tries again and again, as a call that waits could not be cancelled.
   void wait(const std::string& path, double seconds) const {
     const auto start = std::chrono::steady_clock::now();
     while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {

@@ -27,7 +27,7 @@ void requireRegular(const struct stat& status) {
 }  // namespace
 
 std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
-  // Asked before opening, as opening some devices does things; and after, as it may be another one by then.
+  // Looked at before opening, as opening some devices does things; and after, as it may be another one by then.
   struct stat status;
   if (::stat(path.c_str(), &status) != 0) throw std::runtime_error("cannot be opened");
   requireRegular(status);

@@ -9,7 +9,7 @@ namespace sdf_ccd {
 /// `kill -9`.
 class TemporaryFile {
  public:
-  /// @param target  the place that it is for; links are not followed.
+  /// @param target  the location that it is for; links are not followed.
   /// @throws std::system_error if none can be made in the target's directory.
   explicit TemporaryFile(const std::string& target);
   ~TemporaryFile();  ///< without place() nothing stays

@@ -23,7 +23,7 @@ FieldOptions coarser(FieldOptions options, int times) {
   return options;
 }
 
-/// As it is asked for on the command line.
+/// As on the command line.
 std::string asOption(const FieldOptions& options) {
   if (options.max_error) return "--max-error " + shortly(*options.max_error);
   if (options.cell_size) return "--cell " + shortly(*options.cell_size);

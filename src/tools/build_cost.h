@@ -49,7 +49,7 @@ class BuildCost {
   };
 
   BodyCost expected(const Wanted& wanted) const;
-  /// How the same is asked for so coarsely that it is affordable; empty if that is much coarser.
+  /// The option that makes it so coarse that it is affordable; empty if that is much coarser.
   std::string whatFits() const;
 
   std::optional<double> spacing_;

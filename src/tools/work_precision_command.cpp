@@ -101,7 +101,7 @@ void addWorkPrecisionCommand(CLI::App& app) {
   }
   command->footer(
       described +
-      "Each asks the same random queries of every setting, in turn, on one thread, prints a table and writes "
+      "Each runs the same random queries at every setting, in turn, on one thread, prints a table and writes "
       "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Uniform fields have 16 bits a sample; adaptive ones "
       "(of a maximum error) 7 bits per corner of a leaf, whose rounding is part of that error.");
   command->add_option("study", arguments->study, "One of the studies below; all of them without any");

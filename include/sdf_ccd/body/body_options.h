@@ -29,7 +29,7 @@ struct BodyOptions {
   std::optional<double> max_error;
 };
 
-/// What a body's field and shell may take where an accuracy is asked for, whatever that is.
+/// What a body's field and shell may take where an accuracy is wanted, whatever that is.
 constexpr std::size_t kMostFieldBytes = std::size_t{256} << 20, kMostShellPoints = 3'000'000;
 
 /// The options that keep an accuracy: its max_error shared out to field, edges and motions as 55 : 35 : 9, with

@@ -72,7 +72,7 @@ struct ContactInput {
 /// Where a hit is deepest.
 struct HitDepth {
   bool siblings = false;            ///< the contact is a sibling's all along: the rest is not set
-  double depth = 0.0;               ///< [m], positive inside; of a place on the path; the deepest: leastDistance()
+  double depth = 0.0;               ///< [m], positive inside; of a point on the path; the deepest: leastDistance()
   double error = 0.0;               ///< of the depth: the field's there, larger beyond its band [m]
   double least = 0.0;               ///< the depth is no less [m]: beyond the band the error alone would not tell that
   double time = 0.0;                ///< [s]

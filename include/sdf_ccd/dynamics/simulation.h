@@ -54,7 +54,7 @@ class Simulation {
  public:
   /// @param step  [s].
   /// @throws SimulationError, std::invalid_argument as validate() does; also for a step that is not finite or positive,
-  /// and for a body whose place, energy or momentum is beyond what can be computed.
+  /// and for a body whose position, energy or momentum is beyond what can be computed.
   Simulation(RigidWorld world, std::vector<BodyState> states, Scheme scheme, double step);
 
   Simulation(Simulation&& other) noexcept;

@@ -13,7 +13,7 @@ class AdaptiveGrid;
 class OpeningCaps;
 class SparseGrid;
 
-/// A field at one place. Guarantee: |true distance − value| ≤ error.
+/// A field at one point. Guarantee: |true distance − value| ≤ error.
 struct FieldSample {
   double value;       ///< [m], negative inside; interpolated in the band, the middle of what is known elsewhere
   double error;       ///< [m]
@@ -26,7 +26,7 @@ struct FieldValue {
   Vector3d gradient;
 };
 
-/// The true distance at one place lies between [m].
+/// The true distance at one point lies between [m].
 struct DistanceBounds {
   double low;
   double high;
@@ -48,11 +48,11 @@ class DistanceField {
   explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
   explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
 
-  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that of the place: of its
+  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that of the point: of its
   /// leaf, or what the samples around it say (see src/field/uniform/sample_bracket.h).
   FieldSample sample(const Vector3d& p_F) const;
 
-  /// The same value and gradient; cheaper, as the error is not asked for.
+  /// The same value and gradient; cheaper, as the error is left out.
   FieldValue interpolate(const Vector3d& p_F) const;
 
   /// What the true distance lies between [m], anywhere; cheaper and wider than sample(). Outside the grid `high` is
@@ -67,7 +67,7 @@ class DistanceField {
   double errorBound() const;
 
   /// Where the surface is no surface of the mesh; null if it is all over, to the error bound: then the sign is beyond
-  /// doubt. (Caps of cracks, no place of which is farther from the mesh than errorBound(), do not count.)
+  /// doubt. (Caps of cracks, no point of which is farther from the mesh than errorBound(), do not count.)
   const OpeningCaps* openings() const { return openings_.get(); }
 
   /// Lower bound of the distance to where the surface is no surface of the mesh [m]; infinity if it is all over.
@@ -101,7 +101,7 @@ class DistanceField {
 };
 
 /// Writes a sampled field. The file appears under its name complete or not at all, and ends in a checksum.
-/// @param key  what the field was made from, up to 63 characters, for whoever loads it to ask for.
+/// @param key  what the field was made from, up to 63 characters, for whoever loads it to compare.
 /// @throws std::invalid_argument for a primitive's field, which is exact and needs no file; std::runtime_error naming
 /// the path and the reason.
 void saveField(const DistanceField& field, const std::string& path, const std::string& key = {});

@@ -26,7 +26,7 @@ using PackageFinder = std::function<std::string(const std::string& package)>;
 /// Looks below the directories of ROS_PACKAGE_PATH, as rospack does: for package.xml (its `name` counts, not the
 /// folder's) and manifest.xml; not below a package, a hidden folder, `rospack_nosubdirs` or CATKIN_IGNORE (also
 /// AMENT_IGNORE, COLCON_IGNORE). Of equal names the first wins. Crawls at the first question and remembers; may be
-/// asked from several threads.
+/// called from several threads.
 PackageFinder packagesFromEnvironment();
 
 /// Reads `file://`, `package://` (also with a third slash) and plain paths (relative to `base_directory`). A file or

@@ -15,7 +15,7 @@ struct PointShell {
   std::vector<Vector3d> points;   ///< [m]
   std::vector<Vector3d> normals;  ///< unit, pointing out
   std::vector<double> areas;      ///< surface area that each point stands for [m²]
-  double covering_radius = 0.0;   ///< no place of the surface is farther than this from a point [m]; a true bound
+  double covering_radius = 0.0;   ///< no location of the surface is farther than this from a point [m]; a true bound
 
   /// The same for the edges of its flat pieces, which deviate from planes by `flatness` [m]; see contact_gap.h.
   /// Infinite where edges have not been sampled apart.

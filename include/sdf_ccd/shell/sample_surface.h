@@ -10,7 +10,7 @@ namespace sdf_ccd {
 class Solid;
 
 struct ShellOptions {
-  double spacing = 0.01;  ///< no place of the surface farther than this from a point [m]
+  double spacing = 0.01;  ///< no location of the surface farther than this from a point [m]
   /// Where it is less than the spacing, edges get points of their own: of two surfaces that touch each other, sampled
   /// like this, a point of one is no farther than this from the other (see contact_gap.h) [m]. 0: no such points.
   double edge_gap = 0.0;
@@ -30,7 +30,7 @@ struct ShellOptions {
 /// flat pieces, can be sampled denser than faces (options.edge_gap), at a fraction of the points; where a
 /// surface is so finely curved that its edges need more, all of it is.
 ///
-/// A place belongs to the nearest point whose normal is not against the place's own, and gaps are filled by that
+/// A location belongs to the nearest point whose normal is not against the location's own, and gaps are filled by that
 /// measure too, so both sides of a thin plate get points and area. The covering radius counts all points.
 /// @throws std::invalid_argument if the mesh or the options are not valid.
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);

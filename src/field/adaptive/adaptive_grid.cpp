@@ -81,7 +81,7 @@ void AdaptiveGrid::check() const {
     if (i >= count) fail("an index leads outside");
   };
 
-  // A node is reached from one place only, at a depth below the last: walked from the top, each must be met once.
+  // A node is reached from one point only, at a depth below the last: walked from the top, each must be met once.
   std::vector<std::uint8_t> depth(arrays_.nodes.size, 0);
   const auto reach = [&](std::size_t node, int d) {
     inside(node, arrays_.nodes.size);

@@ -14,7 +14,7 @@
 
 namespace sdf_ccd {
 
-/// Place, size and accuracy of an adaptive grid.
+/// Origin, size and accuracy of an adaptive grid.
 struct AdaptiveShape {
   /// Node levels below the top grid, and the smallest blocks along a top cell's side: half a cell of the last level.
   static constexpr int kMaxDepth = 3;

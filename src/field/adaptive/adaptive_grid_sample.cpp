@@ -4,7 +4,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// The block that holds a place of the grid's box, and the place in it, [0, 1]³.
+/// The block that holds a point of the grid's box, and the point in it, [0, 1]³.
 struct LocatedBlock {
   AdaptiveBlock block;
   Vector3d u;

@@ -23,7 +23,7 @@ AdaptiveShape adaptiveShape(const AlignedBox3d& surface_box, const FieldOptions&
   shape.error_bound = *options.max_error;
   shape.cell = longest / topCells(*options.max_error / longest);
   shape.band = std::max(options.band, 2.0 * *options.max_error);
-  // Padded so that no place with |φ| ≤ band lies on the grid's boundary, where a query would miss what is beyond it.
+  // Padded so that no point with |φ| ≤ band lies on the grid's boundary, where a query would miss what is beyond it.
   const double padding = 1.01 * shape.band + 0.01 * shape.cell;
   const Vector3d cells = ((shape.surface_box.sizes().array() + 2.0 * padding) / shape.cell).ceil();
   if (cells.maxCoeff() > 1024.0) {

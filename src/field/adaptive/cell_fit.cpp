@@ -156,7 +156,7 @@ std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& n
   const Deviation seen = deviationOf(difference(refined(corners), exact));
   if (seen.above + seen.below > 2.0 * most) return std::nullopt;
   for (double& value : corners) value -= 0.5 * (seen.above - seen.below);
-  // Where that is not right for the places between, what is found there says which way to go on.
+  // Where that is not right for the points between, what is found there says which way to go on.
   const GradientBound bound(near);
   constexpr int kTries = 4;
   for (int i = 0; i < kTries; ++i) {

@@ -17,7 +17,7 @@ struct FittedLeaf {
   double error = 0.0;
 };
 
-/// A cell's signed distances at a lattice of 9×9×9 places, taken when asked for, and what they prove about leaves that
+/// A cell's signed distances at a lattice of 9×9×9 points, computed when needed, and what they prove about leaves that
 /// would stand in its place.
 ///
 /// The proof. A leaf's interpolant is, in every part of the cell, that of its own values at the part's corners: see
@@ -51,11 +51,11 @@ class CellFit {
   using Corners = GradientBound::Corners;
   using Lattice = std::array<double, 27>;  ///< of a cube: corners and middles between them, x fastest
 
-  static constexpr int kSide = kSteps / kKept + 1;  ///< places that are kept along each side
+  static constexpr int kSide = kSteps / kKept + 1;  ///< points that are kept along each side
 
   static int index(const Vector3i& p) { return (p.x() + kSide * (p.y() + kSide * p.z())) / kKept; }
   Vector3d place(const Vector3i& p) const { return low_ + step_ * p.cast<double>(); }
-  /// Signed distance at a place that is kept: NaN if it was not asked for yet.
+  /// Signed distance at a point that is kept: NaN if it is not computed yet.
   double at(const Vector3i& place) const { return values_[index(place)]; }
   void set(const Vector3i& place, double distance) { values_[index(place)] = distance; }
   static Cube octantCube(int k) { return {kSteps / 2 * cubeCorner(k), kSteps / 2}; }
@@ -64,7 +64,7 @@ class CellFit {
   void take(const Cube& cube, int steps, const NearTriangles& near);
   /// Those at the corners of a cube, which were taken before.
   Corners cornersOf(const Cube& cube) const;
-  /// The distances at the places of a cube.
+  /// The distances at the points of a cube.
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
   /// Of one of two steps, whose middles are not kept.
   Lattice finestLattice(const Cube& cube, const NearTriangles& near) const;

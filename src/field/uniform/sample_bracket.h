@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// What exact samples around a place say of the distance there [m].
+/// What exact samples around a point say of the distance there [m].
 ///
 /// The distance is 1-Lipschitz, so that φ(q) − |p−q| ≤ φ(p) ≤ φ(q) + |p−q| for every sample q. That is sharp where q
 /// lies on the shortest way from p to the surface, or on its continuation: along it the distance changes by |p−q|. A
@@ -18,7 +18,7 @@ namespace sdf_ccd {
 /// @param gradient  of the interpolated distance at p; only says where to look.
 DistanceBounds sampleBracket(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient);
 
-/// A place and its distance: nowhere is the distance less than that minus the way there.
+/// A point and its distance: nowhere is the distance less than that minus the way there.
 struct LowerCone {
   Vector3d apex;    ///< [m]
   double distance;  ///< [m]
@@ -26,7 +26,7 @@ struct LowerCone {
   double operator()(const Vector3d& p_F) const { return distance - (p_F - apex).norm(); }
 };
 
-/// The one that gives sampleBracket() its lower bound; it says the most of places beside p_F too. None if there are no
+/// The one that gives sampleBracket() its lower bound; it says the most of points beside p_F too. None if there are no
 /// samples.
 std::optional<LowerCone> sampleCone(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient);
 

@@ -13,7 +13,7 @@
 
 namespace sdf_ccd {
 
-/// Place and size of a grid. Cells are cubes; 8×8×8 of them make a brick.
+/// Origin and size of a grid. Cells are cubes; 8×8×8 of them make a brick.
 struct GridShape {
   static constexpr int kBrick = 8;          ///< cells along a brick's side
   static constexpr int kSide = kBrick + 1;  ///< samples along a brick's side
