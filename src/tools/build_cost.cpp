@@ -41,20 +41,20 @@ BodyOptions limits(const FieldOptions& field) {
 }  // namespace
 
 BodyCost BuildCost::expected(const Wanted& wanted) const {
-  const TriangleMesh& mesh = wanted.mesh->oriented.mesh;
+  const TriangleMesh& mesh = wanted.mesh->mesh;
   BodyCost cost;
-  cost.name = wanted.mesh->name;
-  cost.addField(sdf_ccd::expectedCost(wanted.mesh->closed(), wanted.options));
+  cost.name = wanted.name;
+  cost.addField(sdf_ccd::expectedCost(SolidSource(mesh, wanted.mesh->made).closed(), wanted.options));
   ShellOptions shell;
   shell.spacing = spacing_.value_or(shellSpacing(errorOf(wanted.options, mesh)));
   if (!wanted.mesh->voxels) cost.addShell(expectedPoints(mesh, shell));
   return cost;
 }
 
-void BuildCost::add(PreparedMesh& mesh, const FieldOptions& options) {
+void BuildCost::add(const std::string& name, PooledMesh& mesh, const FieldOptions& options) {
   try {
-    cost_.add(expected({&mesh, options}));
-    wanted_.push_back({&mesh, options});
+    cost_.add(expected({name, &mesh, options}));
+    wanted_.push_back({name, &mesh, options});
   } catch (const std::exception&) {
     // Building it will say what is wrong with it.
   }
@@ -65,7 +65,8 @@ std::string BuildCost::whatFits() const {
   for (int times = 2; times <= kMost; times *= 2) {
     SceneCost cost;
     try {
-      for (const Wanted& wanted : wanted_) cost.add(expected({wanted.mesh, coarser(wanted.options, times)}));
+      for (const Wanted& wanted : wanted_)
+        cost.add(expected({wanted.name, wanted.mesh, coarser(wanted.options, times)}));
       sdf_ccd::requireAffordable(cost, limits(wanted_.front().options));
       return asOption(coarser(wanted_.front().options, times));
     } catch (const std::length_error&) {

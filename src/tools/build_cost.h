@@ -1,27 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "geometry/closed_solid.h"
+#include "body/mesh_pool.h"
 #include "monitor/scene_cost.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
 
 namespace sdf_ccd::tools {
-
-/// A mesh made ready for its field and shell.
-struct PreparedMesh {
-  std::string name;
-  OrientedMesh oriented;
-  MadeSolid made;
-  bool voxels = false;  ///< oriented as they come; they get no shell
-
-  const Solid& solid() { return SolidSource(oriented.mesh, made).solid(); }
-  const ClosedSolid& closed() { return SolidSource(oriented.mesh, made).closed(); }
-};
 
 /// How far apart a shell's points are, whose field has this error bound: two cells of a uniform grid [m].
 inline double shellSpacing(double error_bound) {
@@ -35,7 +22,7 @@ class BuildCost {
   explicit BuildCost(std::optional<double> spacing) : spacing_(spacing) {}
 
   /// What building would refuse costs nothing here. The mesh must outlive this.
-  void add(PreparedMesh& mesh, const FieldOptions& options);
+  void add(const std::string& name, PooledMesh& mesh, const FieldOptions& options);
 
   const SceneCost& cost() const { return cost_; }
 
@@ -44,7 +31,8 @@ class BuildCost {
 
  private:
   struct Wanted {
-    PreparedMesh* mesh;
+    std::string name;
+    PooledMesh* mesh;
     FieldOptions options;
   };
 

@@ -52,26 +52,16 @@ DistanceField buildWithBar(const std::string& title, const ClosedSolid& closed, 
   return buildField(closed, options, [&](double share) { bar(share); });
 }
 
-PreparedMesh& FieldBuilder::prepared(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh,
-                                     bool voxels) {
-  const auto known = prepared_.find(mesh);
-  if (known != prepared_.end()) return known->second;
-  PreparedMesh made;
-  made.name = name;
-  made.voxels = voxels;
-  if (voxels) {
-    made.oriented.mesh = *mesh;
-  } else {
-    made.oriented = orientOutward(*mesh);
-  }
-  return prepared_.emplace(mesh, std::move(made)).first->second;
+PooledMesh& FieldBuilder::find(const std::shared_ptr<const TriangleMesh>& mesh, bool voxels) {
+  return pool_.find({mesh, Isometry3d::Identity(), {}, voxels});
 }
 
 void FieldBuilder::expectMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
-  if (prepared_.count(mesh)) return;
   try {
     const auto start = std::chrono::steady_clock::now();
-    cost_.add(prepared(name, mesh, false), resolution_.fieldOptions());
+    PooledMesh& pooled = find(mesh, false);
+    if (!expected_.insert(&pooled).second) return;
+    cost_.add(name, pooled, resolution_.fieldOptions());
     seconds_ += secondsSince(start);
   } catch (const std::exception&) {
     // addMesh() says so.
@@ -81,7 +71,7 @@ void FieldBuilder::expectMesh(const std::string& name, const std::shared_ptr<con
 void FieldBuilder::expectVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh,
                                 double voxel_size) {
   const auto start = std::chrono::steady_clock::now();
-  cost_.add(prepared(name, mesh, true), resolution_.fieldOptions(voxel_size / 2.0));
+  cost_.add(name, find(mesh, true), resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
 }
 
@@ -91,27 +81,28 @@ void FieldBuilder::requireAffordable() const {
   if (cost_.cost().seconds > kWorthSaying) std::cout << "expected " << summary(cost_.cost()) << std::endl;
 }
 
-FieldBuilder::Made FieldBuilder::make(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
-  PreparedMesh& ready = prepared(name, mesh, false);
-  warnOf(ready.oriented.quality, name);
+FieldBuilder::Made FieldBuilder::make(const std::string& name, PooledMesh& mesh) {
+  warnOf(mesh.quality, name);
   const auto start = std::chrono::steady_clock::now();
-  const Solid& solid = ready.solid();
-  DistanceField field = buildWithBar("field of " + name, ready.closed(), resolution_.fieldOptions());
+  const SolidSource source(mesh.mesh, mesh.made);
+  const Solid& solid = source.solid();
+  DistanceField field = buildWithBar("field of " + name, source.closed(), resolution_.fieldOptions());
   const double field_seconds = secondsSince(start);
   ShellOptions options;
   options.spacing = spacing_.value_or(shellSpacing(field.errorBound()));
   PointShell shell = sampleSurface(solid, options);
-  Made made{field,          std::move(shell), summary(ready.oriented.quality),
+  Made made{field,          std::move(shell), summary(mesh.quality),
             solid.report(), field_seconds,    secondsSince(start) - field_seconds};
-  ready.made = {};
+  mesh.made = {};
   return made;
 }
 
 void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh) {
-  auto found = made_.find(mesh);
+  PooledMesh& pooled = find(mesh, false);
+  auto found = made_.find(&pooled);
   const bool is_new = found == made_.end();
   if (is_new) {
-    found = made_.emplace(mesh, make(name, mesh)).first;
+    found = made_.emplace(&pooled, make(name, pooled)).first;
     seconds_ += found->second.field_seconds + found->second.shell_seconds;
   }
   const Made& made = found->second;
@@ -126,8 +117,9 @@ void FieldBuilder::addVoxels(const std::string& name, const std::shared_ptr<cons
   std::cout << "  voxels " << voxel_size << " m, " << mesh->triangles.size() << " triangles, volume "
             << signedVolume(*mesh) << " m^3\n";
   const auto start = std::chrono::steady_clock::now();
-  const DistanceField field =
-      buildWithBar("field of " + name, prepared(name, mesh, true).closed(), resolution_.fieldOptions(voxel_size / 2.0));
+  PooledMesh& pooled = find(mesh, true);
+  const DistanceField field = buildWithBar("field of " + name, SolidSource(pooled.mesh, pooled.made).closed(),
+                                           resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
   writeField(name, field, time(secondsSince(start)));
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "build_cost.h"
@@ -62,8 +63,8 @@ class FieldBuilder {
     double shell_seconds;
   };
 
-  PreparedMesh& prepared(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh, bool voxels);
-  Made make(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh);
+  PooledMesh& find(const std::shared_ptr<const TriangleMesh>& mesh, bool voxels);
+  Made make(const std::string& name, PooledMesh& mesh);
   void writeField(const std::string& name, const DistanceField& field, const std::string& time);
   void writeShell(const std::string& name, const PointShell& shell, const std::string& time);
 
@@ -71,8 +72,9 @@ class FieldBuilder {
   const ResolutionOptions& resolution_;
   std::optional<double> spacing_;
   BuildCost cost_;
-  std::map<std::shared_ptr<const TriangleMesh>, PreparedMesh> prepared_;
-  std::map<std::shared_ptr<const TriangleMesh>, Made> made_;
+  MeshPool pool_{BodyOptions()};
+  std::set<const PooledMesh*> expected_;
+  std::map<const PooledMesh*, Made> made_;
   std::size_t fields_ = 0;
   std::size_t field_bytes_ = 0;
   std::size_t shells_ = 0;
