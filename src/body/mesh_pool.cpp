@@ -61,12 +61,12 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   if (mesh.field) return {};
   FieldOptions options = fieldOptions(mesh);
   std::string warning;
-  const bool one_knob = options_.max_error && options.max_error;
+  const bool is_shared = options_.max_error && options.max_error;
   const auto make = [&](double error) {
     if (options.max_error) options.max_error = error;
     return cachedField(cache_, {mesh.mesh, mesh.made}, options, progress);
   };
-  CachedField made = makeCoarser(options.max_error.value_or(0.0), one_knob, make, warning);
+  CachedField made = makeCoarser(options.max_error.value_or(0.0), is_shared, make, warning);
   mesh.field = std::move(made.field);
   if (options.max_error && mesh.field->errorBound() > 1.001 * *options.max_error) {
     warning = "field: an error of " + numberText(mesh.field->errorBound()) + " m is reached, not " +

@@ -97,18 +97,18 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.max_points, defaults.max_points);
 }
 
-TEST(YamlParameters, OneKnobSetsTheSharesThatAreNotGiven) {
+TEST(YamlParameters, MaxErrorSetsTheSharesThatAreNotGiven) {
   const auto parse = [](const std::string& text) { return parseParameters(load(text), "~"); };
-  const MonitorParameters knob = parse("max_error: 0.001");
-  EXPECT_EQ(knob.scene.max_error, 0.001);
+  const MonitorParameters shared = parse("max_error: 0.001");
+  EXPECT_EQ(shared.scene.max_error, 0.001);
   const auto total = [](const MonitorParameters& p) {
     return *p.scene.field.max_error + p.scene.shell.edge_gap + 3.0 * p.monitor.chords.tolerance;
   };
-  EXPECT_NEAR(total(knob), 0.00099, 1e-12);
-  EXPECT_NEAR(knob.scene.motion_margin, 3.0 * knob.monitor.chords.tolerance, 1e-15);
-  EXPECT_EQ(knob.tf.sampling.tolerance, knob.monitor.chords.tolerance);
-  EXPECT_EQ(knob.scene.shell.spacing, 0.005);
-  EXPECT_LT(knob.scene.field.max_bytes, std::size_t{1} << 30);
+  EXPECT_NEAR(total(shared), 0.00099, 1e-12);
+  EXPECT_NEAR(shared.scene.motion_margin, 3.0 * shared.monitor.chords.tolerance, 1e-15);
+  EXPECT_EQ(shared.tf.sampling.tolerance, shared.monitor.chords.tolerance);
+  EXPECT_EQ(shared.scene.shell.spacing, 0.005);
+  EXPECT_LT(shared.scene.field.max_bytes, std::size_t{1} << 30);
 
   const MonitorParameters given =
       parse("max_error: 0.001\nfield: {max_error: 0.0002}\nshell: {spacing: 0.002}\nchord_tolerance: 0.00002");
@@ -119,13 +119,13 @@ TEST(YamlParameters, OneKnobSetsTheSharesThatAreNotGiven) {
   const MonitorParameters even = parse("max_error: 0.001\nfield: {cell_size: 0.0005}");
   EXPECT_EQ(even.scene.field.cell_size, 0.0005);
   EXPECT_FALSE(even.scene.field.max_error);
-  EXPECT_LT(even.scene.shell.edge_gap, knob.scene.shell.edge_gap * 1.5);
+  EXPECT_LT(even.scene.shell.edge_gap, shared.scene.shell.edge_gap * 1.5);
 
   EXPECT_FALSE(parse("").scene.max_error);
   EXPECT_EQ(parse("").scene.field.cell_size, 0.004);
 }
 
-TEST(YamlParameters, WhatContradictsTheKnobIsNamed) {
+TEST(YamlParameters, WhatContradictsMaxErrorIsNamed) {
   EXPECT_EQ(errorOf("max_error: 0.001\nfield: {cell_size: 0.004}"),
             "~/max_error: a max_error of 0.001 m cannot be kept: what is given takes 0.0034641 m of it "
             "(field/max_error or field/cell_size, shell/edge_gap, three times chord_tolerance)");
