@@ -24,22 +24,22 @@ Matrix3d inertiaOf(const Matrix3d& moments) {
   return moments.trace() * Matrix3d::Identity() - moments;
 }
 
-struct Solid {
+struct Moments {
   double volume;
   Vector3d second;  ///< ∫ x², y², z² over the solid, divided by its volume [m²]
 };
 
-Solid solidOf(const Sphere& s) {
+Moments momentsOf(const Sphere& s) {
   return {4.0 / 3.0 * kPi * std::pow(s.radius, 3), Vector3d::Constant(s.radius * s.radius / 5.0)};
 }
-Solid solidOf(const Box& b) {
+Moments momentsOf(const Box& b) {
   return {8.0 * b.half_size.prod(), b.half_size.cwiseAbs2() / 3.0};
 }
-Solid solidOf(const Cylinder& c) {
+Moments momentsOf(const Cylinder& c) {
   const double across = c.radius * c.radius / 4.0;
   return {2.0 * kPi * c.radius * c.radius * c.half_length, {across, across, c.half_length * c.half_length / 3.0}};
 }
-Solid solidOf(const HalfSpace&) {
+Moments momentsOf(const HalfSpace&) {
   throw std::invalid_argument("mass: a half-space has no finite mass");
 }
 
@@ -74,7 +74,7 @@ MassProperties massProperties(const TriangleMesh& mesh, double density) {
 MassProperties massProperties(const Primitive& primitive, double density) {
   requireDensity(density);
   validate(primitive);
-  const Solid solid = std::visit([](const auto& shape) { return solidOf(shape); }, primitive);
+  const Moments solid = std::visit([](const auto& shape) { return momentsOf(shape); }, primitive);
   const double mass = density * solid.volume;
   return {mass, Vector3d::Zero(), inertiaOf(mass * Matrix3d(solid.second.asDiagonal()))};
 }

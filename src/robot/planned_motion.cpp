@@ -3,6 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "robot/trajectory_motion.h"
 #include "sdf_ccd/motion/screw_motion.h"
 
 namespace sdf_ccd {
