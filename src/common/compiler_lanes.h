@@ -5,6 +5,8 @@
 
 // Vectors as the compiler writes them, for files that are compiled for processors with wider vectors too:
 // functions marked SDF_CCD_LANES; which of them is taken is decided when the program is loaded.
+// Not by Highway, as the package must do without it (Ubuntu 20.04 has none): without vectors uniform fields take 3.2
+// times as long to build, and adaptive ones 3.6 times.
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
 #if __GNUC__ >= 12
