@@ -46,7 +46,7 @@ Waypoints waypointsOf(const BoxWorld& world, double rate, std::size_t cycles) {
 class Ours : public MonitorSystem {
  public:
   Ours(std::shared_ptr<const Scene> scene, const MonitorOptions& options, bool wrenches, double period)
-      : monitor_(std::move(scene), options), request_{wrenches, 0} {
+      : monitor_(std::move(scene), options), request_{wrenches, 0, false} {
     motion_.times = {0.0, period};
     motion_.X_WB.assign(monitor_.scene().bodies.size(), std::vector<Isometry3d>(2, Isometry3d::Identity()));
   }
@@ -121,7 +121,8 @@ std::size_t strideFor(MonitorSystem& system, const Waypoints& waypoints) {
   const auto start = Clock::now();
   const std::size_t step = std::max<std::size_t>(1, waypoints.cycles() / kProbes);
   std::size_t probed = 0;
-  for (std::size_t k = 0; k < waypoints.cycles(); k += step, ++probed) system.check(waypoints.X_WB[k], waypoints.X_WB[k + 1]);
+  for (std::size_t k = 0; k < waypoints.cycles(); k += step, ++probed)
+    system.check(waypoints.X_WB[k], waypoints.X_WB[k + 1]);
   const double seconds = secondsSince(start) / double(probed) * double(waypoints.cycles());
   return std::max<std::size_t>(1, static_cast<std::size_t>(seconds / kSecondsPerRun));
 }
@@ -130,7 +131,6 @@ BodyOptions bodyOptions(double max_error, MonitorOptions& monitor) {
   BodyOptions options;
   if (max_error > 0.0) {
     options = optionsFor({max_error});
-    options.field.max_bytes = std::size_t{256} << 20;
     monitor.chords.tolerance = options.motion_margin / ErrorBudget::kChords;
   } else {
     options.field.cell_size = 0.004;
@@ -173,8 +173,7 @@ void study(const Built& built, double rate, const std::string& name, const Study
   Ours ours(built.scene, built.options, false, waypoints.period);
   Ours with_wrenches(built.scene, built.options, true, waypoints.period);
   MonitorSystems peers;
-  for (const MonitorPeerFactory& factory : monitorPeers())
-    factory(built.world.scene, built.scene->pairs, peers);
+  for (const MonitorPeerFactory& factory : monitorPeers()) factory(built.world.scene, built.scene->pairs, peers);
 
   std::vector<CycleTimes> times;
   for (int k = 0; k < 2; ++k) times.emplace_back(waypoints.cycles(), 1);  // skips go from cycle to cycle: all of them
@@ -220,22 +219,21 @@ int main(int argc, char** argv) {
   full.measure.runs = 5;
   StudyOptions quick = full;
   quick.cycles = 1000;
-  return runStudy(argc, argv, "A whole cycle of the monitor beside other libraries", full, quick,
-                  [](const StudyOptions& options) {
-                    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-                    std::vector<std::string> robots = options.robots;
-                    if (robots.empty()) robots.push_back("demo=" SDF_CCD_DEMO_ARM);
-                    for (const std::string& argument : robots) {
-                      const Robot robot = loadRobot(argument);
-                      for (const auto& [proximity, what] :
-                           {std::pair{Proximity::kClear, "clear"}, {Proximity::kNear, "near"}, {Proximity::kContact, "contact"}}) {
-                        if (!isWanted(options.cases, what)) continue;
-                        const std::string name = robot.name + "/" + what;
-                        const Built built =
-                            build(robot, proximity, name, std::stod(options.errors.front()), 1e-3 * options.cycles);
-                        study(built, 1000.0, name, options);
-                        study(built, 50.0, name + "/50Hz", options);
-                      }
-                    }
-                  });
+  return runStudy(
+      argc, argv, "A whole cycle of the monitor beside other libraries", full, quick, [](const StudyOptions& options) {
+        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+        std::vector<std::string> robots = options.robots;
+        if (robots.empty()) robots.push_back("demo=" SDF_CCD_DEMO_ARM);
+        for (const std::string& argument : robots) {
+          const Robot robot = loadRobot(argument);
+          for (const auto& [proximity, what] :
+               {std::pair{Proximity::kClear, "clear"}, {Proximity::kNear, "near"}, {Proximity::kContact, "contact"}}) {
+            if (!isWanted(options.cases, what)) continue;
+            const std::string name = robot.name + "/" + what;
+            const Built built = build(robot, proximity, name, std::stod(options.errors.front()), 1e-3 * options.cycles);
+            study(built, 1000.0, name, options);
+            study(built, 50.0, name + "/50Hz", options);
+          }
+        }
+      });
 }

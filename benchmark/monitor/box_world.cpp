@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "monitor/fcl_scene.h"
 #include "oracle/random.h"
@@ -30,7 +31,8 @@ std::vector<PlannedPair> touching(FclScene& fcl, std::vector<PlannedPair> pairs,
   for (const std::vector<Isometry3d>& X_WB : poses) {
     for (std::size_t body = 0; body < X_WB.size(); ++body) fcl.move(static_cast<int>(body), X_WB[body]);
     const auto touches = [&](const PlannedPair& pair) { return fcl.collide(pair.body_a, pair.body_b); };
-    const auto first = std::stable_partition(pairs.begin(), pairs.end(), [&](const auto& pair) { return !touches(pair); });
+    const auto first =
+        std::stable_partition(pairs.begin(), pairs.end(), [&](const auto& pair) { return !touches(pair); });
     found.insert(found.end(), first, pairs.end());
     pairs.erase(first, pairs.end());
   }
@@ -43,8 +45,7 @@ RobotMotion calmestMotion(const Robot& robot, FclScene& fcl, double seconds, std
   std::uint64_t best = seed;
   for (std::uint64_t tried = 0; tried < kMotions && fewest > 0; ++tried) {
     const RobotMotion motion(robot, seed + tried);
-    const std::size_t count =
-        touching(fcl, pairs, posesOf(motion, robot.scene.bodies, seconds, kCoarseStep)).size();
+    const std::size_t count = touching(fcl, pairs, posesOf(motion, robot.scene.bodies, seconds, kCoarseStep)).size();
     if (count < fewest) {
       fewest = count;
       best = seed + tried;
@@ -61,6 +62,7 @@ class Placer {
       const bool stands = robot.model.rigidlyJoined(robot.model.root(), robot.scene.bodies[body].frame);
       if (!stands && !robot.scene.bodies[body].geometry.empty()) moved_.push_back(static_cast<int>(body));
     }
+    if (moved_.empty()) throw std::runtime_error(robot.name + ": nothing that moves has a collision geometry");
   }
 
   /// A box whose least distance to what moves of the robot is `wanted` [m], or that is as deep in its way.

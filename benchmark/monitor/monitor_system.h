@@ -25,8 +25,8 @@ class MonitorSystem {
 using MonitorSystems = std::vector<std::unique_ptr<MonitorSystem>>;
 
 /// Other libraries on the study's scenes: each is one file that adds itself here before main().
-using MonitorPeerFactory = std::function<void(const SceneDescription& scene, const std::vector<PlannedPair>& pairs,
-                                              MonitorSystems& systems)>;
+using MonitorPeerFactory =
+    std::function<void(const SceneDescription& scene, const std::vector<PlannedPair>& pairs, MonitorSystems& systems)>;
 
 inline std::vector<MonitorPeerFactory>& monitorPeers() {
   static std::vector<MonitorPeerFactory> factories;

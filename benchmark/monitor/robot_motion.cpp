@@ -26,8 +26,8 @@ RobotMotion::RobotMotion(const Robot& robot, std::uint64_t seed) : model_(&robot
     const double most = joint->type == urdf::Joint::PRISMATIC ? kSlide : kAngle;
     const double amplitude = std::min(most, kShare * (range.high - range.low));
     const double middle = uniform(range.low + amplitude, range.high - amplitude);
-    waves_.push_back({name, middle, amplitude, 2.0 * test::kPi * uniform(kSlowest, kFastest),
-                      uniform(0.0, 2.0 * test::kPi)});
+    waves_.push_back(
+        {name, middle, amplitude, 2.0 * test::kPi * uniform(kSlowest, kFastest), uniform(0.0, 2.0 * test::kPi)});
   }
 }
 

@@ -56,7 +56,7 @@ class BulletCast : public MonitorSystem {
  private:
   struct Element {
     std::shared_ptr<const btConvexHullShape> shape;  // in the body's frame
-    btVector3 low, high;                       // in the world, over the cycle
+    btVector3 low, high;                             // in the world, over the cycle
   };
   struct Hulls {
     std::vector<Element> elements;
@@ -78,8 +78,9 @@ class BulletCast : public MonitorSystem {
   bool touches(const Hulls& a, const Hulls& b) {
     for (const Element& one : a.elements) {
       for (const Element& other : b.elements) {
-        const bool apart = one.low.x() > other.high.x() || other.low.x() > one.high.x() || one.low.y() > other.high.y() ||
-                           other.low.y() > one.high.y() || one.low.z() > other.high.z() || other.low.z() > one.high.z();
+        const bool apart = one.low.x() > other.high.x() || other.low.x() > one.high.x() ||
+                           one.low.y() > other.high.y() || other.low.y() > one.high.y() ||
+                           one.low.z() > other.high.z() || other.low.z() > one.high.z();
         if (apart) continue;
         btContinuousConvexCollision cast(one.shape.get(), other.shape.get(), &simplex_, &depths_);
         btConvexCast::CastResult result;

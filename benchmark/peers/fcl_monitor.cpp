@@ -9,7 +9,8 @@ namespace {
 /// What planners do at every pose: whether each pair touches at the cycle's end, and nothing about the time before.
 class FclMonitor : public MonitorSystem {
  public:
-  FclMonitor(const SceneDescription& scene, const std::vector<PlannedPair>& pairs) : fcl_(scene.bodies), pairs_(pairs) {}
+  FclMonitor(const SceneDescription& scene, const std::vector<PlannedPair>& pairs)
+      : fcl_(scene.bodies), pairs_(pairs) {}
 
   std::string name() const override { return "fcl"; }
 
@@ -37,9 +38,7 @@ class FclDistanceMonitor : public FclMonitor {
   std::string name() const override { return "fcl_distance"; }
 
  protected:
-  bool testPair(int a, int b) const override {
-    return fcl_.distance(a, b, std::numeric_limits<double>::max()) <= 0.0;
-  }
+  bool testPair(int a, int b) const override { return fcl_.distance(a, b, std::numeric_limits<double>::max()) <= 0.0; }
 };
 
 const RegisteredMonitorPeer kFcl{
