@@ -2,16 +2,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <random>
-#include <sstream>
-#include <stdexcept>
 
 #include "model/error_budget.h"
 #include "monitor/scene_cost.h"
 #include "results.h"
+#include "robot_case.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_scene.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {
@@ -21,35 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string read(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file + ": cannot be read");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-struct Robot {
-  std::string name;
-  RobotModel model;
-  SceneDescription scene;
-};
-
-/// NAME=URDF or NAME=URDF,SRDF; meshes of packages are looked up in ROS_PACKAGE_PATH.
-Robot loadRobot(const std::string& argument) {
-  const std::size_t equals = argument.find('='), comma = argument.find(',', equals);
-  if (equals == std::string::npos) throw std::invalid_argument("--robot " + argument + ": NAME=URDF[,SRDF] is wanted");
-  const std::string urdf = argument.substr(equals + 1, comma == std::string::npos ? comma : comma - equals - 1);
-  const Srdf srdf = comma == std::string::npos ? Srdf() : parseSrdf(read(argument.substr(comma + 1)));
-  const std::string directory = urdf.substr(0, urdf.find_last_of('/') + 1);
-  const PackageFinder packages = packagesFromEnvironment();
-  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); };
-  Robot robot{argument.substr(0, equals), RobotModel(read(urdf)), {}};
-  std::vector<std::string> warnings;
-  robot.scene = describeRobot(robot.model, srdf, loader, {}, warnings);
-  return robot;
 }
 
 BodyOptions sceneOptions(double max_error, MonitorOptions& monitor) {
@@ -65,19 +33,6 @@ BodyOptions sceneOptions(double max_error, MonitorOptions& monitor) {
   options.shell.vertex_spacing = 0.002;
   monitor.chords.tolerance = options.motion_margin / ErrorBudget::kChords;
   return options;
-}
-
-/// Positions of all movable joints within their limits.
-JointPositions randomPositions(const RobotModel& robot, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  JointPositions positions;
-  for (const auto& [name, joint] : robot.urdf().joints_) {
-    if (joint->mimic || joint->type < urdf::Joint::REVOLUTE || joint->type > urdf::Joint::PRISMATIC) continue;
-    const bool limited = joint->type != urdf::Joint::CONTINUOUS && joint->limits;
-    const double low = limited ? joint->limits->lower : -3.14, high = limited ? joint->limits->upper : 3.14;
-    positions[name] = low + (high - low) * uniform(random);
-  }
-  return positions;
 }
 
 /// A cycle from one pose of the robot towards another, as far as it turns by 0.02 rad or moves by 2 cm.

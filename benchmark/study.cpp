@@ -44,7 +44,7 @@ int runStudy(int argc, char** argv, const std::string& description, const StudyO
   CLI::App app{description};
   app.add_flag("--quick", "coarse fields and small sets");
   app.add_option("--mesh", options.mesh_files, "NAME=FILE, as often as wanted; without any, shapes of our own");
-  app.add_option("--robot", options.robots, "NAME=URDF[,SRDF], as often as wanted; for the study `robots`");
+  app.add_option("--robot", options.robots, "NAME=URDF[,SRDF], as often as wanted; for `robots` and `monitor`");
   app.add_option("--meshes", options.meshes, "only those names")->delimiter(',');
   app.add_option("--cells", options.cells, "uniform fields: cells along the longest side")->delimiter(',');
   app.add_option("--errors", options.errors, "fields to a maximum error, in box sides")->delimiter(',');
@@ -53,6 +53,8 @@ int runStudy(int argc, char** argv, const std::string& description, const StudyO
   app.add_option("--segments", options.segments, "per case")->check(CLI::Range(1000, 100'000'000));
   app.add_option("--motions", options.motions, "per family (truth)")->check(CLI::Range(100L, 1'000'000'000L));
   app.add_option("--pairs", options.pairs, "pose pairs per case")->check(CLI::Range(10, 1'000'000));
+  app.add_option("--cycles", options.cycles, "milliseconds of motion per case (monitor)")
+      ->check(CLI::Range(100, 10'000'000));
   app.add_option("--plots", options.plots, "directory for plots that the study draws itself (work-precision)");
   app.add_option("--runs", options.measure.runs, "per system")->check(CLI::Range(1, 1000));
   app.add_option("--seconds", options.measure.seconds, "a run lasts at least so long");

@@ -23,6 +23,7 @@ struct StudyOptions {
   std::size_t segments = 1'000'000;  ///< random segments per case
   long motions = 1'000'000;          ///< per family of the study `truth`
   int pairs = 1000;                  ///< random pose pairs per case
+  int cycles = 10'000;               ///< of a millisecond, per case of the study `monitor`
   std::string plots;                 ///< directory for a study's own plots; none if empty
   MeasureOptions measure;
 };

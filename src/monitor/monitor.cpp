@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <mutex>
 #include <stdexcept>
 
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "model/error_budget.h"
+#include "motion/validate_motion.h"
 #include "pair_checker.h"
+#include "schedule.h"
 #include "sdf_ccd/common/cancel.h"
 #include "summarise.h"
 
@@ -28,38 +31,18 @@ std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
   return siblings;
 }
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("cycle motion: " + what);
-}
-
-void validate(const CycleMotion& motion, const Scene& scene) {
-  const std::size_t bodies = scene.bodies.size();
-  if (motion.times.size() < 2) refuse(std::to_string(motion.times.size()) + " times, two or more are needed");
-  if (motion.times.front() != 0.0) refuse("starts at " + numberText(motion.times.front()) + " s, not 0");
-  for (std::size_t k = 1; k < motion.times.size(); ++k) {
-    const double last = motion.times[k - 1], time = motion.times[k];
-    if (!(last < time) || !std::isfinite(time))
-      refuse("time " + numberText(last) + " s is followed by " + numberText(time));
-  }
-  const std::size_t pairs = scene.pairs.size();
-  if (!motion.spans.empty() && motion.spans.size() != pairs)
-    refuse(std::to_string(motion.spans.size()) + " spans, the scene has " + std::to_string(pairs) + " pairs");
-  for (const WaypointSpan& span : motion.spans)
-    if (span.first > span.last || span.last >= motion.times.size())
-      refuse("a span from time " + std::to_string(span.first) + " to " + std::to_string(span.last));
-  const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
-  if (motion.X_WB.size() != bodies || !fits(motion.missing.size()) || !fits(motion.motion_error.size()))
-    refuse("made for " + std::to_string(motion.X_WB.size()) + " bodies, the scene has " + std::to_string(bodies));
-  for (std::size_t b = 0; b < bodies; ++b) {
-    const std::string& name = scene.bodies[b].name;
-    const bool known = scene.bodies[b].failure.empty() && (motion.missing.empty() || motion.missing[b].empty());
-    if (known && motion.X_WB[b].size() != motion.times.size())
-      refuse(name + " has " + std::to_string(motion.X_WB[b].size()) + " poses at " +
-             std::to_string(motion.times.size()) + " times");
-    if (motion.motion_error.empty()) continue;
-    const double error = motion.motion_error[b];
-    if (!(error >= 0.0)) refuse("motion error of " + name + " is " + numberText(error));
-  }
+/// As after a test that finds nothing, but without one. @param clearance  that the pair has at least [m].
+void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
+  result.verdict = Verdict::kClear;
+  result.reason.clear();
+  result.skipped = true;
+  result.error = error;
+  result.clearance = clearance;
+  result.intervals.clear();
+  result.deepest = {};
+  result.on_a_W = {};
+  result.on_b_W = {};
+  result.points.clear();
 }
 
 }  // namespace
@@ -88,13 +71,26 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory() {
 }
 
 struct Monitor::Impl {
+  void takeSpans(const CycleMotion& motion);
+  void takeSkipped(const CycleRequest& request);
+  void checkDue(const CycleMotion& motion, const CycleRequest& request);
+  void summarise();
+  ErrorBound errorOf(int pair) const;
+  void forget();
+
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
   std::vector<ContactCollector::Siblings> siblings;
   std::vector<PairChecker> checkers;
   std::unique_ptr<SweptBodies> bodies;
+  std::unique_ptr<Schedule> schedule;
   std::shared_ptr<MonitorMemory> memory;
+  MotionShape shape;
   CycleResult result;
+  std::vector<int> last_due;                // pairs
+  std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
+  std::uint64_t cycle = 0;
+  std::size_t last_waypoint = 0;  // that all results' spans end at; 0 if they differ
 };
 
 Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
@@ -118,6 +114,15 @@ Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& optio
     result.body_b = pair.body_b;
     impl_->result.pairs.push_back(result);
   }
+  const std::size_t pairs = impl_->checkers.size();
+  impl_->schedule = std::make_unique<Schedule>(*impl_->scene, impl_->checkers);
+  impl_->due_in_cycle.assign(pairs, 0);
+  impl_->last_due.reserve(pairs);
+  impl_->shape.pairs = pairs;
+  for (const Body& body : impl_->scene->bodies) {
+    impl_->shape.bodies.push_back(body.name);
+    impl_->shape.without_poses.push_back(!body.failure.empty());
+  }
 }
 
 Monitor::Monitor(std::vector<Body> bodies, const MonitorOptions& options)
@@ -129,23 +134,90 @@ Monitor::~Monitor() = default;
 
 const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
   const auto start = std::chrono::steady_clock::now();
-  validate(motion, *impl_->scene);
-  const WaypointSpan whole{0, motion.times.size() - 1};
-  std::vector<PairResult>& pairs = impl_->result.pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].span = motion.spans.empty() ? whole : motion.spans[i];
-  impl_->bodies->take(motion, pairs);
-  // A pair has its own state, so its result is the same whichever thread it meets.
-  parallelRanges(std::size_t{0}, impl_->checkers.size(), [&](std::size_t first, std::size_t last) {
-    std::unique_ptr<PairMemory> memory = impl_->memory->take();
-    for (std::size_t i = first; i < last; ++i) {
-      checkCancelled();
-      impl_->checkers[i].run(motion, *impl_->bodies, request, *memory, pairs[i]);
-    }
-    impl_->memory->giveBack(std::move(memory));
-  });
-  summarise(impl_->result);
+  validate(motion, impl_->shape, "cycle motion");
+  try {
+    impl_->schedule->take(motion, impl_->checkers);
+    impl_->takeSpans(motion);
+    impl_->takeSkipped(request);
+    impl_->checkDue(motion, request);
+    impl_->schedule->settle(motion, impl_->checkers);
+  } catch (...) {
+    impl_->forget();
+    throw;
+  }
+  impl_->summarise();
   impl_->result.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return impl_->result;
+}
+
+/// Results of pairs that are not due have their spans from the cycle before, if these are the same.
+void Monitor::Impl::takeSpans(const CycleMotion& motion) {
+  const WaypointSpan whole{0, motion.times.size() - 1};
+  const bool all_whole = schedule->isAllWhole();
+  if (all_whole && last_waypoint == whole.last) return;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) result.pairs[i].span = all_whole ? whole : motion.spans[i];
+  last_waypoint = all_whole ? whole.last : 0;
+}
+
+/// Pairs that were due in the cycle before and are not in this one, and all that are not due if that is asked for.
+void Monitor::Impl::takeSkipped(const CycleRequest& request) {
+  ++cycle;
+  for (const DuePair& due : schedule->due()) due_in_cycle[static_cast<std::size_t>(due.pair)] = cycle;
+  for (const int pair : last_due) {
+    const auto i = static_cast<std::size_t>(pair);
+    if (due_in_cycle[i] != cycle) setSkipped(errorOf(pair), checkers[i].margin(), result.pairs[i]);
+  }
+  last_due.clear();
+  for (const DuePair& due : schedule->due()) last_due.push_back(due.pair);
+  if (!request.skipped_pairs) return;
+  for (std::size_t i = 0; i < checkers.size(); ++i) {
+    if (due_in_cycle[i] == cycle) continue;
+    result.pairs[i].error = errorOf(static_cast<int>(i));
+    result.pairs[i].clearance = schedule->clearance(static_cast<int>(i));
+  }
+}
+
+/// Of a pair that is not due.
+ErrorBound Monitor::Impl::errorOf(int pair) const {
+  ErrorBound error = checkers[static_cast<std::size_t>(pair)].bound();
+  error.chord += schedule->motionError(pair);
+  return error;
+}
+
+void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& request) {
+  const std::vector<DuePair>& due = schedule->due();
+  if (due.empty()) return;
+  bodies->take(motion, result.pairs, due);
+  const auto checkRange = [&](std::size_t first, std::size_t last) {
+    std::unique_ptr<PairMemory> taken = memory->take();
+    for (std::size_t k = first; k < last; ++k) {
+      checkCancelled();
+      const auto i = static_cast<std::size_t>(due[k].pair);
+      checkers[i].run(motion, *bodies, request, *taken, result.pairs[i]);
+    }
+    memory->giveBack(std::move(taken));
+  };
+  // A few that were clear the last time take less than to hand them to other threads.
+  constexpr std::size_t kFew = 8;
+  const auto near = std::count_if(due.begin(), due.end(), [&](const DuePair& next) {
+    return result.pairs[static_cast<std::size_t>(next.pair)].verdict >= Verdict::kUncertain;
+  });
+  if (due.size() == 1 || (due.size() <= kFew && near <= 1)) return checkRange(0, due.size());
+  // A pair has its own state, so its result is the same whichever thread it meets.
+  parallelRanges(std::size_t{0}, due.size(), checkRange);
+}
+
+void Monitor::Impl::summarise() {
+  CycleSummary summary(result);
+  for (const DuePair& due : schedule->due()) summary.add(result.pairs[static_cast<std::size_t>(due.pair)]);
+  const int worst = schedule->worstQuiet();
+  summary.addSkipped(schedule->quietCount(), worst < 0 ? ErrorBound() : errorOf(worst));
+  summary.finish();
+}
+
+void Monitor::Impl::forget() {
+  schedule->forget();
+  for (PairChecker& checker : checkers) checker.forget();
 }
 
 const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_WB, double duration,
@@ -161,7 +233,7 @@ const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_
 }
 
 void Monitor::reset() {
-  for (PairChecker& checker : impl_->checkers) checker.forget();
+  impl_->forget();
 }
 
 const Scene& Monitor::scene() const {

@@ -82,6 +82,12 @@ void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, cons
   }
 }
 
+void PairChecker::remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB) {
+  if (roles_.empty()) return;
+  clearance_ = clearance;
+  X_FP_last_ = roles_.front().fieldBody() == pair_.body_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
+}
+
 /// Takes the motion, and what it may have used up of the clearance.
 void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
   travel_ = std::numeric_limits<double>::infinity();
@@ -113,8 +119,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   result.error.root = kRootTolerance * travel_;
   requireFinite(result.error);
 
-  // Farther than this, a test could not find anything: what it finds is off by field and chord error at most.
-  const double margin = result.error.total() + result.error.field + 2.0 * options_.chords.tolerance;
+  const double margin = this->margin() + result.error.chord + result.error.root;
   if (clearance_ > margin) {
     result.verdict = Verdict::kClear;
     result.skipped = true;

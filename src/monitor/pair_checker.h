@@ -33,6 +33,21 @@ class PairChecker {
   /// Forgets how far apart the bodies were.
   void forget() { clearance_ = kUnknown; }
 
+  /// What is known since the last cycle, where others kept it.
+  /// @param clearance  lower bound of the distance [m], of bodies at these poses.
+  void remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB);
+
+  /// Whether the pair is known to be clear, and by how much at the last run's end [m].
+  bool isKnown() const { return clearance_ != kUnknown; }
+  double clearance() const { return clearance_; }
+
+  /// Error of its verdicts, but for the motion's.
+  const ErrorBound& bound() const { return bound_; }
+
+  /// Farther than this, but for the motion's error, a test could not find anything: what it finds is off by field and
+  /// chord error at most [m].
+  double margin() const { return bound_.total() + bound_.field + 2.0 * options_.chords.tolerance; }
+
  private:
   static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 

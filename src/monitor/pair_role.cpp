@@ -4,19 +4,10 @@
 #include <limits>
 
 #include "may_approach.h"
+#include "pose_rounding.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
-namespace {
-
-/// Whether it has no half-space among its fields.
-bool isBounded(const Body& body) {
-  return std::all_of(body.parts.begin(), body.parts.end(),
-                     [](const BodyPart& part) { return part.field.surfaceBox().sizes().allFinite(); });
-}
-
-}  // namespace
-
 PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurpose purpose)
     : shell_body_(&scene.bodies[shell_body]),
       field_body_(&scene.bodies[field_body]),
@@ -25,7 +16,7 @@ PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurp
       body_(shell_body),
       field_(field_body),
       purpose_(purpose),
-      ball_holds_body_(isBounded(*shell_body_)) {}
+      ball_holds_body_(ballHolds(*shell_body_)) {}
 
 void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory) {
   memory_ = &memory;
@@ -50,7 +41,7 @@ double PairRole::reach() const {
 }
 
 double PairRole::fieldErrorScale() const {
-  if (isBounded(*field_body_)) return 1.0;
+  if (ballHolds(*field_body_)) return 1.0;
   return std::max(1.0, reach() / kHalfSpaceRadius);
 }
 

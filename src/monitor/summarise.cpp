@@ -4,30 +4,51 @@
 
 namespace sdf_ccd {
 
-void summarise(CycleResult& result) {
-  const auto advanced = [](const PairResult& pair) { return !pair.span.empty(); };
-  const bool any = std::any_of(result.pairs.begin(), result.pairs.end(), advanced);
-  result.verdict = any ? Verdict::kClear : Verdict::kNotChecked;
+CycleSummary::CycleSummary(CycleResult& result) : result_(result) {
+  result.verdict = Verdict::kClear;
   result.error_bound = 0.0;
   result.error = {};
   result.checked = result.skipped = result.not_checked = result.delayed = 0;
-  for (const PairResult& pair : result.pairs) {
-    if (pair.span.empty()) {
-      ++result.delayed;
-      continue;
-    }
-    result.verdict = std::max(result.verdict, pair.verdict);
-    if (pair.verdict == Verdict::kNotChecked) {
-      ++result.not_checked;
-      continue;
-    }
-    ++(pair.skipped ? result.skipped : result.checked);
-    if (pair.error.total() <= result.error_bound) continue;
-    result.error = pair.error;
-    result.error_bound = pair.error.total();
+}
+
+void CycleSummary::take(const ErrorBound& error) {
+  if (error.total() <= result_.error_bound) return;
+  result_.error = error;
+  result_.error_bound = error.total();
+}
+
+void CycleSummary::add(const PairResult& pair) {
+  if (pair.span.empty()) {
+    ++result_.delayed;
+    return;
   }
+  any_ = true;
+  result_.verdict = std::max(result_.verdict, pair.verdict);
+  if (pair.verdict == Verdict::kNotChecked) {
+    ++result_.not_checked;
+    return;
+  }
+  ++(pair.skipped ? result_.skipped : result_.checked);
+  take(pair.error);
+}
+
+void CycleSummary::addSkipped(int count, const ErrorBound& error) {
+  if (count == 0) return;
+  any_ = true;
+  result_.skipped += count;
+  take(error);
+}
+
+void CycleSummary::finish() {
   // Of the time that delayed pairs have not been checked over nothing is known.
-  if (result.delayed > 0 && result.verdict == Verdict::kClear) result.verdict = Verdict::kNotChecked;
+  const bool is_open = !any_ || result_.delayed > 0;
+  if (is_open && result_.verdict == Verdict::kClear) result_.verdict = Verdict::kNotChecked;
+}
+
+void summarise(CycleResult& result) {
+  CycleSummary summary(result);
+  for (const PairResult& pair : result.pairs) summary.add(pair);
+  summary.finish();
 }
 
 void addUnchecked(const std::vector<UncheckedPair>& pairs, CycleResult& result) {

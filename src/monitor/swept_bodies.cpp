@@ -1,16 +1,14 @@
 #include "swept_bodies.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "pose_rounding.h"
+
 namespace sdf_ccd {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kRoundings = 16.0;  // products and sums on the way from a pose to a point in another body's frame
 
 /// Throws if a body is so far away that its coordinates are too coarse.
 void requireNear(const std::string& name, const Isometry3d& X_WB) {
@@ -20,28 +18,31 @@ void requireNear(const std::string& name, const Isometry3d& X_WB) {
       fmt::format("{} is {:.3g} m from the origin, more than {:.0g} m", name, distance, kFarthestPose));
 }
 
-double defectOf(const Matrix3d& R) {
-  return (R.transpose() * R - Matrix3d::Identity()).norm() + kRoundings * kEpsilon;
-}
-
 }  // namespace
 
-void SweptBodies::take(const CycleMotion& motion, const std::vector<PairResult>& pairs) {
+void SweptBodies::take(const CycleMotion& motion, const std::vector<PairResult>& pairs,
+                       const std::vector<DuePair>& due) {
   times_ = &motion.times;
-  for (SweptBody& body : bodies_) {
-    body.first = motion.times.size();
-    body.last = 0;
-  }
-  for (const PairResult& pair : pairs) {
+  for (const int body : taken_) bodies_[body].is_taken = false;
+  taken_.clear();
+  for (const DuePair& next : due) {
+    const PairResult& pair = pairs[next.pair];
     if (pair.span.empty()) continue;
-    for (const int body : {pair.body_a, pair.body_b}) {
-      bodies_[body].first = std::min(bodies_[body].first, pair.span.first);
-      bodies_[body].last = std::max(bodies_[body].last, pair.span.last);
+    for (const int index : {pair.body_a, pair.body_b}) {
+      SweptBody& body = bodies_[index];
+      if (!body.is_taken) {
+        body.is_taken = true;
+        body.first = pair.span.first;
+        body.last = pair.span.last;
+        taken_.push_back(index);
+      }
+      body.first = std::min(body.first, pair.span.first);
+      body.last = std::max(body.last, pair.span.last);
     }
   }
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+  for (const int body : taken_) {
     const bool known = scene_.bodies[body].failure.empty() && (motion.missing.empty() || motion.missing[body].empty());
-    if (known && bodies_[body].first < bodies_[body].last) sweep(motion, static_cast<int>(body));
+    if (known) sweep(motion, body);
   }
 }
 
@@ -59,8 +60,8 @@ void SweptBodies::sweep(const CycleMotion& motion, int body) {
       swept.intervals.push_back({screw, worldTwist(screw, scene_.bodies[body].ball)});
     }
     for (std::size_t k = swept.first; k <= swept.last; ++k) {
-      swept.defect = std::max(swept.defect, defectOf(X_WB[k].linear()));
-      swept.rounding = std::max(swept.rounding, kRoundings * kEpsilon * X_WB[k].translation().norm());
+      swept.defect = std::max(swept.defect, poseDefect(X_WB[k]));
+      swept.rounding = std::max(swept.rounding, poseRounding(X_WB[k]));
     }
   } catch (const std::exception& error) {
     swept.problem = error.what();

@@ -3,19 +3,23 @@
 #include <string>
 #include <vector>
 
+#include "clearance_table.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 
-/// How the bodies of a scene move during one cycle: each worked out once, for all of its pairs. Between two times a
-/// body moves with a constant twist in the world.
+/// How bodies of a scene move during one cycle, exactly: each worked out once, for all of its pairs that are tested.
+/// Between two times a body moves with a constant twist in the world.
 class SweptBodies {
  public:
-  explicit SweptBodies(const Scene& scene) : scene_(scene), bodies_(scene.bodies.size()) {}
+  explicit SweptBodies(const Scene& scene) : scene_(scene), bodies_(scene.bodies.size()) {
+    taken_.reserve(scene.bodies.size());
+  }
 
-  /// Takes a cycle's motion: of each body the times that the spans of its pairs need.
-  void take(const CycleMotion& motion, const std::vector<PairResult>& pairs);
+  /// Takes a cycle's motion: of each body the times that the spans of its pairs need, of those that are due.
+  /// @param pairs  all of the scene's.
+  void take(const CycleMotion& motion, const std::vector<PairResult>& pairs, const std::vector<DuePair>& due);
 
   /// Why a body's motion cannot be followed: a pose that is not finite, no rotation, or too far away. Empty if it can.
   const std::string& problem(int body) const { return bodies_[body].problem; }
@@ -36,6 +40,7 @@ class SweptBodies {
     WorldTwist twist;
   };
   struct SweptBody {
+    bool is_taken = false;            ///< some pair needs it
     std::size_t first = 0, last = 0;  ///< times that are needed
     std::vector<Interval> intervals;  ///< from `first` on
     std::string problem;
@@ -50,6 +55,7 @@ class SweptBodies {
 
   const Scene& scene_;
   std::vector<SweptBody> bodies_;
+  std::vector<int> taken_;
   const std::vector<double>* times_ = nullptr;
 };
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "motion/validate_motion.h"
 #include "robot/trajectory_motion.h"
 #include "sdf_ccd/motion/screw_motion.h"
 
@@ -20,24 +21,17 @@ void startAtZero(CycleMotion& motion) {
 
 /// Brings all that may be left empty to the number of bodies. @throws std::invalid_argument if something does not fit.
 void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
-  const std::size_t bodies = motion.X_WB.size(), times = motion.times.size();
-  if (times < 2) refuse(std::to_string(times) + " times, two or more are needed");
-  if (motion.times.front() != 0.0) refuse("its first time is not 0");
   if (!motion.spans.empty()) refuse("spans are of cycles");
-  const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
-  if (!fits(motion.missing.size()) || !fits(motion.motion_error.size()) || is_moved.size() != bodies)
-    refuse("made for " + std::to_string(bodies) + " bodies, but not all of it");
-  motion.missing.resize(bodies);
-  for (std::size_t body = 0; body < bodies; ++body) {
-    std::vector<Isometry3d>& poses = motion.X_WB[body];
-    if (!motion.missing[body].empty()) {
-      poses.resize(times, Isometry3d::Identity());  // not read
-      continue;
+  MotionShape shape;
+  for (std::size_t body = 0; body < is_moved.size(); ++body) shape.bodies.push_back("body " + std::to_string(body));
+  validate(motion, shape, "planned motion");
+  motion.missing.resize(shape.bodies.size());
+  for (std::size_t body = 0; body < shape.bodies.size(); ++body) {
+    if (motion.missing[body].empty()) {
+      requireUnambiguousTurns(motion.X_WB[body], "planned motion: " + shape.bodies[body]);
+    } else {
+      motion.X_WB[body].resize(motion.times.size(), Isometry3d::Identity());  // not read
     }
-    if (poses.size() != times)
-      refuse("body " + std::to_string(body) + " has " + std::to_string(poses.size()) + " poses at " +
-             std::to_string(times) + " times");
-    requireUnambiguousTurns(poses, "planned motion: body " + std::to_string(body));
   }
 }
 

@@ -118,7 +118,7 @@ void Duel::judgeClear(const PairMotion& solid, const PairResult& result, const s
     tally.fail(what + ": CLEAR", text("%.3g m deep at %.17g s", double(-least.high), double(least.at)));
     return;
   }
-  if (result.clearance < 0.0 || result.skipped) return;
+  if (result.clearance < 0.0) return;
   const Real end = solid.end();
   if (solid.at(end).value <= 0) return;
   const Real truth = solid.distanceAt(end);
@@ -126,7 +126,7 @@ void Duel::judgeClear(const PairMotion& solid, const PairResult& result, const s
     ++tally.false_bound;
     tally.fail(what + ": clearance", text("%.17g m, true %.17g m", result.clearance, double(truth)));
   }
-  if (truth < kComparable * bound_) addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
+  if (truth < kComparable * bound_ && !result.skipped) addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
 }
 
 void Duel::judgeContact(const PairMotion& outer, const PairResult& result, const std::string& what,

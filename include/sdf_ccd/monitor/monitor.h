@@ -15,6 +15,10 @@ namespace sdf_ccd {
 struct CycleRequest {
   bool wrenches = true;
   int max_points = 0;  ///< contact points listed per pair, the deepest first
+
+  /// Whether `clearance` and `error` of pairs that are skipped are those of this cycle. Else they are what holds as
+  /// long as the pair is skipped, and what held when it began to be: a cycle touches only pairs that it tests then.
+  bool skipped_pairs = true;
 };
 
 /// One contact of one shell point.
@@ -37,7 +41,8 @@ struct PairResult {
   WaypointSpan span;     ///< the part of the motion that this is about; empty if the pair is delayed
   bool skipped = false;  ///< clear by the clearance left from an earlier cycle
   ErrorBound error;
-  double clearance = 0.0;           ///< a lower bound of the distance at the span's end [m]; negative if not known
+  double clearance = 0.0;           ///< a lower bound of the distance at the span's end [m]; negative if not known.
+                                    ///< See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
   ContactPoint deepest;             ///< valid if intervals is not empty
   Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
@@ -77,8 +82,9 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory();
 /// the field's lower bounds decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the
 /// end.
 ///
-/// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: O(1) per
-/// pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last one ended.
+/// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: some
+/// nanoseconds per pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last
+/// one ended.
 ///
 /// In a field with openings a place may be inside because a cap makes it so, or have come there through an opening.
 /// What its hits alone say is UNCERTAIN, with a depth_error no less than the depth, and bears no force, unless it may

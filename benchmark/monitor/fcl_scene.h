@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <fcl/narrowphase/collision_object.h>
+
+#include "sdf_ccd/model/scene_description.h"
+
+namespace sdf_ccd::benchmark {
+
+/// The bodies of a scene in FCL: meshes, and boxes as meshes of twelve triangles, in hierarchies of boxes; spheres and
+/// cylinders as such. It sees surfaces of meshes only.
+class FclScene {
+ public:
+  explicit FclScene(const std::vector<BodyDescription>& bodies);
+
+  /// Adds a body. @return its index.
+  int add(const BodyDescription& body);
+
+  /// Moves a body. @param X_WB  its own frame B.
+  void move(int body, const Isometry3d& X_WB);
+
+  /// Whether two bodies touch where they are.
+  bool collide(int a, int b) const;
+
+  /// Their distance [m], or something no less than `nearer_than` if it is not nearer; 0 or less if they touch.
+  double distance(int a, int b, double nearer_than) const;
+
+  /// A ball around a body where it is.
+  struct Ball {
+    Vector3d center_W;
+    double radius;
+  };
+  Ball ball(int body) const;
+
+ private:
+  struct Element {
+    Isometry3d X_BG;
+    std::unique_ptr<fcl::CollisionObjectd> object;
+  };
+  struct FclBody {
+    std::vector<Element> elements;
+    fcl::AABBd box_W;
+  };
+  std::vector<FclBody> bodies_;
+};
+
+}  // namespace sdf_ccd::benchmark

@@ -1,0 +1,239 @@
+// A whole cycle of the monitor, from poses to its result, beside other libraries on the same poses and pairs.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <tbb/global_control.h>
+
+#include "model/error_budget.h"
+#include "monitor/box_world.h"
+#include "monitor/cycle_times.h"
+#include "monitor/fcl_scene.h"
+#include "monitor/monitor_system.h"
+#include "results.h"
+#include "sdf_ccd/monitor/monitor.h"
+#include "study.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kSecondsPerRun = 2.0;  // of a system: slower ones are measured on every so many cycles
+constexpr int kTruthPoses = 10;         // within a cycle
+constexpr std::uint64_t kSeed = 1;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The poses at the ends of all cycles, the first one's start in front.
+struct Waypoints {
+  double period;  // [s]
+  std::vector<std::vector<Isometry3d>> X_WB;
+
+  std::size_t cycles() const { return X_WB.size() - 1; }
+};
+
+Waypoints waypointsOf(const BoxWorld& world, double rate, std::size_t cycles) {
+  Waypoints waypoints{1.0 / rate, {}};
+  for (std::size_t k = 0; k <= cycles; ++k)
+    waypoints.X_WB.push_back(world.motion.posesAt(double(k) / rate, world.scene.bodies));
+  return waypoints;
+}
+
+/// Our monitor as a system.
+class Ours : public MonitorSystem {
+ public:
+  Ours(std::shared_ptr<const Scene> scene, const MonitorOptions& options, bool wrenches, double period)
+      : monitor_(std::move(scene), options), request_{wrenches, 0, false} {
+    motion_.times = {0.0, period};
+    motion_.X_WB.assign(monitor_.scene().bodies.size(), std::vector<Isometry3d>(2, Isometry3d::Identity()));
+  }
+
+  std::string name() const override { return request_.wrenches ? "sdf_ccd_wrench" : "sdf_ccd"; }
+
+  void take(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) {
+    for (std::size_t b = 0; b < X_WB_start.size(); ++b) {
+      motion_.X_WB[b][0] = X_WB_start[b];
+      motion_.X_WB[b][1] = X_WB_end[b];
+    }
+  }
+  const CycleResult& run() { return monitor_.run(motion_, request_); }
+  void reset() { monitor_.reset(); }
+
+  int check(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) override {
+    take(X_WB_start, X_WB_end);
+    return run().verdict == Verdict::kContact;
+  }
+
+ private:
+  Monitor monitor_;
+  CycleRequest request_;
+  CycleMotion motion_;
+};
+
+/// What verdicts say over all cycles, and where FCL contradicts them.
+struct Verdicts {
+  double bound = 0.0;  // largest [m]
+  long pair_cycles = 0, uncertain = 0, contact = 0, false_clear = 0, checked = 0;
+};
+
+Verdicts verdictsOf(Ours& ours, const SceneDescription& scene, const Waypoints& waypoints) {
+  FclScene fcl(scene.bodies);
+  Verdicts verdicts;
+  std::vector<int> clear;
+  ours.reset();
+  for (std::size_t k = 0; k < waypoints.cycles(); ++k) {
+    ours.take(waypoints.X_WB[k], waypoints.X_WB[k + 1]);
+    const CycleResult& result = ours.run();
+    verdicts.bound = std::max(verdicts.bound, result.error_bound);
+    verdicts.checked += result.checked;
+    verdicts.pair_cycles += static_cast<long>(result.pairs.size());
+    clear.clear();
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+      const Verdict verdict = result.pairs[i].verdict;
+      verdicts.uncertain += verdict == Verdict::kUncertain;
+      verdicts.contact += verdict == Verdict::kContact;
+      if (verdict == Verdict::kClear) clear.push_back(static_cast<int>(i));
+    }
+    std::vector<ScrewMotion> screws;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      screws.emplace_back(waypoints.X_WB[k][b], waypoints.X_WB[k + 1][b]);
+    for (int pose = 1; pose <= kTruthPoses; ++pose) {
+      for (std::size_t b = 0; b < screws.size(); ++b)
+        fcl.move(static_cast<int>(b), screws[b].pose(double(pose) / kTruthPoses));
+      const auto touches = [&](int i) {
+        const PairResult& pair = result.pairs[static_cast<std::size_t>(i)];
+        return fcl.collide(pair.body_a, pair.body_b);
+      };
+      const auto first = std::stable_partition(clear.begin(), clear.end(), [&](int i) { return !touches(i); });
+      verdicts.false_clear += clear.end() - first;
+      clear.erase(first, clear.end());
+    }
+  }
+  return verdicts;
+}
+
+/// So many cycles apart that one run of the system over all of them is not too long.
+std::size_t strideFor(MonitorSystem& system, const Waypoints& waypoints) {
+  constexpr std::size_t kProbes = 20;
+  const auto start = Clock::now();
+  const std::size_t step = std::max<std::size_t>(1, waypoints.cycles() / kProbes);
+  std::size_t probed = 0;
+  for (std::size_t k = 0; k < waypoints.cycles(); k += step, ++probed)
+    system.check(waypoints.X_WB[k], waypoints.X_WB[k + 1]);
+  const double seconds = secondsSince(start) / double(probed) * double(waypoints.cycles());
+  return std::max<std::size_t>(1, static_cast<std::size_t>(seconds / kSecondsPerRun));
+}
+
+BodyOptions bodyOptions(double max_error, MonitorOptions& monitor) {
+  BodyOptions options;
+  if (max_error > 0.0) {
+    options = optionsFor({max_error});
+    monitor.chords.tolerance = options.motion_margin / ErrorBudget::kChords;
+  } else {
+    options.field.cell_size = 0.004;
+    options.shell.spacing = 0.005;
+    options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
+  }
+  options.shell.vertex_spacing = 0.002;
+  return options;
+}
+
+/// A scene that is built once, for motions at several rates.
+struct Built {
+  std::string name;
+  BoxWorld world;
+  std::shared_ptr<const Scene> scene;
+  MonitorOptions options;
+};
+
+Built build(const Robot& robot, Proximity proximity, const std::string& name, double max_error, double seconds) {
+  Built built{name, makeBoxWorld(robot, proximity, seconds, kSeed), nullptr, {}};
+  const BodyOptions options = bodyOptions(max_error, built.options);
+  const auto start = Clock::now();
+  built.scene = std::make_shared<const Scene>(
+      buildScene(built.world.scene, planScene(built.world.scene, planOptions(options)), options));
+  const double build_seconds = secondsSince(start);
+  double bytes = 0.0;
+  for (const BodyReport& report : built.scene->reports) bytes += double(report.field_bytes + report.shell_bytes);
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    print({"monitor", name, "sdf_ccd", metric, value, unit, 1});
+  };
+  row("pairs", double(built.scene->pairs.size()), "pairs");
+  row("start_up", build_seconds, "s");
+  row("memory", 1e-6 * bytes, "MB");
+  return built;
+}
+
+void study(const Built& built, double rate, const std::string& name, const StudyOptions& options) {
+  const Waypoints waypoints =
+      waypointsOf(built.world, rate, static_cast<std::size_t>(std::lround(options.cycles * rate / 1000.0)));
+  Ours ours(built.scene, built.options, false, waypoints.period);
+  Ours with_wrenches(built.scene, built.options, true, waypoints.period);
+  MonitorSystems peers;
+  for (const MonitorPeerFactory& factory : monitorPeers()) factory(built.world.scene, built.scene->pairs, peers);
+
+  std::vector<CycleTimes> times;
+  for (int k = 0; k < 2; ++k) times.emplace_back(waypoints.cycles(), 1);  // skips go from cycle to cycle: all of them
+  for (const auto& peer : peers) times.emplace_back(waypoints.cycles(), strideFor(*peer, waypoints));
+  for (int run = 0; run < options.measure.runs; ++run) {
+    for (int k = 0; k < 2; ++k) {
+      Ours& system = k == 0 ? ours : with_wrenches;
+      system.reset();
+      times[std::size_t(k)].run([&](std::size_t i) { system.take(waypoints.X_WB[i], waypoints.X_WB[i + 1]); },
+                                [&](std::size_t) { system.run(); });
+    }
+    for (std::size_t k = 0; k < peers.size(); ++k)
+      times[2 + k].run([](std::size_t) {},
+                       [&](std::size_t i) { peers[k]->check(waypoints.X_WB[i], waypoints.X_WB[i + 1]); });
+  }
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const std::string system = k == 0 ? ours.name() : k == 1 ? with_wrenches.name() : peers[k - 2]->name();
+    const auto row = [&](const char* metric, double share) {
+      print({"monitor", name, system, metric, 1e6 * times[k].quantile(share), "us", options.measure.runs});
+    };
+    row("us_median", 0.5);
+    row("us_p99", 0.99);
+    row("us_p999", 0.999);
+  }
+  const Verdicts verdicts = verdictsOf(ours, built.world.scene, waypoints);
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    print({"monitor", name, "sdf_ccd", metric, value, unit, 1});
+  };
+  row("bound", 1e3 * verdicts.bound, "mm");
+  row("uncertain_share", double(verdicts.uncertain) / double(verdicts.pair_cycles), "of pair-cycles");
+  row("contact_share", double(verdicts.contact) / double(verdicts.pair_cycles), "of pair-cycles");
+  row("tested", double(verdicts.checked) / double(waypoints.cycles()), "pairs a cycle");
+  row("false_clear", double(verdicts.false_clear), "pair-cycles");
+}
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark
+
+int main(int argc, char** argv) {
+  using namespace sdf_ccd::benchmark;
+  StudyOptions full;
+  full.errors = {"0"};
+  full.measure.runs = 5;
+  StudyOptions quick = full;
+  quick.cycles = 1000;
+  return runStudy(
+      argc, argv, "A whole cycle of the monitor beside other libraries", full, quick, [](const StudyOptions& options) {
+        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+        std::vector<std::string> robots = options.robots;
+        if (robots.empty()) robots.push_back("demo=" SDF_CCD_DEMO_ARM);
+        for (const std::string& argument : robots) {
+          const Robot robot = loadRobot(argument);
+          for (const auto& [proximity, what] :
+               {std::pair{Proximity::kClear, "clear"}, {Proximity::kNear, "near"}, {Proximity::kContact, "contact"}}) {
+            if (!isWanted(options.cases, what)) continue;
+            const std::string name = robot.name + "/" + what;
+            const Built built = build(robot, proximity, name, std::stod(options.errors.front()), 1e-3 * options.cycles);
+            study(built, 1000.0, name, options);
+            study(built, 50.0, name + "/50Hz", options);
+          }
+        }
+      });
+}

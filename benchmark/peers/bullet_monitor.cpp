@@ -1,0 +1,105 @@
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <LinearMath/btConvexHullComputer.h>
+
+#include "monitor/monitor_system.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+btVector3 toBullet(const Vector3d& v) {
+  return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())};
+}
+
+btTransform toBullet(const Isometry3d& X) {
+  const Matrix3d& R = X.linear();
+  const auto at = [&](int row, int column) { return btScalar(R(row, column)); };
+  const btMatrix3x3 rotation(at(0, 0), at(0, 1), at(0, 2), at(1, 0), at(1, 1), at(1, 2), at(2, 0), at(2, 1), at(2, 2));
+  return btTransform(rotation, toBullet(X.translation()));
+}
+
+constexpr double kTessellation = 5e-4;  // of spheres and cylinders [m]
+
+/// The convex hulls of the collision elements, turned and shifted along: conservative advancement in single precision.
+/// Hulls are larger than meshes that are not convex, so that it finds contacts where there are none.
+class BulletCast : public MonitorSystem {
+ public:
+  BulletCast(const SceneDescription& scene, const std::vector<PlannedPair>& pairs) : pairs_(pairs) {
+    for (const BodyDescription& description : scene.bodies) {
+      Hulls& body = bodies_.emplace_back();
+      for (const GeometryDescription& geometry : description.geometry) body.elements.push_back(hullOf(geometry));
+    }
+  }
+
+  std::string name() const override { return "bullet_cast"; }
+
+  int check(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) override {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      Hulls& body = bodies_[b];
+      body.start = toBullet(X_WB_start[b]);
+      body.end = toBullet(X_WB_end[b]);
+      for (Element& element : body.elements) {
+        btVector3 low, high;
+        element.shape->getAabb(body.start, element.low, element.high);
+        element.shape->getAabb(body.end, low, high);
+        element.low.setMin(low);
+        element.high.setMax(high);
+      }
+    }
+    int touching = 0;
+    for (const PlannedPair& pair : pairs_) touching += touches(bodies_[pair.body_a], bodies_[pair.body_b]);
+    return touching;
+  }
+
+ private:
+  struct Element {
+    std::shared_ptr<const btConvexHullShape> shape;  // in the body's frame
+    btVector3 low, high;                             // in the world, over the cycle
+  };
+  struct Hulls {
+    std::vector<Element> elements;
+    btTransform start, end;
+  };
+
+  static Element hullOf(const GeometryDescription& geometry) {
+    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+    const TriangleMesh& given = mesh ? **mesh : tessellate(std::get<Primitive>(geometry.shape), kTessellation);
+    std::vector<btVector3> points;
+    for (const Vector3d& v : given.vertices) points.push_back(toBullet(geometry.X_BG * v));
+    btConvexHullComputer hull;
+    hull.compute(&points.front()[0], int(sizeof(btVector3)), int(points.size()), 0.0f, 0.0f);
+    const auto shape = std::make_shared<btConvexHullShape>(&hull.vertices[0][0], hull.vertices.size());
+    shape->setMargin(0.0f);
+    return {shape, {}, {}};
+  }
+
+  bool touches(const Hulls& a, const Hulls& b) {
+    for (const Element& one : a.elements) {
+      for (const Element& other : b.elements) {
+        const bool apart = one.low.x() > other.high.x() || other.low.x() > one.high.x() ||
+                           one.low.y() > other.high.y() || other.low.y() > one.high.y() ||
+                           one.low.z() > other.high.z() || other.low.z() > one.high.z();
+        if (apart) continue;
+        btContinuousConvexCollision cast(one.shape.get(), other.shape.get(), &simplex_, &depths_);
+        btConvexCast::CastResult result;
+        if (cast.calcTimeOfImpact(a.start, a.end, b.start, b.end, result)) return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<PlannedPair> pairs_;
+  std::vector<Hulls> bodies_;
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver depths_;
+};
+
+const RegisteredMonitorPeer kBullet{
+    [](const SceneDescription& scene, const std::vector<PlannedPair>& pairs, MonitorSystems& systems) {
+      systems.push_back(std::make_unique<BulletCast>(scene, pairs));
+    }};
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark

@@ -1,0 +1,224 @@
+#include "clearance_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace sdf_ccd {
+namespace {
+
+using namespace lanes;
+
+constexpr float kNoPair = 1e30F;  // a budget that is never used up
+constexpr float kUp = 1.0F + 0x1p-20F;
+constexpr float kUnit = 0x1p-23F;  // twice the relative rounding
+
+struct Vector {
+  Floats x, y, z;
+
+  SDF_CCD_INLINE Vector operator-(const Vector& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  SDF_CCD_INLINE Vector cross(const Vector& o) const {
+    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
+  }
+  SDF_CCD_INLINE Floats norm() const {
+    const Floats squared = x * x + y * y + z * z;
+    Floats root;
+    for (int i = 0; i < kFloatWidth; ++i) root[i] = std::sqrt(squared[i]);
+    return root;
+  }
+};
+
+/// One body's rows, in all lanes, or those of bodies in a row.
+struct Rows {
+  const float* base;
+  std::size_t stride;
+
+  SDF_CCD_INLINE const float* at(TwistRow row, int offset) const {
+    return base + (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * stride;
+  }
+};
+struct OneBody : Rows {
+  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return Floats{} + *at(row, offset); }
+};
+struct BodiesInRow : Rows {
+  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return load(at(row, offset)); }
+};
+
+template <class Get>
+SDF_CCD_INLINE Vector vectorOf(const Get& get, TwistRow row) {
+  return {get(row, 0), get(row, 1), get(row, 2)};
+}
+
+/// So far no point of one body moves against the other in a step (RelativeMotionBounds::travel, about the reference
+/// points, of the ball that gives less).
+///
+/// With twists about the points a and b, d = a − b and w = v_A − v_B, body A moves at a with w − ω_B × d against B, and
+/// body B at b with −(w − ω_A × d) against A; elsewhere that differs by the difference of rotations times the distance
+/// from there, whose average over the step is kReach at most.
+///
+/// Rounding, with u = 2^-24, V = |v_A| + |v_B|, Ω = |ω_A| + |ω_B|, C = |a| + |b| ≥ |d|: the inputs are off by u each,
+/// so d by 2 u C, w by 2 u V and the difference of rotations by 2 u Ω. A cross product adds 6 u Ω |d| of its own, so w
+/// − ω × d is off by (3 V + 10.1 Ω C) u. A norm adds 3 u of itself, reach and rotation's difference 6 u Ω reach, and
+/// the sum and the smaller of both 2 u of V + Ω (C + reach). In all less than 7 u V + 15 u Ω (C + reach), where C +
+/// reach is at most the sum of both kFar. kTurnNoise and kShiftNoise hold 32 u each.
+template <class A, class B>
+SDF_CCD_INLINE Floats travelOf(const A& a, const B& b) {
+  const Vector turn_a = vectorOf(a, TwistRow::kOmega), turn_b = vectorOf(b, TwistRow::kOmega);
+  const Vector d = vectorOf(a, TwistRow::kPoint) - vectorOf(b, TwistRow::kPoint);
+  const Vector w = vectorOf(a, TwistRow::kVelocity) - vectorOf(b, TwistRow::kVelocity);
+  const Floats turn = (turn_a - turn_b).norm();
+  const Floats by_a = (w - turn_b.cross(d)).norm() + turn * a(TwistRow::kReach) + a(TwistRow::kOpen);
+  const Floats by_b = (w - turn_a.cross(d)).norm() + turn * b(TwistRow::kReach) + b(TwistRow::kOpen);
+  const Floats noise = (a(TwistRow::kTurnNoise) + b(TwistRow::kTurnNoise)) * (a(TwistRow::kFar) + b(TwistRow::kFar)) +
+                       (a(TwistRow::kShiftNoise) + b(TwistRow::kShiftNoise));
+  // The last factor also holds what a contact's time may be off by, 1e-9 of the path.
+  return (smaller(by_a, by_b) + noise) * kUp;
+}
+
+/// What poses and motions add to the error of the distance.
+template <class A, class B>
+SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
+  const Floats far = a(TwistRow::kFarthest) + b(TwistRow::kFarthest);
+  return ((a(TwistRow::kTilt) + b(TwistRow::kTilt)) * far + (a(TwistRow::kError) + b(TwistRow::kError))) * kUp;
+}
+
+using Ints = decltype(Floats{} < Floats{});
+
+SDF_CCD_INLINE void store(const Floats& values, float* to) {
+  *reinterpret_cast<FloatsInMemory*>(to) = values;
+}
+
+/// Arrays that a scan goes through, by block.
+struct ScanArrays {
+  const float* rows;
+  std::size_t stride;
+  const std::int32_t* blocks;  // two numbers each
+  std::size_t count;
+  float* budget;
+  float* spent;
+  float* slack;
+  const float* error;
+};
+
+SDF_CCD_LANES
+void addTravel(const ScanArrays& s) {
+  for (std::size_t i = 0; i < s.count; ++i) {
+    const OneBody a{{s.rows + s.blocks[2 * i], s.stride}};
+    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1], s.stride}};
+    const std::size_t at = i * kTwistLanes;
+    store((load(s.spent + at) + travelOf(a, b)) * kUp, s.spent + at);
+  }
+}
+
+/// Leaves in `slack` what is left, in `budget` what holds. @return the largest error, and its slot.
+SDF_CCD_LANES
+QuietPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
+  Floats best = Floats{} - 1.0F;
+  Ints best_block = {};
+  const Floats zero = {};
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < s.count; ++i) {
+    const OneBody a{{s.rows + s.blocks[2 * i], s.stride}};
+    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1], s.stride}};
+    const std::size_t at = i * kTwistLanes;
+    const Floats budget = load(s.budget + at);
+    Floats travel = travelOf(a, b);
+    if (add_spent) travel = (travel + load(s.spent + at)) * kUp;
+    // Each of the two subtractions is off by half of kUnit of the budget at most; nothing is, where nothing moves.
+    const Floats left = (budget - travel) - (travel > zero ? budget * kUnit : zero);
+    const Floats error = poseErrorOf(a, b);
+    const Ints is_quiet = left > error;  // not of NaN
+    store(is_quiet ? left : budget, s.budget + at);
+    store(left - error, s.slack + at);
+    const Floats bound = is_quiet ? load(s.error + at) + error : zero - 1.0F;
+    const Ints is_more = bound > best;
+    best = is_more ? bound : best;
+    best_block = is_more ? Ints{} + static_cast<std::int32_t>(i) : best_block;
+    std::int32_t quiet_lanes = 0;
+    for (int lane = 0; lane < kFloatWidth; ++lane) quiet_lanes += is_quiet[lane];
+    due_blocks[found] = i;
+    found += quiet_lanes != -kFloatWidth;
+  }
+  *due_count = found;
+  QuietPairs quiet;
+  for (int lane = 0; lane < kFloatWidth; ++lane) {
+    if (!(best[lane] > quiet.error)) continue;
+    quiet.error = best[lane];
+    quiet.pair = best_block[lane] * kFloatWidth + lane;
+  }
+  return quiet;
+}
+
+float roundedDown(double x) {
+  const auto rounded = static_cast<float>(x);
+  return double(rounded) <= x ? rounded : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(pairs.size(), 0.0) {
+  constexpr auto kLanes = static_cast<int>(kTwistLanes);
+  std::map<std::pair<int, int>, std::size_t> known;  // block of a body and the first of those in a row
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const int a = pairs[i].body_a, b = pairs[i].body_b, first_b = b / kLanes * kLanes;
+    const auto [block, is_new] = known.emplace(std::pair(a, first_b), blocks_.size());
+    if (is_new) {
+      blocks_.push_back({a, first_b});
+      pairs_.resize(kTwistLanes * blocks_.size(), -1);
+    }
+    const std::size_t slot = kTwistLanes * block->second + static_cast<std::size_t>(b - first_b);
+    if (pairs_[slot] >= 0) throw std::invalid_argument("clearances: a pair of bodies twice");
+    pairs_[slot] = static_cast<std::int32_t>(i);
+    slots_.push_back(static_cast<std::int32_t>(slot));
+  }
+  budget_.assign(pairs_.size(), kNoPair);
+  spent_.assign(pairs_.size(), 0.0F);
+  slack_.assign(pairs_.size(), 0.0F);
+  error_.assign(pairs_.size(), -kNoPair);
+  due_blocks_.resize(blocks_.size());
+  forget();
+}
+
+void ClearanceTable::setMargin(int pair, double margin, double error) {
+  margin_[static_cast<std::size_t>(pair)] = margin;
+  error_[slot(pair)] = static_cast<float>(error) * kUp;
+}
+
+void ClearanceTable::set(int pair, double clearance) {
+  constexpr double kFar = 1e6;  // [m]: beyond it is due again sooner than it had to
+  budget_[slot(pair)] = roundedDown(std::min(clearance - margin(pair), kFar));
+}
+
+void ClearanceTable::forget() {
+  for (const std::int32_t slot : slots_) budget_[static_cast<std::size_t>(slot)] = kUnknown;
+}
+
+void ClearanceTable::advance(const BodyTwists& bodies) {
+  addTravel({bodies.row(TwistRow::kOmega), bodies.stride(), &blocks_.data()->body_a, blocks_.size(), budget_.data(),
+             spent_.data(), slack_.data(), error_.data()});
+  has_spent_ = true;
+}
+
+QuietPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePair>& due) {
+  due.clear();
+  std::size_t count = 0;
+  QuietPairs quiet = scanPairs({bodies.row(TwistRow::kOmega), bodies.stride(), &blocks_.data()->body_a, blocks_.size(),
+                                budget_.data(), spent_.data(), slack_.data(), error_.data()},
+                               has_spent_, due_blocks_.data(), &count);
+  if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
+  has_spent_ = false;
+  if (quiet.pair >= 0) quiet.pair = pairs_[static_cast<std::size_t>(quiet.pair)];
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t slot = kTwistLanes * due_blocks_[k]; slot < kTwistLanes * (due_blocks_[k] + 1); ++slot) {
+      if (pairs_[slot] < 0 || slack_[slot] > 0.0F) continue;
+      due.push_back({std::isnan(slack_[slot]) ? kUnknown : slack_[slot], pairs_[slot]});
+    }
+  }
+  std::sort(due.begin(), due.end(),
+            [](const DuePair& a, const DuePair& b) { return a.left != b.left ? a.left < b.left : a.pair < b.pair; });
+  return quiet;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,80 @@
+#include "schedule.h"
+
+#include <algorithm>
+
+namespace sdf_ccd {
+
+Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
+    : scene_(scene), bodies_(scene), table_(scene.pairs), is_whole_(scene.bodies.size(), 0) {
+  for (std::size_t i = 0; i < checkers.size(); ++i)
+    table_.setMargin(static_cast<int>(i), checkers[i].margin(), checkers[i].bound().total());
+  due_.reserve(checkers.size());
+}
+
+bool Schedule::isWhole(const CycleMotion& motion, std::size_t pair) const {
+  return motion.spans.empty() || (motion.spans[pair].first == 0 && motion.spans[pair].last + 1 == motion.times.size());
+}
+
+void Schedule::findWhole(const CycleMotion& motion) {
+  const std::size_t pairs = scene_.pairs.size();
+  bool all = true;
+  for (std::size_t i = 0; i < pairs && !motion.spans.empty(); ++i) all &= isWhole(motion, i);
+  const bool was_all = all_whole_;
+  all_whole_ = all;
+  if (all && was_all) return;
+  std::fill(is_whole_.begin(), is_whole_.end(), 0);
+  for (std::size_t i = 0; i < pairs; ++i) {
+    if (!isWhole(motion, i)) continue;
+    for (const int body : {scene_.pairs[i].body_a, scene_.pairs[i].body_b})
+      is_whole_[static_cast<std::size_t>(body)] = 1;
+  }
+}
+
+const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, std::vector<PairChecker>& checkers) {
+  findWhole(motion);
+  bodies_.begin(motion, is_whole_);
+  for (std::size_t i = 0; i < checkers.size() && !all_whole_; ++i) {
+    if (isWhole(motion, i)) continue;
+    handOver(motion, static_cast<int>(i), checkers[i]);
+    table_.forget(static_cast<int>(i));
+  }
+  const std::size_t steps = motion.times.size() - 1;
+  for (std::size_t k = 0; k < steps; ++k) {
+    if (k > 0) bodies_.step(motion, k);
+    if (k + 1 < steps) table_.advance(bodies_);
+  }
+  quiet_ = table_.finish(bodies_, due_);
+  for (const DuePair& due : due_) handOver(motion, due.pair, checkers[static_cast<std::size_t>(due.pair)]);
+  return due_;
+}
+
+/// What the table knows of a pair, as of the end of the last cycle.
+void Schedule::handOver(const CycleMotion& motion, int pair, PairChecker& checker) const {
+  if (!table_.isKnown(pair)) return;
+  const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];
+  checker.remember(table_.clearance(pair), bodies_.last(motion, planned.body_a), bodies_.last(motion, planned.body_b));
+}
+
+void Schedule::settle(const CycleMotion& motion, const std::vector<PairChecker>& checkers) {
+  bodies_.end(motion, is_whole_);
+  for (const DuePair& due : due_) {
+    const auto pair = static_cast<std::size_t>(due.pair);
+    if (isWhole(motion, pair) && checkers[pair].isKnown()) {
+      table_.set(due.pair, checkers[pair].clearance());
+    } else {
+      table_.forget(due.pair);
+    }
+  }
+}
+
+double Schedule::motionError(int pair) const {
+  const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];
+  return bodies_.poseError(planned.body_a, planned.body_b);
+}
+
+void Schedule::forget() {
+  bodies_.forget();
+  table_.forget();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,57 @@
+#include "motion/validate_motion.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "common/number_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Refuses with a text that is made only then.
+struct Refusal {
+  const char* what;
+
+  [[noreturn]] void operator()(const std::string& why) const {
+    throw std::invalid_argument(std::string(what) + ": " + why);
+  }
+};
+
+void requireTimes(const std::vector<double>& times, const Refusal& refuse) {
+  if (times.size() < 2) refuse(std::to_string(times.size()) + " times, two or more are needed");
+  if (times.front() != 0.0) refuse("starts at " + numberText(times.front()) + " s, not 0");
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (!(times[k - 1] < times[k]) || !std::isfinite(times[k]))
+      refuse("time " + numberText(times[k - 1]) + " s is followed by " + numberText(times[k]));
+}
+
+void requireSpans(const CycleMotion& motion, std::size_t pairs, const Refusal& refuse) {
+  if (!motion.spans.empty() && motion.spans.size() != pairs)
+    refuse(std::to_string(motion.spans.size()) + " spans, the scene has " + std::to_string(pairs) + " pairs");
+  for (const WaypointSpan& span : motion.spans)
+    if (span.first > span.last || span.last >= motion.times.size())
+      refuse("a span from time " + std::to_string(span.first) + " to " + std::to_string(span.last));
+}
+
+}  // namespace
+
+void validate(const CycleMotion& motion, const MotionShape& shape, const char* what) {
+  const Refusal refuse{what};
+  requireTimes(motion.times, refuse);
+  requireSpans(motion, shape.pairs, refuse);
+  const std::size_t bodies = shape.bodies.size();
+  const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
+  if (motion.X_WB.size() != bodies || !fits(motion.missing.size()) || !fits(motion.motion_error.size()))
+    refuse("made for " + std::to_string(motion.X_WB.size()) + " bodies, the scene has " + std::to_string(bodies));
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const bool may_lack = (!shape.without_poses.empty() && shape.without_poses[b]) ||
+                          (!motion.missing.empty() && !motion.missing[b].empty());
+    if (!may_lack && motion.X_WB[b].size() != motion.times.size())
+      refuse(shape.bodies[b] + " has " + std::to_string(motion.X_WB[b].size()) + " poses at " +
+             std::to_string(motion.times.size()) + " times");
+    if (!motion.motion_error.empty() && !(motion.motion_error[b] >= 0.0))
+      refuse("motion error of " + shape.bodies[b] + " is " + numberText(motion.motion_error[b]));
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,281 @@
+#include "monitor/clearance_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/long_screw.h"
+#include "oracle/random.h"
+#include "sdf_ccd/motion/two_body_motion.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+constexpr double kBudget = 64.0;  // [m]
+
+/// Bodies that are balls, and all of their pairs but some.
+Scene balls(int count, Random& random) {
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    Body body;
+    body.name = std::to_string(i);
+    body.ball = {uniform(random, 0.0, 0.3) * direction(random), uniform(random, 0.01, 0.3)};
+    scene.bodies.push_back(body);
+    for (int k = 0; k < i; ++k)
+      if ((i + k) % 7 != 0) scene.pairs.push_back({k, i, true, true});
+  }
+  return scene;
+}
+
+/// How bodies of a trial move.
+struct Family {
+  double angle, shift;  // of a step, at most [rad], [m]
+  double apart;         // [m]
+  double away;          // from the origin [m]
+  bool on_a_base;       // all of them move with one body, nearly
+};
+
+/// The pose after a step.
+Isometry3d moved(const Isometry3d& X, double angle, double shift, Random& random) {
+  const Vector3d axis = direction(random), along = direction(random);
+  Isometry3d next = X;
+  next.linear() = Quaterniond(Eigen::AngleAxisd(uniform(random, 0.0, angle), axis) * Quaterniond(X.linear()))
+                      .normalized()
+                      .toRotationMatrix();
+  next.translation() += uniform(random, 0.0, shift) * along;
+  return next;
+}
+
+CycleMotion motionOf(const Family& family, int bodies, int steps, Random& random) {
+  CycleMotion motion;
+  for (int k = 0; k <= steps; ++k) motion.times.push_back(k);
+  const Vector3d place = family.away * direction(random);
+  std::vector<Isometry3d> base = {pose(random, 3.0, 0.0)};
+  base.back().translation() = place;
+  for (int k = 0; k < steps; ++k) base.push_back(moved(base.back(), family.angle, family.shift, random));
+  for (int b = 0; b < bodies; ++b) {
+    const bool rests = random() % 4 == 0;
+    Isometry3d X = pose(random, 3.0, family.apart);
+    std::vector<Isometry3d> X_WB;
+    for (int k = 0; k <= steps; ++k) {
+      Isometry3d placed = X;
+      placed.translation() += place;
+      X_WB.push_back(family.on_a_base ? base[std::size_t(k)] * X : placed);
+      const double share = family.on_a_base ? 1e-3 : 1.0;
+      if (!rests) X = moved(X, share * family.angle, share * family.shift, random);
+    }
+    motion.X_WB.push_back(X_WB);
+  }
+  return motion;
+}
+
+/// Where a motion begins, for a second.
+CycleMotion restAt(const CycleMotion& motion) {
+  CycleMotion rest;
+  rest.times = {0.0, 1.0};
+  for (const auto& X_WB : motion.X_WB) rest.X_WB.push_back({X_WB.front(), X_WB.front()});
+  return rest;
+}
+
+/// The most that the distance of two points changes over a motion, one in each ball, by climbing.
+Real largestChange(const Scene& scene, const PlannedPair& pair, const CycleMotion& motion, Random& random) {
+  const auto ballOf = [&](int body) -> const BoundingBall& { return scene.bodies[std::size_t(body)].ball; };
+  const std::size_t steps = motion.times.size() - 1;
+  std::vector<LongScrew> a, b;
+  for (std::size_t k = 0; k < steps; ++k) {
+    const auto screw = [&](int body) {
+      return LongScrew(motion.X_WB[std::size_t(body)][k], motion.X_WB[std::size_t(body)][k + 1]);
+    };
+    a.push_back(screw(pair.body_a));
+    b.push_back(screw(pair.body_b));
+  }
+  const auto distance = [&](const Vector3d& p_A, const Vector3d& p_B, Real time) {
+    const auto k = std::min(steps - 1, static_cast<std::size_t>(time));
+    return (a[k].pose(time - Real(k)) * p_A.cast<Real>() - b[k].pose(time - Real(k)) * p_B.cast<Real>()).norm();
+  };
+  Vector3d best_a = direction(random), best_b = direction(random);
+  double best_time = double(steps);
+  Real most = 0;
+  for (int tries = 0; tries < 40; ++tries) {
+    const double size = tries < 10 ? 1.0 : 0.2;
+    const Vector3d u = (best_a + size * direction(random)).normalized();
+    const Vector3d v = (best_b + size * direction(random)).normalized();
+    const double time = std::clamp(best_time + size * uniform(random, -1.0, 0.3), 0.0, double(steps));
+    const BoundingBall &ball_a = ballOf(pair.body_a), &ball_b = ballOf(pair.body_b);
+    const Vector3d p_A = ball_a.center + ball_a.radius * u, p_B = ball_b.center + ball_b.radius * v;
+    const Real change = std::abs(distance(p_A, p_B, time) - distance(p_A, p_B, 0));
+    if (change <= most) continue;
+    most = change;
+    best_a = u;
+    best_b = v;
+    best_time = time;
+  }
+  return most;
+}
+
+/// No point of P's ball goes farther against F in a step, by twists in doubles.
+double travelOf(const WorldTwist& F, const WorldTwist& P) {
+  const Vector3d u = P.velocity - F.velocityAt(P.center);
+  return u.norm() + (P.omega - F.omega).norm() * (P.radius + 0.25 * P.speed());
+}
+
+/// Over all steps, of the ball that gives less.
+double boundOf(const Scene& scene, const PlannedPair& pair, const CycleMotion& motion) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k + 1 < motion.times.size(); ++k) {
+    const auto twist = [&](int body) {
+      const auto& X_WB = motion.X_WB[std::size_t(body)];
+      return worldTwist(ScrewMotion(X_WB[k], X_WB[k + 1]), scene.bodies[std::size_t(body)].ball);
+    };
+    const WorldTwist a = twist(pair.body_a), b = twist(pair.body_b);
+    sum += std::min(travelOf(a, b), travelOf(b, a));
+  }
+  return sum;
+}
+
+TEST(ClearanceTable, SubtractsNoLessThanBodiesMoveAndLittleMore) {
+  Random random(1);
+  const std::vector<Family> families = {
+      {1e-3, 1e-3, 1.0, 1.0, false}, {0.05, 0.02, 2.0, 1.0, false}, {0.3, 0.3, 2.0, 5.0, false},
+      {3.0, 1.0, 1.0, 1.0, false},   {1e-7, 1e-8, 1.0, 1.0, false}, {1e-2, 1e-1, 1.0, 100.0, true},
+      {1e-3, 1e-3, 1.0, 1e5, false}, {0.1, 0.0, 3.0, 0.0, false},   {0.0, 0.05, 3.0, 0.0, false},
+      {2.0, 3.0, 1.0, 1e3, true},
+  };
+  double worst = 0.0, loosest = 0.0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Family& family = families[std::size_t(trial) % families.size()];
+    const Scene scene = balls(11, random);
+    const int steps = 1 + trial / 10 % 3;
+    const CycleMotion motion = motionOf(family, 11, steps, random);
+    const CycleMotion before = restAt(motion);
+    const std::vector<char> whole(scene.bodies.size(), 1);
+    BodyTwists bodies(scene);
+    ClearanceTable table(scene.pairs);
+    std::vector<DuePair> due;
+    const auto run = [&](const CycleMotion& next) {
+      bodies.begin(next, whole);
+      for (std::size_t k = 0; k + 1 < next.times.size(); ++k) {
+        if (k > 0) bodies.step(next, k);
+        if (k + 2 < next.times.size()) table.advance(bodies);
+      }
+      table.finish(bodies, due);
+      bodies.end(next, whole);
+    };
+    run(before);
+    ASSERT_EQ(due.size(), scene.pairs.size());  // nothing is known yet
+    for (int i = 0; i < int(scene.pairs.size()); ++i) table.set(i, kBudget);
+    run(before);
+    ASSERT_TRUE(due.empty());
+    run(motion);
+    ASSERT_TRUE(due.empty());
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      const double used = kBudget - table.clearance(int(i));
+      const Real change = largestChange(scene, scene.pairs[i], motion, random);
+      ASSERT_GE(used, change) << "trial " << trial << ", pair " << i;
+      const double bound = boundOf(scene, scene.pairs[i], motion);
+      // The scale of what single precision keeps: the budget's, and that of each body's own motion.
+      const double coarse = 2e-6 * kBudget + 1e-5 * (family.angle * (2.0 * family.apart + 1.0) + family.shift) * steps;
+      ASSERT_LE(used, 1.05 * bound + coarse) << "trial " << trial << ", pair " << i;
+      if (change > 1e-4) worst = std::max(worst, double(change) / used);
+      if (bound > 1e-2) loosest = std::max(loosest, used / bound);
+    }
+  }
+  EXPECT_GT(worst, 0.9);  // climbing comes near to the bound
+  EXPECT_LT(loosest, 1.02);
+}
+
+TEST(ClearanceTable, KeepsABudgetExactlyWhileNothingMoves) {
+  Random random(2);
+  const Scene scene = balls(9, random);
+  const std::vector<char> whole(9, 1);
+  const CycleMotion motion = restAt(motionOf({0.0, 0.0, 1.0, 1.0, false}, 9, 1, random));
+  BodyTwists bodies(scene);
+  ClearanceTable table(scene.pairs);
+  std::vector<DuePair> due;
+  bodies.begin(motion, whole);
+  bodies.end(motion, whole);
+  table.set(3, 0.123);
+  const double before = table.clearance(3);
+  EXPECT_LE(before, 0.123);
+  for (int i = 0; i < 1000; ++i) {
+    bodies.begin(motion, whole);
+    table.finish(bodies, due);
+    bodies.end(motion, whole);
+  }
+  EXPECT_EQ(table.clearance(3), before);
+  EXPECT_EQ(due.size(), scene.pairs.size() - 1);
+}
+
+TEST(ClearanceTable, PairsAreDueInTheOrderOfUrgency) {
+  Random random(3);
+  const Scene scene = balls(9, random);
+  const std::vector<char> whole(9, 1);
+  const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 1.0, false}, 9, 1, random));
+  BodyTwists bodies(scene);
+  ClearanceTable table(scene.pairs);
+  std::vector<DuePair> due;
+  bodies.begin(still, whole);
+  bodies.end(still, whole);
+  const int count = int(scene.pairs.size());
+  for (int i = 0; i < count; ++i) {
+    table.setMargin(i, 0.01, 1e-3 * i);
+    table.set(i, 0.01 + 0.001 * (i - 4));  // the first five have nothing left
+  }
+  table.forget(7);
+  bodies.begin(still, whole);
+  const QuietPairs quiet = table.finish(bodies, due);
+  ASSERT_EQ(due.size(), 6u);
+  EXPECT_EQ(due[0].pair, 7);
+  for (int k = 1; k < 6; ++k) EXPECT_EQ(due[std::size_t(k)].pair, k - 1);
+  EXPECT_EQ(quiet.pair, count - 1);
+  EXPECT_NEAR(quiet.error, 1e-3 * (count - 1), 1e-6);
+}
+
+TEST(ClearanceTable, ABodyThatIsNotFollowedMakesItsPairsDue) {
+  Random random(4);
+  const Scene scene = balls(9, random);
+  const std::vector<char> whole(9, 1);
+  const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 1.0, false}, 9, 1, random));
+  const auto dueAfter = [&](const CycleMotion& motion) {
+    BodyTwists bodies(scene);
+    ClearanceTable table(scene.pairs);
+    std::vector<DuePair> due;
+    bodies.begin(still, whole);
+    bodies.end(still, whole);
+    for (int i = 0; i < int(scene.pairs.size()); ++i) table.set(i, 1.0);
+    bodies.begin(motion, whole);
+    table.finish(bodies, due);
+    for (const DuePair& next : due) {
+      const PlannedPair& pair = scene.pairs[std::size_t(next.pair)];
+      EXPECT_TRUE(pair.body_a == 4 || pair.body_b == 4);
+      EXPECT_EQ(table.clearance(next.pair), 1.0);  // as before, for whoever looks closer
+    }
+    return due.size();
+  };
+  std::size_t pairs = 0;
+  for (const PlannedPair& pair : scene.pairs) pairs += pair.body_a == 4 || pair.body_b == 4;
+  EXPECT_EQ(dueAfter(still), 0u);
+  CycleMotion jump = still, away = still, skewed = still, nan = still, lost = still, vague = still;
+  for (Isometry3d& X : jump.X_WB[4]) X.translation().x() += 1e-12;
+  EXPECT_EQ(dueAfter(jump), pairs);
+  away.X_WB[4][1].translation().x() = 2e8;
+  EXPECT_EQ(dueAfter(away), pairs);
+  skewed.X_WB[4][1].linear() *= 1.0 + 1e-6;
+  EXPECT_EQ(dueAfter(skewed), pairs);
+  nan.X_WB[4][1](0, 3) = std::nan("");
+  EXPECT_EQ(dueAfter(nan), pairs);
+  lost.missing.resize(9);
+  lost.missing[4] = "lost";
+  EXPECT_EQ(dueAfter(lost), pairs);
+  vague.motion_error.assign(9, 0.0);
+  vague.motion_error[4] = 1.001;
+  EXPECT_EQ(dueAfter(vague), pairs);
+  vague.motion_error[4] = 0.999;
+  EXPECT_EQ(dueAfter(vague), 0u);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "monitor/scene_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+constexpr double kRadius = 0.08;
+constexpr int kBalls = 5;
+
+/// Balls that wander about, and how their transforms come: all, late, in part, from elsewhere, not at all, vaguely.
+class Arrivals {
+ public:
+  explicit Arrivals(unsigned seed, std::size_t pairs) : random_(seed), pairs_(pairs) {
+    for (int i = 0; i < kBalls; ++i) X_.push_back(randomPose(random_, 0.5));
+  }
+
+  CycleMotion next() {
+    const std::size_t waypoints = 2 + random_() % 3;
+    std::vector<std::vector<Isometry3d>> poses;
+    for (Isometry3d& X : X_) {
+      const double speed = oneIn(6) ? 0.1 : oneIn(3) ? 0.0 : 0.01;
+      std::vector<Isometry3d> X_WB = {X};
+      for (std::size_t k = 1; k < waypoints; ++k) {
+        const Vector3d shift = speed * (direction() - 0.2 * X.translation());
+        if (speed > 0.0) X = translation(shift) * X * pose(Vector3d::Zero(), speed * 5.0 * u(), direction());
+        X_WB.push_back(X);
+      }
+      poses.push_back(X_WB);
+    }
+    CycleMotion motion = cycle(0.1, poses);
+    if (oneIn(4)) {
+      motion.spans.assign(pairs_, {0, waypoints - 1});
+      for (WaypointSpan& span : motion.spans) {
+        if (oneIn(4)) span.last = random_() % waypoints;
+        if (oneIn(8)) span.first = random_() % (span.last + 1);
+      }
+    }
+    if (oneIn(8)) motion.missing.assign(kBalls, "");
+    if (!motion.missing.empty()) motion.missing[random_() % kBalls] = "lost";
+    if (oneIn(3)) {
+      for (int i = 0; i < kBalls; ++i) motion.motion_error.push_back(oneIn(10) ? 0.05 : oneIn(2) ? 0.0 : 1e-3);
+      if (oneIn(10)) motion.motion_error[random_() % kBalls] = std::numeric_limits<double>::infinity();
+    }
+    if (oneIn(10)) X_[random_() % kBalls].translation() += 0.1 * direction();  // the next one begins elsewhere
+    return motion;
+  }
+
+ private:
+  bool oneIn(unsigned n) { return random_() % n == 0; }
+  double u() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random_); }
+  Vector3d direction() { return {u(), u(), u()}; }
+
+  std::mt19937 random_;
+  std::size_t pairs_;
+  std::vector<Isometry3d> X_;
+};
+
+/// What testing every pair says, as slow and obvious as it is: the same, but that skipped pairs are clear. And what
+/// spheres have between them.
+TEST(Schedule, SaysWhatTestingEveryPairSays) {
+  std::vector<BodyDescription> bodies;
+  for (int i = 0; i < kBalls; ++i) bodies.push_back(body("ball " + std::to_string(i), Primitive(Sphere{kRadius})));
+  const auto scene = build(bodies, fine(0.02));
+  int skipped = 0, near = 0, clear = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    Monitor skipping(scene, {}), sparing(scene, {}), testing(scene, {});
+    Arrivals arrivals(seed, scene->pairs.size());
+    for (int i = 0; i < 300; ++i) {
+      const CycleMotion motion = arrivals.next();
+      testing.reset();
+      const CycleResult &a = skipping.run(motion, {true, 2}), &b = testing.run(motion, {true, 2});
+      const CycleResult& c = sparing.run(motion, {true, 2, false});
+      ASSERT_EQ(b.skipped, 0);
+      ASSERT_EQ(a.checked + a.skipped, b.checked);
+      ASSERT_EQ(a.not_checked, b.not_checked);
+      ASSERT_EQ(a.delayed, b.delayed);
+      ASSERT_EQ(a.verdict, b.verdict);
+      ASSERT_EQ(c.verdict, b.verdict);
+      ASSERT_EQ(c.skipped, a.skipped);
+      ASSERT_EQ(c.error_bound, a.error_bound);
+      skipped += a.skipped;
+      double worst = 0.0;
+      for (std::size_t p = 0; p < a.pairs.size(); ++p) {
+        const PairResult &pair = a.pairs[p], &tested = b.pairs[p], &spared = c.pairs[p];
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", cycle " + std::to_string(i) + ", pair " + std::to_string(p));
+        ASSERT_EQ(pair.verdict, tested.verdict);
+        ASSERT_EQ(pair.reason, tested.reason);
+        ASSERT_EQ(pair.span.first, tested.span.first);
+        ASSERT_EQ(pair.span.last, tested.span.last);
+        ASSERT_EQ(pair.intervals.size(), tested.intervals.size());
+        ASSERT_EQ(pair.points.size(), tested.points.size());
+        ASSERT_EQ(pair.deepest.depth, tested.deepest.depth);
+        ASSERT_EQ(pair.on_a_W.force, tested.on_a_W.force);
+        ASSERT_EQ(spared.verdict, tested.verdict);
+        ASSERT_EQ(spared.skipped, pair.skipped);
+        ASSERT_EQ(spared.span.last, tested.span.last);
+        ASSERT_EQ(spared.intervals.size(), tested.intervals.size());
+        if (pair.verdict != Verdict::kNotChecked) worst = std::max(worst, pair.error.total());
+        near += pair.verdict >= Verdict::kUncertain;
+        if (pair.verdict != Verdict::kClear) continue;
+        ++clear;
+        const auto distance = [&](std::size_t k, double s) {
+          const auto placeOf = [&](int body) {
+            const auto& X_WB = motion.X_WB[std::size_t(body)];
+            return s == 0.0 ? Vector3d(X_WB[k].translation())
+                            : Vector3d(ScrewMotion(X_WB[k], X_WB[k + 1]).pose(s).translation());
+          };
+          return (placeOf(pair.body_a) - placeOf(pair.body_b)).norm() - 2.0 * kRadius;
+        };
+        double motion_error = 0.0;
+        for (const int body : {pair.body_a, pair.body_b})
+          motion_error += motion.motion_error.empty() ? 0.0 : motion.motion_error[std::size_t(body)];
+        for (std::size_t k = pair.span.first; k < pair.span.last; ++k)
+          for (int step = 0; step <= 4; ++step) ASSERT_GT(distance(k, 0.25 * step), motion_error);
+        ASSERT_LE(pair.clearance, distance(pair.span.last, 0.0) + 1e-12);
+        ASSERT_LE(spared.clearance, distance(pair.span.last, 0.0) + 1e-12);
+        ASSERT_GE(pair.error.chord, motion_error);
+      }
+      // The largest bound is known to what single precision keeps of it.
+      if (std::isfinite(worst)) {
+        ASSERT_NEAR(a.error_bound, worst, 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(skipped, 3000);
+  EXPECT_GT(near, 300);
+  EXPECT_GT(clear, 8000);
+}
+
+TEST(Schedule, KeepsWhatItKnowsUntilItIsReset) {
+  const auto scene = build({body("a", Primitive(Sphere{0.1})), body("b", Primitive(Sphere{0.1}))}, fine(0.02));
+  Monitor monitor(scene, {});
+  const auto at = [](double x) {
+    return cycle(0.1, {still(Isometry3d::Identity()), still(translation({x, 0.0, 0.0}))});
+  };
+  EXPECT_FALSE(monitor.run(at(1.0), {}).pairs[0].skipped);
+  EXPECT_TRUE(monitor.run(at(1.0), {}).pairs[0].skipped);
+  CycleMotion bad = at(1.0);
+  bad.times = {0.0, -1.0};
+  EXPECT_THROW(monitor.run(bad, {}), std::invalid_argument);  // looked at before anything is touched
+  EXPECT_TRUE(monitor.run(at(1.0), {}).pairs[0].skipped);
+  EXPECT_EQ(monitor.run(at(0.15), {}).pairs[0].verdict, Verdict::kContact);
+  EXPECT_EQ(monitor.run(at(1.0), {}).pairs[0].verdict, Verdict::kClear);
+  EXPECT_TRUE(monitor.run(at(1.0), {}).pairs[0].skipped);
+  EXPECT_TRUE(monitor.run(at(1.0), {}).pairs[0].intervals.empty());
+  monitor.reset();
+  EXPECT_FALSE(monitor.run(at(1.0), {}).pairs[0].skipped);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
