@@ -7,6 +7,7 @@ namespace {
 using namespace lanes;
 
 using Lane = BoxTree::Node::Lane;
+constexpr float kFar = 1e30F;
 static_assert(BoxTree::Node::kWidth == kFloatWidth, "a vector holds a node's boxes");
 
 SDF_CCD_INLINE Floats load(const Lane& lane) {
@@ -38,7 +39,7 @@ SDF_CCD_INLINE Vectors displacements(const BoxMotion& m, const Vectors& center) 
 }  // namespace
 
 SDF_CCD_LANES void boxGaps(const BoxTree::Node& node, const PlacedBox& box, const std::array<float, 3>& direction,
-                           const BoxMotion& motion, Lane& gaps) {
+                           const BoxMotion& motion, float cut, NearBoxes& found) {
   const Vectors center = load(node.center);
   const Vectors moved = displacements(motion, center);
   const Vectors way = {center.x - box.center[0], center.y - box.center[1], center.z - box.center[2]};
@@ -69,7 +70,18 @@ SDF_CCD_LANES void boxGaps(const BoxTree::Node& node, const PlacedBox& box, cons
   }
   best = larger(best, absolute(way.dot(direction)) - absolute(moved.dot(direction)) - reach);
   best -= load(node.radius) + box.radius + motion.any + motion.any_per_reach * load(node.reach);
-  store(best, gaps.data());
+  store(best, found.gaps.data());
+  const Floats others = best > cut ? best : Floats{} + kFar;
+  Lane other;
+  store(others, other.data());
+  std::uint32_t near = 0;
+  float least = kFar;
+  for (int i = 0; i < kFloatWidth; ++i) {
+    near |= std::uint32_t(!(found.gaps[i] > cut)) << i;
+    least = other[i] < least ? other[i] : least;
+  }
+  found.near = near;
+  found.least_other = least;
 }
 
 SDF_CCD_LANES void boxSupports(const BoxTree::Node& node, const std::array<float, 3>& direction,

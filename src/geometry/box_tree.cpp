@@ -134,6 +134,7 @@ class BoxTree::Builder {
   void fill(std::vector<Range> ranges, std::size_t index, std::vector<Range>& pending) {
     Node node{};
     node.count = static_cast<std::int32_t>(ranges.size());
+    node.radius.fill(-1e30F);
     for (int lane = 0; lane < node.count; ++lane) {
       const Range& range = ranges[lane];
       setBox(range, lane, node);
@@ -180,8 +181,9 @@ class BoxTree::Builder {
 
   static float roundedUp(double value) { return value > 0.0 ? static_cast<float>(value * (1.0 + 2e-7)) : 0.0F; }
 
-  /// Into eight at most, the largest first.
+  /// Into eight at most, the largest first; not into less than fill a node, unless one node holds them all.
   std::vector<Range> divide(const Range& range) {
+    least_ = range.size() > Node::kWidth ? Node::kWidth : 1;
     std::vector<Range> parts = {range};
     std::vector<double> areas = {1.0};
     while (parts.size() < static_cast<std::size_t>(Node::kWidth)) {
@@ -197,7 +199,7 @@ class BoxTree::Builder {
   }
 
   double weight(const Range& range) const {
-    return range.size() == 1 ? -1.0 : extent(range, mainAxes(range)).halfArea();
+    return range.size() <= least_ ? -1.0 : extent(range, mainAxes(range)).halfArea();
   }
 
   std::pair<Range, Range> split(const Range& range) {
@@ -217,7 +219,10 @@ class BoxTree::Builder {
     const auto coordinate = [&](int id) { return axes[axis].dot(centers_[id]); };
     const int bin = size > 0.0 && range.depth < kHeuristicDepth ? bestBin(range, axes, axis, low, kBins / size) : 0;
     auto middle = begin + range.size() / 2;
-    if (bin > 0) {
+    if (range.size() <= Node::kWidth * Node::kWidth && range.size() > Node::kWidth) {
+      middle = begin + (range.size() / 2 + Node::kWidth - 1) / Node::kWidth * Node::kWidth;
+      std::nth_element(begin, middle, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
+    } else if (bin > 0) {
       middle = std::partition(begin, end, [&](int id) { return binOf(coordinate(id), low, kBins / size) < bin; });
     } else {
       std::nth_element(begin, middle, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
@@ -274,6 +279,7 @@ class BoxTree::Builder {
   BoxTree& tree_;
   std::vector<Vector3d> centers_;
   std::vector<int> order_;
+  int least_ = 1;  ///< ranges of so many triangles are not divided
 };
 
 BoxTree::BoxTree(std::vector<RoundedTriangle> triangles) : triangles_(std::move(triangles)) {

@@ -31,7 +31,7 @@ class BoxTree {
     std::array<Lane, 3> center;               ///< from the tree's origin [m]
     std::array<std::array<Lane, 3>, 3> axis;  ///< axis[i][k]: coordinate k of the axis i; the first is the flattest
     std::array<Lane, 3> half;                 ///< [m]
-    Lane radius;                              ///< [m]
+    Lane radius;                              ///< [m]; of boxes not in use -1e30
     Lane reach;                               ///< no point of the box is farther from its center [m]
     std::array<std::int32_t, kWidth> below;   ///< the node of the boxes within; of one triangle ~ its index
     std::int32_t count;                       ///< boxes in use
@@ -87,10 +87,15 @@ struct BoxMotion {
   float any_per_reach;
 };
 
-/// Lower bounds of the distances of a node's boxes from another box, all along a motion: the largest gap along the axes
-/// of both and along `direction` (unit). Negative if they may meet. Roundings are not taken off: see kBoxRounding.
+/// Which of a node's boxes may come as near to another box as `cut`, or nearer, at any time of a motion.
+struct NearBoxes {
+  BoxTree::Node::Lane gaps;  ///< lower bounds of the distances: the largest gap along the axes of both and along
+                             ///< `direction`; negative if they may meet. Roundings are not taken off: see kBoxRounding
+  std::uint32_t near;        ///< by bits
+  float least_other;         ///< least gap of those that are not [m]
+};
 void boxGaps(const BoxTree::Node& node, const PlacedBox& box, const std::array<float, 3>& direction,
-             const BoxMotion& motion, BoxTree::Node::Lane& gaps);
+             const BoxMotion& motion, float cut, NearBoxes& found);
 
 /// How far the node's boxes reach along `direction` (unit), at most, all along a motion.
 void boxSupports(const BoxTree::Node& node, const std::array<float, 3>& direction, const BoxMotion& motion,

@@ -58,11 +58,14 @@ Matrix3d halfway(const Matrix3d& from, const Matrix3d& to) {
   return (Quaterniond(from) * q.normalized()).normalized().toRotationMatrix();
 }
 
-/// The largest of a node's supports, or of what is in it; infinite if one is above the limit. @param along  the tree.
-double support(const BoxTree& tree, const Floats& direction, const BoxMotion& motion, double limit) {
-  constexpr int kMostNodes = 64;
+/// How far a tree reaches along a direction, at most; infinite if that is above the limit, or takes long to find out.
+/// @param reachOf  of a triangle.
+template <typename ReachOf>
+double support(const BoxTree& tree, const Floats& direction, const BoxMotion& motion, double limit,
+               const ReachOf& reachOf) {
+  constexpr int kMostBoxes = 96;
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::array<std::int32_t, kMostNodes> pending;
+  std::array<std::int32_t, kMostBoxes> pending;
   int size = 0, visited = 0;
   double best = -kNone;
   pending[size++] = 0;
@@ -71,31 +74,42 @@ double support(const BoxTree& tree, const Floats& direction, const BoxMotion& mo
     BoxTree::Node::Lane supports;
     boxSupports(node, direction, motion, supports);
     for (int i = 0; i < node.count; ++i) {
-      if (supports[i] <= limit) {
-        best = std::max(best, double(supports[i]));
-        continue;
+      double reach = supports[i];
+      if (!(reach <= limit)) {
+        if (++visited == kMostBoxes) return kNone;
+        if (!BoxTree::isTriangle(node.below[i])) {
+          pending[size++] = node.below[i];
+          continue;
+        }
+        reach = reachOf(tree.triangle(BoxTree::triangleOf(node.below[i])));
+        if (!(reach <= limit)) return kNone;
       }
-      if (BoxTree::isTriangle(node.below[i]) || ++visited == kMostNodes) return kNone;
-      pending[size++] = node.below[i];
+      best = std::max(best, reach);
     }
   }
   return best;
 }
 
+/// How far a triangle reaches along a direction, at most.
+double reachAlong(const Vector3d& n, const Corners& t) {
+  return std::max({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
+}
+
 }  // namespace
 
-MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& poses, double error) : a_(a), b_(b) {
+MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& poses, double error)
+    : a_(a), b_(b), poses_(poses), error_(error) {
   const Matrix3d R0 = poses.X_AB_start.linear(), R1 = poses.X_AB_end.linear(), R = halfway(R0, R1);
   const Vector3d at_start = poses.X_AB_start * b.origin(), at_end = poses.X_AB_end * b.origin();
-  p_AB_ = 0.5 * (at_start + at_end) - a.origin();
+  const Vector3d p_AB = 0.5 * (at_start + at_end) - a.origin();
   const Matrix3d turn = 0.5 * (R1 - R0);
   const Vector3d shift = 0.5 * (at_end - at_start);
-  const double rounding = kBoxRounding * (a.ball().radius + b.ball().radius + p_AB_.norm());
+  const double rounding = kBoxRounding * (a.ball().radius + b.ball().radius + p_AB.norm());
   const double bend = (0.5 * (R0 + R1) - R).norm() * b.ball().radius;
 
   R_AB_ = singleRows(R);
-  b_from_a_ = single(p_AB_);
-  a_from_b_ = single(-(R.transpose() * p_AB_));
+  b_from_a_ = single(p_AB);
+  a_from_b_ = single(-(R.transpose() * p_AB));
   turn_A_ = singleRows(turn);
   shift_A_ = single(shift);
   still_ = {};
@@ -118,32 +132,45 @@ PlacedBox MovingBoxes::boxInB(BoxTree::Slot box_a) const {
   return box;
 }
 
-void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, BoxTree::Node::Lane& gaps) const {
+void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) const {
   const BoxTree::Node& of_b = b_.node(box_b.node);
   const Floats center = {of_b.center[0][box_b.lane], of_b.center[1][box_b.lane], of_b.center[2][box_b.lane]};
   BoxMotion motion{};
   motion.shift = sum(times(turn_A_, center), shift_A_);
   motion.any = moving_.any + moving_.any_per_reach * of_b.reach[box_b.lane];
-  boxGaps(node, boxInA(box_b), direction_A_, motion, gaps);
+  boxGaps(node, boxInA(box_b), direction_A_, motion, cut, found);
 }
 
-void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, BoxTree::Node::Lane& gaps) const {
-  boxGaps(node, boxInB(box_a), direction_B_, moving_, gaps);
+void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const {
+  boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
 }
 
 void MovingBoxes::setDirection(const Vector3d& n_A) {
+  n_A_ = n_A;
   direction_A_ = single(n_A);
   direction_B_ = timesTransposed(R_AB_, direction_A_);
 }
 
 double MovingBoxes::supportA(double limit) const {
-  return support(a_, direction_A_, still_, limit);
+  const double from = n_A_.dot(a_.origin());
+  return support(a_, direction_A_, still_, limit,
+                 [&](const RoundedTriangle& t) { return reachAlong(n_A_, t.corners) + t.radius + error_ - from; });
 }
 
 double MovingBoxes::supportB(double limit) const {
   const Floats against = {-direction_B_[0], -direction_B_[1], -direction_B_[2]};
   const double offset = -double(dot(direction_A_, b_from_a_));
-  return support(b_, against, moving_, limit - offset) + offset;
+  const Vector3d to_start = -(poses_.X_AB_start.linear().transpose() * n_A_),
+                 to_end = -(poses_.X_AB_end.linear().transpose() * n_A_);
+  const double from_start = n_A_.dot(a_.origin() - poses_.X_AB_start.translation()) - offset,
+               from_end = n_A_.dot(a_.origin() - poses_.X_AB_end.translation()) - offset;
+  return support(b_, against, moving_, limit - offset,
+                 [&](const RoundedTriangle& t) {
+                   return std::max(reachAlong(to_start, t.corners) + from_start,
+                                   reachAlong(to_end, t.corners) + from_end) +
+                          t.radius + error_;
+                 }) +
+         offset;
 }
 
 }  // namespace sdf_ccd

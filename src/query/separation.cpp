@@ -164,18 +164,18 @@ class SeparationQuery {
     const bool end_a = BoxTree::isTriangle(below_a), end_b = BoxTree::isTriangle(below_b);
     if (end_a && end_b) return add({BoxTree::triangleOf(below_a), BoxTree::triangleOf(below_b)});
     const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
-    BoxTree::Node::Lane gaps;
+    NearBoxes found;
     const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
-    into_a ? boxes.gapsInA(node, at.b, gaps) : boxes.gapsInB(node, at.a, gaps);
+    const auto cut = static_cast<float>(cut_);
+    into_a ? boxes.gapsInA(node, at.b, cut, found) : boxes.gapsInB(node, at.a, cut, found);
+    lowest_ = std::min(lowest_, double(found.least_other));
     std::size_t least = memory_.stack.size();
-    for (std::int32_t i = 0; i < node.count; ++i) {
-      if (gaps[i] > cut_) {
-        lowest_ = std::min(lowest_, double(gaps[i]));
-        continue;
-      }
-      if (least < memory_.stack.size() && gaps[i] < memory_.stack[least].gap) least = memory_.stack.size();
-      memory_.stack.push_back(into_a ? SeparationMemory::Boxes{{below_a, i}, at.b, gaps[i]}
-                                     : SeparationMemory::Boxes{at.a, {below_b, i}, gaps[i]});
+    for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
+      const auto i = static_cast<std::int32_t>(__builtin_ctz(near));
+      const float gap = found.gaps[i];
+      if (least < memory_.stack.size() && gap < memory_.stack[least].gap) least = memory_.stack.size();
+      memory_.stack.push_back(into_a ? SeparationMemory::Boxes{{below_a, i}, at.b, gap}
+                                     : SeparationMemory::Boxes{at.a, {below_b, i}, gap});
     }
     if (least < memory_.stack.size()) std::swap(memory_.stack[least], memory_.stack.back());  // looked at next
   }
@@ -184,7 +184,7 @@ class SeparationQuery {
   void findNear(const MovingBoxes& boxes) {
     memory_.stack.clear();
     memory_.stack.push_back({a_.root(), b_.root(), 0.0F});
-    cut_ = kInfinity;  // the last is the nearest
+    cut_ = 1e29;  // the last is the nearest
     const double lowest = lowest_;
     while (true) {
       const SeparationMemory::Boxes at = memory_.stack.back();

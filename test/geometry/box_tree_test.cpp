@@ -117,8 +117,11 @@ TEST(BoxTree, GapsAreNoMoreThanDistances) {
     const std::array<float, 3> direction = {float(n.x()), float(n.y()), float(n.z())};
     const double rounding = kBoxRounding * (tree.ball().radius + single.ball().radius + between.norm());
     forEachBox(tree, tree.root(), [&](BoxTree::Slot slot, const std::vector<int>& below) {
-      BoxTree::Node::Lane gaps;
-      boxGaps(tree.node(slot.node), box, direction, BoxMotion{}, gaps);
+      NearBoxes found;
+      boxGaps(tree.node(slot.node), box, direction, BoxMotion{}, 0.01F, found);
+      const BoxTree::Node::Lane& gaps = found.gaps;
+      EXPECT_EQ((found.near >> slot.lane & 1U) != 0, gaps[slot.lane] <= 0.01F);
+      EXPECT_TRUE(gaps[slot.lane] <= 0.01F || gaps[slot.lane] >= found.least_other);
       Real nearest = 1e300L;
       for (const int i : below) nearest = std::min(nearest, distance(tree.triangle(i), other));
       EXPECT_LE(gaps[slot.lane] - rounding, std::max<Real>(nearest, 0));
@@ -157,8 +160,10 @@ TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
                      float(omega.norm() * 1.0001)};
     const double rounding = kBoxRounding * (tree.ball().radius + one.ball().radius + between.norm());
     forEachBox(tree, tree.root(), [&](BoxTree::Slot slot, const std::vector<int>& below) {
-      BoxTree::Node::Lane gaps, supports;
-      boxGaps(tree.node(slot.node), box, single(n), motion, gaps);
+      NearBoxes found;
+      BoxTree::Node::Lane supports;
+      boxGaps(tree.node(slot.node), box, single(n), motion, 0.0F, found);
+      const BoxTree::Node::Lane& gaps = found.gaps;
       boxSupports(tree.node(slot.node), single(n), motion, supports);
       for (const double side : {-1.0, -0.3, 1.0})
         for (const int i : below) {

@@ -146,7 +146,7 @@ TEST(Separation, BoundsAndCrossingsAreTrue) {
   SeparationMemory memory;
   long apart = 0, crossing = 0, open = 0;
   std::vector<double> ratios;
-  for (int trial = 0; trial < 400; ++trial) {
+  for (int trial = 0; trial < 250; ++trial) {
     const double travel = std::pow(10.0, test::uniform(random, -4, -0.3));
     const Case c = draw(shapes, random, travel, 3 * travel, std::pow(10.0, test::uniform(random, -4.5, -0.7)));
     SeparationOptions options;
@@ -169,8 +169,8 @@ TEST(Separation, BoundsAndCrossingsAreTrue) {
       }
     }
   }
-  EXPECT_GT(apart, 200);
-  EXPECT_GT(crossing, 60);
+  EXPECT_GT(apart, 120);
+  EXPECT_GT(crossing, 40);
   EXPECT_LT(open, 40);
   std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
   EXPECT_GT(ratios[ratios.size() / 2], 0.55) << "of slow motions the bound is near the distance";
@@ -182,7 +182,7 @@ TEST(Separation, NoClimbFindsABoundAboveTheTruth) {
   SeparationMemory memory;
   Random random(7);
   double worst = -1e300;
-  for (int start = 0; start < 12; ++start) {
+  for (int start = 0; start < 8; ++start) {
     const double travel = std::pow(10.0, test::uniform(random, -3, -0.5));
     Case best = draw(shapes, random, travel, 5 * travel, travel * test::uniform(random, 0.01, 0.5));
     const auto excess = [&](const Case& c) {
