@@ -166,7 +166,8 @@ class SeparationQuery {
     const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
     NearBoxes found;
     const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
-    const auto cut = static_cast<float>(cut_);
+    // What is above it in single precision is above it.
+    const float cut = std::nextafter(static_cast<float>(cut_), std::numeric_limits<float>::infinity());
     into_a ? boxes.gapsInA(node, at.b, cut, found) : boxes.gapsInB(node, at.a, cut, found);
     lowest_ = std::min(lowest_, double(found.least_other));
     std::size_t least = memory_.stack.size();
