@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "body/body_builder.h"
+#include "body/body_triangles.h"
 #include "monitor/scene_cost.h"
 #include "pair_bound.h"
 #include "sdf_ccd/common/cancel.h"
@@ -62,6 +63,21 @@ void setBounds(double motion_margin, Scene& scene) {
   }
 }
 
+/// Of bodies that are in a pair with another one that has them.
+void makeTriangles(const SceneDescription& description, MeshPool& pool, Scene& scene) {
+  const auto possible = [&](int i) {
+    return scene.bodies[i].failure.empty() && whyNoShell(description.bodies[i]).empty();
+  };
+  for (const PlannedPair& pair : scene.pairs) {
+    if (!possible(pair.body_a) || !possible(pair.body_b)) continue;
+    for (const int i : {pair.body_a, pair.body_b}) {
+      checkCancelled();
+      Body& body = scene.bodies[i];
+      if (!body.triangles) body.triangles = trianglesOf(description.bodies[i], body, pool);
+    }
+  }
+}
+
 void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const Body &body_a = bodies[a], &body_b = bodies[b];
   const std::string what = "pair " + body_a.name + " - " + body_b.name;
@@ -114,6 +130,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
       if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
     }
   }
+  makeTriangles(description, *pool, scene);
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
   countPairs(scene);
   setBounds(options.motion_margin, scene);

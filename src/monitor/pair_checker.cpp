@@ -53,6 +53,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
   if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a, purpose(pair.b_edges_only));
   if (pair.a_witnesses_b_field) addRole(pair.body_a, pair.body_b, ShellPurpose::kWitnesses);
   if (pair.b_witnesses_a_field) addRole(pair.body_b, pair.body_a, ShellPurpose::kWitnesses);
+  if (SurfacePair::isPossible(scene, pair)) surfaces_.emplace(scene, pair);
   bound_ = pairBound(scene, pair);
 }
 
@@ -85,11 +86,30 @@ void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, cons
 void PairChecker::remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB) {
   if (roles_.empty()) return;
   clearance_ = clearance;
-  X_FP_last_ = roles_.front().fieldBody() == pair_.body_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
+  const bool f_is_a = surfaces_ ? surfaces_->fieldIsA() : roles_.front().fieldBody() == pair_.body_a;
+  X_FP_last_ = f_is_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
 }
 
 /// Takes the motion, and what it may have used up of the clearance.
 void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
+  if (!surfaces_) setRoles(bodies, span);
+  const PairRole& first = roles_.front();
+  if (surfaces_) {
+    surfaces_->setMotion(bodies, span);
+    travel_ = surfaces_->travel();
+    motion_error_ = surfaces_->poseError();
+  }
+  const Isometry3d &X_start = surfaces_ ? surfaces_->start() : first.start(),
+                   &X_end = surfaces_ ? surfaces_->end() : first.end();
+  const bool continues = clearance_ == kUnknown || X_FP_last_.matrix() == X_start.matrix();
+  if (!continues) outside_ = false;
+  const auto jump = [&] { return surfaces_ ? surfaces_->jumpFrom(X_FP_last_) : first.jumpFrom(X_FP_last_); };
+  clearance_ -= travel_ + (continues ? 0.0 : jump());
+  X_FP_last_ = X_end;
+}
+
+/// The same for the roles.
+void PairChecker::setRoles(const SweptBodies& bodies, const WaypointSpan& span) {
   travel_ = std::numeric_limits<double>::infinity();
   double pose_error = 0.0;
   for (std::size_t i = 0; i < roles_.size(); ++i) {
@@ -99,24 +119,26 @@ void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span)
     pose_error = std::max(pose_error, role.poseError());
   }
   motion_error_ = pose_error;
-  const PairRole& first = roles_.front();
-  const bool continues = clearance_ == kUnknown || X_FP_last_.matrix() == first.start().matrix();
-  clearance_ -= travel_ + (continues ? 0.0 : first.jumpFrom(X_FP_last_));
-  X_FP_last_ = first.end();
+}
+
+/// What the motion is said to be off by, for both bodies together [m].
+double PairChecker::givenError(const CycleMotion& motion) const {
+  if (motion.motion_error.empty()) return 0.0;
+  const double error_a = motion.motion_error[pair_.body_a], error_b = motion.motion_error[pair_.body_b];
+  if (surfaces_) return error_a + error_b;
+  const PairRole& role = roles_.front();
+  const double scale = role.fieldErrorScale();
+  return role.fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
 }
 
 void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
                         PairResult& result) {
   setMotion(bodies, result.span);
-  if (!motion.motion_error.empty()) {
-    const double error_a = motion.motion_error[pair_.body_a], error_b = motion.motion_error[pair_.body_b];
-    const PairRole& role = roles_.front();
-    const double scale = role.fieldErrorScale();
-    motion_error_ += role.fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
-  }
-  result.error = bound_;
+  const double given_error = givenError(motion);
+  motion_error_ += given_error;
+  result.error = bound();
   result.error.chord = motion_error_;
-  result.error.root = kRootTolerance * travel_;
+  if (!surfaces_) result.error.root = kRootTolerance * travel_;
   requireFinite(result.error);
 
   const double margin = this->margin() + result.error.chord + result.error.root;
@@ -126,22 +148,53 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     result.clearance = clearance_;
     return;
   }
-  if (clearFromAfar(margin, result)) return;
+  std::optional<ContactPoint> crossing;
+  if (surfaces_) {
+    if (clearBySurfaces(crossing, result)) return;
+    setRoles(bodies, result.span);
+    motion_error_ += given_error;
+    result.error = bound_;
+    result.error.chord = motion_error_;
+    result.error.root = kRootTolerance * travel_;
+    requireFinite(result.error);
+  } else if (clearFromAfar(margin, result)) {
+    return;
+  }
 
   cutRoles(result);
   requireFinite(result.error);
   const double near = result.error.total();
-  if (std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
-    clearance_ = kUnknown;
-    findContacts(motion, request, result);
+  if (crossing || std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
+    forgetClearance();
+    findContacts(motion, request, crossing, result);
     return;
   }
+  outside_ = true;
   result.verdict = Verdict::kClear;
   // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
   clearance_ = std::numeric_limits<double>::infinity();
   for (const PairRole& role : roles_) clearance_ = std::min(clearance_, role.pointClearanceAtEnd(0.5 * near));
   clearance_ -= bound_.gap;
   result.clearance = clearance_;
+}
+
+/// Whether the triangles show that the bodies stay apart. @param crossing  gets where they surely cross, if they do.
+bool PairChecker::clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result) {
+  double clearance = surfaces_->ballClearance(surfaces_->end());
+  if (surfaces_->ballClearance(surfaces_->start()) - travel_ > std::max(motion_error_, surfaces_->size())) {
+    outside_ = true;
+  } else {
+    SurfacePair::Answer answer = surfaces_->decide(motion_error_, memory_->separation);
+    crossing = answer.crossing;
+    if (answer.state != SeparationState::kApart) return false;
+    clearance = std::max(clearance, answer.clearance);
+    outside_ = outside_ || surfaces_->isOutside();
+    if (!outside_) return false;
+  }
+  clearance_ = clearance;
+  result.verdict = Verdict::kClear;
+  result.clearance = clearance;
+  return true;
 }
 
 /// Whether one role's ball alone shows that the bodies stay apart.
@@ -183,8 +236,12 @@ std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& moti
   return std::nullopt;
 }
 
-void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result) {
-  const std::optional<ContactPoint> crossing = open_ ? crossingAtATime(motion, result.span) : std::nullopt;
+/// @param known  where the surfaces are known to cross.
+void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request,
+                               const std::optional<ContactPoint>& known, PairResult& result) {
+  const std::optional<ContactPoint> crossing = known   ? known
+                                               : open_ ? crossingAtATime(motion, result.span)
+                                                       : std::nullopt;
   ContactCollector& collector = memory_->collector;
   collector.begin(motion, result, crossing.has_value());
   const auto bears = [](const PairRole& role) { return role.bearsForce(); };

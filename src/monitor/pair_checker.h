@@ -7,6 +7,7 @@
 
 #include "contact_collector.h"
 #include "pair_role.h"
+#include "surface_pair.h"
 
 namespace sdf_ccd {
 
@@ -15,6 +16,7 @@ namespace sdf_ccd {
 struct PairMemory {
   std::array<RoleMemory, 4> roles;
   ContactCollector collector;
+  SeparationMemory separation;
 };
 
 /// Checks one pair, cycle after cycle, and knows between them how far apart it was.
@@ -30,8 +32,11 @@ class PairChecker {
   void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
            PairResult& result);
 
-  /// Forgets how far apart the bodies were.
-  void forget() { clearance_ = kUnknown; }
+  /// Forgets how far apart the bodies were, and all else of earlier cycles.
+  void forget() {
+    forgetClearance();
+    if (surfaces_) surfaces_->forget();
+  }
 
   /// What is known since the last cycle, where others kept it.
   /// @param clearance  lower bound of the distance [m], of bodies at these poses.
@@ -41,33 +46,45 @@ class PairChecker {
   bool isKnown() const { return clearance_ != kUnknown; }
   double clearance() const { return clearance_; }
 
-  /// Error of its verdicts, but for the motion's.
-  const ErrorBound& bound() const { return bound_; }
+  /// Error of its verdicts where it is clear, but for the motion's.
+  ErrorBound bound() const { return surfaces_ ? ErrorBound{0.0, 0.0, 0.0, surfaces_->deviation()} : bound_; }
 
   /// Farther than this, but for the motion's error, a test could not find anything: what it finds is off by field and
-  /// chord error at most [m].
-  double margin() const { return bound_.total() + bound_.field + 2.0 * options_.chords.tolerance; }
+  /// chord error at most [m]. What triangles are off by, their clearance has lost already.
+  double margin() const {
+    return surfaces_ ? 0.0 : bound_.total() + bound_.field + 2.0 * options_.chords.tolerance;
+  }
 
  private:
   static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
+  void forgetClearance() {
+    clearance_ = kUnknown;
+    outside_ = false;
+  }
   void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
+  void setRoles(const SweptBodies& bodies, const WaypointSpan& span);
+  double givenError(const CycleMotion& motion) const;
+  bool clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result);
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);
   std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const;
-  void findContacts(const CycleMotion& motion, const CycleRequest& request, PairResult& result);
+  void findContacts(const CycleMotion& motion, const CycleRequest& request, const std::optional<ContactPoint>& known,
+                    PairResult& result);
 
   const Scene& scene_;
   const PlannedPair& pair_;
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
-  std::vector<PairRole> roles_;   // one to four
-  bool open_;                     // some field has openings
-  ErrorBound bound_;              // of field and gap
-  double clearance_ = kUnknown;   // lower bound of the surfaces' distance at the last cycle's end [m]
-  Isometry3d X_FP_last_;          // of the first role, at the last cycle's end; valid if the clearance is known
-  double travel_ = 0.0;           // no point of either body goes farther against the other in this cycle [m]
+  std::vector<PairRole> roles_;          // one to four
+  bool open_;                            // some field has openings
+  std::optional<SurfacePair> surfaces_;  // if both bodies are all triangles
+  bool outside_ = false;                 // neither had a part wholly inside the other at the last cycle's end
+  ErrorBound bound_;                     // of field and gap
+  double clearance_ = kUnknown;          // lower bound of the surfaces' distance at the last cycle's end [m]
+  Isometry3d X_FP_last_;  // of the surfaces or the first role, at the last cycle's end; valid if the clearance is known
+  double travel_ = 0.0;   // no point of either body goes farther against the other in this cycle [m]
   double motion_error_ = 0.0;     // of the modelled motion, and of computing with its poses [m]
   PairMemory* memory_ = nullptr;  // during a check
 };

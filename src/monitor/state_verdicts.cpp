@@ -17,7 +17,8 @@ constexpr double kAnyTime = 1.0;  // nothing moves meanwhile [s]
 /// Tests states, one at a time.
 class StateTester {
  public:
-  StateTester(const RobotModel& robot, std::shared_ptr<const Scene> scene) : robot_(robot), monitor_(scene, {}) {
+  StateTester(const RobotModel& robot, std::shared_ptr<const Scene> scene)
+      : robot_(robot), monitor_(scene, {}), bound_(scene->bound.total()) {
     for (const Body& body : scene->bodies) {
       const auto& links = robot.links();
       links_.push_back(static_cast<std::size_t>(std::find(links.begin(), links.end(), body.frame) - links.begin()));
@@ -32,12 +33,16 @@ class StateTester {
     monitor_.reset();  // so that what it says of a state does not depend on the one before
     CycleRequest request;
     request.wrenches = false;
-    for (const PairResult& pair : monitor_.run(motion_, request).pairs) *verdicts++ = pair.verdict;
+    for (const PairResult& pair : monitor_.run(motion_, request).pairs) {
+      const bool near = pair.verdict == Verdict::kClear && pair.clearance <= bound_;
+      *verdicts++ = near ? Verdict::kUncertain : pair.verdict;
+    }
   }
 
  private:
   const RobotModel& robot_;
   Monitor monitor_;
+  double bound_;                    // [m]
   std::vector<std::size_t> links_;  // per body
   CycleMotion motion_;
 };

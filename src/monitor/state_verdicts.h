@@ -7,7 +7,8 @@
 
 namespace sdf_ccd {
 
-/// Whether pairs touch in states at rest, in parallel over the states.
+/// Whether pairs touch in states at rest, in parallel over the states; UNCERTAIN also where they are CLEAR, but nearer
+/// than the scene's bound, as states between these may be.
 /// @param scene   of the robot's links alone, each in its link's frame.
 /// @param pairs   of the scene, by index.
 /// @return one after the other per state, in the pairs' order.

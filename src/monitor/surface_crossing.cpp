@@ -5,6 +5,7 @@
 
 #include "geometry/triangle.h"
 #include "geometry/triangle_cut.h"
+#include "query/triangle_pair.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -65,24 +66,6 @@ class PointWalk {
   double length_ = 0.0;
 };
 
-/// Where the edge pq passes through the triangle for sure, see surfacesCross().
-std::optional<Vector3d> pierced(const Corners& t, const Vector3d& p, const Vector3d& q, double error) {
-  const Vector3d cross = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double area2 = cross.norm();
-  if (!(area2 > 0.0)) return std::nullopt;
-  const Vector3d normal = cross / area2;
-  const double at_p = normal.dot(p - t[0]), at_q = normal.dot(q - t[0]);
-  if (!(at_p * at_q < 0.0) || !(std::min(std::abs(at_p), std::abs(at_q)) > error)) return std::nullopt;
-  const double across = std::abs(at_p - at_q);
-  const Vector3d place = p + std::abs(at_p) / across * (q - p);
-  const double margin = error * (1.0 + (q - p).norm() / across);
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d side = t[(k + 1) % 3] - t[k];
-    if (!(normal.cross(side).dot(place - t[k]) > margin * side.norm())) return std::nullopt;
-  }
-  return place;
-}
-
 /// Whether a ball of A meets a surface of B's fields, for all that these say.
 bool mayMeet(const Body& b, const Vector3d& center_B, double radius) {
   return std::any_of(b.parts.begin(), b.parts.end(), [&](const BodyPart& part) {
@@ -116,11 +99,8 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
   const auto test = [&](const Corners& t_A, int triangle_b) {
     ++tests;
     const Corners t_B = cornersOf(b.surface->mesh, triangle_b);
-    for (int k = 0; k < 3 && !found; ++k) {
-      std::optional<Vector3d> place = pierced(t_B, t_A[k], t_A[(k + 1) % 3], error);
-      if (!place) place = pierced(t_A, t_B[k], t_B[(k + 1) % 3], error);
-      if (place) found = {*place, (t_B[1] - t_B[0]).cross(t_B[2] - t_B[0]).normalized()};
-    }
+    const std::optional<Vector3d> place = crossingPoint(t_A, t_B, error);
+    if (place) found = {*place, (t_B[1] - t_B[0]).cross(t_B[2] - t_B[0]).normalized()};
   };
   const auto near_b = [&](const Vector3d& center_A, double radius) {
     cancel.check();

@@ -27,12 +27,7 @@ struct SurfaceCrossing {
 };
 
 /// Whether the surfaces of A and B surely cross at a pose: an edge of one pierces a triangle of the other, and does so
-/// wherever A is displaced by up to `pose_error`.
-///
-/// The proof. Let pq be the edge, L long, m the error (with the surfaces' deviations), s and t the distances of p and q
-/// from the triangle's plane, on different sides and both above m. However both are displaced, the edge still passes
-/// the plane, at a place no farther than m from one of pq that is within m of the plane; so within m (1 + L / (s + t))
-/// of where pq passes it. The triangle must reach so far around that place.
+/// wherever A is displaced by up to `pose_error`; see piercedPoint() for the proof.
 /// @param a, b  with BodySurface; B has fields, by which only triangles of A that come near are looked at.
 /// @param pose_error  [m].
 /// Cost: as many tests as triangles meet, at most 10⁵; then the answer is none.

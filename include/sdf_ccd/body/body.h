@@ -13,6 +13,7 @@
 namespace sdf_ccd {
 
 struct BodySurface;
+struct BodyTriangles;
 
 /// One collision element with its field.
 struct BodyPart {
@@ -37,8 +38,10 @@ struct Body {
   SphereTree tree;
   PointShell witnesses;  ///< frame B; instead of a shell a point of each component of the surface, but of half-spaces
   SphereTree witness_tree;
-  std::shared_ptr<const BodySurface> surface;  ///< where a pair has a field with openings; null for a half-space
-  BoundingBall ball;                           ///< holds the body's surface, frame B; see kHalfSpaceRadius
+  std::shared_ptr<const BodySurface> surface;      ///< where a pair has a field with openings; null for a half-space
+  std::shared_ptr<const BodyTriangles> triangles;  ///< what decides about it and another one that has them; null of a
+                                                   ///< body that is not all triangles, or in no such pair
+  BoundingBall ball;                               ///< holds the body's surface, frame B; see kHalfSpaceRadius
 
   /// The field of a body that is one element in the body's own frame.
   /// @throws std::logic_error if it is not.

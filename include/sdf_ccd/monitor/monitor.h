@@ -75,12 +75,17 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
 /// Runs cycles over all pairs of a scene and remembers how far apart they were.
 ///
-/// A pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is surely deeper, by
-/// what the field knows where it is, than the errors of chord and root, else UNCERTAIN;
-/// NOT_CHECKED if a body is missing, beyond kFarthestPose, or the bound infinite. Both bodies' shells are tested where
-/// both exist, and their impulses halved, so that what both see counts once. Where the bound exceeds a field's band,
-/// the field's lower bounds decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the
-/// end.
+/// Two bodies that are all triangles (meshes, boxes, cylinders, balls: Body::triangles) are CLEAR if their surfaces are
+/// proved to stay farther apart than the motions are known to, and no part of one is wholly inside the other, and in
+/// CONTACT if the surfaces surely cross at some time: to 0.1 mm, whatever fields and shells are
+/// (src/query/separation.h; design §3.17). PairResult::error is that of the triangles and motions then where they are
+/// CLEAR. What is left open, depths and forces are the fields' and shells'.
+///
+/// Else a pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is surely deeper,
+/// by what the field knows where it is, than the errors of chord and root, else UNCERTAIN; NOT_CHECKED if a body is
+/// missing, beyond kFarthestPose, or the bound infinite. Both bodies' shells are tested where both exist, and their
+/// impulses halved, so that what both see counts once. Where the bound exceeds a field's band, the field's lower bounds
+/// decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the end.
 ///
 /// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: some
 /// nanoseconds per pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last

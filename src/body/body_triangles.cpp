@@ -1,0 +1,110 @@
+#include "body/body_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "field/opening_caps.h"
+#include "geometry/mesh_edges.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kMostTriangles = 500'000;
+
+/// Deviation of a cylinder's triangles: of a hundredth of the error that verdicts are meant to have [m], and of its
+/// size where that is finer than a few thousand triangles can be.
+double cylinderDeviation(const Primitive& cylinder) {
+  constexpr double kFine = 2e-6, kOfSize = 1e-5;
+  return std::max(kFine, kOfSize * boundingBox(cylinder).sizes().maxCoeff());
+}
+
+/// The farthest along some directions; each once.
+std::vector<Vector3d> farthestOut(const std::vector<Vector3d>& points) {
+  std::vector<Vector3d> farthest;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const Vector3d direction(x, y, z);
+        if (direction.isZero()) continue;
+        const Vector3d& p = *std::max_element(points.begin(), points.end(), [&](const Vector3d& a, const Vector3d& b) {
+          return direction.dot(a) < direction.dot(b);
+        });
+        if (std::find(farthest.begin(), farthest.end(), p) == farthest.end()) farthest.push_back(p);
+      }
+  return farthest;
+}
+
+class Collector {
+ public:
+  void add(const Sphere& ball, const Isometry3d& X_BG) {
+    const Vector3d center = X_BG.translation();
+    triangles.push_back({{center, center, center}, ball.radius});
+    std::vector<Vector3d> points;
+    for (int k = 0; k < 3; ++k)
+      for (const double side : {-1.0, 1.0}) points.push_back(center + side * ball.radius * Vector3d::Unit(k));
+    components.push_back(points);
+  }
+
+  void add(const TriangleMesh& mesh, const Isometry3d& X_BG) {
+    addTriangles(mesh, X_BG);
+    TriangleSets sets(mesh.triangles.size());
+    std::vector<std::int32_t> first_of_vertex(mesh.vertices.size(), -1);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      for (const int vertex : {mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2]}) {
+        std::int32_t& first = first_of_vertex[vertex];
+        if (first < 0) first = static_cast<std::int32_t>(i);
+        sets.join(first, static_cast<std::int32_t>(i));
+      }
+    std::map<std::int32_t, std::vector<Vector3d>> points;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      if (first_of_vertex[v] >= 0) points[sets.find(first_of_vertex[v])].push_back(X_BG * mesh.vertices[v]);
+    for (const auto& [set, of_set] : points) components.push_back(farthestOut(of_set));
+  }
+
+  void addTriangles(const TriangleMesh& mesh, const Isometry3d& X_BG) {
+    for (const Vector3i& t : mesh.triangles)
+      triangles.push_back({{X_BG * mesh.vertices[t[0]], X_BG * mesh.vertices[t[1]], X_BG * mesh.vertices[t[2]]}, 0.0});
+  }
+
+  std::vector<RoundedTriangle> triangles;
+  std::vector<std::vector<Vector3d>> components;
+};
+
+}  // namespace
+
+std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, const Body& body, MeshPool& pool) {
+  Collector all;
+  double deviation = 0.0, crack = 0.0;
+  for (std::size_t i = 0; i < description.geometry.size(); ++i) {
+    const GeometryDescription& geometry = description.geometry[i];
+    if (geometry.watertight_voxels || isHalfSpace(geometry)) return nullptr;
+    if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
+      if (const auto* ball = std::get_if<Sphere>(primitive)) {
+        all.add(*ball, geometry.X_BG);
+        continue;
+      }
+      const bool flat = std::holds_alternative<Box>(*primitive);
+      const double fine = flat ? 1.0 : cylinderDeviation(*primitive);
+      if (!flat) deviation = std::max(deviation, fine);
+      all.add(tessellate(*primitive, fine), geometry.X_BG);
+      continue;
+    }
+    const TriangleMesh& mesh = pool.find(geometry).mesh;
+    all.add(mesh, geometry.X_BG);
+    if (!body.parts.empty() && !isClosed(mesh)) crack = std::max(crack, body.parts[i].field.errorBound());
+    if (all.triangles.size() > kMostTriangles) return nullptr;
+  }
+  if (all.triangles.empty()) return nullptr;
+  auto made = std::make_shared<BodyTriangles>(BoxTree(all.triangles));
+  made->deviation = deviation;
+  made->crack = crack;
+  made->components = std::move(all.components);
+  const std::size_t open = all.triangles.size();
+  for (const BodyPart& part : body.parts)
+    if (const OpeningCaps* caps = part.field.openings()) all.addTriangles(caps->mesh(), part.X_BG);
+  if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(std::move(all.triangles));
+  return made;
+}
+
+}  // namespace sdf_ccd

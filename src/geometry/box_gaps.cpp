@@ -1,0 +1,97 @@
+#include "box_tree.h"
+#include "common/compiler_lanes.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace lanes;
+
+using Lane = BoxTree::Node::Lane;
+constexpr float kFar = 1e30F;
+static_assert(BoxTree::Node::kWidth == kFloatWidth, "a vector holds a node's boxes");
+
+SDF_CCD_INLINE Floats load(const Lane& lane) {
+  return lanes::load(lane.data());
+}
+SDF_CCD_INLINE Floats absolute(const Floats& v) {
+  return larger(v, -v);
+}
+SDF_CCD_INLINE void store(const Floats& values, float* to) {
+  *reinterpret_cast<FloatsInMemory*>(to) = values;
+}
+
+/// Three coordinates of eight boxes.
+struct Vectors {
+  Floats x, y, z;
+
+  SDF_CCD_INLINE Floats dot(const Vectors& v) const { return x * v.x + y * v.y + z * v.z; }
+  SDF_CCD_INLINE Floats dot(const std::array<float, 3>& v) const { return x * v[0] + y * v[1] + z * v[2]; }
+};
+
+SDF_CCD_INLINE Vectors load(const std::array<Lane, 3>& v) {
+  return {load(v[0]), load(v[1]), load(v[2])};
+}
+
+SDF_CCD_INLINE Vectors displacements(const BoxMotion& m, const Vectors& center) {
+  return {center.dot(m.turn[0]) + m.shift[0], center.dot(m.turn[1]) + m.shift[1], center.dot(m.turn[2]) + m.shift[2]};
+}
+
+}  // namespace
+
+SDF_CCD_LANES void boxGaps(const BoxTree::Node& node, const PlacedBox& box, const std::array<float, 3>& direction,
+                           const BoxMotion& motion, float cut, NearBoxes& found) {
+  const Vectors center = load(node.center);
+  const Vectors moved = displacements(motion, center);
+  const Vectors way = {center.x - box.center[0], center.y - box.center[1], center.z - box.center[2]};
+  const Vectors axes[3] = {load(node.axis[0]), load(node.axis[1]), load(node.axis[2])};
+  const Floats half[3] = {load(node.half[0]), load(node.half[1]), load(node.half[2])};
+
+  Floats along_box[3];  // how far the node's boxes reach along the other's axes
+  Floats best;
+  for (int i = 0; i < 3; ++i) {
+    Floats reach = half[i];
+    for (int j = 0; j < 3; ++j) {
+      const Floats cosine = absolute(axes[i].dot(box.axis[j]));
+      reach += cosine * box.half[j];
+      along_box[j] = i == 0 ? cosine * half[i] : along_box[j] + cosine * half[i];
+    }
+    const Floats gap = absolute(axes[i].dot(way)) - absolute(axes[i].dot(moved)) - reach;
+    best = i == 0 ? gap : larger(best, gap);
+  }
+  for (int j = 0; j < 3; ++j) {
+    const Floats gap = absolute(way.dot(box.axis[j])) - absolute(moved.dot(box.axis[j])) - along_box[j] - box.half[j];
+    best = larger(best, gap);
+  }
+  Floats reach = absolute(axes[0].dot(direction)) * half[0] + absolute(axes[1].dot(direction)) * half[1] +
+                 absolute(axes[2].dot(direction)) * half[2];
+  for (int j = 0; j < 3; ++j) {
+    const float cosine = direction[0] * box.axis[j][0] + direction[1] * box.axis[j][1] + direction[2] * box.axis[j][2];
+    reach += (cosine < 0.0F ? -cosine : cosine) * box.half[j];
+  }
+  best = larger(best, absolute(way.dot(direction)) - absolute(moved.dot(direction)) - reach);
+  best -= load(node.radius) + box.radius + motion.any + motion.any_per_reach * load(node.reach);
+  store(best, found.gaps.data());
+  const Floats others = best > cut ? best : Floats{} + kFar;
+  Lane other;
+  store(others, other.data());
+  std::uint32_t near = 0;
+  float least = kFar;
+  for (int i = 0; i < kFloatWidth; ++i) {
+    near |= std::uint32_t(!(found.gaps[i] > cut)) << i;
+    least = other[i] < least ? other[i] : least;
+  }
+  found.near = near;
+  found.least_other = least;
+}
+
+SDF_CCD_LANES void boxSupports(const BoxTree::Node& node, const std::array<float, 3>& direction,
+                               const BoxMotion& motion, Lane& supports) {
+  const Vectors center = load(node.center);
+  const Vectors moved = displacements(motion, center);
+  Floats support = center.dot(direction) + absolute(moved.dot(direction)) + load(node.radius) + motion.any +
+                   motion.any_per_reach * load(node.reach);
+  for (int i = 0; i < 3; ++i) support += absolute(load(node.axis[i]).dot(direction)) * load(node.half[i]);
+  store(support, supports.data());
+}
+
+}  // namespace sdf_ccd

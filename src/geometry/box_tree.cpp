@@ -1,0 +1,290 @@
+#include "box_tree.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include <Eigen/Eigenvalues>
+
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kBins = 16;
+/// Deeper than this, ranges are halved whatever it costs.
+constexpr int kHeuristicDepth = 64;
+
+using Axes = std::array<Vector3d, 3>;
+
+/// Sums over a surface's triangles, for its main directions.
+struct Moments {
+  double area = 0.0;
+  Vector3d first = Vector3d::Zero();
+  Matrix3d second = Matrix3d::Zero();
+
+  void add(const Corners& t) {
+    const double area2 = (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    const Vector3d sum = t[0] + t[1] + t[2];
+    area += area2;
+    first += area2 / 3.0 * sum;
+    second += area2 / 12.0 *
+              (sum * sum.transpose() + t[0] * t[0].transpose() + t[1] * t[1].transpose() + t[2] * t[2].transpose());
+  }
+};
+
+/// The plane of the triangle, and its longest edge.
+Axes axesOf(const Corners& t) {
+  Vector3d along = t[1] - t[0];
+  for (const Vector3d& edge : {Vector3d(t[2] - t[1]), Vector3d(t[0] - t[2])})
+    if (edge.squaredNorm() > along.squaredNorm()) along = edge;
+  if (!(along.squaredNorm() > 0.0)) return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  along.normalize();
+  Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  normal -= normal.dot(along) * along;
+  if (!(normal.squaredNorm() > 0.0)) normal = along.unitOrthogonal();
+  normal.normalize();
+  return {normal, normal.cross(along).normalized(), along};
+}
+
+struct Extent {
+  Vector3d low, high;
+
+  Vector3d sizes() const { return high - low; }
+  double halfArea() const {
+    const Vector3d s = sizes();
+    return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+  }
+};
+
+}  // namespace
+
+/// Top-down: boxes along main directions, divided by the surface area heuristic over bins (Wald 2007).
+class BoxTree::Builder {
+ public:
+  explicit Builder(BoxTree& tree) : tree_(tree) {}
+
+  void build() {
+    const int count = static_cast<int>(tree_.triangles_.size());
+    for (const RoundedTriangle& t : tree_.triangles_)
+      centers_.push_back((t.corners[0] + t.corners[1] + t.corners[2]) / 3.0);
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0);
+    AlignedBox3d all;
+    for (const RoundedTriangle& t : tree_.triangles_)
+      for (const Vector3d& p : t.corners) all.extend(p);
+    tree_.origin_ = all.center();
+
+    std::vector<Range> pending = {{0, count, 0}};  // of each node
+    tree_.nodes_.emplace_back();
+    fill(pending, 0, pending);
+    for (std::size_t node = 1; node < tree_.nodes_.size(); ++node) {
+      cancel_.check();
+      fill(divide(pending[node]), node, pending);
+    }
+    sortTriangles();
+    tree_.ball_.center = tree_.origin_;
+    tree_.ball_.radius = 0.0;
+    for (const RoundedTriangle& t : tree_.triangles_)
+      for (const Vector3d& p : t.corners)
+        tree_.ball_.radius = std::max(tree_.ball_.radius, (p - tree_.origin_).norm() + t.radius);
+  }
+
+ private:
+  struct Range {
+    int begin, end;
+    int depth;
+    int size() const { return end - begin; }
+  };
+
+  const RoundedTriangle& at(int i) const { return tree_.triangles_[order_[i]]; }
+
+  Extent extent(const Range& range, const Axes& axes) const {
+    Extent e{Vector3d::Constant(1e300), Vector3d::Constant(-1e300)};
+    for (int i = range.begin; i < range.end; ++i)
+      for (const Vector3d& p : at(i).corners) {
+        const Vector3d q = p - tree_.origin_;
+        const Vector3d x(axes[0].dot(q), axes[1].dot(q), axes[2].dot(q));
+        e.low = e.low.cwiseMin(x);
+        e.high = e.high.cwiseMax(x);
+      }
+    return e;
+  }
+
+  Axes mainAxes(const Range& range) const {
+    if (range.size() == 1) return axesOf(at(range.begin).corners);
+    Moments moments;
+    for (int i = range.begin; i < range.end; ++i) {
+      Corners t = at(i).corners;
+      for (Vector3d& p : t) p -= tree_.origin_;
+      moments.add(t);
+    }
+    Axes axes = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+    if (!(moments.area > 0.0)) return axes;
+    const Vector3d mean = moments.first / moments.area;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments.second / moments.area - mean * mean.transpose());
+    const Axes main = {solver.eigenvectors().col(0).normalized(), solver.eigenvectors().col(1).normalized(),
+                       solver.eigenvectors().col(0).cross(solver.eigenvectors().col(1)).normalized()};
+    const bool sound = main[0].allFinite() && main[1].allFinite() && main[2].allFinite();
+    if (sound && extent(range, main).halfArea() < extent(range, axes).halfArea()) axes = main;
+    return axes;
+  }
+
+  /// Writes the ranges' boxes into a node, and makes nodes for those of several triangles.
+  void fill(std::vector<Range> ranges, std::size_t index, std::vector<Range>& pending) {
+    Node node{};
+    node.count = static_cast<std::int32_t>(ranges.size());
+    node.radius.fill(-1e30F);
+    for (int lane = 0; lane < node.count; ++lane) {
+      const Range& range = ranges[lane];
+      setBox(range, lane, node);
+      if (range.size() == 1) {
+        node.below[lane] = ~range.begin;
+        continue;
+      }
+      node.below[lane] = static_cast<std::int32_t>(tree_.nodes_.size());
+      tree_.nodes_.emplace_back();
+      pending.push_back(range);
+    }
+    tree_.nodes_[index] = node;
+  }
+
+  void setBox(const Range& range, int lane, Node& node) const {
+    Axes axes = mainAxes(range);
+    Extent e = extent(range, axes);
+    int flattest;
+    e.sizes().minCoeff(&flattest);
+    std::swap(axes[0], axes[flattest]);
+    e = extent(range, axes);
+    const Vector3d middle = 0.5 * (e.low + e.high);
+    const Vector3d center = middle[0] * axes[0] + middle[1] * axes[1] + middle[2] * axes[2];
+    double radius = 0.0, reach = 0.0;
+    Vector3d half = Vector3d::Zero();
+    for (int i = range.begin; i < range.end; ++i) {
+      for (const Vector3d& p : at(i).corners) {
+        const Vector3d q = p - tree_.origin_ - center;
+        for (int k = 0; k < 3; ++k) half[k] = std::max(half[k], std::abs(axes[k].dot(q)));
+        reach = std::max(reach, q.norm());
+      }
+      radius = std::max(radius, at(i).radius);
+    }
+    // What rounding the center and the axes to single precision displaces a point by, twice over.
+    const double rounding = (center.norm() + reach) / (1 << 23);
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) node.axis[i][k][lane] = static_cast<float>(axes[i][k]);
+      node.center[i][lane] = static_cast<float>(center[i]);
+      node.half[i][lane] = roundedUp(half[i] + rounding);
+    }
+    node.radius[lane] = roundedUp(radius);
+    node.reach[lane] = roundedUp(reach + radius + rounding);
+  }
+
+  static float roundedUp(double value) { return value > 0.0 ? static_cast<float>(value * (1.0 + 2e-7)) : 0.0F; }
+
+  /// Into eight at most, the largest first; not into less than fill a node, unless one node holds them all.
+  std::vector<Range> divide(const Range& range) {
+    least_ = range.size() > Node::kWidth ? Node::kWidth : 1;
+    std::vector<Range> parts = {range};
+    std::vector<double> areas = {1.0};
+    while (parts.size() < static_cast<std::size_t>(Node::kWidth)) {
+      const std::size_t largest = std::max_element(areas.begin(), areas.end()) - areas.begin();
+      if (areas[largest] < 0.0) break;
+      const auto [first, second] = split(parts[largest]);
+      parts[largest] = first;
+      parts.push_back(second);
+      areas[largest] = weight(first);
+      areas.push_back(weight(second));
+    }
+    return parts;
+  }
+
+  double weight(const Range& range) const {
+    return range.size() <= least_ ? -1.0 : extent(range, mainAxes(range)).halfArea();
+  }
+
+  std::pair<Range, Range> split(const Range& range) {
+    const Axes axes = mainAxes(range);
+    int axis = 0;
+    double low = 0.0, size = -1.0;
+    for (int k = 0; k < 3; ++k) {
+      double least = 1e300, most = -1e300;
+      for (int i = range.begin; i < range.end; ++i) {
+        const double x = axes[k].dot(centers_[order_[i]]);
+        least = std::min(least, x);
+        most = std::max(most, x);
+      }
+      if (most - least > size) size = most - least, low = least, axis = k;
+    }
+    const auto begin = order_.begin() + range.begin, end = order_.begin() + range.end;
+    const auto coordinate = [&](int id) { return axes[axis].dot(centers_[id]); };
+    const int bin = size > 0.0 && range.depth < kHeuristicDepth ? bestBin(range, axes, axis, low, kBins / size) : 0;
+    auto middle = begin + range.size() / 2;
+    if (range.size() <= Node::kWidth * Node::kWidth && range.size() > Node::kWidth) {
+      middle = begin + (range.size() / 2 + Node::kWidth - 1) / Node::kWidth * Node::kWidth;
+      std::nth_element(begin, middle, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
+    } else if (bin > 0) {
+      middle = std::partition(begin, end, [&](int id) { return binOf(coordinate(id), low, kBins / size) < bin; });
+    } else {
+      std::nth_element(begin, middle, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
+    }
+    const int at = static_cast<int>(middle - order_.begin());
+    return {{range.begin, at, range.depth + 1}, {at, range.end, range.depth + 1}};
+  }
+
+  static int binOf(double x, double low, double scale) {
+    return std::clamp(static_cast<int>((x - low) * scale), 0, kBins - 1);
+  }
+
+  /// Of the least cost; 0 if there is none.
+  int bestBin(const Range& range, const Axes& axes, int axis, double low, double scale) const {
+    std::array<AlignedBox3d, kBins> boxes;
+    std::array<int, kBins> counts{};
+    for (int i = range.begin; i < range.end; ++i) {
+      const int bin = binOf(axes[axis].dot(centers_[order_[i]]), low, scale);
+      ++counts[bin];
+      for (const Vector3d& p : at(i).corners)
+        boxes[bin].extend(Vector3d(axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)));
+    }
+    const auto halfArea = [](const AlignedBox3d& box) { return Extent{box.min(), box.max()}.halfArea(); };
+    std::array<double, kBins> above{};
+    AlignedBox3d box;
+    int count = 0;
+    for (int bin = kBins - 1; bin > 0; --bin) {
+      box.extend(boxes[bin]);
+      count += counts[bin];
+      above[bin] = count > 0 ? count * halfArea(box) : 0.0;
+    }
+    int best = 0;
+    double least = 1e300;
+    box.setEmpty();
+    count = 0;
+    for (int bin = 1; bin < kBins; ++bin) {
+      box.extend(boxes[bin - 1]);
+      count += counts[bin - 1];
+      if (count == 0 || count == range.size()) continue;
+      const double cost = count * halfArea(box) + above[bin];
+      if (cost < least) least = cost, best = bin;
+    }
+    return best;
+  }
+
+  void sortTriangles() {
+    std::vector<RoundedTriangle> sorted;
+    sorted.reserve(order_.size());
+    for (const int id : order_) sorted.push_back(tree_.triangles_[id]);
+    tree_.triangles_ = std::move(sorted);
+  }
+
+  const CancelPoint cancel_;
+  BoxTree& tree_;
+  std::vector<Vector3d> centers_;
+  std::vector<int> order_;
+  int least_ = 1;  ///< ranges of so many triangles are not divided
+};
+
+BoxTree::BoxTree(std::vector<RoundedTriangle> triangles) : triangles_(std::move(triangles)) {
+  if (triangles_.empty()) throw std::invalid_argument("box tree: no triangles");
+  Builder(*this).build();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,141 @@
+#include "surface_pair.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sdf_ccd {
+namespace {
+
+/// Whether a point is surely outside the tree's first box; in the tree's frame.
+bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
+  const BoxTree::Node& root = tree.node(tree.root().node);
+  const Vector3d q = p - tree.origin() - Vector3d(root.center[0][0], root.center[1][0], root.center[2][0]);
+  const double rounding = kBoxRounding * (tree.ball().radius + q.norm());
+  for (int i = 0; i < 3; ++i) {
+    const double along = q.dot(Vector3d(root.axis[i][0][0], root.axis[i][1][0], root.axis[i][2][0]));
+    if (std::abs(along) > root.half[i][0] + root.radius[0] + rounding) return true;
+  }
+  return false;
+}
+
+/// Whether a point is surely outside the solid of the body, frame B.
+bool isOutsideSolid(const Body& body, const Vector3d& p) {
+  if (isOutsideBox(body.triangles->closedTree(), p)) return true;
+  return !body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), [&](const BodyPart& part) {
+    return part.field.lowerBound(part.X_BG.inverse() * p) > 0.0;
+  });
+}
+
+/// Whether no component of one body lies inside the other, where surfaces are apart.
+bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d& X_OI) {
+  const auto& components = inner.triangles->components;
+  return std::all_of(components.begin(), components.end(), [&](const std::vector<Vector3d>& corners) {
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](const Vector3d& p) { return isOutsideSolid(outer, X_OI * p); });
+  });
+}
+
+}  // namespace
+
+bool SurfacePair::isPossible(const Scene& scene, const PlannedPair& pair) {
+  return scene.bodies[pair.body_a].triangles && scene.bodies[pair.body_b].triangles;
+}
+
+SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair) {
+  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+  f_is_a_ = a.ball.radius >= b.ball.radius;
+  field_ = f_is_a_ ? &a : &b;
+  shell_ = f_is_a_ ? &b : &a;
+  f_ = f_is_a_ ? pair.body_a : pair.body_b;
+  p_ = f_is_a_ ? pair.body_b : pair.body_a;
+  deviation_ = a.triangles->deviation + b.triangles->deviation;
+}
+
+void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
+  bodies_ = &bodies;
+  span_ = span;
+  X_FP_start_ = relativePose(bodies.screw(f_, span.first).start(), bodies.screw(p_, span.first).start());
+  X_FP_end_ = relativePose(bodies.screw(f_, span.last - 1).end(), bodies.screw(p_, span.last - 1).end());
+  travel_ = 0.0;
+  for (std::size_t k = span.first; k < span.last; ++k)
+    travel_ += relativeMotionBounds(bodies.twist(f_, k), bodies.twist(p_, k)).travel;
+  const BoundingBall& ball = shell_->ball;
+  const double reach = (X_FP_start_ * ball.center).norm() + ball.radius + travel_;
+  pose_error_ = bodies.poseError(p_, ball.center.norm() + ball.radius) + bodies.poseError(f_, reach);
+}
+
+double SurfacePair::jumpFrom(const Isometry3d& X_FP) const {
+  return maxDisplacement(X_FP, X_FP_start_, shell_->ball);
+}
+
+double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
+  return (X_FP * shell_->ball.center - field_->ball.center).norm() - shell_->ball.radius - field_->ball.radius;
+}
+
+SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& memory) {
+  const BodyTriangles &f = *field_->triangles, &p = *shell_->triangles;
+  const double margin = motion_error + deviation_, crack = f.crack + p.crack;
+  if (f.closed || p.closed || crack > 0.0) {
+    // Apart also from what closes them: nothing has come in by an opening.
+    Answer closed = decideBy(f.closedTree(), p.closedTree(), margin + crack, closed_witness_, memory);
+    closed.clearance -= crack;
+    if (closed.state == SeparationState::kApart) return closed;
+    Answer open = decideBy(f.tree, p.tree, margin, witness_, memory);
+    if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;
+    return open;
+  }
+  return decideBy(f.tree, p.tree, margin, witness_, memory);
+}
+
+SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, double margin, SeparationWitness& witness,
+                                          SeparationMemory& memory) const {
+  constexpr double kResolution = 5e-5;  // half of the error that a verdict may have by default [m]
+  Answer answer;
+  double distance = -std::numeric_limits<double>::infinity();
+  bool apart = true;
+  SeparationOptions options;
+  options.margin = margin;
+  options.resolution = kResolution;
+  for (std::size_t k = span_.first; k < span_.last; ++k) {
+    const RelativeMotionBounds bounds = relativeMotionBounds(bodies_->twist(f_, k), bodies_->twist(p_, k));
+    if (distance - bounds.travel > margin) {
+      distance -= bounds.travel;
+      continue;
+    }
+    const TwoBodyMotion motion{bodies_->times()[k], bodies_->times()[k + 1], bodies_->screw(f_, k),
+                               bodies_->screw(p_, k), bounds.acceleration};
+    const Separation found = separation(f, p, motion, options, witness, memory);
+    if (found.state == SeparationState::kCrossing) {
+      answer.state = found.state;
+      answer.crossing = contactAt(found, k);
+      return answer;
+    }
+    const bool now = found.state == SeparationState::kApart;
+    distance = now ? found.distance : -std::numeric_limits<double>::infinity();
+    apart &= now;
+  }
+  if (!apart) return answer;
+  answer.state = SeparationState::kApart;
+  answer.clearance = distance - deviation_;
+  return answer;
+}
+
+ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t waypoint) const {
+  const double t0 = bodies_->times()[waypoint], t1 = bodies_->times()[waypoint + 1];
+  const Isometry3d X_WF = bodies_->screw(f_, waypoint).pose(found.s), X_WP = bodies_->screw(p_, waypoint).pose(found.s);
+  ContactPoint contact;
+  contact.time = contact.enter = contact.exit = found.s == 1.0 ? t1 : t0 + found.s * (t1 - t0);
+  contact.p_W = X_WF * found.p_A;
+  contact.normal_W = X_WF.linear() * found.normal_A;
+  // From body A to body B: as far as one triangle tells, on the side where the other body mostly is.
+  const Vector3d to_p = X_WP * shell_->ball.center - contact.p_W;
+  if ((contact.normal_W.dot(to_p) > 0.0) != f_is_a_) contact.normal_W = -contact.normal_W;
+  return contact;
+}
+
+bool SurfacePair::isOutside() const {
+  return componentsAreOutside(*shell_, *field_, X_FP_end_) &&
+         componentsAreOutside(*field_, *shell_, X_FP_end_.inverse());
+}
+
+}  // namespace sdf_ccd

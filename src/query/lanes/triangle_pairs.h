@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+
+#include "geometry/triangle_cut.h"
+
+namespace sdf_ccd {
+
+/// Pairs of triangles that are tested together: corners of A in its frame, of B in its own.
+struct TrianglePairs {
+  static constexpr int kSize = 8;
+  using Lane = std::array<double, kSize>;
+  using Vectors = std::array<Lane, 3>;  ///< by coordinate
+
+  alignas(64) std::array<Vectors, 3> a{}, b{};  ///< by corner [m]
+  alignas(64) Lane gap;                         ///< the answer: as gapAlong(), the least of both poses [m]
+  alignas(64) Vectors axis;                     ///< the answer: of the gap, frame A, unit
+  alignas(64) Lane distance2;                   ///< the answer of closestGaps(): halfway between both poses [m²]
+  int size = 0;                                 ///< lanes in use
+
+  void add(const Corners& corners_a, const Corners& corners_b) {
+    const int i = size++;
+    for (int corner = 0; corner < 3; ++corner)
+      for (int k = 0; k < 3; ++k) {
+        a[corner][k][i] = corners_a[corner][k];
+        b[corner][k][i] = corners_b[corner][k];
+      }
+  }
+  /// One of another group.
+  void add(const TrianglePairs& from, int i) {
+    for (int corner = 0; corner < 3; ++corner)
+      for (int k = 0; k < 3; ++k) {
+        a[corner][k][size] = from.a[corner][k][i];
+        b[corner][k][size] = from.b[corner][k][i];
+      }
+    ++size;
+  }
+  Vector3d axisOf(int i) const { return {axis[0][i], axis[1][i], axis[2][i]}; }
+};
+
+/// Poses of B in A at both ends of an interval.
+struct EndPoses {
+  Isometry3d X_AB_start, X_AB_end;
+};
+
+/// Gaps at both ends: along the triangles' normals and a given direction of A's frame, whichever is largest.
+void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs& pairs);
+
+/// The same along the way between the closest points of A and of B halfway between its poses, each corner for itself.
+/// That is where the gap is about largest.
+void closestGaps(const EndPoses& poses, TrianglePairs& pairs);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,176 @@
+#include "moving_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sdf_ccd {
+namespace {
+
+using Floats = std::array<float, 3>;
+using Rows = std::array<Floats, 3>;
+
+Floats single(const Vector3d& v) {
+  return {float(v.x()), float(v.y()), float(v.z())};
+}
+
+Rows singleRows(const Matrix3d& m) {
+  return {single(m.row(0)), single(m.row(1)), single(m.row(2))};
+}
+
+float dot(const Floats& a, const Floats& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Floats times(const Rows& m, const Floats& v) {
+  return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+}
+
+Floats timesTransposed(const Rows& m, const Floats& v) {
+  return {m[0][0] * v[0] + m[1][0] * v[1] + m[2][0] * v[2], m[0][1] * v[0] + m[1][1] * v[1] + m[2][1] * v[2],
+          m[0][2] * v[0] + m[1][2] * v[1] + m[2][2] * v[2]};
+}
+
+Floats sum(const Floats& a, const Floats& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+/// As it is in its own frame.
+PlacedBox boxAt(const BoxTree& tree, BoxTree::Slot slot) {
+  const BoxTree::Node& node = tree.node(slot.node);
+  const int i = slot.lane;
+  PlacedBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.center[k] = node.center[k][i];
+    box.half[k] = node.half[k][i];
+    for (int j = 0; j < 3; ++j) box.axis[k][j] = node.axis[k][j][i];
+  }
+  box.radius = node.radius[i];
+  box.reach = node.reach[i];
+  return box;
+}
+
+/// The rotation halfway from one to another.
+Matrix3d halfway(const Matrix3d& from, const Matrix3d& to) {
+  Quaterniond q(from.transpose() * to);
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  q.w() += q.norm();
+  return (Quaterniond(from) * q.normalized()).normalized().toRotationMatrix();
+}
+
+/// How far a tree reaches along a direction, at most; infinite if that is above the limit, or takes long to find out.
+/// @param reachOf  of a triangle.
+template <typename ReachOf>
+double support(const BoxTree& tree, const Floats& direction, const BoxMotion& motion, double limit,
+               const ReachOf& reachOf) {
+  constexpr int kMostBoxes = 96;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::array<std::int32_t, kMostBoxes> pending;
+  int size = 0, visited = 0;
+  double best = -kNone;
+  pending[size++] = 0;
+  while (size > 0) {
+    const BoxTree::Node& node = tree.node(pending[--size]);
+    BoxTree::Node::Lane supports;
+    boxSupports(node, direction, motion, supports);
+    for (int i = 0; i < node.count; ++i) {
+      double reach = supports[i];
+      if (!(reach <= limit)) {
+        if (++visited == kMostBoxes) return kNone;
+        if (!BoxTree::isTriangle(node.below[i])) {
+          pending[size++] = node.below[i];
+          continue;
+        }
+        reach = reachOf(tree.triangle(BoxTree::triangleOf(node.below[i])));
+        if (!(reach <= limit)) return kNone;
+      }
+      best = std::max(best, reach);
+    }
+  }
+  return best;
+}
+
+/// How far a triangle reaches along a direction, at most.
+double reachAlong(const Vector3d& n, const Corners& t) {
+  return std::max({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
+}
+
+}  // namespace
+
+MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& poses, double error)
+    : a_(a), b_(b), poses_(poses), error_(error) {
+  const Matrix3d R0 = poses.X_AB_start.linear(), R1 = poses.X_AB_end.linear(), R = halfway(R0, R1);
+  const Vector3d at_start = poses.X_AB_start * b.origin(), at_end = poses.X_AB_end * b.origin();
+  const Vector3d p_AB = 0.5 * (at_start + at_end) - a.origin();
+  const Matrix3d turn = 0.5 * (R1 - R0);
+  const Vector3d shift = 0.5 * (at_end - at_start);
+  const double rounding = kBoxRounding * (a.ball().radius + b.ball().radius + p_AB.norm());
+  const double bend = (0.5 * (R0 + R1) - R).norm() * b.ball().radius;
+
+  R_AB_ = singleRows(R);
+  b_from_a_ = single(p_AB);
+  a_from_b_ = single(-(R.transpose() * p_AB));
+  turn_A_ = singleRows(turn);
+  shift_A_ = single(shift);
+  still_ = {};
+  still_.any = static_cast<float>(error + bend + rounding);
+  moving_ = {single(R.transpose() * shift), singleRows(R.transpose() * turn), still_.any,
+             static_cast<float>(std::sqrt(0.5) * (1.0 + 1e-6) * turn.norm())};
+}
+
+PlacedBox MovingBoxes::boxInA(BoxTree::Slot box_b) const {
+  PlacedBox box = boxAt(b_, box_b);
+  box.center = sum(times(R_AB_, box.center), b_from_a_);
+  for (Floats& axis : box.axis) axis = times(R_AB_, axis);
+  return box;
+}
+
+PlacedBox MovingBoxes::boxInB(BoxTree::Slot box_a) const {
+  PlacedBox box = boxAt(a_, box_a);
+  box.center = sum(timesTransposed(R_AB_, box.center), a_from_b_);
+  for (Floats& axis : box.axis) axis = timesTransposed(R_AB_, axis);
+  return box;
+}
+
+void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) const {
+  const BoxTree::Node& of_b = b_.node(box_b.node);
+  const Floats center = {of_b.center[0][box_b.lane], of_b.center[1][box_b.lane], of_b.center[2][box_b.lane]};
+  BoxMotion motion{};
+  motion.shift = sum(times(turn_A_, center), shift_A_);
+  motion.any = moving_.any + moving_.any_per_reach * of_b.reach[box_b.lane];
+  boxGaps(node, boxInA(box_b), direction_A_, motion, cut, found);
+}
+
+void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const {
+  boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
+}
+
+void MovingBoxes::setDirection(const Vector3d& n_A) {
+  n_A_ = n_A;
+  direction_A_ = single(n_A);
+  direction_B_ = timesTransposed(R_AB_, direction_A_);
+}
+
+double MovingBoxes::supportA(double limit) const {
+  const double from = n_A_.dot(a_.origin());
+  return support(a_, direction_A_, still_, limit,
+                 [&](const RoundedTriangle& t) { return reachAlong(n_A_, t.corners) + t.radius + error_ - from; });
+}
+
+double MovingBoxes::supportB(double limit) const {
+  const Floats against = {-direction_B_[0], -direction_B_[1], -direction_B_[2]};
+  const double offset = -double(dot(direction_A_, b_from_a_));
+  const Vector3d to_start = -(poses_.X_AB_start.linear().transpose() * n_A_),
+                 to_end = -(poses_.X_AB_end.linear().transpose() * n_A_);
+  const double from_start = n_A_.dot(a_.origin() - poses_.X_AB_start.translation()) - offset,
+               from_end = n_A_.dot(a_.origin() - poses_.X_AB_end.translation()) - offset;
+  return support(b_, against, moving_, limit - offset,
+                 [&](const RoundedTriangle& t) {
+                   return std::max(reachAlong(to_start, t.corners) + from_start,
+                                   reachAlong(to_end, t.corners) + from_end) +
+                          t.radius + error_;
+                 }) +
+         offset;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,335 @@
+#include "separation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "moving_boxes.h"
+#include "sdf_ccd/common/cancel.h"
+#include "triangle_pair.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kCut = 0.6;             // of the nearest gap known: what is farther away is not looked into
+constexpr std::size_t kManyNear = 192;   // pairs of triangles, beyond which all boxes are tested in half the time
+constexpr int kMostTestsWhenOpen = 512;  // for a crossing, when it is known that nothing else can be proved
+
+/// Part of the motion.
+struct Times {
+  double start, end;
+
+  double length() const { return end - start; }
+  double middle() const { return 0.5 * (start + end); }
+};
+
+class SeparationQuery {
+ public:
+  SeparationQuery(const BoxTree& a, const BoxTree& b, const TwoBodyMotion& motion, const SeparationOptions& options,
+                  SeparationWitness& witness, SeparationMemory& memory)
+      : a_(a),
+        b_(b),
+        motion_(motion),
+        options_(options),
+        witness_(witness),
+        memory_(memory),
+        limit_(options.max_tests) {}
+
+  Separation run() {
+    memory_.near.clear();
+    const Isometry3d X_start = poseAt(0.0), X_end = poseAt(1.0);
+    const double size = a_.origin().norm() + a_.ball().radius + (X_start * b_.origin()).norm() +
+                        (X_end * b_.origin()).norm() + b_.origin().norm() + b_.ball().radius;
+    rounding_ = 32.0 * std::numeric_limits<double>::epsilon() * size;
+    crossing_margin_ = options_.margin + 1e-12 * size;
+    if (crossedBefore(X_end)) return found_;
+    testBoxes({0.0, 1.0}, {X_start, X_end});
+    if (crossed_ || open_ || isDone()) return found_;
+    found_.state = SeparationState::kApart;
+    found_.distance = lowest_;
+    witness_.cross_a = witness_.cross_b = -1;
+    return found_;
+  }
+
+ private:
+  using Triangles = SeparationMemory::Triangles;
+
+  Isometry3d poseAt(double s) const { return relativePose(motion_.X_WF.pose(s), motion_.X_WP.pose(s)); }
+
+  bool isDone() const { return crossed_ || tests_ > limit_; }
+
+  double radii(const Triangles& pair) const { return a_.triangle(pair.a).radius + b_.triangle(pair.b).radius; }
+
+  // ---- crossing ----
+
+  Corners placed(int b, const Isometry3d& X_AB) const {
+    Corners t = b_.triangle(b).corners;
+    for (Vector3d& p : t) p = X_AB * p;
+    return t;
+  }
+
+  bool testCrossing(const Triangles& pair, const Isometry3d& X_AB, double s) {
+    ++tests_;
+    const Corners &t_a = a_.triangle(pair.a).corners, t_b = placed(pair.b, X_AB);
+    std::optional<Vector3d> place = crossingPoint(t_a, t_b, crossing_margin_);
+    Vector3d normal = (t_a[1] - t_a[0]).cross(t_a[2] - t_a[0]);
+    const double round = radii(pair) - crossing_margin_;
+    if (!place && round > 0.0 && radii(pair) > 0.0) {
+      const ClosestPair closest = closestPoints(t_a, t_b);
+      if (closest.distance2 < round * round) {
+        place = closest.on_a;
+        normal = closest.on_b - closest.on_a;
+      }
+    }
+    if (!place) return false;
+    crossed_ = true;
+    found_.state = SeparationState::kCrossing;
+    found_.s = s;
+    found_.p_A = *place;
+    if (normal.squaredNorm() > 0.0) found_.normal_A = normal.normalized();
+    witness_.cross_a = pair.a;
+    witness_.cross_b = pair.b;
+    return true;
+  }
+
+  bool crossedBefore(const Isometry3d& X_end) {
+    return witness_.cross_a >= 0 && testCrossing({witness_.cross_a, witness_.cross_b}, X_end, 1.0);
+  }
+
+  // ---- boxes ----
+
+  void setInterval(const Times& times, const EndPoses& poses) {
+    times_ = times;
+    poses_ = poses;
+    chord_error_ = motion_.acceleration * times.length() * times.length() / 8.0 + rounding_;
+    nearest_ = kInfinity;
+    cut_ = options_.margin;
+    memory_.filter.size = memory_.exact.size = 0;
+  }
+
+  /// Of all triangles.
+  void testBoxes(const Times& times, const EndPoses& poses) {
+    setInterval(times, poses);
+    MovingBoxes boxes(a_, b_, poses, chord_error_);
+    if (witness_.near_a < 0) findNear(boxes);
+    if (testWitness(boxes)) return;
+    const std::size_t known = memory_.near.size();
+    memory_.stack.clear();
+    memory_.stack.push_back({a_.root(), b_.root(), -std::numeric_limits<float>::infinity()});
+    while (!memory_.stack.empty() && !isDone()) {
+      cancel_.check();
+      const SeparationMemory::Boxes next = memory_.stack.back();
+      memory_.stack.pop_back();
+      if (next.gap > cut_) {
+        lowest_ = std::min(lowest_, double(next.gap));
+        continue;
+      }
+      descend(boxes, next);
+      if (memory_.near.size() - known <= kManyNear) continue;
+      memory_.near.resize(known);
+      return halve(times, poses, [this](const Times& half, const EndPoses& ends) { testBoxes(half, ends); });
+    }
+    filter();
+    testExactly();
+    if (memory_.near.size() > known) refine(known, memory_.near.size(), times, poses);
+    memory_.near.resize(known);
+  }
+
+  /// Of the triangles near[first] to near[last - 1], in half the time.
+  void refine(std::size_t first, std::size_t last, const Times& times, const EndPoses& poses) {
+    halve(times, poses, [=](const Times& half, const EndPoses& ends) {
+      setInterval(half, ends);
+      const std::size_t left = memory_.near.size();
+      for (std::size_t i = first; i < last && !isDone(); ++i) add(memory_.near[i]);
+      filter();
+      testExactly();
+      if (memory_.near.size() > left) refine(left, memory_.near.size(), half, ends);
+      memory_.near.resize(left);
+    });
+  }
+
+  template <typename Test>
+  void halve(const Times& times, const EndPoses& poses, const Test& test) {
+    cancel_.check();
+    const double middle = times.middle();
+    const Isometry3d X_middle = poseAt(middle);
+    // The later half first: what touches at the end mostly still does in the next query.
+    if (!isDone()) test(Times{middle, times.end}, EndPoses{X_middle, poses.X_AB_end});
+    if (!isDone()) test(Times{times.start, middle}, EndPoses{poses.X_AB_start, X_middle});
+  }
+
+  void descend(const MovingBoxes& boxes, const SeparationMemory::Boxes& at) {
+    const std::int32_t below_a = a_.node(at.a.node).below[at.a.lane], below_b = b_.node(at.b.node).below[at.b.lane];
+    const bool end_a = BoxTree::isTriangle(below_a), end_b = BoxTree::isTriangle(below_b);
+    if (end_a && end_b) return add({BoxTree::triangleOf(below_a), BoxTree::triangleOf(below_b)});
+    const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
+    NearBoxes found;
+    const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
+    // What is above it in single precision is above it.
+    const float cut = std::nextafter(static_cast<float>(cut_), std::numeric_limits<float>::infinity());
+    into_a ? boxes.gapsInA(node, at.b, cut, found) : boxes.gapsInB(node, at.a, cut, found);
+    lowest_ = std::min(lowest_, double(found.least_other));
+    std::size_t least = memory_.stack.size();
+    for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
+      const auto i = static_cast<std::int32_t>(__builtin_ctz(near));
+      const float gap = found.gaps[i];
+      if (least < memory_.stack.size() && gap < memory_.stack[least].gap) least = memory_.stack.size();
+      memory_.stack.push_back(into_a ? SeparationMemory::Boxes{{below_a, i}, at.b, gap}
+                                     : SeparationMemory::Boxes{at.a, {below_b, i}, gap});
+    }
+    if (least < memory_.stack.size()) std::swap(memory_.stack[least], memory_.stack.back());  // looked at next
+  }
+
+  /// Triangles that are near each other, by going down to the nearest boxes.
+  void findNear(const MovingBoxes& boxes) {
+    memory_.stack.clear();
+    memory_.stack.push_back({a_.root(), b_.root(), 0.0F});
+    cut_ = 1e29;  // the last is the nearest
+    const double lowest = lowest_;
+    while (true) {
+      const SeparationMemory::Boxes at = memory_.stack.back();
+      const std::int32_t below_a = a_.node(at.a.node).below[at.a.lane], below_b = b_.node(at.b.node).below[at.b.lane];
+      if (BoxTree::isTriangle(below_a) && BoxTree::isTriangle(below_b)) {
+        witness_.near_a = BoxTree::triangleOf(below_a);
+        witness_.near_b = BoxTree::triangleOf(below_b);
+        break;
+      }
+      descend(boxes, at);
+    }
+    lowest_ = lowest;
+    cut_ = options_.margin;
+  }
+
+  /// Where to cut, and the direction to test, by the triangles that were nearest. @return whether a plane through them
+  /// shows that all else is farther apart.
+  bool testWitness(MovingBoxes& boxes) {
+    const Triangles pair{witness_.near_a, witness_.near_b};
+    TrianglePairs& single = memory_.single;
+    single.size = 0;
+    single.add(a_.triangle(pair.a).corners, b_.triangle(pair.b).corners);
+    closestGaps(poses_, single);
+    ++tests_;
+    const double gap = single.gap[0] - radii(pair) - chord_error_;
+    direction_ = single.axisOf(0);
+    boxes.setDirection(direction_);
+    if (!(gap > options_.margin)) return false;
+    nearest_ = gap;
+    cut_ = std::max(options_.margin, kCut * gap);
+    // The plane may lie anywhere between; what it takes to be there is shared out evenly.
+    const double slack = 0.5 * (gap - cut_);
+    double begin = -kInfinity;
+    for (const Vector3d& p : a_.triangle(pair.a).corners) begin = std::max(begin, direction_.dot(p - a_.origin()));
+    begin += a_.triangle(pair.a).radius;
+    const double reach_a = boxes.supportA(begin + slack);
+    if (!(reach_a < kInfinity)) return false;
+    const double reach_b = boxes.supportB(-(begin + gap - slack));
+    if (!(reach_b < kInfinity)) return false;
+    const double apart = -reach_b - reach_a;
+    if (!(apart > options_.margin)) return false;
+    lowest_ = std::min(lowest_, apart);
+    return true;
+  }
+
+  // ---- triangles ----
+
+  void add(const Triangles& pair) {
+    TrianglePairs& group = memory_.filter;
+    memory_.filter_ids[group.size] = pair;
+    group.add(a_.triangle(pair.a).corners, b_.triangle(pair.b).corners);
+    if (group.size == TrianglePairs::kSize) filter();
+  }
+
+  /// By planes; what they do not separate goes on to be tested exactly.
+  void filter() {
+    TrianglePairs& group = memory_.filter;
+    if (group.size == 0) return;
+    planeGaps(poses_, direction_, group);
+    for (int i = 0; i < group.size && !isDone(); ++i) {
+      const Triangles& pair = memory_.filter_ids[i];
+      const double gap = group.gap[i] - radii(pair) - chord_error_;
+      if (gap > cut_) {
+        lowest_ = std::min(lowest_, gap);
+        continue;
+      }
+      memory_.exact_ids[memory_.exact.size] = pair;
+      memory_.exact.add(group, i);
+      if (memory_.exact.size == TrianglePairs::kSize) testExactly();
+    }
+    tests_ += group.size;
+    group.size = 0;
+  }
+
+  void testExactly() {
+    TrianglePairs& group = memory_.exact;
+    if (group.size == 0) return;
+    closestGaps(poses_, group);
+    const int size = group.size;
+    tests_ += size;
+    group.size = 0;
+    for (int i = 0; i < size; ++i) {
+      const Triangles& pair = memory_.exact_ids[i];
+      const double gap = group.gap[i] - radii(pair) - chord_error_;
+      if (gap < nearest_) {
+        nearest_ = gap;
+        witness_.near_a = pair.a;
+        witness_.near_b = pair.b;
+        cut_ = std::max(options_.margin, kCut * gap);
+      }
+      if (gap > options_.margin) {
+        lowest_ = std::min(lowest_, gap);
+        continue;
+      }
+      if (testCrossing(pair, poses_.X_AB_end, times_.end)) return;
+      if (times_.length() == 1.0 && testCrossing(pair, poses_.X_AB_start, times_.start)) return;
+      if (hardlyMoves(pair)) {
+        leaveOpen();
+      } else {
+        memory_.near.push_back(pair);
+      }
+    }
+  }
+
+  /// Then a pair that is not known to be apart is nearer than the resolution, and halving the time goes no farther.
+  bool hardlyMoves(const Triangles& pair) const {
+    double moved = 0.0;
+    for (const Vector3d& p : b_.triangle(pair.b).corners)
+      moved = std::max(moved, (poses_.X_AB_end * p - poses_.X_AB_start * p).norm());
+    return moved + chord_error_ <= options_.resolution;
+  }
+
+  /// CLEAR is no longer to be had; a crossing may be.
+  void leaveOpen() {
+    if (open_) return;
+    open_ = true;
+    limit_ = std::min(options_.max_tests, tests_ + kMostTestsWhenOpen);
+  }
+
+  const BoxTree &a_, &b_;
+  const TwoBodyMotion& motion_;
+  const SeparationOptions& options_;
+  SeparationWitness& witness_;
+  SeparationMemory& memory_;
+  double rounding_ = 0.0, crossing_margin_ = 0.0;
+
+  Times times_{0.0, 1.0};  // that are being tested
+  EndPoses poses_;
+  double chord_error_ = 0.0;  // no point of B is farther from its chord; and rounding [m]
+  Vector3d direction_ = Vector3d::UnitZ();
+  double nearest_ = kInfinity;  // gap of the nearest triangles tested exactly
+  double cut_ = 0.0;
+  double lowest_ = kInfinity;  // of all gaps that anything was proved by
+  int tests_ = 0, limit_ = 0;
+  bool crossed_ = false, open_ = false;
+  CancelTicks<1024> cancel_;
+  Separation found_;
+};
+
+}  // namespace
+
+Separation separation(const BoxTree& a, const BoxTree& b, const TwoBodyMotion& motion, const SeparationOptions& options,
+                      SeparationWitness& witness, SeparationMemory& memory) {
+  return SeparationQuery(a, b, motion, options, witness, memory).run();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,188 @@
+#include "geometry/box_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "oracle/triangle_distance.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+using test::Real;
+using test::Triangle3r;
+using test::Vector3r;
+
+std::vector<RoundedTriangle> trianglesOf(const TriangleMesh& mesh, double radius = 0.0) {
+  std::vector<RoundedTriangle> all;
+  for (int i = 0; i < int(mesh.triangles.size()); ++i) all.push_back({cornersOf(mesh, i), radius});
+  return all;
+}
+
+/// Triangles of all shapes: some without area, some mere points.
+std::vector<RoundedTriangle> drawn(Random& random, int count, double size, const Vector3d& offset) {
+  std::vector<RoundedTriangle> all;
+  for (int i = 0; i < count; ++i) {
+    RoundedTriangle t;
+    const Vector3d at = offset + size * test::direction(random);
+    for (Vector3d& p : t.corners) p = at + size * test::uniform(random, 0.0, 0.3) * test::direction(random);
+    if (i % 5 == 0) t.corners[2] = 0.5 * (t.corners[0] + t.corners[1]);
+    if (i % 7 == 0) t.corners[1] = t.corners[2] = t.corners[0];
+    if (i % 3 == 0) t.radius = size * test::uniform(random, 0.0, 0.1);
+    all.push_back(t);
+  }
+  return all;
+}
+
+Real distance(const RoundedTriangle& a, const RoundedTriangle& b) {
+  Triangle3r c, d;
+  for (int k = 0; k < 3; ++k) {
+    c[k] = a.corners[k].cast<Real>();
+    d[k] = b.corners[k].cast<Real>();
+  }
+  return test::triangleDistance(c, d) - a.radius - b.radius;
+}
+
+/// Visits the boxes of a tree with the triangles below them.
+template <typename Visit>
+std::vector<int> forEachBox(const BoxTree& tree, BoxTree::Slot slot, const Visit& visit) {
+  std::vector<int> triangles;
+  const std::int32_t below = tree.node(slot.node).below[slot.lane];
+  if (BoxTree::isTriangle(below)) {
+    triangles.push_back(BoxTree::triangleOf(below));
+  } else {
+    for (std::int32_t i = 0; i < tree.node(below).count; ++i)
+      for (const int t : forEachBox(tree, {below, i}, visit)) triangles.push_back(t);
+  }
+  visit(slot, triangles);
+  return triangles;
+}
+
+TEST(BoxTree, BoxesHoldTheirTrianglesAndEveryTriangleIsInOne) {
+  Random random(1);
+  for (const int count : {1, 2, 7, 8, 9, 64, 65, 500}) {
+    const BoxTree tree(drawn(random, count, 0.3, {1, 2, 3}));
+    const std::vector<int> all = forEachBox(tree, tree.root(), [&](BoxTree::Slot slot, const std::vector<int>& below) {
+      const BoxTree::Node& node = tree.node(slot.node);
+      for (const int i : below)
+        for (const Vector3d& p : tree.triangle(i).corners) {
+          Vector3r q = (p - tree.origin()).cast<Real>();
+          for (int k = 0; k < 3; ++k) q[k] -= node.center[k][slot.lane];
+          EXPECT_LE(q.norm() + tree.triangle(i).radius, node.reach[slot.lane]);
+          for (int axis = 0; axis < 3; ++axis) {
+            Real along = 0;
+            for (int k = 0; k < 3; ++k) along += q[k] * node.axis[axis][k][slot.lane];
+            EXPECT_LE(std::abs(along), node.half[axis][slot.lane]);
+          }
+          EXPECT_LE(tree.triangle(i).radius, node.radius[slot.lane]);
+        }
+    });
+    EXPECT_EQ(int(all.size()), count);
+    EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), all.size());
+  }
+}
+
+TEST(BoxTree, MeshesOfOneTriangleAndOfEqualOnesAreTrees) {
+  const RoundedTriangle t{{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}, 0.0};
+  EXPECT_EQ(BoxTree({t}).size(), 1U);
+  EXPECT_EQ(BoxTree(std::vector<RoundedTriangle>(100, t)).size(), 100U);
+  EXPECT_THROW(BoxTree({}), std::invalid_argument);
+}
+
+/// Against every triangle below either box, in long double; the bound's rounding is kBoxRounding, and not much less.
+TEST(BoxTree, GapsAreNoMoreThanDistances) {
+  Random random(2);
+  Real worst = 0;
+  double tightest = 1e300;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double size = trial % 2 ? 0.3 : 20.0;
+    const BoxTree tree(drawn(random, 60, size, size * test::direction(random)));
+    const RoundedTriangle other = drawn(random, 1, size, tree.origin() + 2.5 * size * test::direction(random))[0];
+    const BoxTree single({other});
+    // As placed without turning.
+    const BoxTree::Node& root = single.node(0);
+    const Vector3d between = single.origin() - tree.origin();
+    PlacedBox box;
+    for (int k = 0; k < 3; ++k) {
+      box.center[k] = float(between[k]) + root.center[k][0];
+      box.half[k] = root.half[k][0];
+      for (int j = 0; j < 3; ++j) box.axis[k][j] = root.axis[k][j][0];
+    }
+    box.radius = root.radius[0];
+    box.reach = root.reach[0];
+    const Vector3d n = test::direction(random);
+    const std::array<float, 3> direction = {float(n.x()), float(n.y()), float(n.z())};
+    const double rounding = kBoxRounding * (tree.ball().radius + single.ball().radius + between.norm());
+    forEachBox(tree, tree.root(), [&](BoxTree::Slot slot, const std::vector<int>& below) {
+      NearBoxes found;
+      boxGaps(tree.node(slot.node), box, direction, BoxMotion{}, 0.01F, found);
+      const BoxTree::Node::Lane& gaps = found.gaps;
+      EXPECT_EQ((found.near >> slot.lane & 1U) != 0, gaps[slot.lane] <= 0.01F);
+      EXPECT_TRUE(gaps[slot.lane] <= 0.01F || gaps[slot.lane] >= found.least_other);
+      Real nearest = 1e300L;
+      for (const int i : below) nearest = std::min(nearest, distance(tree.triangle(i), other));
+      EXPECT_LE(gaps[slot.lane] - rounding, std::max<Real>(nearest, 0));
+      if (gaps[slot.lane] > 0) worst = std::max(worst, (gaps[slot.lane] - nearest) / Real(rounding));
+      if (below.size() == 1) tightest = std::min(tightest, double(nearest) - gaps[slot.lane]);
+    });
+  }
+  EXPECT_LT(worst, 1.0);
+  EXPECT_LT(tightest, 1e-3) << "some gap is nearly the distance";
+}
+
+/// What moves as said by no more than that.
+TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
+  Random random(3);
+  const auto single = [](const Vector3d& v) { return std::array<float, 3>{float(v.x()), float(v.y()), float(v.z())}; };
+  for (int trial = 0; trial < 200; ++trial) {
+    const BoxTree tree(drawn(random, 40, 0.3, Vector3d::Zero()));
+    const RoundedTriangle other = drawn(random, 1, 0.3, 0.8 * test::direction(random))[0];
+    const BoxTree one({other});
+    const Vector3d between = one.origin() - tree.origin(), n = test::direction(random);
+    PlacedBox box{};
+    for (int k = 0; k < 3; ++k) {
+      box.center[k] = float(between[k]) + one.node(0).center[k][0];
+      box.half[k] = one.node(0).half[k][0];
+      for (int j = 0; j < 3; ++j) box.axis[k][j] = one.node(0).axis[k][j][0];
+    }
+    box.radius = one.node(0).radius[0];
+    box.reach = one.node(0).reach[0];
+    // To either side: a shift and a turn about the tree's origin.
+    const Vector3d shift = 0.05 * test::direction(random), omega = 0.05 * test::direction(random);
+    Matrix3d turn;
+    turn << 0, -omega.z(), omega.y(), omega.z(), 0, -omega.x(), -omega.y(), omega.x(), 0;
+    BoxMotion motion{single(shift),
+                     {single(turn.row(0)), single(turn.row(1)), single(turn.row(2))},
+                     0.0F,
+                     float(omega.norm() * 1.0001)};
+    const double rounding = kBoxRounding * (tree.ball().radius + one.ball().radius + between.norm());
+    forEachBox(tree, tree.root(), [&](BoxTree::Slot slot, const std::vector<int>& below) {
+      NearBoxes found;
+      BoxTree::Node::Lane supports;
+      boxGaps(tree.node(slot.node), box, single(n), motion, 0.0F, found);
+      const BoxTree::Node::Lane& gaps = found.gaps;
+      boxSupports(tree.node(slot.node), single(n), motion, supports);
+      for (const double side : {-1.0, -0.3, 1.0})
+        for (const int i : below) {
+          RoundedTriangle t = tree.triangle(i);
+          for (Vector3d& p : t.corners) {
+            p += side * (shift + omega.cross(p - tree.origin()));
+            EXPECT_LE(n.dot(p - tree.origin()) + t.radius - rounding, supports[slot.lane]);
+          }
+          EXPECT_LE(gaps[slot.lane] - rounding, std::max<Real>(distance(t, other), 0));
+        }
+    });
+  }
+}
+
+TEST(BoxTree, OfALargeMeshIsMadeInNoTimeAndSmall) {
+  const BoxTree tree(trianglesOf(test::torusMesh(0.5, 0.1, 200, 50)));
+  EXPECT_EQ(tree.size(), 20000U);
+  EXPECT_LT(tree.bytes(), 20000U * 400U);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "body/body_triangles.h"
+#include "monitor/scene_case.h"
+#include "oracle/random.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+/// With shells whose points are centimetres apart.
+BodyOptions coarse() {
+  BodyOptions options = fine(0.02);
+  options.field.cells = 16;
+  return options;
+}
+
+PairResult at(Monitor& monitor, const Isometry3d& X) {
+  monitor.reset();
+  return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(X)}), {}).pairs[0];
+}
+
+/// Whatever fields and shells are: boxes, balls, cylinders and meshes.
+TEST(SurfacePair, TellsATenthOfAMillimetre) {
+  constexpr double kGap = 5e-5, kHalf = 0.1;
+  const std::vector<std::pair<Shape, double>> shapes = {{Primitive(Box{{kHalf, kHalf, kHalf}}), kHalf},
+                                                        {Primitive(Sphere{kHalf}), kHalf},
+                                                        {Primitive(Cylinder{kHalf, kHalf}), kHalf},
+                                                        {meshShape(boxMesh({kHalf, kHalf, kHalf})), kHalf}};
+  for (const auto& [shape, half] : shapes) {
+    const auto scene = build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("thing", shape)}, coarse());
+    ASSERT_TRUE(scene->bodies[0].triangles && scene->bodies[1].triangles);
+    Monitor monitor(scene, soft());
+    const PairResult apart = at(monitor, translation({0.02, 0.03, 0.01 + half + kGap}));
+    EXPECT_EQ(apart.verdict, Verdict::kClear);
+    EXPECT_LE(apart.clearance, kGap);
+    EXPECT_GT(apart.clearance, 0.2 * kGap);
+    EXPECT_LT(apart.error.total(), 1e-5);
+    EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + half - kGap})).verdict, Verdict::kContact);
+    // A cylinder on its side.
+    if (half == kHalf && std::holds_alternative<Primitive>(shape)) {
+      const Isometry3d lying = translation({0, 0, 0.01 + half + kGap}) * pose({0, 0, 0}, kPi / 2, {1, 0, 0});
+      EXPECT_EQ(at(monitor, lying).verdict, Verdict::kClear);
+      EXPECT_EQ(at(monitor, translation({0, 0, -2 * kGap}) * lying).verdict, Verdict::kContact);
+    }
+  }
+}
+
+/// And what touches within the cycle alone, however thin and fast.
+TEST(SurfacePair, NothingTunnels) {
+  const auto scene = build(
+      {body("plate", meshShape(boxMesh({0.1, 0.1, 0.0005}))), body("hand", meshShape(boxMesh({0.03, 0.04, 0.05})))},
+      coarse());
+  Monitor monitor(scene, soft());
+  Random random(1);
+  for (int i = 0; i < 50; ++i) {
+    const Isometry3d turn(pose(random, 3.0, 0.0).linear());
+    const Vector3d aside(uniform(random, -0.05, 0.05), uniform(random, -0.05, 0.05), 0);
+    monitor.reset();
+    const CycleResult& result = monitor.run(cycle(0.1, {still(Isometry3d::Identity()),
+                                                        {translation(aside + Vector3d(0, 0, 0.5)) * turn,
+                                                         translation(aside - Vector3d(0, 0, 0.4)) * turn}}),
+                                            {});
+    EXPECT_EQ(result.verdict, Verdict::kContact) << i;
+  }
+}
+
+/// No surface is met, and yet it is a contact (design §3.15), also when nothing is known of before; in a cavity it is
+/// none.
+TEST(SurfacePair, WhatIsWhollyInsideIsAContact) {
+  TriangleMesh cavity = boxMesh({0.1, 0.1, 0.1});
+  for (Vector3i& t : cavity.triangles) std::swap(t[1], t[2]);
+  const auto solid = build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), body("bead", Primitive(Sphere{0.02}))},
+                           coarse()),
+             hollow = build({body("block", meshShape(merged(boxMesh({0.2, 0.2, 0.2}), cavity))),
+                             body("bead", Primitive(Sphere{0.02}))},
+                            coarse());
+  Monitor in_solid(solid, soft()), in_hollow(hollow, soft());
+  EXPECT_EQ(at(in_solid, translation({0.01, 0, 0})).verdict, Verdict::kContact);
+  EXPECT_EQ(at(in_hollow, translation({0.01, 0, 0})).verdict, Verdict::kClear);
+  EXPECT_EQ(at(in_hollow, translation({0.15, 0, 0})).verdict, Verdict::kContact);
+  EXPECT_EQ(at(in_hollow, translation({0.25, 0, 0})).verdict, Verdict::kClear);
+  // One of two parts.
+  BodyDescription two = body("two", Primitive(Sphere{0.02}));
+  two.geometry.push_back({Primitive(Sphere{0.02}), translation({0.5, 0, 0}), "other"});
+  const auto parts = build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), two}, coarse());
+  Monitor in_part(parts, soft());
+  EXPECT_EQ(at(in_part, translation({0, 0, 0})).verdict, Verdict::kContact);
+  EXPECT_EQ(at(in_part, translation({-0.5, 0, 0})).verdict, Verdict::kContact);
+  EXPECT_EQ(at(in_part, translation({0.25, 0, 0})).verdict, Verdict::kClear);
+}
+
+/// Into a solid within one cycle, through its surface, is a contact; then it stays one.
+TEST(SurfacePair, WhatGoesInStaysIn) {
+  const auto scene =
+      build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), body("bead", Primitive(Sphere{0.02}))}, coarse());
+  Monitor monitor(scene, soft());
+  Vector3d p(0.3, 0, 0);
+  for (const double x : {0.25, 0.0, 0.01, 0.02, 0.3, 0.32}) {
+    const Vector3d q(x, 0, 0);
+    const Verdict verdict =
+        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {translation(p), translation(q)}}), {}).verdict;
+    const bool outside = x > 0.22 && p.x() > 0.22;
+    EXPECT_EQ(verdict, outside ? Verdict::kClear : Verdict::kContact) << x;
+    p = q;
+  }
+}
+
+/// A body that has something beside triangles is not decided by these alone.
+TEST(SurfacePair, HalfSpacesAndVoxelsKeepTheirFields) {
+  BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
+  map.geometry[0].watertight_voxels = true;
+  BodyDescription post = body("post", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true);
+  post.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.5}}), Isometry3d::Identity(), "post"});
+  const auto scene = build({map, post, body("ball", Primitive(Sphere{0.05}))}, coarse());
+  for (const Body& body : scene->bodies) EXPECT_FALSE(body.triangles) << body.name;
+}
+
+}  // namespace
+}  // namespace sdf_ccd

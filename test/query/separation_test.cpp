@@ -1,0 +1,319 @@
+#include "query/separation.h"
+
+#include <gtest/gtest.h>
+
+#include "oracle/long_screw.h"
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "oracle/triangle_distance.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::LongPose;
+using test::LongScrew;
+using test::Random;
+using test::Real;
+using test::Triangle3r;
+using test::Vector3r;
+
+BoxTree treeOf(const TriangleMesh& mesh, double radius = 0.0) {
+  std::vector<RoundedTriangle> all;
+  for (int i = 0; i < int(mesh.triangles.size()); ++i) all.push_back({cornersOf(mesh, i), radius});
+  return BoxTree(std::move(all));
+}
+
+/// Two trees and how they move, with the truth in long double.
+struct Case {
+  const BoxTree *a, *b;
+  Isometry3d A_start, A_end, B_start, B_end;
+
+  TwoBodyMotion motion(const ScrewMotion& X_WA, const ScrewMotion& X_WB) const {
+    const WorldTwist twist_a = worldTwist(X_WA, a->ball()), twist_b = worldTwist(X_WB, b->ball());
+    return {0.0, 1.0, X_WA, X_WB, relativeMotionBounds(twist_a, twist_b).acceleration};
+  }
+
+  Separation query(const SeparationOptions& options, SeparationWitness& witness, SeparationMemory& memory) const {
+    const ScrewMotion X_WA(A_start, A_end), X_WB(B_start, B_end);
+    return separation(*a, *b, motion(X_WA, X_WB), options, witness, memory);
+  }
+  Separation query(const SeparationOptions& options = {}) const {
+    SeparationWitness witness;
+    SeparationMemory memory;
+    return query(options, witness, memory);
+  }
+
+  /// Of the surfaces at a time; 0 where they cross. Where it is above `least`, something above that.
+  Real distanceAt(Real s, Real least = 1e300L) const {
+    const LongPose X_WA = LongScrew(A_start, A_end).pose(s), X_WB = LongScrew(B_start, B_end).pose(s);
+    const auto placed = [](const BoxTree& tree, const LongPose& X) {
+      std::vector<Triangle3r> all;
+      for (int i = 0; i < int(tree.size()); ++i) {
+        Triangle3r t;
+        for (int k = 0; k < 3; ++k) t[k] = X * tree.triangle(i).corners[k].cast<Real>();
+        all.push_back(t);
+      }
+      return all;
+    };
+    const std::vector<Triangle3r> in_a = placed(*a, X_WA), in_b = placed(*b, X_WB);
+    const auto ball = [](const Triangle3r& t) {
+      const Vector3r center = (t[0] + t[1] + t[2]) / 3;
+      return std::pair(center, std::max({(t[0] - center).norm(), (t[1] - center).norm(), (t[2] - center).norm()}));
+    };
+    std::vector<std::pair<Vector3r, Real>> balls_b;
+    for (const Triangle3r& t : in_b) balls_b.push_back(ball(t));
+    // Triangles that are near each other first.
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < in_a.size(); ++i)
+      if ((in_a[i][0] - balls_b[0].first).norm() < (in_a[first][0] - balls_b[0].first).norm()) first = i;
+    for (std::size_t k = 0; k < in_b.size(); ++k)
+      if ((in_b[k][0] - in_a[first][0]).norm() - a->triangle(first).radius - b->triangle(k).radius < least)
+        least =
+            std::max<Real>((in_b[k][0] - in_a[first][0]).norm() - a->triangle(first).radius - b->triangle(k).radius, 0);
+    for (std::size_t i = 0; i < in_a.size() && least > 0; ++i) {
+      const auto [center, reach] = ball(in_a[i]);
+      for (std::size_t k = 0; k < in_b.size(); ++k) {
+        const Real radii = a->triangle(i).radius + b->triangle(k).radius;
+        if ((center - balls_b[k].first).norm() - reach - balls_b[k].second - radii >= least) continue;
+        least = std::min(least, test::triangleDistance(in_a[i], in_b[k]) - radii);
+      }
+    }
+    return std::max<Real>(least, 0);
+  }
+
+  /// The least found at some times, and by halving steps from the best of them: an upper bound.
+  Real leastFound(int samples = 24) const {
+    Real best = 1e300L, at = 0;
+    const auto look = [&](Real s) {
+      if (s < 0 || s > 1) return;
+      const Real distance = distanceAt(s, best);
+      if (distance < best) best = distance, at = s;
+    };
+    for (int i = 0; i <= samples; ++i) look(Real(i) / samples);
+    for (Real step = 0.5L / samples; step > 1e-5L; step /= 2) {
+      look(at - step);
+      look(at + step);
+    }
+    return best;
+  }
+};
+
+struct Shapes {
+  std::vector<BoxTree> trees;
+
+  Shapes() {
+    trees.push_back(treeOf(test::boxMesh({0.1, 0.06, 0.02})));
+    trees.push_back(treeOf(test::torusMesh(0.1, 0.03, 8, 5)));
+    trees.push_back(treeOf(test::icosphere(0.08, 1)));
+    trees.push_back(treeOf(test::translated(test::boxMesh({0.2, 0.001, 0.03}), {0.3, 0, 0})));
+    TriangleMesh sheet;
+    sheet.vertices = {{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0.02}, {-0.1, 0.1, 0}};
+    sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+    trees.push_back(treeOf(sheet));
+    trees.push_back(BoxTree({{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}, 0.05}}));  // a ball
+    trees.push_back(treeOf(test::boxMesh({0.05, 0.05, 0.05}), 0.01));
+  }
+};
+
+/// Both move, by as much as `travel` and `turn` at most, and are about `apart` from each other halfway.
+Case draw(const Shapes& shapes, Random& random, double travel, double turn, double apart) {
+  Case c;
+  c.a = &shapes.trees[random() % shapes.trees.size()];
+  c.b = &shapes.trees[random() % shapes.trees.size()];
+  const Isometry3d A = test::pose(random, 3.0, 1.0), B = test::pose(random, 3.0, 1.0);
+  const auto around = [&](const Isometry3d& X, double part) {
+    Isometry3d moved = X;
+    const Vector3d axis = test::direction(random);
+    moved.linear() = Eigen::AngleAxisd(part * test::uniform(random, -turn, turn), axis) * X.linear();
+    moved.translation() += part * test::uniform(random, 0, travel) * test::direction(random);
+    return moved;
+  };
+  c.A_start = around(A, 1), c.A_end = around(A, 1), c.B_start = around(B, 1), c.B_end = around(B, 1);
+  // Moved along the way between the nearest points, halfway.
+  for (int step = 0; step < 3; ++step) {
+    const Isometry3d X_WA = ScrewMotion(c.A_start, c.A_end).pose(0.5), X_WB = ScrewMotion(c.B_start, c.B_end).pose(0.5);
+    double best = 1e300;
+    Vector3d way = Vector3d::UnitX();
+    for (std::size_t i = 0; i < c.a->size(); ++i)
+      for (std::size_t k = 0; k < c.b->size(); ++k) {
+        const Vector3d p = X_WA * c.a->triangle(i).corners[0], q = X_WB * c.b->triangle(k).corners[0];
+        if ((q - p).norm() < best) best = (q - p).norm(), way = q - p;
+      }
+    const double distance = double(c.distanceAt(0.5L));
+    const Vector3d shift = (apart - (distance > 0 ? distance : -0.02)) * way.normalized();
+    c.B_start.translation() += shift;
+    c.B_end.translation() += shift;
+  }
+  return c;
+}
+
+/// Of random motions, fast and slow, far and near: no bound is above the truth, and no crossing untrue.
+TEST(Separation, BoundsAndCrossingsAreTrue) {
+  const Shapes shapes;
+  Random random(1);
+  SeparationMemory memory;
+  long apart = 0, crossing = 0, open = 0;
+  std::vector<double> ratios;  // of the bound and the truth
+  for (int trial = 0; trial < 250; ++trial) {
+    const double travel = std::pow(10.0, test::uniform(random, -4, -0.3));
+    const Case c = draw(shapes, random, travel, 3 * travel, std::pow(10.0, test::uniform(random, -4.5, -0.7)));
+    SeparationOptions options;
+    options.margin = trial % 3 ? 0.0 : 1e-4;
+    SeparationWitness witness;
+    for (int again = 0; again < 2; ++again) {  // with what the first has left
+      const Separation found = c.query(options, witness, memory);
+      if (found.state == SeparationState::kApart) {
+        const Real truth = c.leastFound();
+        ASSERT_LE(found.distance, truth + 1e-13L) << trial;
+        ASSERT_GE(found.distance, options.margin);
+        ++apart;
+        if (travel < 1e-3 && again) ratios.push_back(found.distance / double(truth));
+      } else if (found.state == SeparationState::kCrossing) {
+        ++crossing;
+        ASSERT_EQ(c.distanceAt(found.s), 0.0L) << trial;
+      } else {
+        ++open;
+        EXPECT_LT(c.leastFound(), options.margin + 2 * options.resolution) << trial;
+      }
+    }
+  }
+  EXPECT_GT(apart, 120);
+  EXPECT_GT(crossing, 40);
+  EXPECT_LT(open, 40);
+  std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
+  EXPECT_GT(ratios[ratios.size() / 2], 0.55) << "of slow motions the bound is near the distance";
+}
+
+/// From a case that is apart, to where its bound exceeds the truth by most: it never does.
+TEST(Separation, NoClimbFindsABoundAboveTheTruth) {
+  const Shapes shapes;
+  SeparationMemory memory;
+  Random random(7);
+  double worst = -1e300;
+  for (int start = 0; start < 8; ++start) {
+    const double travel = std::pow(10.0, test::uniform(random, -3, -0.5));
+    Case best = draw(shapes, random, travel, 5 * travel, travel * test::uniform(random, 0.01, 0.5));
+    const auto excess = [&](const Case& c) {
+      SeparationWitness witness;
+      const Separation found = c.query({}, witness, memory);
+      if (found.state == SeparationState::kCrossing) {
+        EXPECT_EQ(c.distanceAt(found.s), 0.0L);
+        return -1e300;
+      }
+      if (found.state != SeparationState::kApart) return -1e300;
+      const double truth = double(c.leastFound(12));
+      return (found.distance - truth) / (truth + 1e-9);
+    };
+    double highest = excess(best);
+    double step = 0.3;
+    for (int i = 0; i < 50; ++i) {
+      Case next = best;
+      for (Isometry3d* X : {&next.A_start, &next.A_end, &next.B_start, &next.B_end}) {
+        X->linear() =
+            Eigen::AngleAxisd(step * travel * 5 * test::uniform(random, -1, 1), test::direction(random)) * X->linear();
+        X->translation() += step * travel * test::uniform(random, 0, 1) * test::direction(random);
+      }
+      const double value = excess(next);
+      if (value > highest) {
+        highest = value;
+        best = next;
+      } else {
+        step = std::max(0.9 * step, 1e-3);
+      }
+    }
+    worst = std::max(worst, highest);
+  }
+  EXPECT_LE(worst, 1e-9);
+  EXPECT_GT(worst, -0.2) << "the climb comes near the truth";
+}
+
+/// A thin plate passes through another in one step, apart at both ends.
+TEST(Separation, NothingTunnels) {
+  const BoxTree plate = treeOf(test::boxMesh({0.1, 0.1, 5e-4})), hand = treeOf(test::boxMesh({0.02, 0.02, 0.02}));
+  Random random(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    Case c{&plate,
+           &hand,
+           Isometry3d::Identity(),
+           Isometry3d::Identity(),
+           test::pose(random, 3, 0),
+           test::pose(random, 3, 0)};
+    c.A_start = c.A_end = test::pose(random, 3.0, 1.0);
+    const Vector3d offset(test::uniform(random, -0.05, 0.05), test::uniform(random, -0.05, 0.05), 0);
+    c.B_end.linear() = c.B_start.linear();
+    c.B_start.translation() = offset + Vector3d(0, 0, test::uniform(random, 0.05, 0.5));
+    c.B_end.translation() = offset - Vector3d(0, 0, test::uniform(random, 0.05, 0.5));
+    c.B_start = c.A_start * c.B_start;
+    c.B_end = c.A_end * c.B_end;
+    EXPECT_EQ(c.query().state, SeparationState::kCrossing) << trial;
+  }
+}
+
+/// What grazes a plate at a tenth of a millimetre, in one long step, is told from what it touches.
+TEST(Separation, GrazingIsToldFromTouching) {
+  const BoxTree plate = treeOf(test::boxMesh({0.5, 0.5, 0.01})), hand = treeOf(test::boxMesh({0.02, 0.03, 0.04}));
+  for (const double gap : {1e-4, 1e-5, -1e-5, -1e-4}) {
+    Case c{
+        &plate, &hand, Isometry3d::Identity(), Isometry3d::Identity(), Isometry3d::Identity(), Isometry3d::Identity()};
+    c.B_start.translation() = Vector3d(-0.4, 0.1, 0.05 + gap);
+    c.B_end.translation() = Vector3d(0.4, -0.1, 0.05 + gap);
+    EXPECT_EQ(c.query().state, gap > 0 ? SeparationState::kApart : SeparationState::kCrossing) << gap;
+  }
+}
+
+/// Balls are exact.
+TEST(Separation, BallsTouchWhereTheirRadiiSay) {
+  const auto ball = [](double radius) {
+    return BoxTree({{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}, radius}});
+  };
+  const BoxTree a = ball(0.3), b = ball(0.2), wall = treeOf(test::boxMesh({1, 1, 0.1}));
+  const auto at = [](double x) {
+    Isometry3d X = Isometry3d::Identity();
+    X.translation() = Vector3d(0, 0, x);
+    return X;
+  };
+  const auto stateOf = [&](const BoxTree& first, const BoxTree& second, double x) {
+    return Case{&first, &second, at(0), at(0), at(x), at(x)}.query().state;
+  };
+  EXPECT_EQ(stateOf(a, b, 0.5 + 1e-9), SeparationState::kApart);
+  EXPECT_EQ(stateOf(a, b, 0.5 - 1e-9), SeparationState::kCrossing);
+  EXPECT_EQ(stateOf(wall, b, 0.3 + 1e-9), SeparationState::kApart);
+  EXPECT_EQ(stateOf(wall, b, 0.3 - 1e-9), SeparationState::kCrossing);
+}
+
+/// Far from the world's origin, and bodies that turn about it together: only what they do against each other counts.
+TEST(Separation, BodiesThatMoveAsOneKeepTheirDistance) {
+  const BoxTree a = treeOf(test::torusMesh(0.1, 0.03, 16, 8)), b = treeOf(test::boxMesh({0.05, 0.05, 0.05}));
+  Isometry3d X_AB = Isometry3d::Identity();
+  X_AB.translation() = Vector3d(0.19, 0.02, 0.01);
+  const Isometry3d turn(Eigen::AngleAxisd(1.5, Vector3d(1, 2, 3).normalized()));
+  const Isometry3d X_WA(Eigen::Translation3d(0.5, 1.0, -0.3));
+  Case c{&a, &b, X_WA, turn * X_WA, X_WA * X_AB, turn * X_WA * X_AB};
+  const Separation found = c.query();
+  ASSERT_EQ(found.state, SeparationState::kApart);
+  const double truth = double(c.distanceAt(0.3L));
+  EXPECT_LE(found.distance, truth + 1e-13);
+  EXPECT_GT(found.distance, 0.5 * truth);
+}
+
+/// Triangles that lie on each other, everywhere: it ends, and says that nothing is proved.
+TEST(Separation, SurfacesThatLieOnEachOtherStayOpen) {
+  TriangleMesh sheet;
+  constexpr int kSteps = 40;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int k = 0; k <= kSteps; ++k) sheet.vertices.push_back({0.01 * i, 0.01 * k, 0});
+  for (int i = 0; i < kSteps; ++i)
+    for (int k = 0; k < kSteps; ++k) {
+      const int at = i * (kSteps + 1) + k;
+      sheet.triangles.push_back({at, at + 1, at + kSteps + 1});
+      sheet.triangles.push_back({at + 1, at + kSteps + 2, at + kSteps + 1});
+    }
+  const BoxTree tree = treeOf(sheet);
+  Isometry3d slid = Isometry3d::Identity();
+  slid.translation().x() = 0.003;
+  Case c{&tree, &tree, Isometry3d::Identity(), Isometry3d::Identity(), Isometry3d::Identity(), slid};
+  EXPECT_EQ(c.query().state, SeparationState::kOpen);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
