@@ -78,7 +78,7 @@ struct BodyTwists::Twist {
     twist.omega = (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0 + s2 * (5.0 / 112.0)))) * half_cross;
     twist.velocity = shift + (1.0 / 12.0) * twist.omega.cross(twist.omega.cross(shift));
     twist.point_W = 0.5 * (start + end);
-    twist.shift = normAbove(shift);
+    twist.shift = shift.norm();
     twist.reach = radius + 0.27 * twist.shift;
     return twist;
   }
@@ -90,7 +90,7 @@ struct BodyTwists::Twist {
     twist.omega = exact.omega;
     twist.velocity = exact.velocity;
     twist.point_W = exact.center;
-    twist.shift = normAbove(exact.velocity);
+    twist.shift = exact.velocity.norm();
     twist.reach = ball.radius + 0.2501 * twist.shift;
     return twist;
   }

@@ -180,11 +180,11 @@ TEST(ClearanceTable, SubtractsNoLessThanBodiesMoveAndLittleMore) {
       const double coarse = 2e-6 * kBudget + 1e-5 * (family.angle * (2.0 * family.apart + 1.0) + family.shift) * steps;
       ASSERT_LE(used, 1.05 * bound + coarse) << "trial " << trial << ", pair " << i;
       if (change > 1e-4) worst = std::max(worst, double(change) / used);
-      if (bound > 1e-2) loosest = std::max(loosest, used / bound);
+      if (bound > 0.1) loosest = std::max(loosest, used / bound);
     }
   }
   EXPECT_GT(worst, 0.9);  // climbing comes near to the bound
-  EXPECT_LT(loosest, 1.02);
+  EXPECT_LT(loosest, 1.02);  // of what is large beside the budget's rounding
 }
 
 TEST(ClearanceTable, KeepsABudgetExactlyWhileNothingMoves) {
