@@ -174,7 +174,7 @@ class BlockSample {
   /// Comes back to a block, and to other cells of it, if there are few. Until each stratum has some, what is expected
   /// is too little to end it by where the few blocks that take long have not been met.
   void buildNear() {
-    constexpr double kSecondsForFew = 22e-3, kSeconds = 15e-3, kShare = 0.03, kSure = 0.07, kUnsure = 0.25;
+    constexpr double kSecondsForFew = 40e-3, kSeconds = 15e-3, kShare = 0.03, kSure = 0.07, kUnsure = 0.15;
     const double scale = double(order_.size()) / double(tested_), start = threadSeconds();
     std::size_t near = 0;
     for (const Stratum& stratum : strata_) near += stratum.blocks.size();
