@@ -86,26 +86,23 @@ void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, cons
 void PairChecker::remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB) {
   if (roles_.empty()) return;
   clearance_ = clearance;
-  const bool f_is_a = surfaces_ ? surfaces_->fieldIsA() : roles_.front().fieldBody() == pair_.body_a;
-  X_FP_last_ = f_is_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
+  X_FP_last_ = relativeMotion().f() == pair_.body_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
 }
 
 /// Takes the motion, and what it may have used up of the clearance.
 void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
-  if (!surfaces_) setRoles(bodies, span);
-  const PairRole& first = roles_.front();
   if (surfaces_) {
-    surfaces_->setMotion(bodies, span);
-    travel_ = surfaces_->travel();
-    motion_error_ = surfaces_->poseError();
+    surfaces_->setMotion(bodies, span, memory_->bounds);
+    travel_ = surfaces_->motion().travel();
+    motion_error_ = surfaces_->motion().poseError();
+  } else {
+    setRoles(bodies, span);
   }
-  const Isometry3d &X_start = surfaces_ ? surfaces_->start() : first.start(),
-                   &X_end = surfaces_ ? surfaces_->end() : first.end();
-  const bool continues = clearance_ == kUnknown || X_FP_last_.matrix() == X_start.matrix();
+  const RelativeMotion& motion = relativeMotion();
+  const bool continues = clearance_ == kUnknown || X_FP_last_.matrix() == motion.start().matrix();
   if (!continues) outside_ = false;
-  const auto jump = [&] { return surfaces_ ? surfaces_->jumpFrom(X_FP_last_) : first.jumpFrom(X_FP_last_); };
-  clearance_ -= travel_ + (continues ? 0.0 : jump());
-  X_FP_last_ = X_end;
+  clearance_ -= travel_ + (continues ? 0.0 : motion.jumpFrom(X_FP_last_));
+  X_FP_last_ = motion.end();
 }
 
 /// The same for the roles.
@@ -115,8 +112,8 @@ void PairChecker::setRoles(const SweptBodies& bodies, const WaypointSpan& span) 
   for (std::size_t i = 0; i < roles_.size(); ++i) {
     PairRole& role = roles_[i];
     role.setMotion(bodies, span, memory_->roles[i]);
-    if (role.ballHoldsBody()) travel_ = std::min(travel_, role.travel());
-    pose_error = std::max(pose_error, role.poseError());
+    if (role.ballHoldsBody()) travel_ = std::min(travel_, role.motion().travel());
+    pose_error = std::max(pose_error, role.motion().poseError());
   }
   motion_error_ = pose_error;
 }
@@ -131,16 +128,20 @@ double PairChecker::givenError(const CycleMotion& motion) const {
   return role.fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
 }
 
+/// @param bound  but for the motion's. @throws std::runtime_error if it is not finite.
+void PairChecker::setError(const ErrorBound& bound, double root, PairResult& result) const {
+  result.error = bound;
+  result.error.chord = motion_error_;
+  result.error.root = root;
+  requireFinite(result.error);
+}
+
 void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
                         PairResult& result) {
   setMotion(bodies, result.span);
   const double given_error = givenError(motion);
   motion_error_ += given_error;
-  result.error = bound();
-  result.error.chord = motion_error_;
-  if (!surfaces_) result.error.root = kRootTolerance * travel_;
-  requireFinite(result.error);
-
+  setError(bound(), surfaces_ ? 0.0 : kRootTolerance * travel_, result);
   const double margin = this->margin() + result.error.chord + result.error.root;
   if (clearance_ > margin) {
     result.verdict = Verdict::kClear;
@@ -153,10 +154,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     if (clearBySurfaces(crossing, result)) return;
     setRoles(bodies, result.span);
     motion_error_ += given_error;
-    result.error = bound_;
-    result.error.chord = motion_error_;
-    result.error.root = kRootTolerance * travel_;
-    requireFinite(result.error);
+    setError(bound_, kRootTolerance * travel_, result);
   } else if (clearFromAfar(margin, result)) {
     return;
   }
@@ -180,8 +178,9 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
 
 /// Whether the triangles show that the bodies stay apart. @param crossing  gets where they surely cross, if they do.
 bool PairChecker::clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result) {
-  double clearance = surfaces_->ballClearance(surfaces_->end());
-  if (surfaces_->ballClearance(surfaces_->start()) - travel_ > std::max(motion_error_, surfaces_->size())) {
+  const RelativeMotion& motion = surfaces_->motion();
+  double clearance = surfaces_->ballClearance(motion.end());
+  if (surfaces_->ballClearance(motion.start()) - travel_ > std::max(motion_error_, surfaces_->size())) {
     outside_ = true;
   } else {
     SurfacePair::Answer answer = surfaces_->decide(motion_error_, memory_->separation);
@@ -200,8 +199,9 @@ bool PairChecker::clearBySurfaces(std::optional<ContactPoint>& crossing, PairRes
 /// Whether one role's ball alone shows that the bodies stay apart.
 bool PairChecker::clearFromAfar(double margin, PairResult& result) {
   for (const PairRole& role : roles_) {
-    if (!role.ballHoldsBody() || !(role.ballClearance(role.start()) - role.travel() > margin)) continue;
-    clearance_ = role.ballClearance(role.end());
+    const RelativeMotion& motion = role.motion();
+    if (!role.ballHoldsBody() || !(role.ballClearance(motion.start()) - motion.travel() > margin)) continue;
+    clearance_ = role.ballClearance(motion.end());
     result.verdict = Verdict::kClear;
     result.clearance = clearance_;
     return true;

@@ -16,6 +16,7 @@ namespace sdf_ccd {
 struct PairMemory {
   std::array<RoleMemory, 4> roles;
   ContactCollector collector;
+  std::vector<RelativeMotionBounds> bounds;  ///< of the surfaces' motion
   SeparationMemory separation;
 };
 
@@ -63,9 +64,11 @@ class PairChecker {
     outside_ = false;
   }
   void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
+  const RelativeMotion& relativeMotion() const { return surfaces_ ? surfaces_->motion() : roles_.front().motion(); }
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
   void setRoles(const SweptBodies& bodies, const WaypointSpan& span);
   double givenError(const CycleMotion& motion) const;
+  void setError(const ErrorBound& bound, double root, PairResult& result) const;
   bool clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result);
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);

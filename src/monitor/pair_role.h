@@ -2,9 +2,7 @@
 
 #include <vector>
 
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/motion/chords.h"
-#include "swept_bodies.h"
+#include "relative_motion.h"
 
 namespace sdf_ccd {
 
@@ -17,7 +15,7 @@ enum class ShellPurpose {
 
 /// What following a role's motion needs while its pair is checked, and nobody afterwards.
 struct RoleMemory {
-  std::vector<double> accelerations;  ///< per interval of the span
+  std::vector<RelativeMotionBounds> bounds;
   ChordPath path;
   ChordPath part_path;
   ShellQueryResult query;
@@ -31,33 +29,22 @@ class PairRole {
   const PointShell& shell() const { return *shell_; }
   const SphereTree& tree() const { return *tree_; }
   const Body& field() const { return *field_body_; }
-  int fieldBody() const { return field_; }
+  int fieldBody() const { return motion_.f(); }
   bool bearsForce() const { return purpose_ == ShellPurpose::kSurface; }
 
   /// Whether the shell's body's ball holds all of it: not of a half-space, which may have witnesses beside it. Only
-  /// then travel(), jumpFrom() and ballClearance() tell of all of its surface, else of the witnesses alone.
+  /// then motion() and ballClearance() tell of all of its surface, else of the witnesses alone.
   bool ballHoldsBody() const { return ball_holds_body_; }
 
   /// Takes the relative motion over a part of a cycle, of bodies that can be followed.
   /// @param memory  this role's alone as long as it has the motion.
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory);
 
-  /// No point of the shell's body goes farther than this in the field's frame, as setMotion() has it [m].
-  double travel() const { return travel_; }
-
-  /// What computing with the poses adds to the error of the distance [m].
-  double poseError() const { return pose_error_; }
+  const RelativeMotion& motion() const { return motion_; }
 
   /// How many times the motion error of the field's body's ball its surface strays where the shell is: more than one of
   /// a half-space, whose ball does not hold all of it. Bounds of motion grow no faster than the distance.
   double fieldErrorScale() const;
-
-  /// At both ends of the motion.
-  const Isometry3d& start() const { return X_FP_start_; }
-  const Isometry3d& end() const { return X_FP_end_; }
-
-  /// No point of the shell's body is farther from where it was at another pose than this, at the motion's start [m].
-  double jumpFrom(const Isometry3d& X_FP) const { return maxDisplacement(X_FP, X_FP_start_, shell_body_->ball); }
 
   /// Cuts the motion into chords, for path() and partPath().
   void cut(const ChordOptions& options);
@@ -77,23 +64,14 @@ class PairRole {
   bool mayComeNearer(double distance);
 
  private:
-  /// No point of the shell's body is farther from the field's body's origin [m].
-  double reach() const;
-
   const Body* shell_body_;
   const Body* field_body_;
   const PointShell* shell_;
   const SphereTree* tree_;
-  int body_;
-  int field_;
   ShellPurpose purpose_;
   bool ball_holds_body_;
-  const SweptBodies* bodies_ = nullptr;
-  WaypointSpan span_;
+  RelativeMotion motion_;
   RoleMemory* memory_ = nullptr;
-  Isometry3d X_FP_start_, X_FP_end_;
-  double travel_ = 0.0;
-  double pose_error_ = 0.0;
 };
 
 }  // namespace sdf_ccd

@@ -41,31 +41,12 @@ bool SurfacePair::isPossible(const Scene& scene, const PlannedPair& pair) {
   return scene.bodies[pair.body_a].triangles && scene.bodies[pair.body_b].triangles;
 }
 
-SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair) {
-  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
-  f_is_a_ = a.ball.radius >= b.ball.radius;
-  field_ = f_is_a_ ? &a : &b;
-  shell_ = f_is_a_ ? &b : &a;
-  f_ = f_is_a_ ? pair.body_a : pair.body_b;
-  p_ = f_is_a_ ? pair.body_b : pair.body_a;
-  deviation_ = a.triangles->deviation + b.triangles->deviation;
-}
-
-void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
-  bodies_ = &bodies;
-  span_ = span;
-  X_FP_start_ = relativePose(bodies.screw(f_, span.first).start(), bodies.screw(p_, span.first).start());
-  X_FP_end_ = relativePose(bodies.screw(f_, span.last - 1).end(), bodies.screw(p_, span.last - 1).end());
-  travel_ = 0.0;
-  for (std::size_t k = span.first; k < span.last; ++k)
-    travel_ += relativeMotionBounds(bodies.twist(f_, k), bodies.twist(p_, k)).travel;
-  const BoundingBall& ball = shell_->ball;
-  const double reach = (X_FP_start_ * ball.center).norm() + ball.radius + travel_;
-  pose_error_ = bodies.poseError(p_, ball.center.norm() + ball.radius) + bodies.poseError(f_, reach);
-}
-
-double SurfacePair::jumpFrom(const Isometry3d& X_FP) const {
-  return maxDisplacement(X_FP, X_FP_start_, shell_->ball);
+SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair)
+    : f_is_a_(scene.bodies[pair.body_a].ball.radius >= scene.bodies[pair.body_b].ball.radius),
+      motion_(scene, f_is_a_ ? pair.body_a : pair.body_b, f_is_a_ ? pair.body_b : pair.body_a) {
+  field_ = &scene.bodies[motion_.f()];
+  shell_ = &scene.bodies[motion_.p()];
+  deviation_ = field_->triangles->deviation + shell_->triangles->deviation;
 }
 
 double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
@@ -96,18 +77,16 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
   SeparationOptions options;
   options.margin = margin;
   options.resolution = kResolution;
-  for (std::size_t k = span_.first; k < span_.last; ++k) {
-    const RelativeMotionBounds bounds = relativeMotionBounds(bodies_->twist(f_, k), bodies_->twist(p_, k));
-    if (distance - bounds.travel > margin) {
-      distance -= bounds.travel;
+  for (std::size_t step = 0; step < motion_.steps(); ++step) {
+    const double travel = motion_.bounds(step).travel;
+    if (distance - travel > margin) {
+      distance -= travel;
       continue;
     }
-    const TwoBodyMotion motion{bodies_->times()[k], bodies_->times()[k + 1], bodies_->screw(f_, k),
-                               bodies_->screw(p_, k), bounds.acceleration};
-    const Separation found = separation(f, p, motion, options, witness, memory);
+    const Separation found = separation(f, p, motion_.motion(step), options, witness, memory);
     if (found.state == SeparationState::kCrossing) {
       answer.state = found.state;
-      answer.crossing = contactAt(found, k);
+      answer.crossing = contactAt(found, step);
       return answer;
     }
     const bool now = found.state == SeparationState::kApart;
@@ -120,11 +99,12 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
   return answer;
 }
 
-ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t waypoint) const {
-  const double t0 = bodies_->times()[waypoint], t1 = bodies_->times()[waypoint + 1];
-  const Isometry3d X_WF = bodies_->screw(f_, waypoint).pose(found.s), X_WP = bodies_->screw(p_, waypoint).pose(found.s);
+ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) const {
+  const TwoBodyMotion motion = motion_.motion(step);
+  const Isometry3d X_WF = motion.X_WF.pose(found.s), X_WP = motion.X_WP.pose(found.s);
   ContactPoint contact;
-  contact.time = contact.enter = contact.exit = found.s == 1.0 ? t1 : t0 + found.s * (t1 - t0);
+  contact.time = contact.enter = contact.exit =
+      found.s == 1.0 ? motion.t_end : motion.t_start + found.s * (motion.t_end - motion.t_start);
   contact.p_W = X_WF * found.p_A;
   contact.normal_W = X_WF.linear() * found.normal_A;
   // From body A to body B: as far as one triangle tells, on the side where the other body mostly is.
@@ -134,8 +114,8 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t waypoin
 }
 
 bool SurfacePair::isOutside() const {
-  return componentsAreOutside(*shell_, *field_, X_FP_end_) &&
-         componentsAreOutside(*field_, *shell_, X_FP_end_.inverse());
+  return componentsAreOutside(*shell_, *field_, motion_.end()) &&
+         componentsAreOutside(*field_, *shell_, motion_.end().inverse());
 }
 
 }  // namespace sdf_ccd

@@ -4,8 +4,8 @@
 
 #include "body/body_triangles.h"
 #include "query/separation.h"
+#include "relative_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "swept_bodies.h"
 
 namespace sdf_ccd {
 
@@ -17,27 +17,17 @@ class SurfacePair {
   static bool isPossible(const Scene& scene, const PlannedPair& pair);
   SurfacePair(const Scene& scene, const PlannedPair& pair);
 
-  /// Whether body A is F, which the other moves against.
-  bool fieldIsA() const { return f_is_a_; }
-
   /// Takes the motion over a part of a cycle, of bodies that can be followed.
-  void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
+  /// @param bounds  see RelativeMotion::take().
+  void setMotion(const SweptBodies& bodies, const WaypointSpan& span, std::vector<RelativeMotionBounds>& bounds) {
+    motion_.take(bodies, span, bounds);
+  }
 
-  /// No point of either body goes farther than this in the other's frame [m].
-  double travel() const { return travel_; }
-
-  /// What computing with the poses adds to the error of a distance [m].
-  double poseError() const { return pose_error_; }
+  /// Of the smaller body against the larger one.
+  const RelativeMotion& motion() const { return motion_; }
 
   /// What the triangles are off by from the surfaces [m].
   double deviation() const { return deviation_; }
-
-  /// At both ends of the motion, of the smaller body in the larger one's frame.
-  const Isometry3d& start() const { return X_FP_start_; }
-  const Isometry3d& end() const { return X_FP_end_; }
-
-  /// No point is farther from where it was at another pose than this, at the motion's start [m].
-  double jumpFrom(const Isometry3d& X_FP) const;
 
   /// Of the ball around the smaller body: what is farther away than that need not be known well [m].
   double size() const { return shell_->ball.radius; }
@@ -64,18 +54,13 @@ class SurfacePair {
  private:
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;
-  ContactPoint contactAt(const Separation& found, std::size_t waypoint) const;
+  ContactPoint contactAt(const Separation& found, std::size_t step) const;
 
   const Body *field_, *shell_;  // F, which the other moves against, and P
-  int f_, p_;
   bool f_is_a_;
+  RelativeMotion motion_;
   double deviation_;
   SeparationWitness witness_, closed_witness_;
-
-  const SweptBodies* bodies_ = nullptr;
-  WaypointSpan span_;
-  Isometry3d X_FP_start_, X_FP_end_;
-  double travel_ = 0.0, pose_error_ = 0.0;
 };
 
 }  // namespace sdf_ccd

@@ -1,0 +1,31 @@
+#include "relative_motion.h"
+
+namespace sdf_ccd {
+
+void RelativeMotion::take(const SweptBodies& bodies, const WaypointSpan& span,
+                          std::vector<RelativeMotionBounds>& bounds) {
+  bodies_ = &bodies;
+  span_ = span;
+  bounds_ = &bounds;
+  X_FP_start_ = relativePose(bodies.screw(f_, span.first).start(), bodies.screw(p_, span.first).start());
+  X_FP_end_ = relativePose(bodies.screw(f_, span.last - 1).end(), bodies.screw(p_, span.last - 1).end());
+  bounds.clear();
+  travel_ = 0.0;
+  for (std::size_t k = span.first; k < span.last; ++k) {
+    bounds.push_back(relativeMotionBounds(bodies.twist(f_, k), bodies.twist(p_, k)));
+    travel_ += bounds.back().travel;
+  }
+  pose_error_ = bodies.poseError(p_, ball_->center.norm() + ball_->radius) + bodies.poseError(f_, reach());
+}
+
+TwoBodyMotion RelativeMotion::motion(std::size_t step) const {
+  const std::size_t k = span_.first + step;
+  const std::vector<double>& times = bodies_->times();
+  return {times[k], times[k + 1], bodies_->screw(f_, k), bodies_->screw(p_, k), bounds(step).acceleration};
+}
+
+double RelativeMotion::reach() const {
+  return (X_FP_start_ * ball_->center).norm() + ball_->radius + travel_;
+}
+
+}  // namespace sdf_ccd
