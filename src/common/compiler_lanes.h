@@ -45,6 +45,10 @@ SDF_CCD_INLINE Doubles load(const double* from) {
   return *reinterpret_cast<const DoublesInMemory*>(from);
 }
 
+SDF_CCD_INLINE void store(const Floats& values, float* to) {
+  *reinterpret_cast<FloatsInMemory*>(to) = values;
+}
+
 SDF_CCD_INLINE void store(const Doubles& values, double* to) {
   *reinterpret_cast<DoublesInMemory*>(to) = values;
 }

@@ -16,9 +16,6 @@ SDF_CCD_INLINE Floats load(const Lane& lane) {
 SDF_CCD_INLINE Floats absolute(const Floats& v) {
   return larger(v, -v);
 }
-SDF_CCD_INLINE void store(const Floats& values, float* to) {
-  *reinterpret_cast<FloatsInMemory*>(to) = values;
-}
 
 /// Three coordinates of eight boxes.
 struct Vectors {

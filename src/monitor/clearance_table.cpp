@@ -86,10 +86,6 @@ SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
 
 using Ints = decltype(Floats{} < Floats{});
 
-SDF_CCD_INLINE void store(const Floats& values, float* to) {
-  *reinterpret_cast<FloatsInMemory*>(to) = values;
-}
-
 /// Arrays that a scan goes through, by block.
 struct ScanArrays {
   const float* rows;
