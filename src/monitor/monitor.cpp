@@ -33,16 +33,11 @@ std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
 
 /// As after a test that finds nothing, but without one. @param clearance  that the pair has at least [m].
 void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
+  clear(result);
   result.verdict = Verdict::kClear;
-  result.reason.clear();
   result.skipped = true;
   result.error = error;
   result.clearance = clearance;
-  result.intervals.clear();
-  result.deepest = {};
-  result.on_a_W = {};
-  result.on_b_W = {};
-  result.points.clear();
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ void requireFinite(const ErrorBound& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
 
-/// As new, but with its memory and its span.
+}  // namespace
+
 void clear(PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason.clear();
@@ -34,8 +35,6 @@ void clear(PairResult& result) {
   result.on_b_W = {};
   result.points.clear();
 }
-
-}  // namespace
 
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
                          const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)

@@ -20,6 +20,9 @@ struct PairMemory {
   SeparationMemory separation;
 };
 
+/// As new, but with its memory and its span.
+void clear(PairResult& result);
+
 /// Checks one pair, cycle after cycle, and knows between them how far apart it was.
 class PairChecker {
  public:
