@@ -68,13 +68,12 @@ void makeTriangles(const SceneDescription& description, MeshPool& pool, Scene& s
   const auto possible = [&](int i) {
     return scene.bodies[i].failure.empty() && whyNoShell(description.bodies[i]).empty();
   };
-  for (const PlannedPair& pair : scene.pairs) {
-    if (!possible(pair.body_a) || !possible(pair.body_b)) continue;
-    for (const int i : {pair.body_a, pair.body_b}) {
-      checkCancelled();
-      Body& body = scene.bodies[i];
-      if (!body.triangles) body.triangles = trianglesOf(description.bodies[i], body, pool);
-    }
+  std::vector<char> wanted(scene.bodies.size(), 0);
+  for (const PlannedPair& pair : scene.pairs)
+    if (possible(pair.body_a) && possible(pair.body_b)) wanted[pair.body_a] = wanted[pair.body_b] = 1;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    checkCancelled();
+    if (wanted[i] != 0) scene.bodies[i].triangles = trianglesOf(description.bodies[i], scene.bodies[i], pool);
   }
 }
 
