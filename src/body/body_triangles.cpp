@@ -48,17 +48,10 @@ class Collector {
 
   void add(const TriangleMesh& mesh, const Isometry3d& X_BG) {
     addTriangles(mesh, X_BG);
-    TriangleSets sets(mesh.triangles.size());
-    std::vector<std::int32_t> first_of_vertex(mesh.vertices.size(), -1);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      for (const int vertex : {mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2]}) {
-        std::int32_t& first = first_of_vertex[vertex];
-        if (first < 0) first = static_cast<std::int32_t>(i);
-        sets.join(first, static_cast<std::int32_t>(i));
-      }
+    const std::vector<std::int32_t> component = componentOfVertices(mesh);
     std::map<std::int32_t, std::vector<Vector3d>> points;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      if (first_of_vertex[v] >= 0) points[sets.find(first_of_vertex[v])].push_back(X_BG * mesh.vertices[v]);
+      if (component[v] >= 0) points[component[v]].push_back(X_BG * mesh.vertices[v]);
     for (const auto& [set, of_set] : points) components.push_back(farthestOut(of_set));
   }
 

@@ -62,4 +62,20 @@ void TriangleSets::join(std::int32_t first, std::int32_t second) {
   parent_[std::max(first, second)] = std::min(first, second);
 }
 
+std::vector<std::int32_t> componentOfVertices(const TriangleMesh& mesh) {
+  TriangleSets sets(mesh.triangles.size());
+  std::vector<std::int32_t> component(mesh.vertices.size(), -1);  // at first some triangle of the vertex
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto triangle = static_cast<std::int32_t>(i);
+    for (int corner = 0; corner < 3; ++corner) {
+      std::int32_t& first = component[mesh.triangles[i][corner]];
+      if (first < 0) first = triangle;
+      sets.join(first, triangle);
+    }
+  }
+  for (std::int32_t& triangle : component)
+    if (triangle >= 0) triangle = sets.find(triangle);
+  return component;
+}
+
 }  // namespace sdf_ccd

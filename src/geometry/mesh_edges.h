@@ -51,4 +51,8 @@ class TriangleSets {
   std::vector<std::int32_t> parent_;
 };
 
+/// Of each vertex the component of the surface, of what is connected over shared vertices: by one of its triangles; -1
+/// for vertices that no triangle has.
+std::vector<std::int32_t> componentOfVertices(const TriangleMesh& mesh);
+
 }  // namespace sdf_ccd

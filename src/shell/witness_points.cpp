@@ -8,21 +8,12 @@ namespace sdf_ccd {
 
 PointShell witnessPoints(const TriangleMesh& mesh) {
   validate(mesh);
-  TriangleSets components(mesh.triangles.size());
-  std::vector<std::int32_t> first_of_vertex(mesh.vertices.size(), -1);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto triangle = static_cast<std::int32_t>(i);
-    for (const int vertex : {mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2]}) {
-      std::int32_t& first = first_of_vertex[vertex];
-      if (first < 0) first = triangle;
-      components.join(first, triangle);
-    }
-  }
+  const std::vector<std::int32_t> component = componentOfVertices(mesh);
   PointShell witnesses;
   witnesses.covering_radius = std::numeric_limits<double>::infinity();
   std::vector<char> seen(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    char& component_seen = seen[components.find(static_cast<std::int32_t>(i))];
+    char& component_seen = seen[component[mesh.triangles[i][0]]];
     if (component_seen != 0) continue;
     component_seen = 1;
     witnesses.points.push_back(mesh.vertices[mesh.triangles[i][0]]);
