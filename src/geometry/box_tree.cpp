@@ -6,14 +6,11 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "binned_split.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
-
-constexpr int kBins = 16;
-/// Deeper than this, ranges are halved whatever it costs.
-constexpr int kHeuristicDepth = 64;
 
 using Axes = std::array<Vector3d, 3>;
 
@@ -51,10 +48,7 @@ struct Extent {
   Vector3d low, high;
 
   Vector3d sizes() const { return high - low; }
-  double halfArea() const {
-    const Vector3d s = sizes();
-    return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
-  }
+  double halfArea() const { return sdf_ccd::halfArea({low, high}); }
 };
 
 }  // namespace
@@ -237,35 +231,14 @@ class BoxTree::Builder {
 
   /// Of the least cost; 0 if there is none.
   int bestBin(const Range& range, const Axes& axes, int axis, double low, double scale) const {
-    std::array<AlignedBox3d, kBins> boxes;
-    std::array<int, kBins> counts{};
+    Bins bins;
     for (int i = range.begin; i < range.end; ++i) {
       const int bin = binOf(axes[axis].dot(centers_[order_[i]]), low, scale);
-      ++counts[bin];
+      ++bins.counts[bin];
       for (const Vector3d& p : at(i).corners)
-        boxes[bin].extend(Vector3d(axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)));
+        bins.boxes[bin].extend(Vector3d(axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)));
     }
-    const auto halfArea = [](const AlignedBox3d& box) { return Extent{box.min(), box.max()}.halfArea(); };
-    std::array<double, kBins> above{};
-    AlignedBox3d box;
-    int count = 0;
-    for (int bin = kBins - 1; bin > 0; --bin) {
-      box.extend(boxes[bin]);
-      count += counts[bin];
-      above[bin] = count > 0 ? count * halfArea(box) : 0.0;
-    }
-    int best = 0;
-    double least = 1e300;
-    box.setEmpty();
-    count = 0;
-    for (int bin = 1; bin < kBins; ++bin) {
-      box.extend(boxes[bin - 1]);
-      count += counts[bin - 1];
-      if (count == 0 || count == range.size()) continue;
-      const double cost = count * halfArea(box) + above[bin];
-      if (cost < least) least = cost, best = bin;
-    }
-    return best;
+    return bins.bestSplit();
   }
 
   void sortTriangles() {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/binned_split.h"
 #include "geometry/triangle_tree.h"
 
 #include <tbb/blocked_range.h>
@@ -13,15 +14,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kBins = 16;
 constexpr int kLeafSize = 4;
-/// Deeper than this, ranges are halved whatever it costs: the depth stays below kHeuristicDepth + 31.
-constexpr int kHeuristicDepth = 64;
-
-double halfArea(const AlignedBox3d& box) {
-  const Vector3d s = box.sizes();
-  return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
-}
 
 }  // namespace
 
@@ -114,35 +107,13 @@ class TriangleTree::Builder {
     const auto binOf = [&](std::int32_t id) {
       return std::min(kBins - 1, static_cast<int>((centers_[id][axis] - low) * scale));
     };
-    std::array<AlignedBox3d, kBins> boxes;
-    std::array<int, kBins> counts{};
+    Bins bins;
     for (const std::int32_t* id = begin; id != end; ++id) {
       const int bin = binOf(*id);
-      boxes[bin].extend(boxes_[*id]);
-      ++counts[bin];
+      bins.boxes[bin].extend(boxes_[*id]);
+      ++bins.counts[bin];
     }
-    std::array<double, kBins> cost_above{};
-    AlignedBox3d box;
-    int count = 0;
-    for (int bin = kBins - 1; bin > 0; --bin) {
-      box.extend(boxes[bin]);
-      count += counts[bin];
-      cost_above[bin] = count > 0 ? count * halfArea(box) : 0;
-    }
-    double best_cost = std::numeric_limits<double>::infinity();
-    int best_bin = 0;
-    box.setEmpty();
-    count = 0;
-    for (int bin = 1; bin < kBins; ++bin) {
-      box.extend(boxes[bin - 1]);
-      count += counts[bin - 1];
-      if (count == 0 || count == end - begin) continue;
-      const double cost = count * halfArea(box) + cost_above[bin];
-      if (cost < best_cost) {
-        best_cost = cost;
-        best_bin = bin;
-      }
-    }
+    const int best_bin = bins.bestSplit();
     if (best_bin > 0) middle = std::partition(begin, end, [&](std::int32_t id) { return binOf(id) < best_bin; });
     return static_cast<std::int32_t>(middle - tree_.ids_.data());
   }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "sdf_ccd/common/eigen_types.h"
+
+namespace sdf_ccd {
+
+constexpr int kBins = 16;
+/// Deeper than this, ranges are halved whatever it costs: the depth stays below kHeuristicDepth + 31.
+constexpr int kHeuristicDepth = 64;
+
+inline double halfArea(const AlignedBox3d& box) {
+  const Vector3d s = box.sizes();
+  return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
+}
+
+/// What of a range falls in each of equal parts of its extent.
+struct Bins {
+  std::array<AlignedBox3d, kBins> boxes;
+  std::array<int, kBins> counts{};
+
+  /// The first bin of the second half where dividing costs least by the surface area heuristic (Wald 2007); 0 if one
+  /// bin holds all.
+  int bestSplit() const {
+    std::array<double, kBins> cost_above{};
+    AlignedBox3d box;
+    int count = 0;
+    for (int bin = kBins - 1; bin > 0; --bin) {
+      box.extend(boxes[bin]);
+      count += counts[bin];
+      cost_above[bin] = count > 0 ? count * halfArea(box) : 0.0;
+    }
+    const int all = count + counts[0];
+    double least = std::numeric_limits<double>::infinity();
+    int best = 0;
+    box.setEmpty();
+    count = 0;
+    for (int bin = 1; bin < kBins; ++bin) {
+      box.extend(boxes[bin - 1]);
+      count += counts[bin - 1];
+      if (count == 0 || count == all) continue;
+      const double cost = count * halfArea(box) + cost_above[bin];
+      if (cost < least) {
+        least = cost;
+        best = bin;
+      }
+    }
+    return best;
+  }
+};
+
+}  // namespace sdf_ccd
