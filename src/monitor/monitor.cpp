@@ -168,7 +168,7 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
   for (std::size_t i = 0; i < checkers.size(); ++i) {
     if (due_in_cycle[i] == cycle) continue;
     result.pairs[i].error = errorOf(static_cast<int>(i));
-    result.pairs[i].clearance = schedule->clearance(static_cast<int>(i));
+    result.pairs[i].clearance = schedule->clearance(static_cast<int>(i)) - schedule->motionError(static_cast<int>(i));
   }
 }
 

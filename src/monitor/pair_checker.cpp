@@ -143,9 +143,8 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   setError(bound(), surfaces_ ? 0.0 : kRootTolerance * travel_, result);
   const double margin = this->margin() + result.error.chord + result.error.root;
   if (clearance_ > margin) {
-    result.verdict = Verdict::kClear;
+    setClear(clearance_, result);
     result.skipped = true;
-    result.clearance = clearance_;
     return;
   }
   std::optional<ContactPoint> crossing;
@@ -167,12 +166,17 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     return;
   }
   outside_ = true;
-  result.verdict = Verdict::kClear;
   // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
-  clearance_ = std::numeric_limits<double>::infinity();
-  for (const PairRole& role : roles_) clearance_ = std::min(clearance_, role.pointClearanceAtEnd(0.5 * near));
-  clearance_ -= bound_.gap;
-  result.clearance = clearance_;
+  double clearance = std::numeric_limits<double>::infinity();
+  for (const PairRole& role : roles_) clearance = std::min(clearance, role.pointClearanceAtEnd(0.5 * near));
+  setClear(clearance - bound_.gap, result);
+}
+
+/// @param clearance  lower bound of the distance at the span's end, of bodies at the given poses [m].
+void PairChecker::setClear(double clearance, PairResult& result) {
+  clearance_ = clearance;
+  result.verdict = Verdict::kClear;
+  result.clearance = clearance - motion_error_;
 }
 
 /// Whether the triangles show that the bodies stay apart. @param crossing  gets where they surely cross, if they do.
@@ -189,9 +193,7 @@ bool PairChecker::clearBySurfaces(std::optional<ContactPoint>& crossing, PairRes
     outside_ = outside_ || surfaces_->isOutside();
     if (!outside_) return false;
   }
-  clearance_ = clearance;
-  result.verdict = Verdict::kClear;
-  result.clearance = clearance;
+  setClear(clearance, result);
   return true;
 }
 
@@ -200,9 +202,7 @@ bool PairChecker::clearFromAfar(double margin, PairResult& result) {
   for (const PairRole& role : roles_) {
     const RelativeMotion& motion = role.motion();
     if (!role.ballHoldsBody() || !(role.ballClearance(motion.start()) - motion.travel() > margin)) continue;
-    clearance_ = role.ballClearance(motion.end());
-    result.verdict = Verdict::kClear;
-    result.clearance = clearance_;
+    setClear(role.ballClearance(motion.end()), result);
     return true;
   }
   return false;

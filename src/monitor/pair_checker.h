@@ -72,6 +72,7 @@ class PairChecker {
   void setRoles(const SweptBodies& bodies, const WaypointSpan& span);
   double givenError(const CycleMotion& motion) const;
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
+  void setClear(double clearance, PairResult& result);
   bool clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result);
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);

@@ -41,8 +41,8 @@ struct PairResult {
   WaypointSpan span;     ///< the part of the motion that this is about; empty if the pair is delayed
   bool skipped = false;  ///< clear by the clearance left from an earlier cycle
   ErrorBound error;
-  double clearance = 0.0;           ///< a lower bound of the distance at the span's end [m]; negative if not known.
-                                    ///< See CycleRequest::skipped_pairs
+  double clearance = 0.0;           ///< a lower bound of the distance at the span's end, whatever the motion is off
+                                    ///< by [m]; negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
   ContactPoint deepest;             ///< valid if intervals is not empty
   Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
