@@ -3,7 +3,7 @@
 #include <memory>
 
 #include <sdf_ccd/body/body_options.h>
-#include <sdf_ccd/monitor/check_motion.h>
+#include <sdf_ccd/robot_monitor/check_motion.h>
 #include <sdf_ccd/robot/robot_scene.h>
 
 namespace {

@@ -11,7 +11,7 @@
 #include "ros/conversions.h"
 #include "ros/planned_markers.h"
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/monitor/check_motion.h"
+#include "sdf_ccd/robot_monitor/check_motion.h"
 
 namespace sdf_ccd {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
-#include "monitor/learn_pairs.h"
+#include "robot_monitor/learn_pairs.h"
 #include "output_file.h"
 #include "print.h"
 #include "progress_bar.h"

@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/check_motion.h"
+#include "sdf_ccd/robot_monitor/check_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "sdf_ccd/monitor/check_motion.h"
+#include "sdf_ccd/robot_monitor/check_motion.h"
 
 #include <algorithm>
 
-#include "join_results.h"
-#include "summarise.h"
+#include "monitor/join_results.h"
+#include "monitor/summarise.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,7 +4,7 @@
 #include <tinyxml2.h>
 
 #include "common/number_text.h"
-#include "monitor/learn_pairs.h"
+#include "robot_monitor/learn_pairs.h"
 
 namespace sdf_ccd {
 namespace {

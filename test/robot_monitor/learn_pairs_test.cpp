@@ -1,4 +1,4 @@
-#include "monitor/learn_pairs.h"
+#include "robot_monitor/learn_pairs.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
