@@ -47,6 +47,7 @@ bool isLarger(const ErrorBound& a, const ErrorBound& b) {
 }
 
 void countPairs(Scene& scene) {
+  for (BodyReport& report : scene.reports) report.pairs = 0;
   for (const PlannedPair& pair : scene.pairs) {
     ++scene.reports[pair.body_a].pairs;
     ++scene.reports[pair.body_b].pairs;
@@ -54,6 +55,8 @@ void countPairs(Scene& scene) {
 }
 
 void setBounds(double motion_margin, Scene& scene) {
+  scene.bound = {};
+  for (BodyReport& report : scene.reports) report.bound = {};
   for (const PlannedPair& pair : scene.pairs) {
     ErrorBound bound = pairBound(scene, pair);
     if (bound.total() == 0.0) continue;  // of a body that was not built
@@ -152,6 +155,23 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   countPairs(scene);
   setBounds(motion_margin, scene);
   return scene;
+}
+
+void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
+  std::vector<PlannedPair> stay;
+  for (std::size_t p = 0; p < scene.pairs.size(); ++p) {
+    const PlannedPair& pair = scene.pairs[p];
+    if (reasons[p].empty()) {
+      stay.push_back(pair);
+    } else {
+      scene.left_out.push_back(
+          {"pair " + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name, reasons[p]});
+    }
+  }
+  if (stay.size() == scene.pairs.size()) return;
+  scene.pairs = std::move(stay);
+  countPairs(scene);
+  setBounds(scene.bound.chord, scene);
 }
 
 }  // namespace sdf_ccd

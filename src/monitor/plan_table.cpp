@@ -110,6 +110,7 @@ std::string planTable(const Scene& scene) {
     for (const std::string& link : scene.visual_only) text += " " + link;
     text += "\n";
   }
+  for (const std::string& warning : scene.warnings) warnings += "  " + warning + "\n";
   if (!warnings.empty()) text += "to know:\n" + warnings;
   if (!scene.left_out.empty()) text += "left out:\n" + leftOutLines(scene.left_out);
   return text;

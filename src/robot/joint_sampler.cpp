@@ -38,6 +38,16 @@ bool JointSampler::isUnbounded(const RobotModel& robot, const urdf::Joint& joint
          (leader.type == urdf::Joint::PRISMATIC && !hasLimits(leader));
 }
 
+std::string JointSampler::unboundedBetween(const RobotModel& robot, int link_a, int link_b) {
+  while (link_a != link_b) {
+    int& lower = link_a > link_b ? link_a : link_b;  // depth-first order: the greater one is no ancestor of the other
+    const urdf::Joint& joint = robot.jointAbove(lower);
+    if (joint.type != urdf::Joint::FIXED && isUnbounded(robot, joint)) return joint.name;
+    lower = robot.parent(lower);
+  }
+  return "";
+}
+
 JointPositions JointSampler::next() {
   const bool at_limits = ++count_ % kAtLimits == 0;
   JointPositions positions;

@@ -29,6 +29,9 @@ class JointSampler {
   /// Whether the joint, or the one that it mimics, is not drawn although it moves.
   static bool isUnbounded(const RobotModel& robot, const urdf::Joint& joint);
 
+  /// The first of those between two links, given by their indices; empty if there is none.
+  static std::string unboundedBetween(const RobotModel& robot, int link_a, int link_b);
+
  private:
   struct Joint {
     std::string name;

@@ -7,11 +7,18 @@
 #include "geometry_extent.h"
 #include "link_geometry.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
+#include "srdf_pairs.h"
 
 namespace sdf_ccd {
 namespace {
 
 using NamePair = std::pair<std::string, std::string>;
+
+const char* const kRigidlyJoined = "rigidly joined";
+
+bool isProved(const std::string& reason) {
+  return reason == kRigidlyJoined || reason == kOutOfReach;
+}
 
 NamePair sorted(const std::string& a, const std::string& b) {
   return a < b ? NamePair(a, b) : NamePair(b, a);
@@ -21,20 +28,16 @@ NamePair sorted(const std::string& a, const std::string& b) {
 class PairFilter {
  public:
   PairFilter(const RobotModel& robot, const Srdf& srdf, const RobotSceneOptions& options)
-      : robot_(robot), options_(options), mute_(srdf.disabled_by_default.begin(), srdf.disabled_by_default.end()) {
-    for (const DisabledPair& pair : srdf.disabled) disabled_.emplace(sorted(pair.body_a, pair.body_b), pair.reason);
-    for (const NamePair& pair : srdf.enabled) enabled_.insert(sorted(pair.first, pair.second));
-  }
+      : robot_(robot), options_(options), srdf_(srdf) {}
 
   /// @param ball_a  around A's geometry; none if its size is not known.
   std::string reason(const BodyDescription& a, const std::optional<ExtentBall>& ball_a, const BodyDescription& b,
                      const std::optional<ExtentBall>& ball_b) const {
-    if (robot_.rigidlyJoined(a.name, b.name)) return "rigidly joined";
-    const NamePair names = sorted(a.name, b.name);
-    const auto disabled = disabled_.find(names);
-    if (disabled != disabled_.end()) return disabled->second;
-    if (!enabled_.count(names)) {
-      if (mute_.count(a.name) || mute_.count(b.name)) return "SRDF: disabled by default";
+    if (robot_.rigidlyJoined(a.name, b.name)) return kRigidlyJoined;
+    const std::string disabled = srdf_.whyDisabled(a.name, b.name);
+    if (!disabled.empty()) return disabled;
+    if (!srdf_.isEnabled(a.name, b.name)) {
+      if (srdf_.isDisabledByDefault(a.name) || srdf_.isDisabledByDefault(b.name)) return "SRDF: disabled by default";
       if (!options_.check_adjacent && robot_.adjacent(a.name, b.name)) return "adjacent";
     }
     if (ball_a && ball_b) {
@@ -47,18 +50,8 @@ class PairFilter {
  private:
   const RobotModel& robot_;
   const RobotSceneOptions& options_;
-  std::set<std::string> mute_;
-  std::map<NamePair, std::string> disabled_;
-  std::set<NamePair> enabled_;
+  SrdfPairs srdf_;
 };
-
-void warnOfUnknownLinks(const RobotModel& robot, const Srdf& srdf, std::vector<std::string>& warnings) {
-  std::set<std::string> named(srdf.disabled_by_default.begin(), srdf.disabled_by_default.end());
-  for (const DisabledPair& pair : srdf.disabled) named.insert({pair.body_a, pair.body_b});
-  for (const NamePair& pair : srdf.enabled) named.insert({pair.first, pair.second});
-  for (const std::string& link : robot.links()) named.erase(link);
-  for (const std::string& link : named) warnings.push_back("the SRDF names link " + link + ", the URDF has none");
-}
 
 void warnOfVisualOnly(const std::vector<std::string>& links, std::vector<std::string>& warnings) {
   if (links.empty()) return;
@@ -118,7 +111,8 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
     warnings.push_back("robot " + robot.urdf().getName() + " has no link with a collision element");
   }
   warnOfVisualOnly(scene.visual_only, warnings);
-  warnOfUnknownLinks(robot, srdf, warnings);
+  for (const std::string& link : unknownLinks(srdf, robot.links()))
+    warnings.push_back("the SRDF names link " + link + ", the URDF has none");
 
   std::vector<std::optional<ExtentBall>> balls;
   for (const BodyDescription& body : scene.bodies) {
@@ -128,7 +122,8 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
       const std::string reason = filter.reason(scene.bodies[i], balls[i], scene.bodies[j], balls[j]);
-      if (!reason.empty()) scene.disabled.push_back({scene.bodies[i].name, scene.bodies[j].name, reason});
+      if (reason.empty()) continue;
+      scene.disabled.push_back({scene.bodies[i].name, scene.bodies[j].name, reason, isProved(reason)});
     }
   }
   return scene;
@@ -148,11 +143,11 @@ void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
       if (disabled.count(sorted(object.name, body.name))) continue;
       std::string reason;
       if (robot.rigidlyJoined(robot.root(), body.name)) {
-        reason = "rigidly joined";
+        reason = kRigidlyJoined;
       } else if (outOfReach(robot, object, *X_RB, body.name, extentBall(body.geometry))) {
         reason = kOutOfReach;
       }
-      if (!reason.empty()) scene.disabled.push_back({body.name, object.name, reason});
+      if (!reason.empty()) scene.disabled.push_back({body.name, object.name, reason, isProved(reason)});
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include "model/error_budget.h"
 #include "robot/joint_sampler.h"
+#include "robot/srdf_pairs.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
 #include "state_verdicts.h"
 
@@ -27,10 +28,7 @@ NamePair sorted(const std::string& a, const std::string& b) {
 /// Sorts the pairs of a described robot's bodies into those that have to be tested and those that need not.
 class PairSorter {
  public:
-  PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene) : robot_(robot) {
-    for (const DisabledPair& pair : srdf.disabled) known_.insert(sorted(pair.body_a, pair.body_b));
-    for (const NamePair& pair : srdf.enabled) known_.insert(sorted(pair.first, pair.second));
-    for (const std::string& link : srdf.disabled_by_default) mute_.insert(link);
+  PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene) : robot_(robot), srdf_(srdf) {
     for (const DisabledPair& pair : scene.disabled) {
       if (pair.reason == kOutOfReach) out_of_reach_.insert(sorted(pair.body_a, pair.body_b));
     }
@@ -44,13 +42,13 @@ class PairSorter {
   /// False if the pair need not be tested; then it is told in `pairs`.
   bool mustBeTested(const BodyDescription& a, const BodyDescription& b, LearnedPairs& pairs) const {
     const NamePair names = sorted(a.name, b.name);
-    if (known_.count(names) > 0 || mute_.count(a.name) > 0 || mute_.count(b.name) > 0) {
+    if (isKnown(a.name, b.name)) {
       ++pairs.known;
     } else if (neighbours_.count(names) > 0) {
       pairs.disabled.push_back({a.name, b.name, "Adjacent"});
     } else if (!a.failure.empty() || !b.failure.empty()) {
       pairs.unknown.push_back({a.name, b.name, !a.failure.empty() ? a.failure : b.failure});
-    } else if (const std::string joint = unboundedBetween(a.name, b.name); !joint.empty()) {
+    } else if (const std::string joint = JointSampler::unboundedBetween(robot_, index_.at(a.name), index_.at(b.name)); !joint.empty()) {
       pairs.unknown.push_back({a.name, b.name, "nothing bounds joint " + joint});
     } else if (out_of_reach_.count(names) > 0) {
       pairs.disabled.push_back({a.name, b.name, "Never"});
@@ -62,6 +60,12 @@ class PairSorter {
   }
 
  private:
+  /// Whether the SRDF says what becomes of the pair.
+  bool isKnown(const std::string& a, const std::string& b) const {
+    return !srdf_.whyDisabled(a, b).empty() || srdf_.isEnabled(a, b) || srdf_.isDisabledByDefault(a) ||
+           srdf_.isDisabledByDefault(b);
+  }
+
   /// The links with shapes that are next to this one, across links without.
   void findNeighbours(int body) {
     std::vector<int> open = {body};
@@ -83,22 +87,11 @@ class PairSorter {
     }
   }
 
-  /// The first joint between the links that JointSampler does not draw; empty if there is none.
-  std::string unboundedBetween(const std::string& link_a, const std::string& link_b) const {
-    int a = index_.at(link_a), b = index_.at(link_b);
-    while (a != b) {
-      int& lower = a > b ? a : b;  // depth-first order: the greater one is no ancestor of the other
-      const urdf::Joint& joint = robot_.jointAbove(lower);
-      if (joint.type != urdf::Joint::FIXED && JointSampler::isUnbounded(robot_, joint)) return joint.name;
-      lower = robot_.parent(lower);
-    }
-    return "";
-  }
-
   const RobotModel& robot_;
   std::map<std::string, int> index_;
-  std::set<std::string> bodies_, mute_;
-  std::set<NamePair> known_, out_of_reach_, neighbours_;
+  SrdfPairs srdf_;
+  std::set<std::string> bodies_;
+  std::set<NamePair> out_of_reach_, neighbours_;
 };
 
 BodyOptions sceneOptions(double max_error) {

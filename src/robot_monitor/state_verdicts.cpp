@@ -17,26 +17,31 @@ constexpr double kAnyTime = 1.0;  // nothing moves meanwhile [s]
 /// Tests states, one at a time.
 class StateTester {
  public:
+  /// @param scene  in which all pairs are of links.
   StateTester(const RobotModel& robot, std::shared_ptr<const Scene> scene)
       : robot_(robot), monitor_(scene, {}), bound_(scene->bound.total()) {
     for (const Body& body : scene->bodies) {
       const auto& links = robot.links();
-      links_.push_back(static_cast<std::size_t>(std::find(links.begin(), links.end(), body.frame) - links.begin()));
+      links_.push_back(static_cast<std::size_t>(std::find(links.begin(), links.end(), body.name) - links.begin()));
     }
     motion_.times = {0.0, kAnyTime};
-    motion_.X_WB.resize(links_.size());
+    motion_.X_WB.assign(links_.size(), {Isometry3d::Identity(), Isometry3d::Identity()});
   }
 
-  void test(const JointPositions& positions, Verdict* verdicts) {
+  const std::vector<PairResult>& test(const JointPositions& positions) {
     const std::vector<Isometry3d> X_RL = robot_.forwardKinematics(positions);
-    for (std::size_t body = 0; body < links_.size(); ++body) motion_.X_WB[body].assign(2, X_RL[links_[body]]);
+    for (std::size_t body = 0; body < links_.size(); ++body)
+      if (links_[body] < X_RL.size()) motion_.X_WB[body].assign(2, X_RL[links_[body]]);
     monitor_.reset();  // so that what it says of a state does not depend on the one before
     CycleRequest request;
     request.wrenches = false;
-    for (const PairResult& pair : monitor_.run(motion_, request).pairs) {
-      const bool near = pair.verdict == Verdict::kClear && pair.clearance <= bound_;
-      *verdicts++ = near ? Verdict::kUncertain : pair.verdict;
-    }
+    return monitor_.run(motion_, request).pairs;
+  }
+
+  /// UNCERTAIN also where they are CLEAR, but near.
+  Verdict verdict(const PairResult& pair) const {
+    const bool near = pair.verdict == Verdict::kClear && pair.clearance <= bound_;
+    return near ? Verdict::kUncertain : pair.verdict;
   }
 
  private:
@@ -47,13 +52,27 @@ class StateTester {
   CycleMotion motion_;
 };
 
-}  // namespace
-
-std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
-                                const std::vector<JointPositions>& states) {
+std::shared_ptr<const Scene> sceneOf(const Scene& scene, const std::vector<std::size_t>& pairs) {
   const auto reduced = std::make_shared<Scene>(scene);
   reduced->pairs.clear();
   for (const std::size_t pair : pairs) reduced->pairs.push_back(scene.pairs[pair]);
+  return reduced;
+}
+
+}  // namespace
+
+std::vector<PairState> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
+                               const JointPositions& state) {
+  StateTester tester(robot, sceneOf(scene, pairs));
+  std::vector<PairState> states;
+  for (const PairResult& pair : tester.test(state))
+    states.push_back({tester.verdict(pair), pair.intervals.empty() ? 0.0 : std::max(0.0, pair.deepest.depth)});
+  return states;
+}
+
+std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
+                                const std::vector<JointPositions>& states) {
+  const std::shared_ptr<const Scene> reduced = sceneOf(scene, pairs);
   std::vector<Verdict> verdicts(pairs.size() * states.size());
   tbb::enumerable_thread_specific<std::unique_ptr<StateTester>> testers;
   tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t state) {
@@ -61,7 +80,8 @@ std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, con
     tbb::this_task_arena::isolate([&] {
       std::unique_ptr<StateTester>& tester = testers.local();
       if (!tester) tester = std::make_unique<StateTester>(robot, reduced);
-      tester->test(states[state], &verdicts[state * pairs.size()]);
+      Verdict* verdict = &verdicts[state * pairs.size()];
+      for (const PairResult& pair : tester->test(states[state])) *verdict++ = tester->verdict(pair);
     });
   });
   return verdicts;

@@ -7,10 +7,19 @@
 
 namespace sdf_ccd {
 
+/// A pair in one state.
+struct PairState {
+  Verdict verdict = Verdict::kNotChecked;
+  double depth = 0.0;  ///< of the deepest point found, if they are in contact [m]
+};
+
+/// Of pairs of the scene, by index, in their order; all else as for verdictsOf().
+std::vector<PairState> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
+                               const JointPositions& state);
+
 /// Whether pairs touch in states at rest, in parallel over the states; UNCERTAIN also where they are CLEAR, but nearer
 /// than the scene's bound, as states between these may be.
-/// @param scene   of the robot's links alone, each in its link's frame.
-/// @param pairs   of the scene, by index.
+/// @param pairs   of the scene's links, by index; a link's body has its name, and its frame.
 /// @return one after the other per state, in the pairs' order.
 std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
                                 const std::vector<JointPositions>& states);

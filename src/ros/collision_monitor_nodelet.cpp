@@ -166,6 +166,10 @@ void CollisionMonitor::buildFields() {
       health_.warnings.push_back(report.name + ": " + warning);
     }
   }
+  for (const std::string& warning : scene_->warnings) {
+    NODELET_WARN("%s", warning.c_str());
+    health_.warnings.push_back(warning);
+  }
   const std::string over = overBudget(*scene_, parameters_.scene);
   if (!over.empty()) {
     NODELET_WARN("%s", over.c_str());
@@ -174,7 +178,9 @@ void CollisionMonitor::buildFields() {
   health_.wanted_rate = parameters_.rate;
   health_.max_error = parameters_.scene.max_error.value_or(0.0);
   health_.pairs = static_cast<int>(scene_->pairs.size());
-  health_.pairs_left_out = static_cast<int>(described_.scene.disabled.size());
+  health_.pairs_left_out = static_cast<int>(
+      std::count_if(scene_->left_out.begin(), scene_->left_out.end(),
+                    [](const LeftOut& left_out) { return left_out.what.rfind("pair ", 0) == 0; }));
   std_msgs::String table;
   table.data = planTable(*scene_);
   plan_publisher_.publish(table);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "common/shown_text.h"
+#include "robot_monitor/overlapping_pairs.h"
 #include "ros/fetch_http.h"
 #include "sdf_ccd/import/mesh_file.h"
 
@@ -111,6 +112,10 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     described.scene.bodies.push_back(toBody(parameters.octomap, frameOf(parameters.octomap.frame)));
   }
   disableUnreachable(*robot, described.scene);
+  applyRules(parameters.pairs, described.scene, described.warnings);
+  described.kept = parameters.pairs.checked;
+  for (const auto& [a, b] : srdf.enabled) described.kept.push_back({a, b});
+  described.leave_out_overlapping = parameters.leave_out_overlapping;
   described.unreachable = unreachablePairs(*robot, described.scene);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
@@ -127,7 +132,9 @@ ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& opt
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
                                             const BodyOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {
-  return std::make_shared<const Scene>(buildScene(described.scene, plan, options, progress));
+  Scene scene = buildScene(described.scene, plan, options, progress);
+  if (described.leave_out_overlapping) leaveOutOverlapping(*described.robot, described.kept, scene);
+  return std::make_shared<const Scene>(std::move(scene));
 }
 
 }  // namespace sdf_ccd

@@ -19,6 +19,8 @@ struct DescribedScene {
   std::string tf_prefix;                     ///< of all links' frames: empty, or ending in a slash
   std::string base_joint;                    ///< the SRDF's virtual joint of the root link; empty if there is none
   std::string fixed_frame;                   ///< without leading slash
+  std::vector<PairRule> kept;                ///< pairs that are to be checked whatever they do
+  bool leave_out_overlapping = true;         ///< as MonitorParameters
   std::vector<UnreachablePair> unreachable;  ///< left out, as long as joints keep to their limits
   std::vector<std::string> warnings;
 };
@@ -36,7 +38,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
 /// What the scene needs, and what building that is expected to cost. @throws as affordableCost() of the core.
 ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options);
 
-/// Builds what is planned with the same options.
+/// Builds what is planned with the same options; then pairs that overlap always are left out, if they are to be.
 /// @param progress  called with the body's name and the share of all bodies done.
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
                                             const BodyOptions& options,

@@ -138,6 +138,24 @@ Vector3d ParameterReader::vector(const std::string& key, const Vector3d& fallbac
   return result;
 }
 
+std::vector<std::pair<std::string, std::string>> ParameterReader::textPairs(const std::string& key) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  XmlRpcValue* value = find(key);
+  if (!value) return pairs;
+  const char* const expected = "a list of pairs of texts, as [[hand, table], [\"finger_*\", \"finger_*\"]]";
+  const auto isText = [](XmlRpcValue& text) {
+    return text.getType() == XmlRpcValue::TypeString && !static_cast<std::string>(text).empty();
+  };
+  if (value->getType() != XmlRpcValue::TypeArray) fail(key, expected);
+  for (int i = 0; i < value->size(); ++i) {
+    XmlRpcValue& pair = (*value)[i];
+    if (pair.getType() != XmlRpcValue::TypeArray || pair.size() != 2 || !isText(pair[0]) || !isText(pair[1]))
+      fail(key, expected);
+    pairs.emplace_back(static_cast<std::string>(pair[0]), static_cast<std::string>(pair[1]));
+  }
+  return pairs;
+}
+
 ParameterReader ParameterReader::group(const std::string& key) {
   XmlRpcValue* value = find(key);
   if (value && value->getType() != XmlRpcValue::TypeStruct) fail(key, "a group of parameters");

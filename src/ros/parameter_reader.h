@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <XmlRpcValue.h>
@@ -43,6 +44,9 @@ class ParameterReader {
   int choice(const std::string& key, std::initializer_list<const char*> choices, int fallback);
 
   Vector3d vector(const std::string& key, const Vector3d& fallback);
+
+  /// Of lists of two texts each; none if it is not set.
+  std::vector<std::pair<std::string, std::string>> textPairs(const std::string& key);
 
   ParameterReader group(const std::string& key);
   std::vector<ParameterReader> list(const std::string& key);

@@ -60,6 +60,14 @@ WorldObject readWorldObject(ParameterReader& reader) {
   return object;
 }
 
+std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
+  constexpr std::size_t kMost = 1000;  // each is held against each pair
+  std::vector<PairRule> rules;
+  for (const auto& [a, b] : reader.textPairs(key)) rules.push_back({a, b});
+  if (rules.size() > kMost) reader.fail(key, "at most " + std::to_string(kMost) + " pairs");
+  return rules;
+}
+
 double fieldError(const FieldOptions& field) {
   return field.cell_size ? kHalfSqrt3 * *field.cell_size : *field.max_error;
 }
@@ -165,6 +173,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.tf_prefix = withoutLeadingSlash(reader.name("tf_prefix", ""));
   parameters.allow_http = reader.flag("allow_http", false);
   parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
+
+  parameters.pairs = {readRules(reader, "allowed_pairs"), readRules(reader, "checked_pairs")};
+  parameters.leave_out_overlapping = reader.choice("overlapping_pairs", {"check", "leave_out"}, 1) == 1;
 
   for (ParameterReader& object : reader.list("world")) {
     parameters.world.push_back(readWorldObject(object));

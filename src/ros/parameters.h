@@ -6,6 +6,7 @@
 
 #include <ros/node_handle.h>
 
+#include "model/pair_rules.h"
 #include "ros/markers.h"
 #include "ros/parameter_reader.h"
 #include "ros/tf_tracker.h"
@@ -47,6 +48,8 @@ struct MonitorParameters {
   std::string tf_prefix;
   bool allow_http = false;  ///< meshes may come over the network
   RobotSceneOptions robot;
+  PairRules pairs;
+  bool leave_out_overlapping = true;  ///< see leaveOutOverlapping()
   std::vector<WorldObject> world;
   OctomapObject octomap;
   BodyOptions scene;

@@ -204,6 +204,23 @@ TEST(RobotScene, SrdfDisablesAndEnables) {
   EXPECT_EQ(reasonFor(enabled, "c", "d"), "rigidly joined");
 }
 
+TEST(RobotScene, SrdfMayNamePatterns) {
+  Srdf srdf;
+  srdf.disabled = {{"a", "?", "SRDF: Never"}, {"x*", "a", "SRDF: Never"}};
+  const Described disabled = describe(chain(), srdf);
+  EXPECT_EQ(reasonFor(disabled.scene, "a", "c"), "SRDF: Never");
+  EXPECT_EQ(reasonFor(disabled.scene, "a", "d"), "SRDF: Never");
+  ASSERT_EQ(disabled.warnings.size(), 1u);
+  EXPECT_NE(disabled.warnings[0].find("link x*"), std::string::npos);
+
+  srdf.disabled.clear();
+  srdf.disabled_by_default = {"[c-d]", "c*"};
+  EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "c"), "SRDF: disabled by default");
+  EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "d"), "checked") << "there are no sets of characters";
+  srdf.enabled = {{"?", "c"}};
+  EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "c"), "checked");
+}
+
 TEST(RobotScene, LinksOutOfReachAreNoPair) {
   // b turns 1 m from a, c at 0.2 m from b: between 0.8 and 1.2 m from a.
   const std::string cube = box("0.1 0.1 0.1");

@@ -41,7 +41,8 @@ struct BodyDescription {
 struct DisabledPair {
   std::string body_a;
   std::string body_b;
-  std::string reason;  ///< "SRDF: Adjacent", "rigidly joined", …
+  std::string reason;   ///< "SRDF: Adjacent", "rigidly joined", …
+  bool proved = false;  ///< nothing can bring them nearer to each other: rigidly joined, or out of reach
 };
 
 /// A pair that a scene leaves out, though it would have to be checked.

@@ -19,6 +19,7 @@ struct Scene {
   std::vector<LeftOut> left_out;
   std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid
   std::vector<BodyReport> reports;
+  std::vector<std::string> warnings;  ///< what to know of its pairs
   ErrorBound bound;                 ///< the largest of all pairs; chord: what the options allow for
   std::optional<double> max_error;  ///< that was wanted [m]
   double build_seconds = 0.0;
@@ -37,6 +38,10 @@ inline PlanOptions planOptions(const BodyOptions& options) {
 /// @param progress  called with the body's name and the share of all bodies done.
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
                  const std::function<void(const std::string&, double)>& progress = {});
+
+/// Takes pairs out of a scene that is built; bodies stay as they are.
+/// @param reasons  per pair; of those that stay empty.
+void leaveOut(const std::vector<std::string>& reasons, Scene& scene);
 
 /// A scene of bodies that are prepared already: all of its pairs, but those of two bodies of the world.
 /// @param motion_margin  as in BodyOptions [m].

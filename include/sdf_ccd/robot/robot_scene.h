@@ -45,9 +45,9 @@ struct Srdf {
 };
 
 /// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions`, `group_state` and
-/// `virtual_joint`. As in MoveIt, a
-/// pair that is both disabled and enabled is disabled. Joints with several values in a state (planar, floating) are
-/// left out of it.
+/// `virtual_joint`. As in MoveIt, a pair that is both disabled and enabled is disabled. Beyond MoveIt, links of the
+/// first three may be named by patterns: * for any text, ? for any character. Joints with several values in a state
+/// (planar, floating) are left out of it.
 /// @param source  where the text is from, for errors; may be empty.
 /// @throws std::runtime_error, with source, line and reason, if the text is no SRDF.
 Srdf parseSrdf(const std::string& xml, const std::string& source = {});

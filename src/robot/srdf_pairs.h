@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/pair_rules.h"
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd {
+
+/// What an SRDF says of pairs of links, names and patterns alike.
+class SrdfPairs {
+ public:
+  explicit SrdfPairs(const Srdf& srdf);
+
+  /// Why the pair is disabled by name; empty if it is not.
+  std::string whyDisabled(const std::string& link_a, const std::string& link_b) const;
+  bool isEnabled(const std::string& link_a, const std::string& link_b) const;
+  bool isDisabledByDefault(const std::string& link) const;
+
+ private:
+  using Names = std::pair<std::string, std::string>;  // in ascending order
+
+  std::map<Names, std::string> disabled_;
+  std::set<Names> enabled_;
+  std::set<std::string> by_default_;
+  std::vector<std::pair<PairRule, std::string>> disabled_patterns_;
+  std::vector<PairRule> enabled_patterns_;
+  std::vector<std::string> default_patterns_;
+};
+
+/// Names and patterns of an SRDF that no link has, in ascending order.
+std::vector<std::string> unknownLinks(const Srdf& srdf, const std::vector<std::string>& links);
+
+}  // namespace sdf_ccd

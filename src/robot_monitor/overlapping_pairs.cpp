@@ -1,0 +1,103 @@
+#include "overlapping_pairs.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "robot/joint_sampler.h"
+#include "sdf_ccd/common/cancel.h"
+#include "state_verdicts.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kNamed = 6;  // pairs named in a warning
+
+/// "l_wheel - base (46.3 mm), r_wheel - base (46.3 mm) and 4 more".
+std::string listOf(const std::vector<OverlappingPair>& pairs, const Scene& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i) {
+    const PlannedPair& pair = scene.pairs[static_cast<std::size_t>(pairs[i].pair)];
+    text += (i == 0 ? "" : ", ") + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
+    if (pairs[i].depth > 0.0) text += fmt::format(" ({:.1f} mm)", 1e3 * pairs[i].depth);
+  }
+  if (pairs.size() > kNamed) text += " and " + std::to_string(pairs.size() - kNamed) + " more";
+  return text;
+}
+
+}  // namespace
+
+std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Scene& scene, std::size_t states) {
+  std::map<std::string, int> links;
+  for (std::size_t i = 0; i < robot.links().size(); ++i) links[robot.links()[i]] = static_cast<int>(i);
+  const auto linkOf = [&](int body) {
+    const Body& of = scene.bodies[static_cast<std::size_t>(body)];
+    const auto found = links.find(of.name);
+    return of.is_world || !of.failure.empty() || found == links.end() ? -1 : found->second;
+  };
+  std::vector<std::size_t> tested;
+  for (std::size_t p = 0; p < scene.pairs.size(); ++p)
+    if (linkOf(scene.pairs[p].body_a) >= 0 && linkOf(scene.pairs[p].body_b) >= 0) tested.push_back(p);
+  if (tested.empty()) return {};
+
+  std::vector<OverlappingPair> found;
+  const std::vector<PairState> at_rest = pairsIn(robot, scene, tested, JointPositions());
+  std::vector<std::size_t> open;  // of scene.pairs
+  for (std::size_t k = 0; k < tested.size(); ++k) {
+    if (at_rest[k].verdict != Verdict::kContact) continue;
+    const PlannedPair& pair = scene.pairs[tested[k]];
+    const int a = linkOf(pair.body_a), b = linkOf(pair.body_b);
+    found.push_back({static_cast<int>(tested[k]), at_rest[k].depth, false});
+    const bool adjacent = robot.adjacent(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
+    if (!adjacent && JointSampler::unboundedBetween(robot, a, b).empty()) open.push_back(tested[k]);
+  }
+
+  JointSampler sampler(robot, 1);
+  constexpr std::size_t kFirst = 8;  // most pairs that part do so soon
+  for (std::size_t drawn = 0; drawn < states && !open.empty();) {
+    checkCancelled();
+    const std::size_t round = std::min(states - drawn, drawn == 0 ? kFirst : 3 * drawn);
+    std::vector<JointPositions> positions;
+    for (std::size_t i = 0; i < round; ++i) positions.push_back(sampler.next());
+    drawn += round;
+    const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, positions);
+    std::vector<std::size_t> still_open;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      bool touches = true;
+      for (std::size_t i = 0; i < round; ++i) touches = touches && verdicts[i * open.size() + k] == Verdict::kContact;
+      if (touches) still_open.push_back(open[k]);
+    }
+    open = std::move(still_open);
+  }
+  for (OverlappingPair& pair : found)
+    pair.always = std::find(open.begin(), open.end(), static_cast<std::size_t>(pair.pair)) != open.end();
+  return found;
+}
+
+void leaveOutOverlapping(const RobotModel& robot, const std::vector<PairRule>& kept, Scene& scene) {
+  std::vector<OverlappingPair> always, at_rest;
+  std::vector<std::string> reasons(scene.pairs.size());
+  for (const OverlappingPair& pair : overlappingPairs(robot, scene)) {
+    const PlannedPair& planned = scene.pairs[static_cast<std::size_t>(pair.pair)];
+    const bool stays = matchesAny(kept, scene.bodies[planned.body_a].name, scene.bodies[planned.body_b].name);
+    if (stays) continue;
+    (pair.always ? always : at_rest).push_back(pair);
+    if (!pair.always) continue;
+    std::string& reason = reasons[static_cast<std::size_t>(pair.pair)];
+    reason = "overlaps in every state of the joints";
+  }
+  const auto count = [](const std::vector<OverlappingPair>& pairs) {
+    return std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair of links" : " pairs of links");
+  };
+  if (!always.empty())
+    scene.warnings.push_back("left out, as they overlap in every state of the joints (depth at rest): " +
+                             count(always) + ", " + listOf(always, scene) + "; checked_pairs keeps them");
+  if (!at_rest.empty())
+    scene.warnings.push_back("overlap where all joints are at rest, and are checked: " + count(at_rest) + ", " +
+                             listOf(at_rest, scene) + "; allowed_pairs leaves them out");
+  leaveOut(reasons, scene);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,121 @@
+#include "robot_monitor/overlapping_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd {
+namespace {
+
+Resource noResource(const std::string& uri) {
+  throw std::runtime_error("no " + uri);
+}
+
+std::string box(const std::string& link, const std::string& size, const std::string& xyz = "0 0 0") {
+  return "<link name='" + link + "'><collision><origin xyz='" + xyz + "'/><geometry><box size='" + size +
+         "'/></geometry></collision></link>";
+}
+
+std::string joint(const std::string& parent, const std::string& child, const std::string& type, const std::string& xyz,
+                  const std::string& axis = "0 1 0") {
+  return "<joint name='to_" + child + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child +
+         "'/><origin xyz='" + xyz + "'/><axis xyz='" + axis +
+         "'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
+}
+
+/// A base 0.2 m high on a caster, with a wheel that reaches 3 cm into the base however both turn; an arm that is in the
+/// base as long as it hangs down; and one that floats in it.
+std::string cart() {
+  return "<robot name='cart'>" + box("base", "1 1 0.2") +                                                      //
+         box("caster", "0.02 0.02 0.02") + joint("base", "caster", "continuous", "0 0 -0.15", "0 0 1") +       //
+         "<link name='wheel'><collision><geometry><sphere radius='0.08'/></geometry></collision></link>" +     //
+         joint("caster", "wheel", "continuous", "0 0 0") +                                                     //
+         box("mast", "0.02 0.02 0.02", "0 0 0.5") + joint("base", "mast", "continuous", "0 0 0", "0 0 1") +    //
+         box("arm", "0.05 0.05 0.45", "0 0 -0.225") + joint("mast", "arm", "continuous", "0 0 0.5") +          //
+         box("ghost", "0.1 0.1 0.1") + joint("caster", "ghost", "floating", "0 0 0.15") + "</robot>";
+}
+
+BodyOptions coarse() {
+  BodyOptions options;
+  options.field.cells = 32;
+  options.shell.spacing = 0.01;
+  return options;
+}
+
+struct Cart {
+  RobotModel robot{cart()};
+  Scene scene;
+
+  explicit Cart(bool check_adjacent = false) {
+    RobotSceneOptions options;
+    options.check_adjacent = check_adjacent;
+    std::vector<std::string> warnings;
+    const SceneDescription description = describeRobot(robot, {}, noResource, options, warnings);
+    scene = buildScene(description, planScene(description), coarse());
+  }
+
+  std::string nameOf(int pair) const {
+    const PlannedPair& planned = scene.pairs[static_cast<std::size_t>(pair)];
+    return scene.bodies[planned.body_a].name + " " + scene.bodies[planned.body_b].name;
+  }
+  bool has(const std::string& name) const {
+    for (std::size_t p = 0; p < scene.pairs.size(); ++p)
+      if (nameOf(static_cast<int>(p)) == name) return true;
+    return false;
+  }
+};
+
+TEST(OverlappingPairs, ThoseAtRestAndWhetherAlways) {
+  const Cart cart;
+  std::map<std::string, OverlappingPair> found;
+  for (const OverlappingPair& pair : overlappingPairs(cart.robot, cart.scene)) found[cart.nameOf(pair.pair)] = pair;
+  ASSERT_EQ(found.count("base wheel"), 1u);
+  EXPECT_TRUE(found["base wheel"].always);
+  EXPECT_NEAR(found["base wheel"].depth, 0.03, 0.002);
+  ASSERT_EQ(found.count("base arm"), 1u);
+  EXPECT_FALSE(found["base arm"].always) << "it hangs in the base, and swings out of it";
+  EXPECT_NEAR(found["base arm"].depth, 0.05, 0.01);
+  ASSERT_EQ(found.count("base ghost"), 1u);
+  EXPECT_FALSE(found["base ghost"].always) << "nobody knows where it goes";
+}
+
+TEST(OverlappingPairs, AreLeftOutAndTold) {
+  Cart cart;
+  const std::size_t before = cart.scene.pairs.size();
+  const std::size_t left_out = cart.scene.left_out.size();
+  leaveOutOverlapping(cart.robot, {}, cart.scene);
+  EXPECT_EQ(cart.scene.pairs.size(), before - 1);
+  EXPECT_FALSE(cart.has("base wheel"));
+  EXPECT_TRUE(cart.has("base arm"));
+  ASSERT_EQ(cart.scene.left_out.size(), left_out + 1);
+  EXPECT_EQ(cart.scene.left_out.back().what, "pair base - wheel");
+  EXPECT_EQ(cart.scene.left_out.back().reason, "overlaps in every state of the joints");
+  ASSERT_EQ(cart.scene.warnings.size(), 2u);
+  EXPECT_NE(cart.scene.warnings[0].find("base - wheel (30.0 mm)"), std::string::npos) << cart.scene.warnings[0];
+  EXPECT_NE(cart.scene.warnings[1].find("base - arm"), std::string::npos) << cart.scene.warnings[1];
+  EXPECT_NE(planTable(cart.scene).find(cart.scene.warnings[0]), std::string::npos);
+  std::size_t counted = 0;
+  for (const BodyReport& report : cart.scene.reports) counted += report.pairs;
+  EXPECT_EQ(counted, 2 * cart.scene.pairs.size());
+  EXPECT_GT(cart.scene.bound.total(), 0.0);
+}
+
+TEST(OverlappingPairs, StayIfThatIsWanted) {
+  Cart cart;
+  const std::size_t before = cart.scene.pairs.size();
+  leaveOutOverlapping(cart.robot, {{"wh*", "base"}}, cart.scene);
+  EXPECT_EQ(cart.scene.pairs.size(), before);
+  EXPECT_TRUE(cart.has("base wheel"));
+}
+
+TEST(OverlappingPairs, AdjacentOnesThatAreCheckedStay) {
+  Cart cart(true);
+  leaveOutOverlapping(cart.robot, {}, cart.scene);
+  EXPECT_TRUE(cart.has("caster wheel")) << "they overlap always, but are checked by request";
+  EXPECT_FALSE(cart.has("base wheel"));
+}
+
+}  // namespace
+}  // namespace sdf_ccd
