@@ -13,6 +13,7 @@ import sys
 import dynamics_tables
 import meshes_tables
 import monitor_tables
+import planning_tables
 import precision_tables
 import robots_tables
 from results import Results, number
@@ -174,7 +175,8 @@ TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
           'segments': segments, 'build': build, 'shells': shells, 'drops': drops, 'scaling': scaling,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
-              **meshes_tables.TABLES, **monitor_tables.TABLES}.items()}}
+              **meshes_tables.TABLES, **monitor_tables.TABLES,
+              **planning_tables.TABLES}.items()}}
 
 
 def main():

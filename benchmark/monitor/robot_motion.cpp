@@ -36,8 +36,13 @@ std::vector<Isometry3d> RobotMotion::posesAt(double time, const std::vector<Body
   for (const Wave& wave : waves_) {
     positions[wave.joint] = wave.middle + wave.amplitude * std::sin(wave.rate * time + wave.phase);
   }
-  const std::vector<Isometry3d> X_RL = model_->forwardKinematics(positions);
-  const std::vector<std::string>& links = model_->links();
+  return benchmark::posesAt(*model_, positions, bodies);
+}
+
+std::vector<Isometry3d> posesAt(const RobotModel& model, const JointPositions& positions,
+                                const std::vector<BodyDescription>& bodies) {
+  const std::vector<Isometry3d> X_RL = model.forwardKinematics(positions);
+  const std::vector<std::string>& links = model.links();
   std::vector<Isometry3d> X_RB;
   for (const BodyDescription& body : bodies) {
     const std::size_t link = std::find(links.begin(), links.end(), body.frame) - links.begin();

@@ -26,4 +26,8 @@ class RobotMotion {
   std::vector<Wave> waves_;
 };
 
+/// Poses of bodies in the root's frame, in the order of their description.
+std::vector<Isometry3d> posesAt(const RobotModel& model, const JointPositions& positions,
+                                const std::vector<BodyDescription>& bodies);
+
 }  // namespace sdf_ccd::benchmark

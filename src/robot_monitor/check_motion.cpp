@@ -1,7 +1,14 @@
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_arena.h>
+
+#include "common/number_text.h"
+#include "common/parallel_for.h"
 #include "monitor/join_results.h"
 #include "monitor/summarise.h"
 
@@ -59,6 +66,85 @@ CycleResult checkMotion(std::shared_ptr<const Scene> scene, const MonitorOptions
   MotionCheck check(std::move(scene), options, motion, request);
   while (!check.isDone()) check.next();
   return check.result();
+}
+
+namespace {
+
+/// Looks at pieces of motions, with what checks need used again from one to the next.
+class MotionLooker {
+ public:
+  MotionLooker(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const MotionsRequest& wanted)
+      : monitor_(std::move(scene), options), wanted_(wanted) {
+    request_.wrenches = false;
+    request_.max_points = 0;
+    request_.skipped_pairs = false;
+  }
+
+  MotionVerdict look(const PlannedMotion& motion) {
+    monitor_.reset();  // so that what it says does not depend on the motion before
+    MotionVerdict found;
+    found.verdict = monitor_.scene().pairs.empty() ? Verdict::kNotChecked : Verdict::kClear;
+    if (!motion.unchecked.empty()) found = {Verdict::kNotChecked, 0.0, -1, motion.waypoints.front()};
+    const std::size_t end = motion.waypoints.size() - 1;
+    for (std::size_t done = 0; done < end;) {
+      const std::size_t last = std::min(done + kWaypointsPerPiece, end);
+      lookAt(motion, done, last, found);
+      if (wanted_.first_only && found.verdict != Verdict::kClear) break;
+      done = last;
+    }
+    return found;
+  }
+
+ private:
+  void lookAt(const PlannedMotion& motion, std::size_t first, std::size_t last, MotionVerdict& found) {
+    motion.piece(first, last, piece_);
+    if (wanted_.margin > 0.0) {
+      piece_.motion_error.resize(monitor_.scene().bodies.size(), 0.0);
+      for (double& error : piece_.motion_error) error += 0.5 * wanted_.margin;
+    }
+    const CycleResult& result = monitor_.run(piece_, request_);
+    found.error_bound = std::max(found.error_bound, result.error_bound - wanted_.margin);
+    if (result.verdict <= found.verdict) return;
+    found.verdict = result.verdict;
+    const auto worst = std::find_if(result.pairs.begin(), result.pairs.end(),
+                                    [&](const PairResult& pair) { return pair.verdict == result.verdict; });
+    if (worst == result.pairs.end()) return;
+    found.pair = static_cast<int>(worst - result.pairs.begin());
+    found.time = motion.waypoints[first] + (worst->intervals.empty() ? 0.0 : worst->intervals.front().enter);
+  }
+
+  Monitor monitor_;
+  const MotionsRequest& wanted_;
+  CycleRequest request_;
+  CycleMotion piece_;
+};
+
+}  // namespace
+
+std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
+                                        std::size_t count,
+                                        const std::function<PlannedMotion(std::size_t i, double tolerance)>& motionOf,
+                                        const MotionsRequest& request) {
+  if (!(request.margin >= 0.0) || !std::isfinite(request.margin))
+    throw std::invalid_argument("check motions: a margin of " + numberText(request.margin) + " m");
+  if (request.tolerances.empty()) throw std::invalid_argument("check motions: no tolerances");
+  std::vector<MotionVerdict> verdicts(count);
+  tbb::enumerable_thread_specific<std::unique_ptr<MotionLooker>> lookers;
+  parallelRanges(std::size_t{0}, count, [&](std::size_t first, std::size_t last) {
+    // A monitor's own parallel loop may take up other motions while it waits: not with the same monitor.
+    tbb::this_task_arena::isolate([&] {
+      std::unique_ptr<MotionLooker>& looker = lookers.local();
+      if (!looker) looker = std::make_unique<MotionLooker>(scene, options, request);
+      for (std::size_t i = first; i < last; ++i) {
+        checkCancelled();
+        for (const double tolerance : request.tolerances) {
+          verdicts[i] = looker->look(motionOf(i, tolerance));
+          if (verdicts[i].verdict == Verdict::kClear) break;
+        }
+      }
+    });
+  });
+  return verdicts;
 }
 
 PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot) {

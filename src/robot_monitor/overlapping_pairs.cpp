@@ -86,7 +86,7 @@ void leaveOutOverlapping(const RobotModel& robot, const std::vector<PairRule>& k
     (pair.always ? always : at_rest).push_back(pair);
     if (!pair.always) continue;
     std::string& reason = reasons[static_cast<std::size_t>(pair.pair)];
-    reason = "overlaps in every state of the joints";
+    reason = "overlap in every state of the joints";
   }
   const auto count = [](const std::vector<OverlappingPair>& pairs) {
     return std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair of links" : " pairs of links");

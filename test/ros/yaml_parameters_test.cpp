@@ -97,6 +97,23 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.max_points, defaults.max_points);
 }
 
+TEST(YamlParameters, PairsByRule) {
+  const MonitorParameters parameters = parseParameters(
+      load("allowed_pairs: [[hand, table], [\"finger_*\", part]]\nchecked_pairs: [[a, b]]\noverlapping_pairs: check"), "~");
+  ASSERT_EQ(parameters.pairs.allowed.size(), 2u);
+  EXPECT_EQ(parameters.pairs.allowed[1].a, "finger_*");
+  EXPECT_EQ(parameters.pairs.allowed[1].b, "part");
+  ASSERT_EQ(parameters.pairs.checked.size(), 1u);
+  EXPECT_FALSE(parameters.leave_out_overlapping);
+  for (const char* wrong : {"allowed_pairs: hand", "allowed_pairs: [hand, table]", "allowed_pairs: [[hand]]",
+                            "allowed_pairs: [[hand, '']]", "allowed_pairs: [[hand, 5]]", "allowed_pairs: [[a, b, c]]"})
+    EXPECT_NE(errorOf(wrong).find("expected a list of pairs of texts"), std::string::npos) << wrong;
+  std::string many = "checked_pairs:\n";
+  for (int i = 0; i <= 1000; ++i) many += "- [a, b]\n";
+  EXPECT_NE(errorOf(many).find("expected at most 1000 pairs"), std::string::npos);
+  EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of check leave_out"), std::string::npos);
+}
+
 TEST(YamlParameters, MaxErrorSetsTheSharesThatAreNotGiven) {
   const auto parse = [](const std::string& text) { return parseParameters(load(text), "~"); };
   const MonitorParameters shared = parse("max_error: 0.001");

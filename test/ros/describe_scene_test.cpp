@@ -1,0 +1,76 @@
+#include "ros/describe_scene.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace sdf_ccd {
+namespace {
+
+/// A base that holds a wheel on a caster, and a table beside it.
+MonitorParameters cart() {
+  MonitorParameters parameters = parseParameters({}, "~");
+  parameters.urdf = R"(<robot name="cart">
+    <link name="base"><collision><geometry><box size="1 1 0.2"/></geometry></collision></link>
+    <link name="caster"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
+    <link name="wheel"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+    <joint name="swivel" type="continuous"><parent link="base"/><child link="caster"/><axis xyz="0 0 1"/></joint>
+    <joint name="roll" type="continuous"><parent link="caster"/><child link="wheel"/><axis xyz="0 1 0"/></joint>
+    </robot>)";
+  parameters.scene.cache_directory.clear();
+  parameters.scene.field.cell_size = std::nullopt;
+  parameters.scene.field.cells = 16;
+  parameters.scene.shell.spacing = 0.05;
+  WorldObject table;
+  table.name = "table";
+  table.frame = "elsewhere";
+  table.shape = Primitive(Box{Vector3d(0.3, 0.3, 0.3)});
+  parameters.world.push_back(table);
+  return parameters;
+}
+
+std::set<std::string> pairsOf(const MonitorParameters& parameters, std::vector<std::string>* left_out = nullptr) {
+  const DescribedScene described = describeScene(parameters, [](const std::string&) { return Resource(); });
+  const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
+  const std::shared_ptr<const Scene> scene = buildDescribed(described, plan, parameters.scene, {});
+  std::set<std::string> pairs;
+  for (const PlannedPair& pair : scene->pairs)
+    pairs.insert(scene->bodies[pair.body_a].name + " " + scene->bodies[pair.body_b].name);
+  if (left_out)
+    for (const LeftOut& entry : scene->left_out) left_out->push_back(entry.what + ": " + entry.reason);
+  return pairs;
+}
+
+using Pairs = std::set<std::string>;
+
+TEST(DescribeScene, LinksThatOverlapAlwaysAreLeftOutByDefault) {
+  std::vector<std::string> left_out;
+  EXPECT_EQ(pairsOf(cart(), &left_out), (Pairs{"base table", "caster table", "wheel table"}));
+  EXPECT_EQ(std::count(left_out.begin(), left_out.end(), "pair base - wheel: overlap in every state of the joints"), 1);
+}
+
+TEST(DescribeScene, TheyAreCheckedIfThatIsWanted) {
+  const Pairs all = {"base wheel", "base table", "caster table", "wheel table"};
+  MonitorParameters parameters = cart();
+  parameters.leave_out_overlapping = false;
+  EXPECT_EQ(pairsOf(parameters), all);
+  parameters = cart();
+  parameters.pairs.checked = {{"wheel", "b*"}};
+  EXPECT_EQ(pairsOf(parameters), all);
+  parameters = cart();
+  parameters.srdf = "<robot name='cart'><enable_collisions link1='wheel' link2='base'/></robot>";
+  EXPECT_EQ(pairsOf(parameters), all);
+}
+
+TEST(DescribeScene, RulesHoldForObjectsToo) {
+  MonitorParameters parameters = cart();
+  parameters.pairs.allowed = {{"*", "table"}};
+  parameters.pairs.checked = {{"wheel", "table"}};
+  std::vector<std::string> left_out;
+  EXPECT_EQ(pairsOf(parameters, &left_out), (Pairs{"wheel table"}));
+  EXPECT_EQ(std::count(left_out.begin(), left_out.end(), "pair base - table: allowed_pairs: * - table"), 1);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
