@@ -69,6 +69,16 @@ class SeparationQuery {
     return t;
   }
 
+  /// On the way from A's corners, edges or face to B's, of this length: how far A or B reaches, whichever is nearer.
+  /// There is the surface of one of them, and the other one holds it, if they overlap.
+  double borderAlong(double distance, const Triangles& pair) const {
+    return std::min(a_.triangle(pair.a).radius, distance + b_.triangle(pair.b).radius);
+  }
+
+  static Vector3d unitOf(const Vector3d& v) {
+    return v.squaredNorm() > 0.0 ? Vector3d(v.normalized()) : Vector3d(Vector3d::UnitZ());
+  }
+
   bool testCrossing(const Triangles& pair, const Isometry3d& X_AB, double s) {
     ++tests_;
     const Corners &t_a = a_.triangle(pair.a).corners, t_b = placed(pair.b, X_AB);
@@ -78,8 +88,8 @@ class SeparationQuery {
     if (!place && round > 0.0 && radii(pair) > 0.0) {
       const ClosestPair closest = closestPoints(t_a, t_b);
       if (closest.distance2 < round * round) {
-        place = closest.on_a;
         normal = closest.on_b - closest.on_a;
+        place = closest.on_a + borderAlong(normal.norm(), pair) * unitOf(normal);
       }
     }
     if (!place) return false;
@@ -87,7 +97,7 @@ class SeparationQuery {
     found_.state = SeparationState::kCrossing;
     found_.s = s;
     found_.p_A = *place;
-    if (normal.squaredNorm() > 0.0) found_.normal_A = normal.normalized();
+    found_.normal_A = unitOf(normal);
     witness_.cross_a = pair.a;
     witness_.cross_b = pair.b;
     return true;

@@ -32,7 +32,7 @@ struct Separation {
   SeparationState state = SeparationState::kOpen;
   double distance = 0.0;                  ///< where apart: a lower bound all along, the margin not taken off [m]
   double s = 0.0;                         ///< where crossing: when, from 0 to 1
-  Vector3d p_A = Vector3d::Zero();        ///< and where, on A's surface to rounding [m]
+  Vector3d p_A = Vector3d::Zero();        ///< and where: on the surface of one, and the other one has it, to rounding [m]
   Vector3d normal_A = Vector3d::UnitZ();  ///< of a triangle there, unit; either side
 };
 

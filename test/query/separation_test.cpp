@@ -281,6 +281,34 @@ TEST(Separation, BallsTouchWhereTheirRadiiSay) {
   EXPECT_EQ(stateOf(wall, b, 0.3 - 1e-9), SeparationState::kCrossing);
 }
 
+/// Where rounded triangles cross is a place on the surface of one that the other one has, not a ball's middle.
+TEST(Separation, ACrossingIsOnASurface) {
+  const BoxTree large({{{Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0)}, 0.5}}),
+      small({{{Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0)}, 0.02}}),
+      wall = treeOf(test::boxMesh({0.2, 0.2, 0.2}));
+  const auto crossing = [&](const BoxTree& a, const BoxTree& b, const Vector3d& p) {
+    Isometry3d X = Isometry3d::Identity();
+    X.translation() = p;
+    const Separation found = Case{&a, &b, Isometry3d::Identity(), Isometry3d::Identity(), X, X}.query();
+    EXPECT_EQ(found.state, SeparationState::kCrossing);
+    return found.p_A;
+  };
+  const Vector3d u = Vector3d(1, 2, -2).normalized();
+  for (const double depth : {1e-6, 1e-3, 0.03}) {
+    const Vector3d apart = (0.52 - depth) * u;
+    for (const auto& [p, q] : {std::pair(crossing(large, small, apart), apart),
+                               std::pair(Vector3d(crossing(small, large, -apart) + apart), apart)}) {
+      EXPECT_LE(p.norm(), 0.5 + 1e-9) << depth;
+      EXPECT_LE((p - q).norm(), 0.02 + 1e-9) << depth;
+      EXPECT_LT(std::min(std::abs(p.norm() - 0.5), std::abs((p - q).norm() - 0.02)), 1e-9) << depth;
+    }
+    const Vector3d on_face = crossing(large, wall, {0.7 - depth, 0.01, 0.02});
+    EXPECT_LE(on_face.norm(), 0.5 + 1e-9) << depth;
+    EXPECT_NEAR(on_face.x(), 0.5 - depth, 1e-9);
+  }
+  EXPECT_NEAR(crossing(large, small, Vector3d::Zero()).norm(), 0.02, 1e-9);
+}
+
 /// Far from the world's origin, and bodies that turn about it together: only what they do against each other counts.
 TEST(Separation, BodiesThatMoveAsOneKeepTheirDistance) {
   const BoxTree a = treeOf(test::torusMesh(0.1, 0.03, 16, 8)), b = treeOf(test::boxMesh({0.05, 0.05, 0.05}));
