@@ -85,6 +85,7 @@ struct Monitor::Impl {
   std::vector<int> last_due;                // pairs
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
+  bool are_of_cycle = false;      // what results say of pairs that are not due is of the last cycle, and of no later one
   std::size_t last_waypoint = 0;  // that all results' spans end at; 0 if they differ
 };
 
@@ -154,14 +155,17 @@ void Monitor::Impl::takeSpans(const CycleMotion& motion) {
   last_waypoint = all_whole ? whole.last : 0;
 }
 
-/// Pairs that were due in the cycle before and are not in this one, and all that are not due if that is asked for.
+/// Pairs that were due in the cycle before and are not in this one, and all that are not due if that is asked for, or
+/// was in the cycle before and is no longer.
 void Monitor::Impl::takeSkipped(const CycleRequest& request) {
   ++cycle;
   for (const DuePair& due : schedule->due()) due_in_cycle[static_cast<std::size_t>(due.pair)] = cycle;
-  for (const int pair : last_due) {
-    const auto i = static_cast<std::size_t>(pair);
-    if (due_in_cycle[i] != cycle) setSkipped(errorOf(pair), checkers[i].margin(), result.pairs[i]);
-  }
+  const auto setQuiet = [&](std::size_t i) {
+    if (due_in_cycle[i] != cycle) setSkipped(errorOf(static_cast<int>(i)), checkers[i].margin(), result.pairs[i]);
+  };
+  for (const int pair : last_due) setQuiet(static_cast<std::size_t>(pair));
+  for (std::size_t i = 0; i < checkers.size() && are_of_cycle && !request.skipped_pairs; ++i) setQuiet(i);
+  are_of_cycle = request.skipped_pairs;
   last_due.clear();
   for (const DuePair& due : schedule->due()) last_due.push_back(due.pair);
   if (!request.skipped_pairs) return;

@@ -93,6 +93,29 @@ TEST(ClearanceSkip, SkippedClearIsNeverWrong) {
   EXPECT_GT(skipped, 500);
 }
 
+/// What was said of a pair when that was asked for does not outlast its cycle.
+TEST(ClearanceSkip, ClearancesHoldWhetherOrNotTheyAreAskedFor) {
+  constexpr double kHalf = 0.05;
+  const auto scene = build({body("a", Primitive(Sphere{kHalf})), body("b", Primitive(Sphere{kHalf}))}, fine(0.02));
+  Monitor monitor(scene, {});
+  CycleRequest request;
+  double x = 1.0;
+  int skipped = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double next = x - 0.1;
+    request.skipped_pairs = i % 4 < 2;
+    const PairResult& pair =
+        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {translation({x, 0, 0}), translation({next, 0, 0})}}),
+                    request)
+            .pairs[0];
+    EXPECT_EQ(pair.verdict, Verdict::kClear);
+    EXPECT_LE(pair.clearance, next - 2.0 * kHalf + 1e-12) << i;
+    skipped += pair.skipped;
+    x = next;
+  }
+  EXPECT_GE(skipped, 6);
+}
+
 TEST(ClearanceSkip, LookingCloserIsPaidForOnlyWhenNear) {
   const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
   Monitor monitor(scene, {});
