@@ -40,9 +40,12 @@ void validate(const CycleMotion& motion, const MotionShape& shape, const char* w
   requireTimes(motion.times, refuse);
   requireSpans(motion, shape.pairs, refuse);
   const std::size_t bodies = shape.bodies.size();
-  const auto fits = [&](std::size_t size) { return size == 0 || size == bodies; };
-  if (motion.X_WB.size() != bodies || !fits(motion.missing.size()) || !fits(motion.motion_error.size()))
-    refuse("made for " + std::to_string(motion.X_WB.size()) + " bodies, the scene has " + std::to_string(bodies));
+  const auto requireFit = [&](std::size_t size, const char* made_for) {
+    if (size != bodies) refuse(made_for + std::to_string(size) + " bodies, the scene has " + std::to_string(bodies));
+  };
+  requireFit(motion.X_WB.size(), "made for ");
+  if (!motion.missing.empty()) requireFit(motion.missing.size(), "says what is missing of ");
+  if (!motion.motion_error.empty()) requireFit(motion.motion_error.size(), "has motion errors of ");
   for (std::size_t b = 0; b < bodies; ++b) {
     const bool may_lack = (!shape.without_poses.empty() && shape.without_poses[b]) ||
                           (!motion.missing.empty() && !motion.missing[b].empty());

@@ -67,6 +67,11 @@ TEST(ValidateMotion, SaysWhatDoesNotFit) {
   motion.X_WB.pop_back();
   EXPECT_EQ(refusal(motion), "motion: made for 1 bodies, the scene has 2");
   motion = motionOfTwo();
+  motion.missing = {""};
+  EXPECT_EQ(refusal(motion), "motion: says what is missing of 1 bodies, the scene has 2");
+  motion = motionOfTwo();
+  motion.motion_error = {0.0, 0.0, 0.0};
+  EXPECT_EQ(refusal(motion), "motion: has motion errors of 3 bodies, the scene has 2");
   motion.motion_error = {0.0, -1.0};
   EXPECT_EQ(refusal(motion), "motion: motion error of table is -1");
   motion.motion_error = {std::numeric_limits<double>::quiet_NaN(), 0.0};
