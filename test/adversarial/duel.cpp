@@ -139,15 +139,23 @@ void Duel::judgeContact(const PairMotion& outer, const PairResult& result, const
   tally.fail(what + ": CONTACT", text("%.3g m deep, but %.3g m apart", result.deepest.depth, double(least.high)));
 }
 
-/// The deepest point is on one surface and `depth` inside the other.
+/// The deepest point is on one surface and `depth` inside the other; where surfaces cross and no point tells a depth, it is
+/// in both.
 void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const {
-  if (result.intervals.empty() || !(result.deepest.depth > 0.0) || !a_.is_convex || !b_.is_convex) return;
+  if (result.intervals.empty() || !a_.is_convex || !b_.is_convex) return;
   const ContactPoint& deepest = result.deepest;
   const Real time = deepest.time;
   const auto in = [&](const Convex& piece, const LongPose& X) {
     return signedDistance(piece, X.R.transpose() * (deepest.p_W.cast<Real>() - X.p));
   };
   const Real in_a = in(a_.solid[0], solid.poseA(time)), in_b = in(b_.solid[0], solid.poseB(time));
+  if (!(deepest.depth > 0.0)) {
+    const Real outside = std::max(in_a, in_b);
+    if (outside <= result.error.total() + rounding(solid)) return;
+    ++tally.false_bound;
+    tally.fail(what + ": place", text("%.3g m outside of a body, reported %.3g m", double(outside), result.error.total()));
+    return;
+  }
   const Real depth = deepest.depth;
   const Real error =
       std::min(std::max(std::abs(in_a + depth), std::abs(in_b)), std::max(std::abs(in_b + depth), std::abs(in_a)));
