@@ -208,6 +208,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.max_points = reader.integer("max_points", 20, 0);
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
+  // The descriptions may stand here too.
+  for (const std::string& description : {parameters.urdf_parameter, parameters.srdf_parameter})
+    reader.text(description, "");
   reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's
   reader.positive("diagnostic_period", 1.0);   // the diagnostic updater's
   parameters.unknown = reader.unread();

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""What monitor.launch sets and clears: parameters of the monitor alone, whatever earlier starts and others have left.
+
+usage: launch_files_test.py SOURCE_DIRECTORY
+"""
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rosgraph
+import rospy
+
+from sdf_ccd.msg import MonitorState
+
+SOURCE = os.path.abspath(sys.argv.pop())
+ARM = SOURCE + '/config/demo/arm.urdf'
+PATIENCE = 60.0  # [s]
+
+
+def free_port():
+    with socket.socket() as s:
+        s.bind(('', 0))
+        return s.getsockname()[1]
+
+
+class LaunchFiles(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        port = free_port()
+        os.environ.update(ROS_HOME=cls.folder, ROS_IP='127.0.0.1', ROS_MASTER_URI='http://127.0.0.1:%d' % port)
+        cls.core = subprocess.Popen(['roscore', '-p', str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + PATIENCE
+        while not rosgraph.is_master_online():
+            assert time.monotonic() < end
+            time.sleep(0.1)
+        rospy.init_node('launch_files_test')
+        cls.config = cls.folder + '/config.yaml'
+        with open(cls.config, 'w') as config:
+            config.write('field: {cells: 16}\nshell: {spacing: 0.02}\ncache: false\n')
+
+    @classmethod
+    def tearDownClass(cls):
+        rospy.signal_shutdown('done')
+        cls.core.terminate()
+        cls.core.wait()
+        shutil.rmtree(cls.folder, ignore_errors=True)
+
+    def launch(self, *arguments, ns=None):
+        """Starts a monitor, and returns the fixed frame and the reason of its first state about the robot."""
+        environment = dict(os.environ)
+        if ns:
+            environment['ROS_NAMESPACE'] = ns
+        name = next((a[6:] for a in arguments if a.startswith('name:=')), 'collision_monitor')
+        topic = '/'.join(['', *([ns] if ns else []), name, 'state'])
+        states = []
+        subscriber = rospy.Subscriber(topic, MonitorState, states.append)
+        started = subprocess.Popen(['roslaunch', 'sdf_ccd', 'monitor.launch', 'config:=' + self.config, *arguments],
+                                   env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        end = time.monotonic() + PATIENCE
+        while not any(state.header.frame_id for state in states) and time.monotonic() < end:
+            time.sleep(0.1)
+        parameters = rospy.get_param('/')
+        subscriber.unregister()
+        started.terminate()
+        log = started.communicate()[0]
+        self.assertTrue(any(state.header.frame_id for state in states), log)
+        return next(state.header.frame_id for state in states if state.header.frame_id), parameters, log
+
+    def test_a_description_is_the_monitors_alone(self):
+        with open(ARM) as arm:
+            other = arm.read().replace('"base"', '"other_base"')
+        rospy.set_param('/robot_description', other)
+        rospy.set_param('/robot_description_semantic', '<no SRDF at all')
+        rospy.set_param('/collision_monitor/octomap/file', '/none.bt')
+        frame, parameters, log = self.launch('urdf:=' + ARM)
+        self.assertEqual(frame, 'base', log)
+        self.assertEqual(rospy.get_param('/robot_description'), other)
+        self.assertNotIn('octomap', parameters['collision_monitor'])
+        self.assertNotIn('none.bt', log)
+        self.assertNotIn('Nothing reads parameter', log)
+
+    def test_without_one_it_takes_the_robots(self):
+        with open(ARM) as arm:
+            rospy.set_param('/robot_description', arm.read().replace('"base"', '"other_base"'))
+        rospy.set_param('/robot_description_semantic', '<robot name="arm"/>')
+        frame, _, log = self.launch()
+        self.assertEqual(frame, 'other_base', log)
+
+    def test_several_have_their_own_names(self):
+        rospy.set_param('/robot_description', 'no robot')
+        frame, parameters, log = self.launch('name:=watch', 'urdf:=' + ARM, 'nodelet:=true', ns='left')
+        self.assertEqual(frame, 'base', log)
+        self.assertIn('robot_description', parameters['left']['watch'])
+        self.assertNotIn('robot_description', parameters['left'])
+
+    def test_xacro_where_it_is_installed(self):
+        folder = self.folder + '/bin'
+        os.makedirs(folder, exist_ok=True)
+        with open(folder + '/xacro', 'w') as xacro:  # Debian has none
+            xacro.write('#!/bin/sh\nsed s/BASE/base/ "$1"\n')
+        os.chmod(folder + '/xacro', 0o755)
+        with open(ARM) as arm, open(self.folder + '/arm.urdf.xacro', 'w') as out:
+            out.write(arm.read().replace('"base"', '"BASE"'))
+        path, os.environ['PATH'] = os.environ['PATH'], folder + ':' + os.environ['PATH']
+        try:
+            frame, _, log = self.launch('urdf:=' + self.folder + '/arm.urdf.xacro')
+        finally:
+            os.environ['PATH'] = path
+        self.assertEqual(frame, 'base', log)
+
+
+if __name__ == '__main__':
+    unittest.main()
