@@ -90,6 +90,9 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
       return answer;
     }
     const bool now = found.state == SeparationState::kApart;
+    // A motion of many steps that stay open takes no longer than one.
+    if (!now) options.max_tests -= found.tests;
+    if (options.max_tests <= 0) return answer;
     distance = now ? found.distance : -std::numeric_limits<double>::infinity();
     apart &= now;
   }

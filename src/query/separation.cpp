@@ -36,6 +36,8 @@ class SeparationQuery {
         memory_(memory),
         limit_(options.max_tests) {}
 
+  int tests() const { return tests_; }
+
   Separation run() {
     memory_.near.clear();
     const Isometry3d X_start = poseAt(0.0), X_end = poseAt(1.0);
@@ -339,7 +341,10 @@ class SeparationQuery {
 
 Separation separation(const BoxTree& a, const BoxTree& b, const TwoBodyMotion& motion, const SeparationOptions& options,
                       SeparationWitness& witness, SeparationMemory& memory) {
-  return SeparationQuery(a, b, motion, options, witness, memory).run();
+  SeparationQuery query(a, b, motion, options, witness, memory);
+  Separation found = query.run();
+  found.tests = query.tests();
+  return found;
 }
 
 }  // namespace sdf_ccd

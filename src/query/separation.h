@@ -34,6 +34,7 @@ struct Separation {
   double s = 0.0;                         ///< where crossing: when, from 0 to 1
   Vector3d p_A = Vector3d::Zero();        ///< and where: on the surface of one, and the other one has it, to rounding [m]
   Vector3d normal_A = Vector3d::UnitZ();  ///< of a triangle there, unit; either side
+  int tests = 0;                          ///< that it took, of SeparationOptions::max_tests
 };
 
 /// What a query needs while it runs.

@@ -343,5 +343,20 @@ TEST(Separation, SurfacesThatLieOnEachOtherStayOpen) {
   EXPECT_EQ(c.query().state, SeparationState::kOpen);
 }
 
+TEST(Separation, NoMoreTestsThanAreAllowed) {
+  // Two balls of many triangles, one in the other and nearer than can be told: every pair of triangles stays open.
+  const BoxTree inner = treeOf(test::icosphere(0.09999, 4)), outer = treeOf(test::icosphere(0.1, 4));
+  const Isometry3d at_rest = Isometry3d::Identity();
+  const Case nested{&outer, &inner, at_rest, at_rest, at_rest, Isometry3d(Eigen::AngleAxisd(0.2, Vector3d(1, 2, 3).normalized()))};
+  for (const int allowed : {100, 1000, 20000}) {
+    SeparationOptions options;
+    options.max_tests = allowed;
+    const Separation found = nested.query(options);
+    EXPECT_NE(found.state, SeparationState::kApart);
+    EXPECT_GT(found.tests, 0);
+    EXPECT_LE(found.tests, allowed + 600) << "but for those that are begun together";
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd
