@@ -6,6 +6,7 @@
 #include "common/shown_text.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "ros/fetch_http.h"
+#include "ros/world_file.h"
 #include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
@@ -20,15 +21,21 @@ BodyDescription emptyBody(const std::string& name, const std::string& frame, con
   return body;
 }
 
-GeometryDescription toGeometry(const std::variant<Primitive, MeshObject>& shape, const ResourceLoader& loader,
+GeometryDescription toGeometry(const WorldShape& made, const ResourceLoader& loader,
                                std::vector<std::string>& warnings) {
   GeometryDescription geometry;
-  if (const Primitive* primitive = std::get_if<Primitive>(&shape)) {
+  geometry.X_BG = made.X_BG;
+  if (const Primitive* primitive = std::get_if<Primitive>(&made.shape)) {
     geometry.shape = *primitive;
     geometry.source = std::array<const char*, 4>{"sphere", "box", "cylinder", "plane"}[primitive->index()];
     return geometry;
   }
-  const MeshObject& mesh = std::get<MeshObject>(shape);
+  if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&made.shape)) {
+    geometry.shape = *mesh;
+    geometry.source = "mesh";
+    return geometry;
+  }
+  const MeshObject& mesh = std::get<MeshObject>(made.shape);
   const Resource resource = loader(mesh.uri);
   if (!resource.warning.empty()) warnings.push_back(resource.warning);
   geometry.shape = std::make_shared<const TriangleMesh>(scaled(parseMesh(resource.bytes, resource.name), mesh.scale));
@@ -40,8 +47,9 @@ BodyDescription toBody(const WorldObject& object, const std::string& frame, cons
                        std::vector<std::string>& warnings) {
   BodyDescription body = emptyBody(object.name, frame, object.X_frame_B);
   try {
-    body.geometry.push_back(toGeometry(object.shape, loader, warnings));
+    for (const WorldShape& shape : object.shapes) body.geometry.push_back(toGeometry(shape, loader, warnings));
   } catch (const std::exception& error) {
+    body.geometry.clear();
     body.failure = "object " + object.name + ": " + error.what();
   }
   return body;
@@ -105,9 +113,13 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     const std::string resolved = frame.empty() ? described.fixed_frame : withoutLeadingSlash(frame);
     return resolved == described.root_frame ? robot->root() : resolved;
   };
-  for (const WorldObject& object : parameters.world) {
-    described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));
+  std::vector<WorldObject> world = parameters.world;
+  if (!parameters.world_file.empty()) {
+    const std::vector<WorldObject> from_file = loadWorldFile(parameters.world_file);
+    world.insert(world.end(), from_file.begin(), from_file.end());
   }
+  for (const WorldObject& object : world)
+    described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));
   if (!parameters.octomap.file.empty()) {
     described.scene.bodies.push_back(toBody(parameters.octomap, frameOf(parameters.octomap.frame)));
   }

@@ -41,6 +41,14 @@ bool ParameterReader::has(const std::string& key) const {
   return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
 }
 
+bool ParameterReader::isText(const std::string& key) const {
+  return has(key) && XmlRpcValue(tree_)[key].getType() == XmlRpcValue::TypeString;
+}
+
+bool ParameterReader::isGroup(const std::string& key) const {
+  return has(key) && XmlRpcValue(tree_)[key].getType() == XmlRpcValue::TypeStruct;
+}
+
 XmlRpcValue* ParameterReader::find(const std::string& key) {
   read_.insert(key);
   return has(key) ? &tree_[key] : nullptr;
@@ -136,6 +144,19 @@ Vector3d ParameterReader::vector(const std::string& key, const Vector3d& fallbac
     if (!toNumber((*value)[i], result[i])) fail(key, "three finite numbers");
   }
   return result;
+}
+
+std::vector<double> ParameterReader::numbers(const std::string& key, std::size_t least, std::size_t most) {
+  XmlRpcValue* value = find(key);
+  const std::string expected = "a list of " + std::to_string(least) +
+                               (least == most ? "" : " to " + std::to_string(most)) + " finite numbers";
+  if (!value || value->getType() != XmlRpcValue::TypeArray) fail(key, expected);
+  const auto size = static_cast<std::size_t>(value->size());
+  if (size < least || size > most) fail(key, expected);
+  std::vector<double> numbers(size);
+  for (std::size_t i = 0; i < size; ++i)
+    if (!toNumber((*value)[static_cast<int>(i)], numbers[i])) fail(key, expected);
+  return numbers;
 }
 
 std::vector<std::pair<std::string, std::string>> ParameterReader::textPairs(const std::string& key) {

@@ -29,6 +29,8 @@ class ParameterReader {
   const std::string& name() const { return name_; }
 
   bool has(const std::string& key) const;
+  bool isText(const std::string& key) const;
+  bool isGroup(const std::string& key) const;
 
   double number(const std::string& key, double fallback);
   double positive(const std::string& key, double fallback);     ///< > 0 and finite
@@ -44,6 +46,9 @@ class ParameterReader {
   int choice(const std::string& key, std::initializer_list<const char*> choices, int fallback);
 
   Vector3d vector(const std::string& key, const Vector3d& fallback);
+
+  /// Finite ones, from `least` to `most` of them; fails if it is not set.
+  std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
 
   /// Of lists of two texts each; none if it is not set.
   std::vector<std::pair<std::string, std::string>> textPairs(const std::string& key);

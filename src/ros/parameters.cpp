@@ -5,60 +5,13 @@
 #include "field/uniform/sparse_grid.h"
 #include "model/error_budget.h"
 #include "ros/parameter_reader.h"
+#include "ros/world_parameters.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr double kDefaultCellSize = 0.004;  // [m]
 constexpr double kLongestCycle = 3600.0;    // so long transforms have to be kept [s]
-
-Isometry3d readPose(ParameterReader& reader) {
-  const Vector3d rpy = reader.vector("rpy", Vector3d::Zero());
-  return Eigen::Translation3d(reader.vector("xyz", Vector3d::Zero())) * Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) * Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
-}
-
-std::string required(ParameterReader& reader, const std::string& key) {
-  const std::string value = reader.text(key, "");
-  if (value.empty()) reader.fail(key, "a text");
-  return value;
-}
-
-WorldObject readWorldObject(ParameterReader& reader) {
-  WorldObject object;
-  object.name = reader.name("name", "");
-  if (object.name.empty()) reader.fail("name", "a text");
-  object.frame = reader.name("frame", "");
-  object.X_frame_B = readPose(reader);
-  constexpr double kUnset = -1.0;  // refused by positive(): sizes have no default
-  switch (reader.choice("type", {"box", "sphere", "cylinder", "plane", "mesh"}, -1)) {
-    case 0: {
-      const Vector3d size = reader.vector("size", Vector3d::Zero());
-      if (!(size.minCoeff() > 0.0)) reader.fail("size", "three numbers above 0");
-      object.shape = Primitive(Box{0.5 * size});
-      break;
-    }
-    case 1:
-      object.shape = Primitive(Sphere{reader.positive("radius", kUnset)});
-      break;
-    case 2:
-      object.shape = Primitive(Cylinder{reader.positive("radius", kUnset), 0.5 * reader.positive("length", kUnset)});
-      break;
-    case 3:
-      object.shape = Primitive(HalfSpace{Vector3d::UnitZ(), 0.0});
-      break;
-    case 4: {
-      const Vector3d scale = reader.vector("scale", Vector3d::Ones());
-      if (scale.cwiseAbs().minCoeff() == 0.0) reader.fail("scale", "three numbers, none of them 0");
-      object.shape = MeshObject{required(reader, "uri"), scale};
-      break;
-    }
-    default:
-      reader.fail("type", "one of box sphere cylinder plane mesh");
-  }
-  reader.finish();
-  return object;
-}
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
   constexpr std::size_t kMost = 1000;  // each is held against each pair
@@ -177,9 +130,8 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.pairs = {readRules(reader, "allowed_pairs"), readRules(reader, "checked_pairs")};
   parameters.leave_out_overlapping = reader.choice("overlapping_pairs", {"check", "leave_out"}, 1) == 1;
 
-  for (ParameterReader& object : reader.list("world")) {
-    parameters.world.push_back(readWorldObject(object));
-  }
+  parameters.world = readWorld(reader);
+  parameters.world_file = reader.text("world_file", "");
   parameters.octomap = readOctomap(reader.group("octomap"));
   const std::optional<ErrorBudget> budget = readBudget(reader);
   parameters.scene.field = readField(reader.group("field"), budget);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <ros/node_handle.h>
@@ -10,23 +9,11 @@
 #include "ros/markers.h"
 #include "ros/parameter_reader.h"
 #include "ros/tf_tracker.h"
+#include "ros/world_object.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
-
-struct MeshObject {
-  std::string uri;
-  Vector3d scale = Vector3d::Ones();
-};
-
-/// A static object of the world, from the parameter `world`.
-struct WorldObject {
-  std::string name;
-  std::string frame;  ///< empty: the fixed frame
-  Isometry3d X_frame_B = Isometry3d::Identity();
-  std::variant<Primitive, MeshObject> shape;
-};
 
 /// The world as an OctoMap file, from the parameters `octomap/…`.
 struct OctomapObject {
@@ -51,6 +38,7 @@ struct MonitorParameters {
   PairRules pairs;
   bool leave_out_overlapping = true;  ///< see leaveOutOverlapping()
   std::vector<WorldObject> world;
+  std::string world_file;  ///< further objects; empty: none
   OctomapObject octomap;
   BodyOptions scene;
   MonitorOptions monitor;

@@ -25,7 +25,7 @@ MonitorParameters cart() {
   WorldObject table;
   table.name = "table";
   table.frame = "elsewhere";
-  table.shape = Primitive(Box{Vector3d(0.3, 0.3, 0.3)});
+  table.shapes = {{Primitive(Box{Vector3d(0.3, 0.3, 0.3)})}};
   parameters.world.push_back(table);
   return parameters;
 }

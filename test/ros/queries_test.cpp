@@ -25,7 +25,7 @@ class QueriesTest : public ::testing::Test {
     parameters.scene.shell.spacing = 0.004;
     WorldObject wall;
     wall.name = "wall";
-    wall.shape = Primitive(Box{Vector3d(0.3, 0.3, 0.3)});
+    wall.shapes = {{Primitive(Box{Vector3d(0.3, 0.3, 0.3)})}};
     parameters.world.push_back(wall);
     described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
     const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
