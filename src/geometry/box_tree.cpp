@@ -214,7 +214,8 @@ class BoxTree::Builder {
     const int bin = size > 0.0 && range.depth < kHeuristicDepth ? bestBin(range, axes, axis, low, kBins / size) : 0;
     auto middle = begin + range.size() / 2;
     if (range.size() <= Node::kWidth * Node::kWidth && range.size() > Node::kWidth) {
-      middle = begin + (range.size() / 2 + Node::kWidth - 1) / Node::kWidth * Node::kWidth;
+      const std::ptrdiff_t half = range.size() / 2;
+      middle = begin + (half + Node::kWidth - 1) / Node::kWidth * Node::kWidth;
       std::nth_element(begin, middle, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
     } else if (bin > 0) {
       middle = std::partition(begin, end, [&](int id) { return binOf(coordinate(id), low, kBins / size) < bin; });

@@ -34,7 +34,7 @@ class PairFilter {
   std::string reason(const BodyDescription& a, const std::optional<ExtentBall>& ball_a, const BodyDescription& b,
                      const std::optional<ExtentBall>& ball_b) const {
     if (robot_.rigidlyJoined(a.name, b.name)) return kRigidlyJoined;
-    const std::string disabled = srdf_.whyDisabled(a.name, b.name);
+    std::string disabled = srdf_.whyDisabled(a.name, b.name);
     if (!disabled.empty()) return disabled;
     if (!srdf_.isEnabled(a.name, b.name)) {
       if (srdf_.isDisabledByDefault(a.name) || srdf_.isDisabledByDefault(b.name)) return "SRDF: disabled by default";

@@ -18,7 +18,7 @@ constexpr double kAnyTime = 1.0;  // nothing moves meanwhile [s]
 class StateTester {
  public:
   /// @param scene  in which all pairs are of links.
-  StateTester(const RobotModel& robot, std::shared_ptr<const Scene> scene)
+  StateTester(const RobotModel& robot, const std::shared_ptr<const Scene>& scene)
       : robot_(robot), monitor_(scene, {}), bound_(scene->bound.total()) {
     for (const Body& body : scene->bodies) {
       const auto& links = robot.links();
