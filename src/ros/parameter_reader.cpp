@@ -35,7 +35,7 @@ bool toNumber(const XmlRpcValue& value, double& number) {
 
 }  // namespace
 
-ParameterReader::ParameterReader(XmlRpcValue tree, std::string name) : tree_(std::move(tree)), name_(std::move(name)) {}
+ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string name) : tree_(tree), name_(std::move(name)) {}
 
 bool ParameterReader::has(const std::string& key) const {
   return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
@@ -115,7 +115,7 @@ std::string ParameterReader::text(const std::string& key, const std::string& fal
 }
 
 std::string ParameterReader::name(const std::string& key, const std::string& fallback) {
-  const std::string value = text(key, fallback);
+  std::string value = text(key, fallback);
   if (value.size() > kMaxName || value != shownText(value)) {
     fail(key, "at most " + std::to_string(kMaxName) + " bytes without control characters");
   }

@@ -24,7 +24,7 @@ class ParameterReader {
  public:
   /// @param tree  a struct, or anything else if there are no parameters
   /// @param name  of the tree, for errors: "/collision_monitor"
-  ParameterReader(XmlRpc::XmlRpcValue tree, std::string name);
+  ParameterReader(const XmlRpc::XmlRpcValue& tree, std::string name);
 
   const std::string& name() const { return name_; }
 
