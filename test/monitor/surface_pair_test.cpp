@@ -47,6 +47,24 @@ TEST(SurfacePair, TellsATenthOfAMillimetre) {
   }
 }
 
+/// What closes a mesh that is not quite closed is known to the triangles, however coarse the fields are.
+TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
+  constexpr double kGap = 5e-5, kCrack = 1e-6, kHalf = 0.1;
+  Random random(1);
+  const TriangleMesh whole = boxMesh({kHalf, kHalf, kHalf});
+  TriangleMesh cracked;
+  for (const Vector3i& t : whole.triangles) {
+    const int first = static_cast<int>(cracked.vertices.size());
+    for (int k = 0; k < 3; ++k) cracked.vertices.push_back(whole.vertices[t[k]] + kCrack * direction(random));
+    cracked.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  const auto scene =
+      build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("cracked", meshShape(cracked))}, coarse());
+  Monitor monitor(scene, soft());
+  EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf + kGap})).verdict, Verdict::kClear);
+  EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf - kGap})).verdict, Verdict::kContact);
+}
+
 /// And what touches within the cycle alone, however thin and fast.
 TEST(SurfacePair, NothingTunnels) {
   const auto scene = build(
