@@ -73,6 +73,7 @@ class PairChecker {
   double givenError(const CycleMotion& motion) const;
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
+  void setCrossing(const ContactPoint& crossing, PairResult& result);
   bool clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result);
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);

@@ -65,6 +65,40 @@ TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
   EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf - kGap})).verdict, Verdict::kContact);
 }
 
+/// Where contacts are not asked for, verdicts are the same, and what crosses has a time and a place.
+TEST(SurfacePair, VerdictsAloneAreTheSame) {
+  const auto scene = build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})),
+                            body("hand", meshShape(boxMesh({0.03, 0.04, 0.05}))), body("ball", Primitive(Sphere{0.04})),
+                            body("drum", Primitive(Cylinder{0.03, 0.05}))},
+                           coarse());
+  Monitor all(scene, soft()), verdicts(scene, soft());
+  CycleRequest alone;
+  alone.wrenches = alone.contacts = false;
+  Random random(2);
+  int contacts = 0;
+  std::vector<Isometry3d> from(4, Isometry3d::Identity());
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::vector<Isometry3d>> motions = {still(Isometry3d::Identity())};
+    for (int body = 1; body < 4; ++body) {
+      const Isometry3d to = i % 10 == 0 ? pose(random, 3.0, 0.15) : from[body] * pose(random, 0.2, 0.01);
+      motions.push_back({i % 10 == 0 ? to : from[body], to});
+      from[body] = to;
+    }
+    const CycleMotion motion = cycle(0.1, motions);
+    const CycleResult &expected = all.run(motion, {}), &result = verdicts.run(motion, alone);
+    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
+      const PairResult& pair = result.pairs[k];
+      EXPECT_EQ(pair.verdict, expected.pairs[k].verdict) << i << ", pair " << k;
+      if (pair.verdict != Verdict::kContact) continue;
+      ++contacts;
+      ASSERT_FALSE(pair.intervals.empty());
+      EXPECT_GE(pair.intervals[0].enter, 0.0);
+      EXPECT_LE(pair.intervals[0].exit, 0.1);
+    }
+  }
+  EXPECT_GT(contacts, 100);
+}
+
 /// And what touches within the cycle alone, however thin and fast.
 TEST(SurfacePair, NothingTunnels) {
   const auto scene = build(
