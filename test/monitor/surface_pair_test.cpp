@@ -67,10 +67,10 @@ TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
 
 /// Where contacts are not asked for, verdicts are the same, and what crosses has a time and a place.
 TEST(SurfacePair, VerdictsAloneAreTheSame) {
-  const auto scene = build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})),
-                            body("hand", meshShape(boxMesh({0.03, 0.04, 0.05}))), body("ball", Primitive(Sphere{0.04})),
-                            body("drum", Primitive(Cylinder{0.03, 0.05}))},
-                           coarse());
+  const auto scene =
+      build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("hand", meshShape(boxMesh({0.03, 0.04, 0.05}))),
+             body("ball", Primitive(Sphere{0.04})), body("drum", Primitive(Cylinder{0.03, 0.05}))},
+            coarse());
   Monitor all(scene, soft()), verdicts(scene, soft());
   CycleRequest alone;
   alone.wrenches = alone.contacts = false;
