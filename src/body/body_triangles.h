@@ -18,8 +18,8 @@ struct BodyTriangles {
   std::unique_ptr<const BoxTree> closed;  ///< with caps in all openings (see findOpenings()); null without any
   double deviation = 0.0;                 ///< of the triangles from the surface, of cylinders [m]
 
-  /// Of each component of the surface (what is connected over shared vertices) its corners farthest out, in so many
-  /// directions. One that is outside a solid whose surface the component does not meet tells that all of it is.
+  /// Of each component of the surface, caps too (what is connected over shared vertices), its corners farthest out, in
+  /// so many directions. One that is outside a solid whose surface the component does not meet tells that all of it is.
   std::vector<std::vector<Vector3d>> components;
 
   const BoxTree& closedTree() const { return closed ? *closed : tree; }
