@@ -77,7 +77,7 @@ class FieldStudy {
       if (hits.empty()) continue;
       ContactImpulse impulse;
       const std::vector<Isometry3d> rest(2, Isometry3d::Identity());
-      integrateContact({field_, shell, path, rest, no_siblings}, hits, {}, false, impulse);
+      integrateContact({field_, shell, path, rest, no_siblings}, hits, {}, {false, true}, impulse);
       double deepest = 0.0;
       for (const HitDepth& depth : impulse.depths) {
         deepest = std::max(deepest, depth.depth);

@@ -46,7 +46,7 @@ Waypoints waypointsOf(const BoxWorld& world, double rate, std::size_t cycles) {
 class Ours : public MonitorSystem {
  public:
   Ours(std::shared_ptr<const Scene> scene, const MonitorOptions& options, bool wrenches, double period)
-      : monitor_(std::move(scene), options), request_{wrenches, 0, false} {
+      : monitor_(std::move(scene), options), request_{wrenches, 0, false, wrenches} {
     motion_.times = {0.0, period};
     motion_.X_WB.assign(monitor_.scene().bodies.size(), std::vector<Isometry3d>(2, Isometry3d::Identity()));
   }

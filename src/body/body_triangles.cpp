@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "field/opening_caps.h"
 #include "geometry/mesh_edges.h"
 
 namespace sdf_ccd {
@@ -47,17 +46,13 @@ class Collector {
   }
 
   void add(const TriangleMesh& mesh, const Isometry3d& X_BG) {
-    addTriangles(mesh, X_BG);
+    for (const Vector3i& t : mesh.triangles)
+      triangles.push_back({{X_BG * mesh.vertices[t[0]], X_BG * mesh.vertices[t[1]], X_BG * mesh.vertices[t[2]]}, 0.0});
     const std::vector<std::int32_t> component = componentOfVertices(mesh);
     std::map<std::int32_t, std::vector<Vector3d>> points;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       if (component[v] >= 0) points[component[v]].push_back(X_BG * mesh.vertices[v]);
     for (const auto& [set, of_set] : points) components.push_back(farthestOut(of_set));
-  }
-
-  void addTriangles(const TriangleMesh& mesh, const Isometry3d& X_BG) {
-    for (const Vector3i& t : mesh.triangles)
-      triangles.push_back({{X_BG * mesh.vertices[t[0]], X_BG * mesh.vertices[t[1]], X_BG * mesh.vertices[t[2]]}, 0.0});
   }
 
   std::vector<RoundedTriangle> triangles;
@@ -66,11 +61,10 @@ class Collector {
 
 }  // namespace
 
-std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, const Body& body, MeshPool& pool) {
+std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
   Collector all;
-  double deviation = 0.0, crack = 0.0;
-  for (std::size_t i = 0; i < description.geometry.size(); ++i) {
-    const GeometryDescription& geometry = description.geometry[i];
+  double deviation = 0.0;
+  for (const GeometryDescription& geometry : description.geometry) {
     if (geometry.watertight_voxels || isHalfSpace(geometry)) return nullptr;
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       if (const auto* ball = std::get_if<Sphere>(primitive)) {
@@ -83,19 +77,20 @@ std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& descript
       all.add(tessellate(*primitive, fine), geometry.X_BG);
       continue;
     }
-    const TriangleMesh& mesh = pool.find(geometry).mesh;
-    all.add(mesh, geometry.X_BG);
-    if (!body.parts.empty() && !isClosed(mesh)) crack = std::max(crack, body.parts[i].field.errorBound());
+    all.add(pool.find(geometry).mesh, geometry.X_BG);
     if (all.triangles.size() > kMostTriangles) return nullptr;
   }
   if (all.triangles.empty()) return nullptr;
   auto made = std::make_shared<BodyTriangles>(BoxTree(all.triangles));
   made->deviation = deviation;
-  made->crack = crack;
-  made->components = std::move(all.components);
   const std::size_t open = all.triangles.size();
-  for (const BodyPart& part : body.parts)
-    if (const OpeningCaps* caps = part.field.openings()) all.addTriangles(caps->mesh(), part.X_BG);
+  for (const GeometryDescription& geometry : description.geometry) {
+    if (std::holds_alternative<Primitive>(geometry.shape)) continue;
+    PooledMesh& pooled = pool.find(geometry);
+    // Of a mesh that is not closed the solid's boundary is all of it, and with the caps it is closed.
+    if (!isClosed(pooled.mesh)) all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
+  }
+  made->components = std::move(all.components);
   if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(std::move(all.triangles));
   return made;
 }

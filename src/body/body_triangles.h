@@ -5,7 +5,6 @@
 
 #include "body/mesh_pool.h"
 #include "geometry/box_tree.h"
-#include "sdf_ccd/body/body.h"
 #include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {
@@ -16,12 +15,11 @@ struct BodyTriangles {
   explicit BodyTriangles(BoxTree triangles) : tree(std::move(triangles)) {}
 
   BoxTree tree;
-  std::unique_ptr<const BoxTree> closed;  ///< with the caps of openings that the body's fields know; null without any
+  std::unique_ptr<const BoxTree> closed;  ///< with caps in all openings (see findOpenings()); null without any
   double deviation = 0.0;                 ///< of the triangles from the surface, of cylinders [m]
-  double crack = 0.0;  ///< what else would have to be closed is nowhere farther from the triangles, or the caps [m]
 
-  /// Of each component of the surface (what is connected over shared vertices) its corners farthest out, in so many
-  /// directions. One that is outside a solid whose surface the component does not meet tells that all of it is.
+  /// Of each component of the surface, caps too (what is connected over shared vertices), its corners farthest out, in
+  /// so many directions. One that is outside a solid whose surface the component does not meet tells that all of it is.
   std::vector<std::vector<Vector3d>> components;
 
   const BoxTree& closedTree() const { return closed ? *closed : tree; }
@@ -29,7 +27,6 @@ struct BodyTriangles {
 
 /// Null where that would not be all of the body: of half-spaces and voxels; or too much, beyond half a million
 /// triangles.
-/// @param body  built from the description, but for this.
-std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, const Body& body, MeshPool& pool);
+std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool);
 
 }  // namespace sdf_ccd

@@ -38,7 +38,7 @@ Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
   auto [body, report] = buildBody(description, needs, options, pool, {});
   if (!body.failure.empty()) throw std::invalid_argument(description.name + ": " + body.failure);
   body.surface = surfaceOf(description, pool);
-  body.triangles = trianglesOf(description, body, pool);
+  body.triangles = trianglesOf(description, pool);
   for (const std::string& warning : report.warnings)
     if (body.warning.find(warning) == std::string::npos) body.warning += (body.warning.empty() ? "" : "; ") + warning;
   return std::move(body);

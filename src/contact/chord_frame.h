@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "sdf_ccd/motion/chords.h"
@@ -19,6 +22,36 @@ class ChordFrame {
  private:
   Isometry3d X_CF_;
   std::optional<ScrewMotion> motion_;  // none for a body of the world, at rest: no sine for every node
+};
+
+/// Its poses; those at the last few times are kept, as points are mostly asked about at the same ones.
+class ChordPoses {
+ public:
+  void begin(const ChordFrame& frame) {
+    frame_ = frame;
+    known_ = next_ = 0;
+  }
+
+  /// @return what holds until the next call.
+  const Isometry3d& at(double s) {
+    for (std::size_t i = 0; i < known_; ++i)
+      if (kept_[i].s == s) return kept_[i].X_CF;
+    Kept& kept = kept_[next_];
+    next_ = (next_ + 1) % kept_.size();
+    known_ = std::max(known_, next_ == 0 ? kept_.size() : next_);
+    kept = {s, frame_.pose(s)};
+    return kept.X_CF;
+  }
+
+ private:
+  struct Kept {
+    double s;
+    Isometry3d X_CF;
+  };
+
+  ChordFrame frame_;
+  std::array<Kept, 8> kept_;
+  std::size_t known_ = 0, next_ = 0;
 };
 
 /// A shell point along one chord, frame F (paper Eq. 1).

@@ -1,15 +1,16 @@
 #include "sdf_ccd/contact/penalty.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "chord_frame.h"
 #include "common/number_text.h"
 #include "deepest.h"
+#include "field/cell_reader.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/query/segment_query.h"
 
@@ -22,21 +23,28 @@ struct Node {
 };
 
 // Three-point Gauss on [0, 1]: exact up to degree 5, which d (cubic) times N and r (linear) is (design §3.9).
-const std::array<Node, 3> kGauss = {
-    {{0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}}};
+const std::vector<Node> kGauss = {
+    {0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}};
+const std::vector<Node> kMidpoint = {{0.5, 1.0}};
 
 // Two parts in the same position: their values differ by the rounding of their poses [m].
 constexpr double kTie = 1e-9;
 
 class Integrator {
  public:
-  Integrator(const ContactInput& input, const ContactOptions& options, bool with_impulse, ContactImpulse& result)
-      : input_(input), options_(options), with_impulse_(with_impulse), result_(result) {}
+  Integrator(const ContactInput& input, const ContactOptions& options, const ContactRequest& request,
+             ContactImpulse& result)
+      : input_(input),
+        field_(input.field),
+        options_(options),
+        rule_(options.quadrature == Quadrature::kExact ? kGauss : kMidpoint),
+        request_(request),
+        result_(result) {}
 
   void add(const ShellHit& hit) {
     if (hit.chord != chord_) {
       chord_ = hit.chord;
-      frame_ = ChordFrame(input_.X_CF[chord_], input_.X_CF[chord_ + 1]);
+      poses_.begin(ChordFrame(input_.X_CF[chord_], input_.X_CF[chord_ + 1]));
     }
     const Chord& chord = input_.path.chords[chord_];
     const ChordPoint point(chord, input_.shell.points[hit.point], input_.shell.normals[hit.point]);
@@ -60,11 +68,13 @@ class Integrator {
 
     deepest_ = {};
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) addPiece(point, breaks[i], breaks[i + 1]);
-    deepest_.refine([&](double s) { return input_.field.interpolate(point.position(s)).value; });
+    deepest_.refine([&](double s) { return valueAt(point, s); });
     result_.depths.push_back(depthOf(point, chord));
   }
 
  private:
+  double valueAt(const ChordPoint& point, double s) { return field_.value(point.position(s)); }
+
   Vector3d fieldNormal(const ChordPoint& point, double s, const Vector3d& gradient) const {
     const double norm = gradient.norm();
     return norm > 1e-9 ? Vector3d(gradient / norm) : point.inward(s);
@@ -75,14 +85,14 @@ class Integrator {
   }
 
   /// Whether a sibling of the field is deeper at p_F, so that the contact is not this field's.
-  bool siblingOwns(const Vector3d& p_F) const {
+  bool siblingOwns(const Vector3d& p_F) {
     std::optional<double> own;
     for (const SiblingField& sibling : input_.siblings) {
       const Vector3d p_G = sibling.X_GF * p_F;
       const AlignedBox3d& box = sibling.field->surfaceBox();
       // Beyond its error outside the surface's box, the sibling's value is positive.
       if (box.exteriorDistance(p_G) > sibling.field->errorBound()) continue;
-      if (!own) own = input_.field.interpolate(p_F).value;
+      if (!own) own = field_.value(p_F);
       const double ahead = *own - sibling.field->interpolate(p_G).value;
       if (ahead > kTie || (ahead >= -kTie && sibling.wins_tie)) return true;
     }
@@ -121,66 +131,73 @@ class Integrator {
     }
     // The gradient jumps from cell to cell: the ends are taken just inside this piece.
     const double first = from + 1e-9 * length, last = to - 1e-9 * length;
-    const FieldValue at_first = input_.field.interpolate(point.position(first));
-    deepest_.offer(first, at_first.value);
-    if (options_.quadrature == Quadrature::kMidpoint) {
-      const double s = from + 0.5 * length;
-      const FieldValue sample = input_.field.interpolate(point.position(s));
-      deepest_.offer(s, sample.value);
-      addNode(point, {s, length}, sample.value, normal(point, s, sample.gradient));
-      const FieldValue at_last = input_.field.interpolate(point.position(last));
-      deepest_.offer(last, at_last.value);
-      return;
+    if (!request_.impulse) {
+      offer(point, first);
+      for (const Node& node : rule_) offer(point, from + node.s * length);
+      return offer(point, last);
     }
-    const FieldValue at_last = input_.field.interpolate(point.position(last));
+    const FieldValue at_first = field_.interpolate(point.position(first));
+    const FieldValue at_last = field_.interpolate(point.position(last));
     const bool known = at_first.gradient.norm() > 1e-9 && at_last.gradient.norm() > 1e-9;
-    const bool linear = known || options_.normal == NormalSource::kShell;
+    const bool exact = options_.quadrature == Quadrature::kExact;
+    const bool linear = exact && (known || options_.normal == NormalSource::kShell);
     const Vector3d N_first = normal(point, first, at_first.gradient);
     const Vector3d N_last = normal(point, last, at_last.gradient);
-    for (const Node& gauss : kGauss) {
-      const Node node{from + gauss.s * length, gauss.weight * length};
-      const FieldValue sample = input_.field.interpolate(point.position(node.s));
+    deepest_.offer(first, at_first.value);
+    for (const Node& share : rule_) {
+      const Node node{from + share.s * length, share.weight * length};
+      FieldValue sample;
+      Vector3d N;
+      if (linear) {
+        sample.value = valueAt(point, node.s);
+        N = (1.0 - share.s) * N_first + share.s * N_last;
+      } else {
+        sample = field_.interpolate(point.position(node.s));
+        N = normal(point, node.s, sample.gradient);
+      }
       deepest_.offer(node.s, sample.value);
-      addNode(point, node, sample.value,
-              linear ? Vector3d((1.0 - gauss.s) * N_first + gauss.s * N_last) : normal(point, node.s, sample.gradient));
+      addNode(point, node, sample.value, N);
     }
     deepest_.offer(last, at_last.value);
   }
 
+  void offer(const ChordPoint& point, double s) { deepest_.offer(s, valueAt(point, s)); }
+
   void addNode(const ChordPoint& point, const Node& node, double value, const Vector3d& N_F) {
-    if (!with_impulse_) return;
     Vector3d F_F = -stiffness_ * std::min(value, 0.0) * N_F;  // Eq. 3, N as in design §3.6
     if (damping_ != 0.0) F_F -= damping_ * point.velocity();  // Eq. 10 with the sign that opposes the motion
-    const Isometry3d X_CF = frame_.pose(node.s);
+    const Isometry3d& X_CF = poses_.at(node.s);
     const Vector3d impulse = node.weight * point.duration * (X_CF.linear() * F_F);  // Eq. 4
     const Vector3d r_C = X_CF * point.position(node.s);
     result_.on_shell_body += {impulse, r_C.cross(impulse)};  // Eq. 5, 11
   }
 
-  HitDepth depthOf(const ChordPoint& point, const Chord& chord) const {
+  HitDepth depthOf(const ChordPoint& point, const Chord& chord) {
     HitDepth depth;
     depth.siblings = !deepest_.found();
     if (depth.siblings) return depth;
     const double s = deepest_.s();
-    const Vector3d p_F = point.position(s);
-    const Isometry3d X_CF = frame_.pose(s);
+    const Isometry3d& X_CF = poses_.at(s);
     depth.depth = std::max(-deepest_.value(), 0.0);
     depth.time = chord.t_start + s * point.duration;
-    depth.p_C = X_CF * p_F;
-    const FieldSample sample = input_.field.sample(p_F);
-    depth.error = sample.error;
+    depth.p_F = point.position(s);
+    depth.p_C = X_CF * depth.p_F;
+    depth.normal_C = X_CF.linear() * fieldNormal(point, s, field_.interpolate(depth.p_F).gradient);
+    if (!request_.depth_errors) return depth;
+    depth.error = input_.field.sample(depth.p_F).error;
     depth.least = depth.depth - depth.error;
-    if (depth.depth > input_.field.band()) depth.least = std::max(depth.least, -input_.field.bounds(p_F).high);
-    depth.normal_C = X_CF.linear() * fieldNormal(point, s, sample.gradient);
+    if (depth.depth > input_.field.band()) depth.least = std::max(depth.least, -input_.field.bounds(depth.p_F).high);
     return depth;
   }
 
   const ContactInput& input_;
+  CellReader field_;
   const ContactOptions& options_;
-  const bool with_impulse_;
+  const std::vector<Node>& rule_;  // on each piece
+  const ContactRequest& request_;
   ContactImpulse& result_;
   int chord_ = -1;
-  ChordFrame frame_;
+  ChordPoses poses_;
   double stiffness_ = 0.0;  // of this point [N/m]
   double damping_ = 0.0;    // of this point [N·s/m]
   Deepest deepest_;
@@ -202,13 +219,13 @@ void validate(const ContactOptions& options) {
 }
 
 void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,
-                      bool with_impulse, ContactImpulse& result) {
+                      const ContactRequest& request, ContactImpulse& result) {
   if (input.X_CF.size() != input.path.chords.size() + 1)
     throw std::invalid_argument("contact: " + std::to_string(input.path.chords.size()) +
                                 " chords need one pose more, got " + std::to_string(input.X_CF.size()));
   result.on_shell_body = {};
   result.depths.clear();
-  Integrator integrator(input, options, with_impulse, result);
+  Integrator integrator(input, options, request, result);
   CancelTicks<> cancel;
   for (const ShellHit& hit : hits) {
     cancel.check();

@@ -41,7 +41,7 @@ class ContinuousIntegrator : public Integrator {
                              role.path,
                              X_CF_,
                              {}};
-    integrateContact(input, role.hits, world_.contact, true, impulse_);
+    integrateContact(input, role.hits, world_.contact, {}, impulse_);
     const Vector3d p_FP =
         motion_.X_OB[role.shell_body].back().translation() - motion_.X_OB[role.field_body].back().translation();
     addPair((role.weight / duration) * impulse_.on_shell_body, p_FP, average_[role.shell_body],

@@ -76,7 +76,7 @@ void makeTriangles(const SceneDescription& description, MeshPool& pool, Scene& s
     if (possible(pair.body_a) && possible(pair.body_b)) wanted[pair.body_a] = wanted[pair.body_b] = 1;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     checkCancelled();
-    if (wanted[i] != 0) scene.bodies[i].triangles = trianglesOf(description.bodies[i], scene.bodies[i], pool);
+    if (wanted[i] != 0) scene.bodies[i].triangles = trianglesOf(description.bodies[i], pool);
   }
 }
 

@@ -115,6 +115,11 @@ bool ContactCollector::passesThrough(const DistanceField& field, const PairRole&
   return false;
 }
 
+/// Whether depths must be proved, each hit's: else those are asked about that are listed in the end.
+bool ContactCollector::needsErrors(const DistanceField& field) const {
+  return !crosses_ || field.openings();
+}
+
 /// Takes over what integrate() has found of the hits.
 void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
   const bool certain = !input.field.openings();
@@ -128,12 +133,16 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
     intervals_.push_back(times);
     if (depth.siblings) continue;
-    Found found{shell_is_a ? 0 : 1, hit.point, {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}}};
+    Found found{shell_is_a ? 0 : 1,
+                hit.point,
+                {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}},
+                needsErrors(input.field) ? nullptr : &input.field,
+                depth.p_F};
     found.contact.p_W = depth.p_C + p_WC_;
     // Out of the field's body: that is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
     // Before it is joined with what the same point does in other parts, whose depths may be none.
-    if (certain) certain_depth_ = std::max(certain_depth_, depth.least);
+    if (certain && needsErrors(input.field)) certain_depth_ = std::max(certain_depth_, depth.least);
     found_.push_back(found);
   }
   joinWhereMany();
@@ -142,7 +151,7 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
 /// As integrateContact() over all hits; of a field with openings only over those that may bear a force.
 void ContactCollector::integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse) {
   const bool open = input.field.openings() != nullptr;
-  integrateContact(input, hits_, options, with_impulse && !open, impulse_);
+  integrateContact(input, hits_, options, {with_impulse && !open, needsErrors(input.field)}, impulse_);
   if (!open) return;
   bearing_hits_.clear();
   for (std::size_t h = 0; h < hits_.size(); ++h) {
@@ -152,7 +161,7 @@ void ContactCollector::integrate(const ContactInput& input, const ContactOptions
     if (!bears) impulse_.depths[h].error = std::max(impulse_.depths[h].error, impulse_.depths[h].depth);
   }
   if (!with_impulse) return;
-  integrateContact(input, bearing_hits_, options, true, bearing_impulse_);
+  integrateContact(input, bearing_hits_, options, {true, false}, bearing_impulse_);
   impulse_.on_shell_body = bearing_impulse_.on_shell_body;
 }
 
@@ -196,18 +205,18 @@ void ContactCollector::join() {
   });
   std::size_t last = 0;
   for (std::size_t i = 1; i < found_.size(); ++i) {
-    ContactPoint& kept = found_[last].contact;
-    const ContactPoint& next = found_[i].contact;
-    const bool same = found_[i].role == found_[last].role && found_[i].point == found_[last].point &&
-                      next.enter <= kept.exit + tolerance();
+    Found& kept = found_[last];
+    const Found& next = found_[i];
+    const bool same =
+        next.role == kept.role && next.point == kept.point && next.contact.enter <= kept.contact.exit + tolerance();
     if (!same) {
-      found_[++last] = found_[i];
+      found_[++last] = next;
       continue;
     }
-    const double enter = kept.enter, exit = std::max(kept.exit, next.exit);
-    if (next.depth > kept.depth) kept = next;
-    kept.enter = enter;
-    kept.exit = exit;
+    const double enter = kept.contact.enter, exit = std::max(kept.contact.exit, next.contact.exit);
+    if (next.contact.depth > kept.contact.depth) kept = next;
+    kept.contact.enter = enter;
+    kept.contact.exit = exit;
   }
   found_.resize(last + 1);
 }
@@ -221,6 +230,8 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
     return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <
            std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
   });
+  for (std::size_t i = 0; i < listed; ++i)
+    if (found_[i].field) found_[i].contact.depth_error = found_[i].field->sample(found_[i].p_F).error;
   if (!found_.empty()) result.deepest = found_.front().contact;
   for (std::size_t i = 0; i < listed && request.max_points > 0; ++i) result.points.push_back(found_[i].contact);
 

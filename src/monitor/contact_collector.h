@@ -42,6 +42,8 @@ class ContactCollector {
     int role;
     int point;
     ContactPoint contact;
+    const DistanceField* field;  // that is still to be asked for the depth's error; null if it is known
+    Vector3d p_F;                // where
   };
 
   void setFieldPoses(const PairRole& role);
@@ -52,6 +54,7 @@ class ContactCollector {
   void join();
   void joinWhereMany();
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
+  bool needsErrors(const DistanceField& field) const;
   bool bearsForce(const ContactInput& input, std::size_t hit) const;
 
   double tolerance() const;

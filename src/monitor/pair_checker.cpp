@@ -150,6 +150,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   std::optional<ContactPoint> crossing;
   if (surfaces_) {
     if (clearBySurfaces(crossing, result)) return;
+    if (crossing && !request.wantsContacts()) return setCrossing(*crossing, result);
     setRoles(bodies, result.span);
     motion_error_ += given_error;
     setError(bound_, kRootTolerance * travel_, result);
@@ -177,6 +178,14 @@ void PairChecker::setClear(double clearance, PairResult& result) {
   clearance_ = clearance;
   result.verdict = Verdict::kClear;
   result.clearance = clearance - motion_error_;
+}
+
+/// A contact of which no more is known than that surfaces cross there.
+void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) {
+  forgetClearance();
+  result.verdict = Verdict::kContact;
+  result.intervals.push_back({crossing.time, crossing.time});
+  result.deepest = crossing;
 }
 
 /// Whether the triangles show that the bodies stay apart. @param crossing  gets where they surely cross, if they do.
@@ -251,10 +260,7 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
                   request.wrenches && role.bearsForce());
   }
   collector.finish(request, result);
-  if (crossing && result.intervals.empty()) {
-    result.intervals.push_back({crossing->time, crossing->time});
-    result.deepest = *crossing;
-  }
+  if (crossing && result.intervals.empty()) return setCrossing(*crossing, result);
   // Whatever lies between the points, and wherever in the band: one of the surface is deeper than the motion is off by.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;
   result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;

@@ -55,9 +55,7 @@ class PairChecker {
 
   /// Farther than this, but for the motion's error, a test could not find anything: what it finds is off by field and
   /// chord error at most [m]. What triangles are off by, their clearance has lost already.
-  double margin() const {
-    return surfaces_ ? 0.0 : bound_.total() + bound_.field + 2.0 * options_.chords.tolerance;
-  }
+  double margin() const { return surfaces_ ? 0.0 : bound_.total() + bound_.field + 2.0 * options_.chords.tolerance; }
 
  private:
   static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
@@ -73,6 +71,7 @@ class PairChecker {
   double givenError(const CycleMotion& motion) const;
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
+  void setCrossing(const ContactPoint& crossing, PairResult& result);
   bool clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result);
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);

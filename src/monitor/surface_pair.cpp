@@ -55,11 +55,10 @@ double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
 
 SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& memory) {
   const BodyTriangles &f = *field_->triangles, &p = *shell_->triangles;
-  const double margin = motion_error + deviation_, crack = f.crack + p.crack;
-  if (f.closed || p.closed || crack > 0.0) {
+  const double margin = motion_error + deviation_;
+  if (f.closed || p.closed) {
     // Apart also from what closes them: nothing has come in by an opening.
-    Answer closed = decideBy(f.closedTree(), p.closedTree(), margin + crack, closed_witness_, memory);
-    closed.clearance -= crack;
+    const Answer closed = decideBy(f.closedTree(), p.closedTree(), margin, closed_witness_, memory);
     if (closed.state == SeparationState::kApart) return closed;
     Answer open = decideBy(f.tree, p.tree, margin, witness_, memory);
     if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;

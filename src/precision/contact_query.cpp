@@ -73,7 +73,7 @@ void ContactQuery::find() {
 }
 
 const ContactImpulse& ContactQuery::integrate(const ContactOptions& options) {
-  integrateContact({field, shell.shell, path, X_CF, siblings}, hits, options, true, impulse);
+  integrateContact({field, shell.shell, path, X_CF, siblings}, hits, options, {}, impulse);
   return impulse;
 }
 

@@ -28,13 +28,15 @@ class StateTester {
     motion_.X_WB.assign(links_.size(), {Isometry3d::Identity(), Isometry3d::Identity()});
   }
 
-  const std::vector<PairResult>& test(const JointPositions& positions) {
+  /// @param contacts  whether depths are wanted too.
+  const std::vector<PairResult>& test(const JointPositions& positions, bool contacts) {
     const std::vector<Isometry3d> X_RL = robot_.forwardKinematics(positions);
     for (std::size_t body = 0; body < links_.size(); ++body)
       if (links_[body] < X_RL.size()) motion_.X_WB[body].assign(2, X_RL[links_[body]]);
     monitor_.reset();  // so that what it says of a state does not depend on the one before
     CycleRequest request;
     request.wrenches = false;
+    request.contacts = contacts;
     return monitor_.run(motion_, request).pairs;
   }
 
@@ -65,7 +67,7 @@ std::vector<PairState> pairsIn(const RobotModel& robot, const Scene& scene, cons
                                const JointPositions& state) {
   StateTester tester(robot, sceneOf(scene, pairs));
   std::vector<PairState> states;
-  for (const PairResult& pair : tester.test(state))
+  for (const PairResult& pair : tester.test(state, true))
     states.push_back({tester.verdict(pair), pair.intervals.empty() ? 0.0 : std::max(0.0, pair.deepest.depth)});
   return states;
 }
@@ -81,7 +83,7 @@ std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, con
       std::unique_ptr<StateTester>& tester = testers.local();
       if (!tester) tester = std::make_unique<StateTester>(robot, reduced);
       Verdict* verdict = &verdicts[state * pairs.size()];
-      for (const PairResult& pair : tester->test(states[state])) *verdict++ = tester->verdict(pair);
+      for (const PairResult& pair : tester->test(states[state], false)) *verdict++ = tester->verdict(pair);
     });
   });
   return verdicts;

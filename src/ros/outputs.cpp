@@ -26,7 +26,8 @@ CycleRequest Outputs::request(int max_points) const {
   request.wrenches = contacts || std::any_of(wrenches_.begin(), wrenches_.end(), [](const LinkWrench& link) {
                        return link.publisher.getNumSubscribers() > 0;
                      });
-  request.max_points = contacts || markers_.getNumSubscribers() > 0 ? max_points : 0;
+  request.contacts = contacts || markers_.getNumSubscribers() > 0;
+  request.max_points = request.contacts ? max_points : 0;
   return request;
 }
 

@@ -75,9 +75,9 @@ struct ContactCase {
     return hits;
   }
 
-  ContactImpulse run(const ContactOptions& options, bool with_impulse = true) const {
+  ContactImpulse run(const ContactOptions& options, const ContactRequest& request = {}) const {
     ContactImpulse result;
-    integrateContact({field, shell, path, X_CF, siblings}, hits(), options, with_impulse, result);
+    integrateContact({field, shell, path, X_CF, siblings}, hits(), options, request, result);
     return result;
   }
 };

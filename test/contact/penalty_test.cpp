@@ -125,7 +125,7 @@ TEST(Penalty, DepthSaysWhatItMayBeWrongBy) {
   for (const double depth : {0.01, 0.02, 0.1, 0.17}) {
     const Isometry3d X_FP = translation({0.2 - depth, 0.004, -0.01});
     const ContactCase inside{cube, onePoint(Vector3d::Zero(), Vector3d::UnitX()), oneChord(1.0, X_FP, X_FP)};
-    const HitDepth found = inside.run(perArea(), false).depths.at(0);
+    const HitDepth found = inside.run(perArea(), {false, true}).depths.at(0);
     EXPECT_LE(std::abs(found.depth - depth), found.error) << depth;
     EXPECT_EQ(found.error > cube.errorBound(), depth > 0.05) << depth;
   }
@@ -136,7 +136,7 @@ TEST(Penalty, DepthIsFoundBetweenTheNodes) {
   const double R = 0.1, b = 0.08;
   const ContactCase passing{DistanceField(Sphere{R}), onePoint({0, b, 0}, -Vector3d::UnitY()),
                             oneChord(1.0, translation({-0.0317, 0, 0}), translation({0.37, 0, 0}))};
-  const HitDepth deepest = passing.run(perArea(), false).depths.at(0);
+  const HitDepth deepest = passing.run(perArea(), {false, true}).depths.at(0);
   EXPECT_NEAR(deepest.depth, R - b, 1e-9);
   EXPECT_LE(deepest.depth, R - b + 1e-15);
   EXPECT_NEAR(deepest.time, 0.0317 / 0.4017, 1e-4);
@@ -147,11 +147,34 @@ TEST(Penalty, DepthIsFoundBetweenTheNodes) {
 TEST(Penalty, WithoutImpulseOnlyDepthsAreFound) {
   const Isometry3d X_FP = translation({0, 0, -0.002});
   const ContactCase pressed{DistanceField(ground()), bottomFace(0.05, 4), oneChord(1.0, X_FP, X_FP)};
-  const ContactImpulse with = pressed.run(perArea(), true), without = pressed.run(perArea(), false);
+  const ContactImpulse with = pressed.run(perArea()), without = pressed.run(perArea(), {false, true});
   EXPECT_EQ(without.on_shell_body.force, Vector3d::Zero());
   EXPECT_EQ(without.on_shell_body.torque, Vector3d::Zero());
   ASSERT_EQ(with.depths.size(), without.depths.size());
   for (std::size_t i = 0; i < with.depths.size(); ++i) EXPECT_EQ(with.depths[i].depth, without.depths[i].depth);
+}
+
+TEST(Penalty, WithoutErrorsAllElseIsTheSame) {
+  std::mt19937 random(3);
+  for (const DistanceField& field : {curvedField(), DistanceField(Primitive(Box{{0.3, 0.2, 0.1}}))}) {
+    const Isometry3d X_FP = randomPose(random, 0.05), X_end = translation({0.01, -0.02, 0.01}) * X_FP;
+    const ContactCase pressed{field, spiralSphere(0.15, 60), oneChord(1.0, X_FP, X_end)};
+    for (const bool impulse : {false, true}) {
+      const ContactImpulse with = pressed.run(perArea(), {impulse, true}),
+                           without = pressed.run(perArea(), {impulse, false});
+      EXPECT_EQ(with.on_shell_body.force, without.on_shell_body.force);
+      EXPECT_EQ(with.on_shell_body.torque, without.on_shell_body.torque);
+      ASSERT_EQ(with.depths.size(), without.depths.size());
+      ASSERT_GT(with.depths.size(), 5u);
+      for (std::size_t i = 0; i < with.depths.size(); ++i) {
+        const HitDepth &a = with.depths[i], &b = without.depths[i];
+        EXPECT_EQ(a.depth, b.depth);
+        EXPECT_EQ(a.p_C, b.p_C);
+        EXPECT_EQ(a.normal_C, b.normal_C);
+        EXPECT_EQ(a.error, field.sample(b.p_F).error);
+      }
+    }
+  }
 }
 
 TEST(Penalty, ExactRuleIntegratesTheInterpolatedField) {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
+#include <array>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include "monitor/scene_case.h"
 
@@ -107,6 +110,81 @@ TEST(Monitor, ResultsDoNotDependOnThreads) {
       ASSERT_EQ(a.pairs[p].deepest.p_W, b.pairs[p].deepest.p_W);
       ASSERT_EQ(a.pairs[p].points.size(), b.pairs[p].points.size());
     }
+  }
+}
+
+bool same(const ContactPoint& a, const ContactPoint& b) {
+  return a.enter == b.enter && a.exit == b.exit && a.time == b.time && a.depth == b.depth &&
+         a.depth_error == b.depth_error && a.p_W == b.p_W && a.normal_W == b.normal_W;
+}
+
+bool same(const Wrench& a, const Wrench& b) {
+  return a.force == b.force && a.torque == b.torque;
+}
+
+bool same(const ErrorBound& a, const ErrorBound& b) {
+  return a.field == b.field && a.chord == b.chord && a.root == b.root && a.gap == b.gap;
+}
+
+/// Bit by bit.
+void expectSame(const CycleResult& a, const CycleResult& b) {
+  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.error_bound, b.error_bound);
+  EXPECT_TRUE(same(a.error, b.error));
+  EXPECT_EQ(std::tie(a.checked, a.skipped, a.not_checked, a.delayed),
+            std::tie(b.checked, b.skipped, b.not_checked, b.delayed));
+  for (std::size_t i = 0; i < a.pairs.size(); ++i) {
+    const PairResult &p = a.pairs[i], &q = b.pairs[i];
+    EXPECT_EQ(p.verdict, q.verdict);
+    EXPECT_EQ(p.reason, q.reason);
+    EXPECT_EQ(p.skipped, q.skipped);
+    EXPECT_EQ(p.clearance, q.clearance);
+    EXPECT_TRUE(same(p.error, q.error));
+    EXPECT_TRUE(same(p.deepest, q.deepest));
+    EXPECT_TRUE(same(p.on_a_W, q.on_a_W) && same(p.on_b_W, q.on_b_W));
+    ASSERT_EQ(p.intervals.size(), q.intervals.size());
+    for (std::size_t k = 0; k < p.intervals.size(); ++k)
+      EXPECT_TRUE(p.intervals[k].enter == q.intervals[k].enter && p.intervals[k].exit == q.intervals[k].exit);
+    ASSERT_EQ(p.points.size(), q.points.size());
+    for (std::size_t k = 0; k < p.points.size(); ++k) EXPECT_TRUE(same(p.points[k], q.points[k]));
+  }
+}
+
+/// What cycles keep for the next ones (clearances, witnesses, memory) is in it too, and bodies of all kinds.
+TEST(Monitor, CyclesDoNotDependOnThreads) {
+  std::vector<BodyDescription> bodies = {body("ground", ground(), true)};
+  for (int i = 0; i < 3; ++i) {
+    const std::string number = std::to_string(i);
+    bodies.push_back(body("box" + number, meshShape(boxMesh({0.1, 0.08, 0.05}))));
+    bodies.push_back(body("ball" + number, Primitive(Sphere{0.07})));
+    bodies.push_back(body("drum" + number, Primitive(Cylinder{0.06, 0.08})));
+    bodies.push_back(body("ring" + number, meshShape(torusMesh(0.1, 0.03, 24, 12))));
+  }
+  const auto scene = build(bodies, fine(0.02));
+  const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);  // also on a smaller machine
+  for (const CycleRequest& request : {CycleRequest{true, 3, true, true}, CycleRequest{false, 0, false, false}}) {
+    std::array<Monitor, 3> monitors = {Monitor(scene, soft()), Monitor(scene, soft()), Monitor(scene, soft())};
+    std::mt19937 random(11);
+    std::vector<Isometry3d> X_WB(bodies.size(), Isometry3d::Identity()), step = X_WB;
+    int contacts = 0;
+    for (int i = 0; i < 60; ++i) {
+      std::vector<std::vector<Isometry3d>> poses;
+      for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (b > 0 && i % 20 == 0) X_WB[b] = randomPose(random, 0.35);
+        if (b > 0 && i % 20 == 0) step[b] = pose(randomPose(random, 0.01).translation(), 0.05, {1, 1, 0});
+        poses.push_back({X_WB[b], X_WB[b] * step[b]});
+        X_WB[b] = poses.back().back();
+      }
+      const CycleMotion motion = cycle(0.01, poses);
+      std::array<const CycleResult*, 3> results;
+      for (std::size_t k = 0; k < monitors.size(); ++k) {
+        const int threads = k == 0 ? 1 : static_cast<int>(2 * k);
+        tbb::task_arena(threads).execute([&] { results[k] = &monitors[k].run(motion, request); });
+      }
+      for (const CycleResult* result : results) expectSame(*results[0], *result);
+      for (const PairResult& pair : results[0]->pairs) contacts += pair.verdict == Verdict::kContact;
+    }
+    EXPECT_GT(contacts, 300);
   }
 }
 

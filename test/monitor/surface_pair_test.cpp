@@ -47,6 +47,58 @@ TEST(SurfacePair, TellsATenthOfAMillimetre) {
   }
 }
 
+/// What closes a mesh that is not quite closed is known to the triangles, however coarse the fields are.
+TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
+  constexpr double kGap = 5e-5, kCrack = 1e-6, kHalf = 0.1;
+  Random random(1);
+  const TriangleMesh whole = boxMesh({kHalf, kHalf, kHalf});
+  TriangleMesh cracked;
+  for (const Vector3i& t : whole.triangles) {
+    const int first = static_cast<int>(cracked.vertices.size());
+    for (int k = 0; k < 3; ++k) cracked.vertices.push_back(whole.vertices[t[k]] + kCrack * direction(random));
+    cracked.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  const auto scene =
+      build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("cracked", meshShape(cracked))}, coarse());
+  Monitor monitor(scene, soft());
+  EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf + kGap})).verdict, Verdict::kClear);
+  EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf - kGap})).verdict, Verdict::kContact);
+}
+
+/// Where contacts are not asked for, verdicts are the same, and what crosses has a time and a place.
+TEST(SurfacePair, VerdictsAloneAreTheSame) {
+  const auto scene =
+      build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("hand", meshShape(boxMesh({0.03, 0.04, 0.05}))),
+             body("ball", Primitive(Sphere{0.04})), body("drum", Primitive(Cylinder{0.03, 0.05}))},
+            coarse());
+  Monitor all(scene, soft()), verdicts(scene, soft());
+  CycleRequest alone;
+  alone.wrenches = alone.contacts = false;
+  Random random(2);
+  int contacts = 0;
+  std::vector<Isometry3d> from(4, Isometry3d::Identity());
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::vector<Isometry3d>> motions = {still(Isometry3d::Identity())};
+    for (int body = 1; body < 4; ++body) {
+      const Isometry3d to = i % 10 == 0 ? pose(random, 3.0, 0.15) : from[body] * pose(random, 0.2, 0.01);
+      motions.push_back({i % 10 == 0 ? to : from[body], to});
+      from[body] = to;
+    }
+    const CycleMotion motion = cycle(0.1, motions);
+    const CycleResult &expected = all.run(motion, {}), &result = verdicts.run(motion, alone);
+    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
+      const PairResult& pair = result.pairs[k];
+      EXPECT_EQ(pair.verdict, expected.pairs[k].verdict) << i << ", pair " << k;
+      if (pair.verdict != Verdict::kContact) continue;
+      ++contacts;
+      ASSERT_FALSE(pair.intervals.empty());
+      EXPECT_GE(pair.intervals[0].enter, 0.0);
+      EXPECT_LE(pair.intervals[0].exit, 0.1);
+    }
+  }
+  EXPECT_GT(contacts, 100);
+}
+
 /// And what touches within the cycle alone, however thin and fast.
 TEST(SurfacePair, NothingTunnels) {
   const auto scene = build(

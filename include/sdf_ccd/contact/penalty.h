@@ -76,8 +76,15 @@ struct HitDepth {
   double error = 0.0;               ///< of the depth: the field's there, larger beyond its band [m]
   double least = 0.0;               ///< the depth is no less [m]: beyond the band the error alone would not tell that
   double time = 0.0;                ///< [s]
-  Vector3d p_C = Vector3d::Zero();  ///< contact point [m], frame C
+  Vector3d p_F = Vector3d::Zero();  ///< contact point [m], frame F
+  Vector3d p_C = Vector3d::Zero();  ///< the same in frame C
   Vector3d normal_C = Vector3d::Zero();  ///< unit, out of the field's body
+};
+
+/// What integrateContact() is asked for beside depths.
+struct ContactRequest {
+  bool impulse = true;
+  bool depth_errors = true;  ///< else HitDepth::error and `least` are not set; the error is field.sample(p_F).error
 };
 
 /// Impulses over all hits.
@@ -93,9 +100,8 @@ struct ContactImpulse {
 /// an interpolated field and an F that does not rotate in C. The midpoint rule is the paper's.
 /// Where the field knows no gradient (far inside), the shell point's inward normal stands for it.
 /// Reuses the memory of `result`.
-/// @param with_impulse  false leaves the integrals out and finds depths only.
 /// @throws std::invalid_argument if X_CF has not one pose more than the path has chords.
 void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,
-                      bool with_impulse, ContactImpulse& result);
+                      const ContactRequest& request, ContactImpulse& result);
 
 }  // namespace sdf_ccd

@@ -19,6 +19,12 @@ struct CycleRequest {
   /// Whether `clearance` and `error` of pairs that are skipped are those of this cycle. Else they are what holds as
   /// long as the pair is skipped, and what held when it began to be: a cycle touches only pairs that it tests then.
   bool skipped_pairs = true;
+
+  /// Intervals and deepest points; wrenches and points ask for them too. Else a pair whose surfaces are found to cross
+  /// has one interval and deepest point, the time and place where they were, without a depth; no field is asked.
+  bool contacts = true;
+
+  bool wantsContacts() const { return contacts || wrenches || max_points > 0; }
 };
 
 /// One contact of one shell point.
