@@ -76,7 +76,7 @@ class MotionLooker {
   MotionLooker(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const MotionsRequest& wanted)
       : monitor_(std::move(scene), options), wanted_(wanted) {
     request_.wrenches = false;
-    request_.max_points = 0;
+    request_.contacts = false;
     request_.skipped_pairs = false;
   }
 

@@ -59,7 +59,8 @@ struct MotionVerdict {
   Verdict verdict = Verdict::kNotChecked;
   double error_bound = 0.0;  ///< largest of the pairs checked, the margin not counted [m]
   int pair = -1;             ///< in Scene::pairs: the first found that has the verdict; −1 if that is CLEAR
-  double time = -1.0;  ///< of its contact's begin, or else of the part of the motion where that was found [s]; −1 if CLEAR
+  double time = -1.0;  ///< when they were found to touch, or else the begin of the part where that was found [s];
+                       ///< −1 if CLEAR
 };
 
 /// Checks motions on all cores, each for itself. Of a motion that is not CLEAR, checkMotion() tells all.
