@@ -85,7 +85,8 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory();
 /// proved to stay farther apart than the motions are known to, and no part of one is wholly inside the other, and in
 /// CONTACT if the surfaces surely cross at some time: to 0.1 mm, whatever fields and shells are
 /// (src/query/separation.h; design §3.17). PairResult::error is that of the triangles and motions then where they are
-/// CLEAR. What is left open, depths and forces are the fields' and shells'.
+/// CLEAR, or in CONTACT and no more is asked for (CycleRequest::contacts). What is left open, depths and forces are the
+/// fields' and shells'.
 ///
 /// Else a pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is surely deeper,
 /// by what the field knows where it is, than the errors of chord and root, else UNCERTAIN; NOT_CHECKED if a body is
