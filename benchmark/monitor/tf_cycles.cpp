@@ -46,7 +46,7 @@ void TfCycles::run() {
   monitor_seconds_ = 0.0;
   loop_->history().watchClock(now_);
   loop_->history().add(message_, false);
-  if (loop_->step(now_, {false, 0, false}) != TfTracker::Step::kCycle) return;
+  if (loop_->step(now_, {false, 0, false, false}) != TfTracker::Step::kCycle) return;
   monitor_seconds_ = loop_->result().run_time;
   setContactArray(*loop_, contacts_);
   ros::serialization::serializeMessage(contacts_);
