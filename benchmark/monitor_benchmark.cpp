@@ -13,6 +13,9 @@
 #include "results.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "study.h"
+#ifdef SDF_CCD_WITH_ROS
+#include "monitor/tf_cycles.h"
+#endif
 
 namespace sdf_ccd::benchmark {
 namespace {
@@ -144,13 +147,14 @@ BodyOptions bodyOptions(double max_error, MonitorOptions& monitor) {
 /// A scene that is built once, for motions at several rates.
 struct Built {
   std::string name;
+  const Robot* robot;
   BoxWorld world;
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
 };
 
 Built build(const Robot& robot, Proximity proximity, const std::string& name, double max_error, double seconds) {
-  Built built{name, makeBoxWorld(robot, proximity, seconds, kSeed), nullptr, {}};
+  Built built{name, &robot, makeBoxWorld(robot, proximity, seconds, kSeed), nullptr, {}};
   const BodyOptions options = bodyOptions(max_error, built.options);
   const auto start = Clock::now();
   built.scene = std::make_shared<const Scene>(
@@ -167,6 +171,29 @@ Built build(const Robot& robot, Proximity proximity, const std::string& name, do
   return built;
 }
 
+#ifdef SDF_CCD_WITH_ROS
+/// Whole cycles from tf to the message, and what of them is not the monitor's.
+void studyTransforms(const Built& built, double period, std::size_t cycles, const std::string& name, int runs) {
+  TfCycles system(*built.robot, built.world, built.scene, built.options, period);
+  CycleTimes whole(cycles, 1), beside(cycles, 1);
+  for (int run = 0; run < runs; ++run) {
+    for (std::size_t i = 0; i < cycles; ++i) {
+      system.prepare(i);
+      const auto start = Clock::now();
+      system.run();
+      const double seconds = secondsSince(start);
+      whole.take(i, seconds);
+      beside.take(i, seconds - system.monitorSeconds());
+    }
+  }
+  for (const auto& [times, what] : {std::pair{&whole, "us"}, {&beside, "beside_us"}}) {
+    for (const auto& [quantile, share] : {std::pair{"_median", 0.5}, {"_p99", 0.99}, {"_p999", 0.999}})
+      print({"monitor", name, "sdf_ccd_tf", std::string(what) + quantile, 1e6 * times->quantile(share), "us", runs});
+  }
+  print({"monitor", name, "sdf_ccd_tf", "transforms", double(system.transformsPerMessage()), "a message", 1});
+}
+#endif
+
 void study(const Built& built, double rate, const std::string& name, const StudyOptions& options) {
   const Waypoints waypoints =
       waypointsOf(built.world, rate, static_cast<std::size_t>(std::lround(options.cycles * rate / 1000.0)));
@@ -174,6 +201,8 @@ void study(const Built& built, double rate, const std::string& name, const Study
   Ours with_wrenches(built.scene, built.options, true, waypoints.period);
   MonitorSystems peers;
   for (const MonitorPeerFactory& factory : monitorPeers()) factory(built.world.scene, built.scene->pairs, peers);
+  const auto isLeftOut = [&](const auto& peer) { return !isWanted(options.systems, peer->name()); };
+  peers.erase(std::remove_if(peers.begin(), peers.end(), isLeftOut), peers.end());
 
   std::vector<CycleTimes> times;
   for (int k = 0; k < 2; ++k) times.emplace_back(waypoints.cycles(), 1);  // skips go from cycle to cycle: all of them
@@ -198,6 +227,11 @@ void study(const Built& built, double rate, const std::string& name, const Study
     row("us_p99", 0.99);
     row("us_p999", 0.999);
   }
+#ifdef SDF_CCD_WITH_ROS
+  if (isWanted(options.systems, "sdf_ccd_tf"))
+    studyTransforms(built, waypoints.period, waypoints.cycles(), name, options.measure.runs);
+#endif
+  if (!isWanted(options.systems, "fcl")) return;
   const Verdicts verdicts = verdictsOf(ours, built.world.scene, waypoints);
   const auto row = [&](const char* metric, double value, const char* unit) {
     print({"monitor", name, "sdf_ccd", metric, value, unit, 1});

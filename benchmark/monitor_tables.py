@@ -32,4 +32,17 @@ def verdicts(results):
             'memory, MB'], rows
 
 
-TABLES = {'monitor_cycles': cycles, 'monitor_verdicts': verdicts}
+def transforms(results):
+    """What a cycle takes from tf to the message, and what of that is not the monitor's."""
+    rows = []
+    for case in results.cases('monitor'):
+        values = [results.get('monitor', case, 'sdf_ccd_tf', prefix + name)
+                  for prefix in ('us_', 'beside_us_') for name in ('median', 'p99', 'p999')]
+        if None in values:
+            continue
+        transforms = results.get('monitor', case, 'sdf_ccd_tf', 'transforms')
+        rows.append([case, number(transforms), ' / '.join(map(number, values[:3])), ' / '.join(map(number, values[3:]))])
+    return ['case', 'transforms a message', 'from tf to the message, us', 'beside the monitor, us'], rows
+
+
+TABLES = {'monitor_transforms': transforms, 'monitor_cycles': cycles, 'monitor_verdicts': verdicts}

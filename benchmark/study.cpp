@@ -49,6 +49,7 @@ int runStudy(int argc, char** argv, const std::string& description, const StudyO
   app.add_option("--cells", options.cells, "uniform fields: cells along the longest side")->delimiter(',');
   app.add_option("--errors", options.errors, "fields to a maximum error, in box sides")->delimiter(',');
   app.add_option("--cases", options.cases, "only those (segment: A, B1, …; shell: random, small, …)")->delimiter(',');
+  app.add_option("--systems", options.systems, "only these systems (study monitor)")->delimiter(',');
   app.add_option("--paper", options.paper_meshes, "meshes that get the paper's dense grids too")->delimiter(',');
   app.add_option("--segments", options.segments, "per case")->check(CLI::Range(1000, 100'000'000));
   app.add_option("--motions", options.motions, "per family (truth)")->check(CLI::Range(100L, 1'000'000'000L));

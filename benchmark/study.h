@@ -18,6 +18,7 @@ struct StudyOptions {
   std::vector<std::string> paper_meshes{"bunny3k", "torus"};  ///< those that the paper's dense grids are built for
   std::vector<std::string> robots;                            ///< NAME=URDF[,SRDF]
   std::vector<std::string> cases;                             ///< only those, all if empty
+  std::vector<std::string> systems;                           ///< of the study `monitor`; all if empty
   std::vector<int> cells;                                     ///< uniform fields: cells along the longest side
   std::vector<std::string> errors;   ///< fields to a maximum error, in box sides; as text, it names the case
   std::size_t segments = 1'000'000;  ///< random segments per case

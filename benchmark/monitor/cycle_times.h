@@ -17,6 +17,9 @@ class CycleTimes {
   /// One run over every stride-th cycle, from the first. @param prepare  is called before each and not timed.
   void run(const Cycle& prepare, const Cycle& cycle);
 
+  /// The same for times that were taken elsewhere [s].
+  void take(std::size_t cycle, double seconds) { seconds_[cycle / stride_].push_back(seconds); }
+
   /// Of the cycles' times, the one that so large a share of them does not exceed [s].
   double quantile(double share) const;
 

@@ -31,12 +31,16 @@ RobotMotion::RobotMotion(const Robot& robot, std::uint64_t seed) : model_(&robot
   }
 }
 
-std::vector<Isometry3d> RobotMotion::posesAt(double time, const std::vector<BodyDescription>& bodies) const {
+JointPositions RobotMotion::positionsAt(double time) const {
   JointPositions positions;
   for (const Wave& wave : waves_) {
     positions[wave.joint] = wave.middle + wave.amplitude * std::sin(wave.rate * time + wave.phase);
   }
-  return benchmark::posesAt(*model_, positions, bodies);
+  return positions;
+}
+
+std::vector<Isometry3d> RobotMotion::posesAt(double time, const std::vector<BodyDescription>& bodies) const {
+  return benchmark::posesAt(*model_, positionsAt(time), bodies);
 }
 
 std::vector<Isometry3d> posesAt(const RobotModel& model, const JointPositions& positions,

@@ -12,6 +12,8 @@ class RobotMotion {
  public:
   RobotMotion(const Robot& robot, std::uint64_t seed);
 
+  JointPositions positionsAt(double time) const;
+
   /// Poses of the scene's bodies at a time [s], in the root's frame, in the order of their description.
   std::vector<Isometry3d> posesAt(double time, const std::vector<BodyDescription>& bodies) const;
 

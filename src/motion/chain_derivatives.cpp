@@ -1,6 +1,16 @@
 #include "motion/chain_derivatives.h"
 
 namespace sdf_ccd {
+namespace {
+
+/// With R = exp(q [a]): R' = q' [a] R, R'' = (q'' [a] + q'² [a]²) R, R''' = (q''' [a] + 3 q' q'' [a]² + q'³ [a]³) R,
+/// and |[a]| = 1.
+DerivativeSeries turnSeries(const DerivativeBounds& angle) {
+  const double q1 = angle.first;
+  return {1.0, q1, q1 * q1 + angle.second, q1 * q1 * q1 + 3.0 * q1 * angle.second + angle.third};
+}
+
+}  // namespace
 
 void ChainDerivatives::addFrame(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide) {
   turnBy(angle);
@@ -19,15 +29,38 @@ void ChainDerivatives::slideBy(double reach, const DerivativeBounds& slide) {
   third_ += slide.third;
 }
 
-/// With R = exp(q [a]): R' = q' [a] R, R'' = (q'' [a] + q'² [a]²) R, R''' = (q''' [a] + 3 q' q'' [a]² + q'³ [a]³) R,
-/// and
-/// |[a]| = 1; then Leibniz' rule for R x.
+/// Leibniz' rule for R x.
 void ChainDerivatives::turnBy(const DerivativeBounds& angle) {
-  const double q1 = angle.first;
-  const double r1 = q1, r2 = q1 * q1 + angle.second, r3 = q1 * q1 * q1 + 3.0 * q1 * angle.second + angle.third;
+  const auto [r0, r1, r2, r3] = turnSeries(angle);
   third_ += 3.0 * r1 * second_ + 3.0 * r2 * first_ + r3 * distance_;
   second_ += 2.0 * r1 * first_ + r2 * distance_;
   first_ += r1 * distance_;
+}
+
+DerivativeSeries DerivativeSeries::operator*(const DerivativeSeries& other) const {
+  return {value * other.value, value * other.first + first * other.value,
+          value * other.second + 2.0 * first * other.first + second * other.value,
+          value * other.third + 3.0 * (first * other.second + second * other.first) + third * other.value};
+}
+
+DerivativeSeries DerivativeSeries::operator+(const DerivativeSeries& other) const {
+  return {value + other.value, first + other.first, second + other.second, third + other.third};
+}
+
+CarriedDerivatives CarriedDerivatives::carrying(double reach, const DerivativeBounds& angle,
+                                                const DerivativeBounds& slide) const {
+  CarriedDerivatives result;
+  result.turn_ = turn_ * turnSeries(angle);
+  result.shift_ = turn_ * DerivativeSeries{reach, slide.first, slide.second, slide.third} + shift_;
+  return result;
+}
+
+CarriedDerivatives CarriedDerivatives::carryingInverse(double reach, const DerivativeBounds& angle,
+                                                       const DerivativeBounds& slide) const {
+  CarriedDerivatives result;
+  result.turn_ = turn_ * turnSeries(angle);
+  result.shift_ = result.turn_ * DerivativeSeries{reach, slide.first, slide.second, slide.third} + shift_;
+  return result;
 }
 
 }  // namespace sdf_ccd

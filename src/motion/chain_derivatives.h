@@ -43,4 +43,31 @@ class ChainDerivatives {
   double first_ = 0.0, second_ = 0.0, third_ = 0.0;
 };
 
+/// A function and its derivatives, or what bounds them.
+struct DerivativeSeries {
+  double value = 0.0, first = 0.0, second = 0.0, third = 0.0;
+
+  /// Of the product, by Leibniz' rule.
+  DerivativeSeries operator*(const DerivativeSeries& other) const;
+  DerivativeSeries operator+(const DerivativeSeries& other) const;
+};
+
+/// The same bounds the other way round: from the frame that points are seen from down to those that carry them, so that
+/// a tree of frames is gone through once for all bodies. What a chain of frames makes of the series D of a point, its
+/// distance from the last frame's origin first, is A D + B.
+class CarriedDerivatives {
+ public:
+  /// Of a further frame that moves in the last one, as ChainDerivatives::addFrame().
+  CarriedDerivatives carrying(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide) const;
+
+  /// Of a further frame in which the last one moves, as ChainDerivatives::addInverse().
+  CarriedDerivatives carryingInverse(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide) const;
+
+  /// Of points that rest in the last frame, no farther from its origin [m].
+  DerivativeSeries of(double distance) const { return turn_ * DerivativeSeries{distance} + shift_; }
+
+ private:
+  DerivativeSeries turn_{1.0}, shift_;  // A, B
+};
+
 }  // namespace sdf_ccd

@@ -1,6 +1,7 @@
 #include "sdf_ccd/motion/screw_motion.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace sdf_ccd {
@@ -20,16 +21,15 @@ void requirePose(const Isometry3d& X, const std::string& what) {
 
 namespace {
 
-/// Without a text, which takes memory, where all is well.
+/// Nothing but arithmetic where all is well: rotations are mostly far better than they have to be.
 void requirePoses(const Isometry3d& start, const Isometry3d& end) {
-  for (const Isometry3d* X : {&start, &end})
-    if (!X->matrix().allFinite() || !isRotation(X->linear())) requirePose(*X, "screw motion: a pose");
-}
-
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d S;
-  S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return S;
+  constexpr double kSurely = 1e-20;  // the squared deviation of RᵀR; not true of what is not finite either
+  for (const Isometry3d* X : {&start, &end}) {
+    const auto R = X->linear();
+    const bool is_orthonormal = (R.transpose() * R - Matrix3d::Identity()).squaredNorm() <= kSurely;
+    const bool is_finite = X->translation().squaredNorm() <= std::numeric_limits<double>::max();
+    if (!is_orthonormal || !is_finite || R.determinant() < 0.0) requirePose(*X, "screw motion: a pose");
+  }
 }
 
 /// Rotation vector of R, in [0, π].
@@ -54,6 +54,13 @@ ExpCoefficients expCoefficients(double theta) {
   return {(1.0 - std::cos(theta)) / (theta * theta), (theta - std::sin(theta)) / (theta * theta * theta)};
 }
 
+/// Of log on SE(3): (1 − θ/2 cot(θ/2))/θ², with a series where the angle makes it 0/0.
+double logCoefficient(double theta) {
+  const double t2 = theta * theta;
+  if (theta < 1e-2) return 1.0 / 12.0 + t2 / 720.0 + t2 * t2 / 30240.0;
+  return (1.0 - 0.5 * theta / std::tan(0.5 * theta)) / t2;
+}
+
 Isometry3d exponential(const Vector3d& omega, const Vector3d& velocity) {
   const double theta = omega.norm();
   Isometry3d X = Isometry3d::Identity();
@@ -62,6 +69,19 @@ Isometry3d exponential(const Vector3d& omega, const Vector3d& velocity) {
   const Vector3d turned = omega.cross(velocity);
   X.translation() = velocity + b * turned + c * omega.cross(turned);
   return X;
+}
+
+/// The pose half way to X along its twist: by half of the rotation, whose quaternion is half way from 1. On an arc of
+/// angle θ about the axis a, the chord up to the middle is 1/(2 cos θ/4) of the whole one and lies θ/4 behind it:
+/// t(½) = ½ (t − tan(θ/4) a × t).
+Isometry3d halfWay(const Isometry3d& X) {
+  Quaterniond q(X.linear());
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const Vector3d tangent = q.vec() / (1.0 + q.w());
+  q.w() += 1.0;
+  Isometry3d half;
+  half = Eigen::Translation3d(0.5 * (X.translation() - tangent.cross(X.translation()))) * q.normalized();
+  return half;
 }
 
 }  // namespace
@@ -74,16 +94,16 @@ ScrewMotion::ScrewMotion(const Isometry3d& X_FP_start, const Isometry3d& X_FP_en
   if (start_.matrix() == end_.matrix()) return;  // exactly at rest
   const Isometry3d X = start_.inverse() * end_;
   omega_ = rotationLog(X.linear());
-  // Log on SE(3): translation = V(ω) velocity, with V = 1 + b [ω] + c [ω]².
-  const auto [b, c] = expCoefficients(omega_.norm());
-  const Matrix3d W = skew(omega_);
-  const Matrix3d V = Matrix3d::Identity() + b * W + c * W * W;
-  velocity_ = V.partialPivLu().solve(X.translation());
+  // Log on SE(3): velocity = V(ω)⁻¹ translation, with V⁻¹ = 1 − ½ [ω] + c [ω]².
+  const Vector3d turned = omega_.cross(X.translation());
+  velocity_ = X.translation() - 0.5 * turned + logCoefficient(omega_.norm()) * omega_.cross(turned);
 }
 
 Isometry3d ScrewMotion::pose(double s) const {
   if (s <= 0.0) return start_;
   if (s >= 1.0) return end_;
+  if (omega_.isZero(0.0) && velocity_.isZero(0.0)) return start_;
+  if (s == 0.5) return start_ * halfWay(start_.inverse() * end_);  // without sines
   return start_ * exponential(s * omega_, s * velocity_);
 }
 

@@ -42,6 +42,7 @@ CollisionMonitor::~CollisionMonitor() {
   if (thread_.joinable()) thread_.join();
   if (ros::ok()) {
     publishUnchecked("the monitor has ended");
+    if (outputs_) outputs_->finish();
     ros::WallDuration(kSending).sleep();
   }
   service_queue_.disable();  // the spinner wakes up at once
@@ -135,7 +136,8 @@ void CollisionMonitor::setUp() {
   joint_watch_ = std::make_unique<JointWatch>(*described_.robot);
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
-  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), *loop_, described_.scene, parameters_.markers);
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, *loop_, described_.scene,
+                                       parameters_.markers);
   listen();
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
@@ -274,9 +276,8 @@ void CollisionMonitor::cycle() {
     case TfTracker::Step::kCycle:
       break;
   }
-  outputs_->publish();
   publishWorld();
-  publishState();
+  publishCycle();
 }
 
 /// A simulated clock that stands still does not tell that nothing comes.
@@ -284,7 +285,7 @@ bool CollisionMonitor::isSilent() const {
   return (ros::WallTime::now() - last_step_).toSec() > parameters_.tf.max_latency;
 }
 
-void CollisionMonitor::publishState() {
+void CollisionMonitor::publishCycle() {
   const ros::WallTime now = ros::WallTime::now();
   if (!last_cycle_.isZero()) {
     const double rate = 1.0 / std::max(1e-6, (now - last_cycle_).toSec());
@@ -292,10 +293,12 @@ void CollisionMonitor::publishState() {
   }
   last_cycle_ = last_step_ = now;
   last_idle_ = ros::WallTime();
-  const MonitorState state = toMonitorState(*loop_, ros::Time::now());
+  const boost::shared_ptr<MonitorState> state = state_messages_.take();
+  setMonitorState(*loop_, ros::Time::now(), *state);
+  outputs_->publish(state);
   health_.stalled = false;
-  health_.latency = state.latency;
-  health_.run_time = state.run_time;
+  health_.latency = state->latency;
+  health_.run_time = state->run_time;
   health_.error = loop_->result().error;
   health_.missing = missingBodies(*loop_);
   health_.pairs_delayed = loop_->result().delayed;
@@ -303,7 +306,6 @@ void CollisionMonitor::publishState() {
   health_.out_of_order = loop_->history().outOfOrder();
   health_.bad_joints = joint_watch_->lines("joint_states");
   warnWhileUnchecked(!health_.missing.empty());
-  state_publisher_.publish(state);
   diagnostics_->update(health_);
 }
 
@@ -359,8 +361,9 @@ void CollisionMonitor::idle(const std::string& reason) {
 
 void CollisionMonitor::publishUnchecked(const std::string& reason) {
   last_idle_ = ros::WallTime::now();
-  state_publisher_.publish(toUncheckedState(described_.fixed_frame, reason, ros::Time::now()));
-  if (outputs_) outputs_->publishUnchecked(reason);
+  const auto state =
+      boost::make_shared<MonitorState>(toUncheckedState(described_.fixed_frame, reason, ros::Time::now()));
+  outputs_ ? outputs_->publishUnchecked(reason, state) : state_publisher_.publish(state);
 }
 
 void CollisionMonitor::forget(const std::string& reason) {

@@ -41,8 +41,9 @@ namespace sdf_ccd {
 ///   query_points  sdf_ccd/QueryPoints
 ///   reset         std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
 ///
-/// Building and cycles have a thread of their own; transforms have a callback queue and a thread, services a queue and
-/// a thread per query that is answered at a time. Unloading ends all of them within 0.2 s, whatever they do.
+/// Building and cycles have a thread of their own, and so has what publishes and draws them; transforms have a callback
+/// queue and a thread, services a queue and a thread per query that is answered at a time. Unloading ends all of them
+/// within 0.2 s, whatever they do.
 class CollisionMonitor : public nodelet::Nodelet {
  public:
   ~CollisionMonitor() override;
@@ -69,7 +70,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void idle(const std::string& reason);
   void publishUnchecked(const std::string& reason);
   void forget(const std::string& reason);
-  void publishState();
+  void publishCycle();
   void warnWhileUnchecked(bool is_unchecked);
   std::string contradicted();
 
@@ -101,6 +102,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   ros::WallTime last_static_;                     // when /tf_static was listened to
   ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
 
+  MessagePool<MonitorState> state_messages_;
   ros::Publisher state_publisher_;
   ros::Publisher plan_publisher_;
   ros::Publisher world_publisher_;

@@ -11,8 +11,7 @@ static_assert(static_cast<int>(Verdict::kContact) == PairContact::CONTACT, "as i
 static_assert(static_cast<int>(Verdict::kUncertain) == PairContact::UNCERTAIN, "as in the messages");
 static_assert(static_cast<int>(Verdict::kNotChecked) == PairContact::NOT_CHECKED, "as in the messages");
 
-PointContact toPointContact(const ContactPoint& point, const ros::Time& start) {
-  PointContact message;
+void setPointContact(const ContactPoint& point, const ros::Time& start, PointContact& message) {
   message.enter = start + ros::Duration(point.enter);
   message.exit = start + ros::Duration(point.exit);
   message.time = start + ros::Duration(point.time);
@@ -20,7 +19,6 @@ PointContact toPointContact(const ContactPoint& point, const ros::Time& start) {
   message.depth_error = point.depth_error;
   message.position = toPoint(point.p_W);
   message.normal = toVector3(point.normal_W);
-  return message;
 }
 
 bool holdsAny(const Interval& interval, const std::vector<double>& samples) {
@@ -91,28 +89,30 @@ bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle) {
                      [&](const Interval& interval) { return holdsAny(interval, cycle.samples); });
 }
 
-PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
-  PairContact message;
+void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message) {
   message.body_a = cycle.scene.bodies[pair.body_a].name;
   message.body_b = cycle.scene.bodies[pair.body_b].name;
   message.verdict = static_cast<std::uint8_t>(pair.verdict);
   message.reason = pair.reason;
   message.checked_from = cycle.start + ros::Duration(cycle.motion.times[pair.span.first]);
   message.checked_until = cycle.start + ros::Duration(cycle.motion.times[pair.span.last]);
-  for (const Interval& interval : pair.intervals) {
-    TimeInterval times;
-    times.start = cycle.start + ros::Duration(interval.enter);
-    times.end = cycle.start + ros::Duration(interval.exit);
-    message.intervals.push_back(times);
+  message.intervals.resize(pair.intervals.size());
+  for (std::size_t i = 0; i < pair.intervals.size(); ++i) {
+    message.intervals[i].start = cycle.start + ros::Duration(pair.intervals[i].enter);
+    message.intervals[i].end = cycle.start + ros::Duration(pair.intervals[i].exit);
   }
   message.in_contact_at_samples = touchesAtSamples(pair, cycle);
-  if (!pair.intervals.empty()) {
+  if (pair.intervals.empty()) {
+    message.first_contact = ros::Time();
+    message.deepest = PointContact();
+  } else {
     message.first_contact = message.intervals.front().start;
-    message.deepest = toPointContact(pair.deepest, cycle.start);
-    message.depth = message.deepest.depth;
-    message.normal = message.deepest.normal;
+    setPointContact(pair.deepest, cycle.start, message.deepest);
   }
-  for (const ContactPoint& point : pair.points) message.points.push_back(toPointContact(point, cycle.start));
+  message.depth = message.deepest.depth;
+  message.normal = message.deepest.normal;
+  message.points.resize(pair.points.size());
+  for (std::size_t i = 0; i < pair.points.size(); ++i) setPointContact(pair.points[i], cycle.start, message.points[i]);
   message.wrench_on_a = toWrench(pair.on_a_W);
   message.wrench_on_b = toWrench(pair.on_b_W);
   message.origin_a = toPoint(cycle.motion.X_WB[pair.body_a][pair.span.last].translation());
@@ -122,15 +122,18 @@ PairContact toPairContact(const PairResult& pair, const CycleContext& cycle) {
   message.error_chord = pair.error.chord;
   message.error_root = pair.error.root;
   message.error_gap = pair.error.gap;
-  return message;
 }
 
-std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleContext& cycle) {
-  std::vector<PairContact> messages;
-  for (const PairResult& pair : result.pairs) {
-    if (pair.verdict != Verdict::kClear && !pair.span.empty()) messages.push_back(toPairContact(pair, cycle));
+void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages) {
+  std::size_t count = 0;
+  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const PairResult& pair = result.pairs[i];
+    if (pair.verdict == Verdict::kClear || pair.span.empty()) continue;
+    if (count == messages.size()) messages.emplace_back();
+    setPairContact(pair, cycle, messages[count++]);
   }
-  return messages;
+  messages.resize(count);
 }
 
 }  // namespace sdf_ccd

@@ -44,9 +44,10 @@ struct CycleContext {
 /// Whether the pair touches at one of the recorded times.
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
 
-PairContact toPairContact(const PairResult& pair, const CycleContext& cycle);
+/// Sets all of the message, whose memory is used again; as all that are called set….
+void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message);
 
 /// The pairs that are neither clear nor delayed.
-std::vector<PairContact> toPairContacts(const CycleResult& result, const CycleContext& cycle);
+void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages);
 
 }  // namespace sdf_ccd

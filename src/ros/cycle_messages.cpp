@@ -22,6 +22,8 @@ void setErrorBound(const CycleResult& result, Message& message) {
 template <typename Message>
 void setDelays(const TrackedCycle& cycle, Message& message) {
   message.delayed_since = cycle.delayed_since;
+  message.contradicted_since = ros::Time();
+  message.late_frames.clear();
   for (const LateTransforms& late : cycle.late) {
     const bool is_first = message.contradicted_since.isZero() || late.since < message.contradicted_since;
     if (is_first) message.contradicted_since = late.since;
@@ -48,10 +50,9 @@ CycleContext contextOf(const MonitorLoop& loop) {
   return {loop.scene(), loop.cycle().motion, loop.cycle().samples, loop.cycle().origin};
 }
 
-ContactArray toContactArray(const MonitorLoop& loop) {
+void setContactArray(const MonitorLoop& loop, ContactArray& message) {
   const TrackedCycle& cycle = loop.cycle();
   const CycleResult& result = loop.result();
-  ContactArray message;
   message.header.stamp = cycle.end;
   message.header.frame_id = loop.fixedFrame();
   message.cycle_start = cycle.start;
@@ -61,24 +62,29 @@ ContactArray toContactArray(const MonitorLoop& loop) {
   message.reason = reasonOf(result, cycle);
   setErrorBound(result, message);
   setDelays(cycle, message);
-  message.pairs = toPairContacts(result, contextOf(loop));
+  setPairContacts(result, contextOf(loop), message.pairs);
   message.checked = result.checked;
   message.skipped = result.skipped;
   message.not_checked = result.not_checked;
   message.delayed = result.delayed;
+}
+
+ContactArray toContactArray(const MonitorLoop& loop) {
+  ContactArray message;
+  setContactArray(loop, message);
   return message;
 }
 
-MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
+void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message) {
   const TrackedCycle& cycle = loop.cycle();
   const CycleResult& result = loop.result();
-  MonitorState message;
   message.header.stamp = cycle.end;
   message.header.frame_id = loop.fixedFrame();
   message.verdict = static_cast<std::uint8_t>(result.verdict);
   message.missing = missingBodies(loop);
-  const std::vector<std::string> failed = failedBodies(loop.scene());
-  message.missing.insert(message.missing.end(), failed.begin(), failed.end());
+  for (const Body& body : loop.scene().bodies) {
+    if (!body.failure.empty()) message.missing.push_back(body.name + ": " + body.failure);
+  }
   message.reason = reasonOf(result, cycle);
   message.cycle_start = cycle.start;
   message.complete_until = cycle.complete_until;
@@ -90,6 +96,11 @@ MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
   message.pairs_skipped = result.skipped;
   message.pairs_not_checked = result.not_checked;
   message.pairs_delayed = result.delayed;
+}
+
+MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
+  MonitorState message;
+  setMonitorState(loop, now, message);
   return message;
 }
 
@@ -111,17 +122,21 @@ MonitorState toUncheckedState(const std::string& fixed_frame, const std::string&
   return message;
 }
 
-geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body) {
+void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchStamped& message) {
   Wrench sum_W;
   for (const PairResult& pair : loop.result().pairs) {
     if (pair.body_a == body) sum_W += pair.on_a_W;
     if (pair.body_b == body) sum_W += pair.on_b_W;
   }
   const Isometry3d R_WB(loop.cycle().motion.X_WB[body].back().linear());
-  geometry_msgs::WrenchStamped message;
   message.header.stamp = loop.cycle().end;
   message.header.frame_id = loop.scene().bodies[body].frame;
   message.wrench = toWrench(expressedIn(R_WB, sum_W));
+}
+
+geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body) {
+  geometry_msgs::WrenchStamped message;
+  setWrenchStamped(loop, body, message);
   return message;
 }
 

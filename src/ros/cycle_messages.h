@@ -15,10 +15,13 @@ namespace sdf_ccd {
 /// What the results of the loop's last cycle refer to.
 CycleContext contextOf(const MonitorLoop& loop);
 
-/// The messages about the loop's last cycle, complete, in its fixed frame.
+/// The messages about the loop's last cycle, complete, in its fixed frame. What is called set… sets all of a message
+/// that may have been another before, and uses its memory again.
+void setContactArray(const MonitorLoop& loop, ContactArray& message);
 ContactArray toContactArray(const MonitorLoop& loop);
 
 /// @param now  when it is sent, for its latency.
+void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message);
 MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);
 
 /// The messages that nothing is checked after the loop's last cycle.
@@ -26,6 +29,7 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
 MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now);
 
 /// Sum of the contact wrenches on a body, in its frame, about its origin [N, N·m].
+void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchStamped& message);
 geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body);
 
 /// Below the monitor's name; bodies may be named by characters that names of topics may not hold.

@@ -2,62 +2,125 @@
 
 #include <algorithm>
 
+#include <ros/console.h>
+
 #include "ros/cycle_messages.h"
 
 namespace sdf_ccd {
+namespace {
 
-Outputs::Outputs(ros::NodeHandle private_node, const MonitorLoop& loop, const SceneDescription& scene,
-                 const MarkerOptions& options)
-    : loop_(loop), drawer_(loop.fixedFrame(), options), link_markers_(scene) {
+constexpr std::size_t kWaiting = 8;  // cycles whose messages may wait
+const ros::WallDuration kLookPeriod(0.02);
+
+}  // namespace
+
+Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
+                 const SceneDescription& scene, const MarkerOptions& options)
+    : loop_(loop), scene_(loop.scene()), drawer_(loop.fixedFrame(), options), link_markers_(scene), state_(state) {
   contacts_ = private_node.advertise<ContactArray>("contacts", 100);
   markers_ = private_node.advertise<visualization_msgs::MarkerArray>("markers", 10);
   links_ = private_node.advertise<visualization_msgs::MarkerArray>("links", 10, true);
-  const std::vector<Body>& bodies = loop_.scene().bodies;
-  for (std::size_t body = 0; body < bodies.size(); ++body) {
-    if (bodies[body].is_world) continue;
-    wrenches_.push_back(
-        {static_cast<int>(body), private_node.advertise<geometry_msgs::WrenchStamped>(wrenchTopic(bodies[body]), 100)});
+  for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
+    if (scene_.bodies[body].is_world) continue;
+    LinkWrench link;
+    link.body = static_cast<int>(body);
+    link.publisher = private_node.advertise<geometry_msgs::WrenchStamped>(wrenchTopic(scene_.bodies[body]), 100);
+    wrenches_.push_back(link);
   }
+  worker_ = std::make_unique<OrderedWorker<Report>>(kWaiting, [this](Report& report) { send(report); });
 }
 
-CycleRequest Outputs::request(int max_points) const {
-  const bool contacts = contacts_.getNumSubscribers() > 0;
+CycleRequest Outputs::request(int max_points) {
+  lookForSubscribers();
   CycleRequest request;
-  request.wrenches = contacts || std::any_of(wrenches_.begin(), wrenches_.end(), [](const LinkWrench& link) {
-                       return link.publisher.getNumSubscribers() > 0;
-                     });
-  request.contacts = contacts || markers_.getNumSubscribers() > 0;
+  request.wrenches = contacts_wanted_ || wrenches_wanted_;
+  request.contacts = contacts_wanted_ || markers_wanted_;
   request.max_points = request.contacts ? max_points : 0;
+  request.skipped_pairs = markers_wanted_ || links_wanted_;  // the status tells the clearance of all
   return request;
 }
 
-void Outputs::publish() {
-  if (contacts_.getNumSubscribers() > 0) contacts_.publish(toContactArray(loop_));
-  publishWrenches();
-  publishMarkers();
-}
-
-void Outputs::publishMarkers() {
-  const bool links = links_.getNumSubscribers() > 0, contacts = markers_.getNumSubscribers() > 0;
-  if (!links && !contacts) return;
-  const visualization_msgs::MarkerArray markers = drawer_.draw(loop_.result(), contextOf(loop_), ros::Time::now());
-  if (contacts) markers_.publish(markers);
-  if (!links) return;
-  if (const auto drawn = link_markers_.draw(drawer_.states().ofBodies(loop_.scene()))) links_.publish(*drawn);
-}
-
-void Outputs::publishWrenches() const {
-  for (const LinkWrench& link : wrenches_) {
-    if (link.publisher.getNumSubscribers() == 0 || !loop_.cycle().motion.missing[link.body].empty()) continue;
-    link.publisher.publish(toWrenchStamped(loop_, link.body));
+/// Each look searches all topics of the process, so that it is not taken every millisecond.
+void Outputs::lookForSubscribers() {
+  const ros::WallTime now = ros::WallTime::now();
+  if (now - looked_ < kLookPeriod) return;
+  looked_ = now;
+  contacts_wanted_ = contacts_.getNumSubscribers() > 0;
+  markers_wanted_ = markers_.getNumSubscribers() > 0;
+  links_wanted_ = links_.getNumSubscribers() > 0;
+  wrenches_wanted_ = false;
+  for (LinkWrench& link : wrenches_) {
+    link.is_wanted = link.publisher.getNumSubscribers() > 0;
+    wrenches_wanted_ |= link.is_wanted;
   }
 }
 
-void Outputs::publishUnchecked(const std::string& reason) {
-  if (contacts_.getNumSubscribers() > 0) contacts_.publish(toUncheckedContacts(loop_, reason));
-  markers_.publish(drawer_.clear(reason));
-  if (links_.getNumSubscribers() == 0) return;
-  if (const auto drawn = link_markers_.draw(drawer_.states().ofBodies(loop_.scene()))) links_.publish(*drawn);
+void Outputs::publish(const boost::shared_ptr<MonitorState>& state) {
+  Report& report = worker_->next();
+  report.is_unchecked = false;
+  report.state = state;
+  report.draws_markers = markers_wanted_;
+  report.draws_links = links_wanted_;
+  if (contacts_wanted_) {
+    report.contacts = contact_messages_.take();
+    setContactArray(loop_, *report.contacts);
+  }
+  for (std::size_t i = 0; i < wrenches_.size() && wrenches_wanted_; ++i) {
+    LinkWrench& link = wrenches_[i];
+    if (!link.is_wanted || !loop_.cycle().motion.missing[link.body].empty()) continue;
+    report.wrenches.emplace_back(i, link.messages.take());
+    setWrenchStamped(loop_, link.body, *report.wrenches.back().second);
+  }
+  if (report.draws_markers || report.draws_links) report.snapshot.take(loop_);
+  worker_->handOver();
+}
+
+void Outputs::publishUnchecked(const std::string& reason, const boost::shared_ptr<MonitorState>& state) {
+  lookForSubscribers();
+  Report& report = worker_->next();
+  report.is_unchecked = true;
+  report.reason = reason;
+  report.state = state;
+  report.draws_links = links_wanted_;
+  if (contacts_wanted_) report.contacts = boost::make_shared<ContactArray>(toUncheckedContacts(loop_, reason));
+  worker_->handOver();
+}
+
+void Outputs::finish() {
+  finishes_ = true;
+  worker_.reset();
+}
+
+void Outputs::send(Report& report) {
+  try {
+    if (report.contacts) contacts_.publish(report.contacts);
+    for (const auto& [link, wrench] : report.wrenches) wrenches_[link].publisher.publish(wrench);
+    if (report.state) state_.publish(report.state);
+    draw(report);
+  } catch (const std::exception& error) {
+    ROS_ERROR_THROTTLE(1.0, "The messages of a cycle are not sent: %s", error.what());
+  }
+  report.contacts.reset();
+  report.state.reset();
+  report.wrenches.clear();
+}
+
+void Outputs::draw(const Report& report) {
+  if (report.is_unchecked) {
+    markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(drawer_.clear(report.reason)));
+  } else if (finishes_ || (!report.draws_markers && !report.draws_links)) {
+    return;
+  } else {
+    const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(
+        drawer_.draw(report.snapshot.result(), report.snapshot.context(), ros::Time::now()));
+    if (report.draws_markers) markers_.publish(markers);
+  }
+  if (report.draws_links) drawLinks();
+}
+
+void Outputs::drawLinks() {
+  auto drawn = link_markers_.draw(drawer_.states().ofBodies(scene_));
+  if (drawn) links_.publish(boost::make_shared<visualization_msgs::MarkerArray>(std::move(*drawn)));
 }
 
 }  // namespace sdf_ccd

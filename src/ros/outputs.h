@@ -1,13 +1,21 @@
 #pragma once
 
+#include <atomic>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
+#include "ros/cycle_snapshot.h"
 #include "ros/link_markers.h"
 #include "ros/markers.h"
-#include "ros/monitor_loop.h"
+#include "ros/message_pool.h"
+#include "ros/ordered_worker.h"
+#include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/MonitorState.h"
 
 namespace sdf_ccd {
 
@@ -21,34 +29,66 @@ namespace sdf_ccd {
 ///   links            visualization_msgs/MarkerArray  the links' collision shapes in the colours of their verdicts, all
 ///                                                    of them when one changes; latched
 /// Nothing is put together, or computed, that has no subscriber.
+///
+/// Messages are filled where the cycle's results are, which takes no more than to copy these, and published in their
+/// order by a thread of their own, without a copy to subscribers of the same process: serialising, sending and drawing
+/// take no time of the cycles'. Those wait only when several cycles' messages do.
 class Outputs {
  public:
-  Outputs(ros::NodeHandle private_node, const MonitorLoop& loop, const SceneDescription& scene,
-          const MarkerOptions& options);
+  /// @param state  publishes the states that are given.
+  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
+          const SceneDescription& scene, const MarkerOptions& options);
 
   /// What the subscribers want to know of the next cycle.
-  CycleRequest request(int max_points) const;
+  CycleRequest request(int max_points);
 
-  /// Of the loop's last cycle.
-  void publish();
+  /// Of the loop's last cycle. @param state  of that cycle.
+  void publish(const boost::shared_ptr<MonitorState>& state);
 
   /// Nothing is checked after the last cycle, for this reason: a message without pairs, and no markers.
-  void publishUnchecked(const std::string& reason);
+  /// @param state  that says so.
+  void publishUnchecked(const std::string& reason, const boost::shared_ptr<MonitorState>& state);
+
+  /// Publishes what waits still, but draws nothing any more. The last call.
+  void finish();
 
  private:
   struct LinkWrench {
     int body;
     ros::Publisher publisher;
+    bool is_wanted = false;
+    MessagePool<geometry_msgs::WrenchStamped> messages;
+  };
+  using WrenchMessage = boost::shared_ptr<geometry_msgs::WrenchStamped>;
+
+  struct Report {                              // of a cycle, or that there is none
+    boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
+    boost::shared_ptr<MonitorState> state;
+    std::vector<std::pair<std::size_t, WrenchMessage>> wrenches;  // by link
+    CycleSnapshot snapshot;
+    bool draws_markers = false, draws_links = false;  // of the snapshot
+    bool is_unchecked = false;
+    std::string reason;  // why
   };
 
-  void publishWrenches() const;
-  void publishMarkers();
+  void lookForSubscribers();
+  void send(Report& report);
+  void draw(const Report& report);
+  void drawLinks();
 
   const MonitorLoop& loop_;
+  const Scene& scene_;
   MarkerDrawer drawer_;
   LinkMarkers link_markers_;
-  ros::Publisher contacts_, markers_, links_;
+  ros::Publisher state_, contacts_, markers_, links_;
   std::vector<LinkWrench> wrenches_;
+  MessagePool<ContactArray> contact_messages_;
+
+  ros::WallTime looked_;  // for subscribers
+  bool contacts_wanted_ = false, wrenches_wanted_ = false, markers_wanted_ = false, links_wanted_ = false;
+
+  std::atomic<bool> finishes_{false};
+  std::unique_ptr<OrderedWorker<Report>> worker_;
 };
 
 }  // namespace sdf_ccd

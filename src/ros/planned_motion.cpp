@@ -200,7 +200,7 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
 std::string poseAbove(const TfHistory& history, const std::string& above, const std::string& frame, Isometry3d& X_AF) {
   X_AF.setIdentity();
   if (above == frame) return {};
-  const TfHistory::Span span = history.span(frame);
+  const TfSpan span = history.span(frame);
   if (!span.problem.empty()) return span.problem;
   const ros::Time time = span.is_static ? ros::Time() : span.last;
   Isometry3d X_WA, X_WF;
@@ -219,7 +219,7 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
   std::map<std::string, int> links;
   for (int link = 0; link < static_cast<int>(robot.links().size()); ++link) {
     links[frames(link)] = link;
-    const TfHistory::Span span = history.span(frames(link));
+    const TfSpan span = history.span(frames(link));
     const bool moves = span.problem.empty() && !span.is_static;
     if (moves && (now.oldest.isZero() || span.last < now.oldest)) {
       now.oldest = span.last;

@@ -152,7 +152,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   response.verdict = static_cast<std::uint8_t>(result.verdict);
   response.error_bound = result.error_bound;
   const CycleContext context{*scene_, check.ends(), planned.samples, ros::Time()};
-  response.pairs = toPairContacts(result, context);
+  setPairContacts(result, context, response.pairs);
   if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
   response.not_checked = result.not_checked;

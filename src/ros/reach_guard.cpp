@@ -5,18 +5,38 @@
 #include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
+namespace {
 
-ReachGuard::ReachGuard(const DescribedScene& described) : robot_(described.robot) {
+/// Per joint: the frames of its parent and its child.
+std::vector<std::string> framesOf(const DescribedScene& described, std::vector<RobotModel::Slide>& slides) {
+  std::vector<std::string> frames;
+  for (const UnreachablePair& pair : described.unreachable) {
+    for (const RobotModel::Slide& slide : pair.slides) {
+      const auto isSame = [&](const RobotModel::Slide& other) { return other.joint == slide.joint; };
+      if (std::any_of(slides.begin(), slides.end(), isSame)) continue;
+      slides.push_back(slide);
+      const urdf::Joint& joint = *described.robot->urdf().getJoint(slide.joint);
+      frames.push_back(withoutLeadingSlash(described.tf_prefix + joint.parent_link_name));
+      frames.push_back(withoutLeadingSlash(described.tf_prefix + joint.child_link_name));
+    }
+  }
+  return frames;
+}
+
+}  // namespace
+
+ReachGuard::ReachGuard(const DescribedScene& described) : robot_(described.robot), chains_({}) {
+  std::vector<RobotModel::Slide> slides;
+  chains_ = TfChains(framesOf(described, slides));
+  for (const RobotModel::Slide& slide : slides) {
+    joints_.push_back({slide, robot_->urdf().getJoint(slide.joint).get(), ""});
+  }
   for (const UnreachablePair& pair : described.unreachable) {
     std::vector<std::size_t> rests_on;
     for (const RobotModel::Slide& slide : pair.slides) {
-      const auto known =
+      const auto joint =
           std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.slide.joint == slide.joint; });
-      rests_on.push_back(known - joints_.begin());
-      if (known != joints_.end()) continue;
-      const urdf::Joint& joint = *robot_->urdf().getJoint(slide.joint);
-      joints_.push_back(
-          {slide, &joint, described.tf_prefix + joint.parent_link_name, described.tf_prefix + joint.child_link_name});
+      rests_on.push_back(static_cast<std::size_t>(joint - joints_.begin()));
     }
     if (rests_on.empty()) continue;
     pairs_.push_back({pair.body_a, pair.body_b, ""});
@@ -24,34 +44,55 @@ ReachGuard::ReachGuard(const DescribedScene& described) : robot_(described.robot
   }
 }
 
-std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle) const {
-  std::vector<std::string> problems;
-  for (const Joint& joint : joints_) problems.push_back(problem(joint, history, cycle));
+std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle) {
   std::vector<UncheckedPair> unchecked;
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+  if (joints_.empty()) return unchecked;
+  follow(history, cycle);
+  bool all_hold = true;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    joints_[j].problem = problem(j, cycle);
+    all_hold &= joints_[j].problem.empty();
+  }
+  for (std::size_t p = 0; p < pairs_.size() && !all_hold; ++p) {
     for (const std::size_t joint : rest_on_[p]) {
-      if (problems[joint].empty()) continue;
-      unchecked.push_back({pairs_[p].body_a, pairs_[p].body_b, problems[joint]});
+      if (joints_[joint].problem.empty()) continue;
+      unchecked.push_back({pairs_[p].body_a, pairs_[p].body_b, joints_[joint].problem});
       break;
     }
   }
   return unchecked;
 }
 
-std::string ReachGuard::problem(const Joint& joint, const TfHistory& history, const TrackedCycle& cycle) const {
-  const std::string unknown = std::string(kOutOfReach) + " by joint " + joint.slide.joint + ", which is not known: ";
-  const TfHistory::Span span = history.span(joint.child);
-  if (!span.problem.empty()) return unknown + span.problem;
+/// Over the cycle, as far as the joint's child is known.
+void ReachGuard::follow(const TfHistory& history, const TrackedCycle& cycle) {
+  history.spans(chains_, spans_);
+  parts_.clear();
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const TfSpan& child = spans_[2 * j + 1];
+    const auto known = [&](double sample) {
+      if (child.is_static || !child.problem.empty()) return child.first;
+      return std::min(std::max(cycle.origin + ros::Duration(sample), child.first), child.last);
+    };
+    parts_.insert(parts_.end(), 2, {known(cycle.samples.front()), known(cycle.samples.back())});
+  }
+  history.copy(chains_, parts_, cycle.origin, window_);
+}
+
+std::string ReachGuard::problem(std::size_t index, const TrackedCycle& cycle) {
+  const Joint& joint = joints_[index];
+  const std::size_t parent = 2 * index, child = parent + 1;
+  for (const std::size_t frame : {child, parent}) {
+    if (window_.problem(frame).empty()) continue;
+    return std::string(kOutOfReach) + " by joint " + joint.slide.joint +
+           ", which is not known: " + window_.problem(frame);
+  }
+  const double from = (parts_[child].from - cycle.origin).toSec();
+  const double until = (parts_[child].until - cycle.origin).toSec();
   for (const double sample : cycle.samples) {
-    const ros::Time time = cycle.origin + ros::Duration(sample);
-    const ros::Time known = span.is_static ? ros::Time() : std::min(std::max(time, span.first), span.last);
-    Isometry3d X_WP, X_WC;
-    std::string problem;
-    if (!history.lookup(joint.parent, known, X_WP, problem) || !history.lookup(joint.child, known, X_WC, problem)) {
-      return unknown + problem;
-    }
-    const std::string beyond = beyondReach(joint.slide, robot_->positionAt(*joint.joint, relativePose(X_WP, X_WC)));
-    if (!beyond.empty() || span.is_static) return beyond;
+    const double known = std::min(std::max(sample, from), until);
+    const Isometry3d X_PC = relativePose(window_.pose(parent, known), window_.pose(child, known));
+    const std::string beyond = beyondReach(joint.slide, robot_->positionAt(*joint.joint, X_PC));
+    if (!beyond.empty() || from == until) return beyond;
   }
   return {};
 }

@@ -43,21 +43,23 @@ bool isSamePlace(const TfPose& a, const TfPose& b) {
   return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs() && a.problem == b.problem;
 }
 
-double angleBetween(const TfPose& a, const TfPose& b) {
-  return 2.0 * halfAngle(a.rotation, b.rotation);
+TfInterpolation::TfInterpolation(const TfPose& a, const TfPose& b)
+    : a_(a.rotation), b_(b.rotation), from_(a.translation), way_(b.translation - a.translation) {
+  if (a_.coeffs() == b_.coeffs()) return;
+  half_angle_ = halfAngle(a_, b_);
+  if (half_angle_ > kTinyHalfAngle) inverse_sine_ = 1.0 / std::sin(half_angle_);
+  if (a_.dot(b_) < 0.0) b_.coeffs() = -b_.coeffs();
 }
 
-Isometry3d interpolate(const TfPose& a, const TfPose& b, double share) {
-  const Vector3d translation = a.translation + share * (b.translation - a.translation);
-  if (a.rotation.coeffs() == b.rotation.coeffs()) return Eigen::Translation3d(translation) * a.rotation;
-  const double theta = halfAngle(a.rotation, b.rotation);
+Isometry3d TfInterpolation::at(double share) const {
+  const Vector3d translation = from_ + share * way_;
+  if (half_angle_ == 0.0) return Eigen::Translation3d(translation) * a_;
   double weight_a = 1.0 - share, weight_b = share;
-  if (theta > kTinyHalfAngle) {
-    weight_a = std::sin(weight_a * theta) / std::sin(theta);
-    weight_b = std::sin(weight_b * theta) / std::sin(theta);
+  if (inverse_sine_ > 0.0) {
+    weight_a = std::sin(weight_a * half_angle_) * inverse_sine_;
+    weight_b = std::sin(weight_b * half_angle_) * inverse_sine_;
   }
-  if (a.rotation.dot(b.rotation) < 0.0) weight_b = -weight_b;
-  const Quaterniond rotation(weight_a * a.rotation.coeffs() + weight_b * b.rotation.coeffs());
+  const Quaterniond rotation(weight_a * a_.coeffs() + weight_b * b_.coeffs());
   return Eigen::Translation3d(translation) * rotation.normalized();
 }
 

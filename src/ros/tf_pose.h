@@ -24,11 +24,23 @@ TfPose toTfPose(const ros::Time& stamp, const geometry_msgs::Transform& transfor
 /// Whether the frame rests between them.
 bool isSamePlace(const TfPose& a, const TfPose& b);
 
-/// How far the frame turns from one to the other, the shorter way round, as tf2 does [rad].
-double angleBetween(const TfPose& a, const TfPose& b);
+/// Between two transforms as tf2 interpolates: the translation evenly on a line, the rotation evenly about one axis,
+/// the shorter way round (slerp).
+class TfInterpolation {
+ public:
+  TfInterpolation() = default;
+  TfInterpolation(const TfPose& a, const TfPose& b);
 
-/// As tf2 interpolates: the translation evenly on a line, the rotation evenly about one axis (slerp).
-/// @param share  of the time from a to b, in [0, 1].
-Isometry3d interpolate(const TfPose& a, const TfPose& b, double share);
+  /// @param share  of the time from a to b, in [0, 1].
+  Isometry3d at(double share) const;
+
+  /// How far the frame turns [rad].
+  double angle() const { return 2.0 * half_angle_; }
+
+ private:
+  Quaterniond a_ = Quaterniond::Identity(), b_ = Quaterniond::Identity();  // no more than half a turn apart
+  Vector3d from_ = Vector3d::Zero(), way_ = Vector3d::Zero();
+  double half_angle_ = 0.0, inverse_sine_ = 0.0;  // between the quaternions; 0 if they are as good as the same
+};
 
 }  // namespace sdf_ccd

@@ -66,6 +66,7 @@ class TfTracker {
   };
 
   /// @param now  the ROS clock, 0 if it does not run yet.
+  /// @param cycle  the same one every time: its memory is used again.
   Step next(const ros::Time& now, TrackedCycle& cycle);
 
   /// The next cycle begins with the next transforms.
@@ -81,32 +82,44 @@ class TfTracker {
   bool mayGoBack(const ros::Duration& age);
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
   ros::Time foremostEnd(const std::vector<std::string>& missing) const;
+  bool goTogether(const TrackedCycle& cycle) const;
+  void takeApart();
   void advancePairs(TrackedCycle& cycle);
   void follow(TrackedCycle& cycle);
-  std::vector<TimePart> windowsOf(const TrackedCycle& cycle) const;
+  void findWindows(const TrackedCycle& cycle);
   void findNeeded(const TimePart& part, const TrackedCycle& cycle);
   void copyMotion(const TrackedCycle& cycle, std::vector<std::string>& missing);
-  std::vector<double> sampleTimes(const TimePart& part, const TrackedCycle& cycle) const;
+  void findSampleTimes(const TimePart& part, const TrackedCycle& cycle);
+  void addPairTimes(const TimePart& part, const ros::Time& origin);
   void sample(const TimePart& part, TrackedCycle& cycle);
   void setMissing(const std::string& why, TrackedCycle& cycle);
   void posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing);
-  void boundJerks(double start, double end, std::vector<double>& jerk) const;
+  void boundJerks(double start, double end, std::vector<double>& jerk);
   void setSpans(TrackedCycle& cycle) const;
+  static std::string seconds(const ros::Duration& duration);
+  static bool isTooFar(const Isometry3d& X_WB);
+  static std::string tooFar(const std::string& frame);
 
   TfHistory& history_;
   std::vector<TrackedBody> bodies_;
   std::vector<std::string> frames_;
-  std::vector<BoundingBall> balls_;
+  std::vector<double> distances_;  // per body: of its ball from its frame's origin, at most [m]
   std::vector<PlannedPair> pairs_;
   TfTrackerOptions options_;
+  std::size_t most_samples_;
+  MotionSampler sampler_;
+  TfChains chains_;
+  std::vector<char> is_paired_;  // per body
   ros::Time begin_;              // of the first cycle
   ros::Time last_end_;           // of the last cycle; 0 before the first
   ros::Time waits_since_;        // on the ROS clock; 0 before the first step
   std::vector<TimePart> times_;  // of the cycle, per pair; the next one goes on from `until`
   std::vector<char> is_known_;   // per pair: both bodies are
+  bool are_together_ = false;    // all pairs are known, and their times these, whatever times_ says
+  TimePart together_;
 
   // What look() sees: per body, and the newest time of all that is not in the future.
-  std::vector<TfHistory::Span> spans_;
+  std::vector<TfSpan> spans_;
   std::vector<ros::Time> ends_;
   ros::Time reference_;
 
@@ -118,11 +131,14 @@ class TfTracker {
   double time_to_go_back_ = 0.0;       // that is left to check again [s]
   double goes_back_ = 0.0;             // in the next cycle [s]
 
-  // Of one part of the cycle: what the pairs in it need of each body's motion, and that motion.
+  // Of the cycle, or one part of it: what the pairs in it need of each body's motion, and that motion.
+  std::vector<TimePart> windows_, checked_;
   std::vector<TimePart> needed_;
   TfWindow window_;
-  CycleMotion sampled_;
-  std::vector<double> pose_times_;  // per body, of its last pose
+  std::vector<std::size_t> listed_;    // bodies whose recorded times count
+  std::vector<ros::Time> pair_times_;  // ends of pairs' times
+  std::vector<double> sample_times_;   // [s] from the origin
+  std::vector<double> pose_times_;     // per body, of its last pose
   std::vector<Isometry3d> poses_;
 };
 

@@ -1,57 +1,12 @@
 #include <gtest/gtest.h>
-#include <malloc.h>
-#include <tbb/global_control.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "allocations.h"
 #include "monitor/scene_case.h"
-
-namespace {
-std::atomic<long> allocations{0}, held{0}, most_held{0};
-
-void hold(long bytes) {
-  const long now = held += bytes;
-  for (long most = most_held; now > most && !most_held.compare_exchange_weak(most, now);) {
-  }
-}
-}  // namespace
-
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  void* const memory = std::malloc(size ? size : 1);
-  if (memory) hold(static_cast<long>(malloc_usable_size(memory)));
-  return memory;
-}
-void* operator new(std::size_t size) {
-  void* const memory = operator new(size, std::nothrow);
-  if (!memory) throw std::bad_alloc();
-  return memory;
-}
-void operator delete(void* memory) noexcept {
-  hold(-static_cast<long>(malloc_usable_size(memory)));
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  operator delete(memory);
-}
 
 namespace sdf_ccd {
 namespace {
 
 using namespace test;
-
-/// Allocations of the last of several equal rounds, on one thread: a thread that joins late makes its own scratch
-/// memory once, whenever that is.
-template <typename Round>
-long steadyAllocations(const Round& round) {
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  for (int i = 0; i < 3; ++i) round();
-  const long before = allocations;
-  round();
-  return allocations - before;
-}
 
 TEST(Allocation, NoneWhilePairsAreClear) {
   const auto scene = build({body("ground", ground(), true), body("a", Primitive(Sphere{0.1})),

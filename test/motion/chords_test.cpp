@@ -28,6 +28,20 @@ TEST(ScrewMotion, EndsAreExact) {
   }
 }
 
+TEST(ScrewMotion, TheTwistLeadsToTheEndAndTheMiddleLiesHalfWay) {
+  Random random(5);
+  for (int i = 0; i < 4000; ++i) {
+    const double angle =
+        i % 2 ? std::pow(10.0, -test::uniform(random, 0.0, 16.0)) : test::uniform(random, 0.0, 3.14159);
+    const Isometry3d a = test::pose(random, 3.1, 2.0);
+    const Isometry3d b =
+        a * turned(test::direction(random), angle, test::uniform(random, 0.0, 2.0) * test::direction(random));
+    const ScrewMotion motion(a, b);
+    EXPECT_LT((motion.pose(std::nextafter(1.0, 0.0)).matrix() - b.matrix()).norm(), 1e-14 + 1e-15 / (3.1416 - angle));
+    EXPECT_LT((motion.pose(0.5).matrix() - motion.pose(std::nextafter(0.5, 0.0)).matrix()).norm(), 1e-14) << angle;
+  }
+}
+
 TEST(ScrewMotion, RevoluteJointGivesAnArcAboutItsAxis) {
   // F rests; P turns a right angle about an axis through (1, 0, 0).
   const Vector3d center(1, 0, 0);

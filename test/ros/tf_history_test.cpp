@@ -33,10 +33,18 @@ double xOf(const TfHistory& history, const std::string& frame, double time) {
 
 std::vector<double> recordedTimes(const TfHistory& history, const std::string& frame, double from, double until) {
   TfWindow window;
-  history.copy({frame}, {{ros::Time(from), ros::Time(until)}}, ros::Time(from), window);
+  TfChains chains({frame});
+  history.copy(chains, {{ros::Time(from), ros::Time(until)}}, ros::Time(from), window);
   std::vector<double> times;
-  window.addRecordedTimes(0, times);
+  window.addRecordedTimes({0}, times);
   return times;
+}
+
+std::vector<TfSpan> takeNews(TfHistory& history, const std::vector<std::string>& frames) {
+  TfChains chains(frames);
+  std::vector<TfSpan> spans;
+  history.takeNews(chains, spans);
+  return spans;
 }
 
 TEST(TfHistory, InterpolatesAsTf2Does) {
@@ -103,13 +111,13 @@ TEST(TfHistory, TellsOnceWhatCameBehindNewerTransforms) {
   }
   history.add(message({stampedTransform("base", "hand", 1.15, 7.0)}), false);
   history.add(message({stampedTransform("world", "base", 1.25, 0.0)}), false);  // it rests: nothing is wrong
-  const std::vector<TfHistory::Span> spans = history.takeNews({"base", "hand"});
+  const std::vector<TfSpan> spans = takeNews(history, {"base", "hand"});
   EXPECT_TRUE(spans[0].late.empty());
   ASSERT_EQ(spans[1].late.size(), 1u);
   EXPECT_EQ(spans[1].late[0].frame, "hand");
   EXPECT_EQ(spans[1].late[0].since, ros::Time(1.1));
   EXPECT_EQ(spans[1].late[0].until, ros::Time(1.2));
-  EXPECT_TRUE(history.takeNews({"hand"})[0].late.empty());
+  EXPECT_TRUE(takeNews(history, {"hand"})[0].late.empty());
   EXPECT_NEAR(xOf(history, "hand", 1.15), 7.0, 1e-12);
 }
 
@@ -118,7 +126,7 @@ TEST(TfHistory, GoesUpAndDownTheTree) {
   history.add(message({stampedTransform("base", "left", 1.0, 1.0), stampedTransform("base", "right", 1.0, -2.0),
                        stampedTransform("map", "base", 5.0, 0.0)}),
               false);
-  const TfHistory::Span span = history.span("right");
+  const TfSpan span = history.span("right");
   EXPECT_EQ(span.problem, "");
   EXPECT_EQ(span.last, ros::Time(1.0));  // map → base does not lie on the way
   EXPECT_NEAR(xOf(history, "right", 1.0), -3.0, 1e-9);
@@ -309,7 +317,7 @@ TEST(TfHistory, WhatComesFarBehindManyOthersEndsWhatIsKnownBeforeIt) {
   history.add(message({stampedTransform("world", "hand", 100.2001, 50.0)}), false);
   EXPECT_NE(problemOf(history, "hand", 100.2), "");
   EXPECT_EQ(problemOf(history, "hand", 100.3), "");
-  EXPECT_EQ(history.takeNews({"hand"})[0].late.size(), 1u);
+  EXPECT_EQ(takeNews(history, {"hand"})[0].late.size(), 1u);
 }
 
 TEST(TfHistory, StampsFarAheadOfTheClockAndLongNamesAreRefused) {

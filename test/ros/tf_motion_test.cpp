@@ -150,12 +150,9 @@ TEST(TfMotion, TimesWithARecordedTransformBetweenThemHaveNoBound) {
                        stampedTransform("world", "hand", 10.2, 1.5)}),
               false);
   TfWindow window;
-  history.copy({"hand"}, {{ros::Time(10.0), ros::Time(10.2)}}, ros::Time(10.0), window);
-  const auto speed = [&](double start, double end) {
-    ChainDerivatives motion(BoundingBall{});
-    window.addEdges(0, start, end, motion);
-    return motion.speed();
-  };
+  TfChains chains({"hand"});
+  history.copy(chains, {{ros::Time(10.0), ros::Time(10.2)}}, ros::Time(10.0), window);
+  const auto speed = [&](double start, double end) { return window.derivatives(0, 0.0, start, end).first; };
   EXPECT_NEAR(speed(0.0, 0.1), 1.0, 1e-12);
   EXPECT_NEAR(speed(0.12, 0.17), 0.25, 1e-7);
   EXPECT_EQ(speed(0.05, 0.15), std::numeric_limits<double>::infinity());

@@ -29,17 +29,37 @@ struct MotionSampling {
   std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< beyond so many no time is halved any more
 };
 
-/// Samples a motion that is not of constant twist between its waypoints (tf2 turns each joint evenly, a trajectory
+/// Samples motions that are not of constant twist between their waypoints (tf2 turns each joint evenly, a trajectory
 /// too), so that taking each body as such between the samples is wrong by no more than the tolerance: the time between
-/// two waypoints is halved as long as the bound is more than that.
+/// two waypoints is halved as long as the bound is more than that. Its memory is used again from motion to motion.
 ///
 /// The bound of the deviation e(s) from the screw: e(0) = e(1) = 0, and e(½) = m is measured. What e differs by from
 /// the parabola through these is at most max|s (s − ½) (s − 1)| / 6 = √3/216 of the third derivative's bound
 /// (Lagrange's remainder), so |e| ≤ |m| + √3/216 (jerk of the motion + jerk of the screw). That holds however far
 /// bodies turn.
-/// @param waypoints  times, increasing, the first 0 [s]; all of them are kept.
-/// @param balls      per body: holds its points, frame B.
-/// @param motion  `missing` is read: what it names is not looked at. Times, poses and errors are set; memory reused.
+class MotionSampler {
+ public:
+  /// @param balls  per body: holds its points, frame B.
+  MotionSampler(std::vector<BoundingBall> balls, const MotionSampling& sampling);
+
+  /// Adds samples behind those that the motion has, which are not looked at: between these and the first of the new ones
+  /// nothing is known.
+  /// @param waypoints  times, increasing [s]; all of them are kept.
+  /// @param motion  `missing` is read: what it names is not looked at. Errors become no less.
+  /// @throws std::invalid_argument if a pose is not finite, or its rotation not orthonormal.
+  void add(const std::vector<double>& waypoints, const MotionSource& source, CycleMotion& motion);
+
+ private:
+  class Run;
+
+  std::vector<BoundingBall> balls_;
+  MotionSampling sampling_;
+  std::vector<std::vector<Isometry3d>> X_middle_;  // per number of halvings that are left
+  std::vector<Isometry3d> X_end_;
+  std::vector<double> jerk_, deviation_;  // per body
+};
+
+/// A motion from its begin. @param waypoints  the first is 0. @param motion  times, poses and errors are set anew.
 void sampleMotion(const std::vector<double>& waypoints, const MotionSource& source,
                   const std::vector<BoundingBall>& balls, const MotionSampling& sampling, CycleMotion& motion);
 

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace sdf_ccd {
+
+/// Works on items on a thread of its own, in the order in which another thread hands them over. Items and their memory
+/// are used again.
+template <class Item>
+class OrderedWorker {
+ public:
+  /// @param items  that may wait at a time, 2 or more.
+  /// @param work   must not throw.
+  OrderedWorker(std::size_t items, std::function<void(Item&)> work)
+      : items_(items), work_(std::move(work)), thread_([this] { run(); }) {}
+
+  /// Works on what waits still.
+  ~OrderedWorker() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ends_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+
+  OrderedWorker(const OrderedWorker&) = delete;
+  OrderedWorker& operator=(const OrderedWorker&) = delete;
+
+  /// An item to fill, as it was left when it was worked on last; then hand it over. While all wait, this waits too.
+  Item& next() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return waiting_ < items_.size(); });
+    return items_[(first_ + waiting_) % items_.size()];
+  }
+
+  void handOver() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++waiting_;
+    }
+    changed_.notify_all();
+  }
+
+ private:
+  void run() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [&] { return waiting_ > 0 || ends_; });
+      if (waiting_ == 0) return;
+      Item& item = items_[first_];
+      lock.unlock();
+      work_(item);
+      lock.lock();
+      first_ = (first_ + 1) % items_.size();
+      --waiting_;
+      changed_.notify_all();
+    }
+  }
+
+  std::vector<Item> items_;
+  std::function<void(Item&)> work_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t first_ = 0, waiting_ = 0;  // of those handed over, the one that is worked on included
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <malloc.h>
+#include <tbb/global_control.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+/// Counts what a test program allocates, whoever does. For one source of each program.
+namespace sdf_ccd::test {
+
+inline std::atomic<long> allocations{0}, held{0}, most_held{0};
+
+inline void hold(long bytes) {
+  const long now = held += bytes;
+  for (long most = most_held; now > most && !most_held.compare_exchange_weak(most, now);) {
+  }
+}
+}  // namespace sdf_ccd::test
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++sdf_ccd::test::allocations;
+  void* const memory = std::malloc(size ? size : 1);
+  if (memory) sdf_ccd::test::hold(static_cast<long>(malloc_usable_size(memory)));
+  return memory;
+}
+void* operator new(std::size_t size) {
+  void* const memory = operator new(size, std::nothrow);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory) noexcept {
+  sdf_ccd::test::hold(-static_cast<long>(malloc_usable_size(memory)));
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+
+namespace sdf_ccd::test {
+
+/// Allocations of the last of several equal rounds, on one thread: a thread that joins late makes its own scratch
+/// memory once, whenever that is.
+template <typename Round>
+long steadyAllocations(const Round& round) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  for (int i = 0; i < 3; ++i) round();
+  const long before = allocations;
+  round();
+  return allocations - before;
+}
+
+}  // namespace sdf_ccd::test

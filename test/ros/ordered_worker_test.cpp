@@ -1,0 +1,57 @@
+#include "ros/ordered_worker.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "ros/message_pool.h"
+
+namespace sdf_ccd {
+namespace {
+
+TEST(OrderedWorker, WorksOnEveryItemInOrderWhicheverSideIsTheSlower) {
+  constexpr int kItems = 300;
+  for (const bool work_is_slow : {false, true}) {
+    std::vector<int> seen;
+    {
+      OrderedWorker<int> worker(4, [&](int& item) {
+        if (work_is_slow) std::this_thread::sleep_for(std::chrono::microseconds(100));
+        seen.push_back(item);
+      });
+      for (int i = 0; i < kItems; ++i) {
+        if (!work_is_slow && i % 10 == 0) std::this_thread::sleep_for(std::chrono::microseconds(100));
+        worker.next() = i;
+        worker.handOver();
+      }
+    }  // what waits is worked on
+    ASSERT_EQ(seen.size(), std::size_t(kItems));
+    for (int i = 0; i < kItems; ++i) EXPECT_EQ(seen[std::size_t(i)], i);
+  }
+}
+
+TEST(OrderedWorker, ItemsKeepTheirMemory) {
+  OrderedWorker<std::vector<int>> worker(2, [](std::vector<int>& item) { item.clear(); });
+  for (int i = 0; i < 10; ++i) {
+    std::vector<int>& item = worker.next();
+    EXPECT_TRUE(item.empty());
+    EXPECT_EQ(item.capacity() > 0, i >= 2) << i;
+    item.assign(100, i);
+    worker.handOver();
+  }
+}
+
+TEST(MessagePool, GivesNoMessageThatSomebodyHolds) {
+  MessagePool<int> pool;
+  std::vector<boost::shared_ptr<int>> held;
+  for (int i = 0; i < 100; ++i) {
+    held.push_back(pool.take());
+    EXPECT_EQ(*held.back(), 0);
+    *held.back() = 1;
+  }
+  const int* const first = held.front().get();
+  held.erase(held.begin());
+  EXPECT_EQ(pool.take().get(), first);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
