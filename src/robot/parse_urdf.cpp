@@ -1,9 +1,11 @@
 #include "parse_urdf.h"
 
+#include <map>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include <console_bridge/console.h>
 #include <tinyxml2.h>
@@ -91,6 +93,29 @@ void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
   }
 }
 
+/// urdfdom accepts links that are the child of several joints, and loops beside the root, whose links it forgets.
+void checkTree(const urdf::ModelInterface& model) {
+  std::map<std::string, std::string> joint_above;  // by child link
+  for (const auto& [name, joint] : model.joints_) {
+    const auto [above, is_new] = joint_above.emplace(joint->child_link_name, name);
+    if (is_new) continue;
+    throw std::runtime_error("link " + above->first + " is the child of two joints, " + above->second + " and " + name);
+  }
+  std::set<std::string> reached;
+  std::vector<const urdf::Link*> open = {model.getRoot().get()};
+  while (!open.empty()) {
+    const urdf::Link* link = open.back();
+    open.pop_back();
+    reached.insert(link->name);
+    for (const auto& child : link->child_links) open.push_back(child.get());
+  }
+  for (const auto& link : model.links_) {
+    if (reached.count(link.first) > 0) continue;
+    throw std::runtime_error("no chain of joints leads from the root link " + model.getRoot()->name + " to link " +
+                             link.first + ": it is in a loop, or below one");
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml) {
@@ -101,6 +126,7 @@ std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml) {
                              std::to_string(kMostLinks));
   }
   for (const auto& joint : model->joints_) checkJoint(*model, *joint.second);
+  checkTree(*model);
   return model;
 }
 

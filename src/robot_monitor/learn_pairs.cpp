@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
 #include "model/error_budget.h"
+#include "monitor/scene_cost.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
@@ -229,8 +231,10 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   const auto build_progress = [&](const std::string&, double share) {
     if (options.progress) options.progress("fields and shells", share);
   };
-  const Scene scene =
-      buildScene(description, planScene(description, planOptions(scene_options)), scene_options, build_progress);
+  ScenePlan plan = planScene(description, planOptions(scene_options));
+  plan.expected = std::make_shared<const SceneCost>(expectedCost(description, plan, scene_options));
+  requireAffordable(*plan.expected, scene_options);
+  const Scene scene = buildScene(description, plan, scene_options, build_progress);
   const auto built = Clock::now();
   const std::vector<Seen> seen = testPairs(robot, scene, options);
   for (std::size_t p = 0; p < seen.size(); ++p) sortOut(scene.pairs[p], seen[p], scene, options, pairs);

@@ -58,7 +58,8 @@ struct LearnedPairs {
 /// Pairs that the given SRDF disables or enables stay as it says and are not tested. Nothing is learned of pairs with a
 /// planar, floating or unlimited prismatic joint between them, or whose shapes cannot be read. The result depends on
 /// the states and the meshes only, not on the number of threads (those of the caller's TBB arena).
-/// @throws std::invalid_argument if there are no states, or max_error cannot be kept.
+/// @throws std::invalid_argument if there are no states, or max_error cannot be kept; std::length_error where what
+/// that takes is more than the machine has, or far more than one field or shell may take (see requireAffordable()).
 LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                         const LearnOptions& options);
 

@@ -249,6 +249,26 @@ std::string failureOf(const std::string& urdf) {
   return "";
 }
 
+TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
+  const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
+    return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child + "'/></joint>";
+  };
+  const auto refusal = [](const std::string& content) { return failureOf("<robot name='r'>" + content + "</robot>"); };
+  const std::string links = "<link name='a'/><link name='b'/><link name='c'/>";
+  // urdfdom takes c for the root, and forgets the others.
+  EXPECT_EQ(refusal(links + joint("there", "a", "b") + joint("back", "b", "a")),
+            "no chain of joints leads from the root link c to link a: it is in a loop, or below one");
+  EXPECT_EQ(refusal(links + joint("to_b", "a", "b") + joint("to_c", "a", "c") + joint("closing", "b", "c")),
+            "link c is the child of two joints, closing and to_c");
+  // Along each of 2^40 ways the last link would be another one.
+  std::string ladder = "<link name='l0'/>";
+  for (int i = 1; i <= 40; ++i) {
+    const std::string from = "l" + std::to_string(i - 1), to = "l" + std::to_string(i);
+    ladder += "<link name='" + to + "'/>" + joint("p" + to, from, to) + joint("q" + to, from, to);
+  }
+  EXPECT_NE(refusal(ladder).find(" is the child of two joints, "), std::string::npos);
+}
+
 TEST(RobotModel, TextThatIsCutShortOrBrokenIsRefused) {
   const std::string urdf = kArm;
   for (std::size_t size = 0; size < urdf.size() - 20; ++size) EXPECT_NE(failureOf(urdf.substr(0, size)), "") << size;

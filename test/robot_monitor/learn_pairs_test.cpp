@@ -168,6 +168,18 @@ TEST(LearnPairs, AMeshThatIsMissingCostsItsPairsAlone) {
   EXPECT_EQ(namesOf(pairs.disabled, "Never"), Names{"a c"});
 }
 
+/// As of a mesh in millimetres: coarser fields and shells took minutes, to say less than was asked for.
+TEST(LearnPairs, WhatTheErrorWouldCostIsRefusedBeforeItIsBuilt) {
+  LearnOptions options = coarse();
+  options.max_error = 1e-8;
+  try {
+    learn(scissors(), options);
+    FAIL() << "accepted";
+  } catch (const std::length_error& error) {
+    EXPECT_EQ(std::string(error.what()).find("a max_error of 1e-08 m would take "), 0u) << error.what();
+  }
+}
+
 /// The demo's arm: the elbow bends to 2.7 rad at most, so that the wrist's axis, 0.35 m behind it, stays 0.149 m from
 /// the upper arm's; the two are 0.032 and less than 0.06 m thick. Folded, the hand reaches the turret.
 TEST(LearnPairs, TheDemoArm) {

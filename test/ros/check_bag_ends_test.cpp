@@ -214,6 +214,13 @@ TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
   expectRefused(check("arm.bag", "no", "--config map.yaml"), "the fixed frame map is neither in tf nor a link");
 }
 
+TEST_F(CheckBag, PairsThatNameNoBodyAreNamed) {
+  write("pairs.yaml", readText(path("arm.yaml")) + "checked_pairs: [[hand, plaet]]\n");
+  const ToolRun result = run(check("arm.bag", "made", "--config pairs.yaml"));
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_EQ(result.error, "sdf_ccd: warning: checked_pairs: no body is named plaet, did you mean plate?\n");
+}
+
 TEST_F(CheckBag, WhatCannotBeCheckedIsNamed) {
   ::setenv("ROS_PACKAGE_PATH", path("").c_str(), 1);
   const ToolRun result = run(check("arm.bag", "made"));

@@ -143,6 +143,7 @@ void run(const Arguments& arguments) {
   const std::string expected = "expected         " + summary(*plan.expected) + "\n";
   std::cout << expected << std::flush;
   CheckFiles files(arguments.out);
+  for (const std::string& warning : described.warnings) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
   const std::shared_ptr<const Scene> scene = buildWithBar(described, plan, parameters.scene, files.interrupt);
   const std::string over = overBudget(*scene, parameters.scene);
   std::vector<std::string> warnings = described.warnings;
