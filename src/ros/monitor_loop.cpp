@@ -51,7 +51,7 @@ void MonitorLoop::run(const CycleRequest& request) {
 }
 
 void MonitorLoop::guardReach() {
-  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_);
+  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_, scene().pairs);
   if (unchecked.empty()) return;
   guarded_ = *result_;
   addUnchecked(unchecked, guarded_);

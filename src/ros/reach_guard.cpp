@@ -32,6 +32,8 @@ ReachGuard::ReachGuard(const DescribedScene& described) : robot_(described.robot
     joints_.push_back({slide, robot_->urdf().getJoint(slide.joint).get(), ""});
   }
   for (const UnreachablePair& pair : described.unreachable) {
+    const auto isLink = [&](int body) { return !described.scene.bodies[static_cast<std::size_t>(body)].is_world; };
+    if (isLink(pair.body_a) && isLink(pair.body_b)) unreachable_.push_back(pair);
     std::vector<std::size_t> rests_on;
     for (const RobotModel::Slide& slide : pair.slides) {
       const auto joint =
@@ -44,8 +46,13 @@ ReachGuard::ReachGuard(const DescribedScene& described) : robot_(described.robot
   }
 }
 
-std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle) {
+std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle,
+                                             const std::vector<PlannedPair>& pairs) {
   std::vector<UncheckedPair> unchecked;
+  if (!unreachable_.empty()) {
+    findSpans(cycle.motion, pairs);
+    findNear(cycle.motion, unchecked);
+  }
   if (joints_.empty()) return unchecked;
   follow(history, cycle);
   bool all_hold = true;
@@ -54,13 +61,47 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
     all_hold &= joints_[j].problem.empty();
   }
   for (std::size_t p = 0; p < pairs_.size() && !all_hold; ++p) {
+    const auto isNamed = [&](const UncheckedPair& named) {
+      return named.body_a == pairs_[p].body_a && named.body_b == pairs_[p].body_b;
+    };
     for (const std::size_t joint : rest_on_[p]) {
-      if (joints_[joint].problem.empty()) continue;
+      if (joints_[joint].problem.empty() || std::any_of(unchecked.begin(), unchecked.end(), isNamed)) continue;
       unchecked.push_back({pairs_[p].body_a, pairs_[p].body_b, joints_[joint].problem});
       break;
     }
   }
   return unchecked;
+}
+
+void ReachGuard::findSpans(const CycleMotion& motion, const std::vector<PlannedPair>& pairs) {
+  known_.assign(motion.X_WB.size(), {});
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const WaypointSpan span = motion.spans.empty() ? WaypointSpan{0, motion.times.size() - 1} : motion.spans[p];
+    if (span.empty()) continue;
+    for (const int body : {pairs[p].body_a, pairs[p].body_b}) {
+      WaypointSpan& known = known_[static_cast<std::size_t>(body)];
+      known = known.empty() ? span
+                            : WaypointSpan{std::min(known.first, span.first), std::max(known.last, span.last)};
+    }
+  }
+}
+
+/// Where two balls meet at a recorded time that never can by the URDF, tf is of another robot.
+void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const {
+  for (const UnreachablePair& pair : unreachable_) {
+    const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
+    if (known_[a].empty() || known_[b].empty()) continue;
+    if (!motion.missing.empty() && !(motion.missing[a].empty() && motion.missing[b].empty())) continue;
+    const double reach = pair.ball_a.radius + pair.ball_b.radius;
+    const std::size_t last = std::min(known_[a].last, known_[b].last);
+    for (std::size_t k = std::max(known_[a].first, known_[b].first); k <= last; ++k) {
+      const Vector3d way = motion.X_WB[a][k] * pair.ball_a.center - motion.X_WB[b][k] * pair.ball_b.center;
+      if (way.squaredNorm() > reach * reach) continue;
+      unchecked.push_back({pair.body_a, pair.body_b,
+                           std::string(kOutOfReach) + " by the URDF, but tf has them near each other: is it this robot's?"});
+      break;
+    }
+  }
 }
 
 /// Over the cycle, as far as the joint's child is known.

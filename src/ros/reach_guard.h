@@ -10,13 +10,15 @@
 namespace sdf_ccd {
 
 /// Watches what pairs that were left out as out of reach rest on: that prismatic joints keep to their limits, by and
-/// large (RobotModel::reach()).
+/// large (RobotModel::reach()), and that tf has the links where the URDF's joints can take them.
 class ReachGuard {
  public:
   explicit ReachGuard(const DescribedScene& described);
 
   /// The pairs that this does not hold for at some recorded time of the cycle, or whose joints tf does not have.
-  std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle);
+  /// @param pairs  the scene's that are checked.
+  std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle,
+                                   const std::vector<PlannedPair>& pairs);
 
  private:
   struct Joint {
@@ -25,6 +27,9 @@ class ReachGuard {
     std::string problem;  // in the last cycle
   };
 
+  /// The waypoints of a body whose poses are those of tf, from a checked pair of it.
+  void findSpans(const CycleMotion& motion, const std::vector<PlannedPair>& pairs);
+  void findNear(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const;
   void follow(const TfHistory& history, const TrackedCycle& cycle);
   std::string problem(std::size_t joint, const TrackedCycle& cycle);
 
@@ -36,6 +41,8 @@ class ReachGuard {
   TfWindow window_;
   std::vector<UncheckedPair> pairs_;               // each with no reason yet
   std::vector<std::vector<std::size_t>> rest_on_;  // per pair: joints
+  std::vector<UnreachablePair> unreachable_;       // of links: objects may be out of reach though balls around them meet
+  std::vector<WaypointSpan> known_;                // per body, in the last cycle
 };
 
 }  // namespace sdf_ccd

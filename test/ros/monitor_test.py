@@ -436,12 +436,13 @@ class MonitorTest(unittest.TestCase):
         states = Recorder('/late_monitor/state', MonitorState)
         self.assertIsNotNone(states.find(lambda m: 'late_description is missing' in m.reason))
         self.assertEqual(rospy.get_param('/late_monitor/fixed_frame'), 'base')  # as after_monitor put it in
-        rospy.set_param('/late_description', rospy.get_param('/robot_description'))
+        rospy.set_param('/late_description', rospy.get_param('/collision_monitor/robot_description'))
         self.assertIsNotNone(states.find(lambda m: m.header.frame_id == 'base'))
 
     def test_ends_at_once_however_seldom_it_cycles(self):
         states = Recorder('/slow_monitor/state', MonitorState)
-        process = subprocess.Popen(['rosrun', 'sdf_ccd', 'collision_monitor', '__name:=slow_monitor', '_rate:=0.001'])
+        process = subprocess.Popen(['rosrun', 'sdf_ccd', 'collision_monitor', '__name:=slow_monitor', '_rate:=0.001',
+                                    '_urdf_parameter:=/collision_monitor/robot_description'])
         try:
             self.assertIsNotNone(Recorder('/slow_monitor/plan', String).find(lambda m: True))
             time.sleep(0.5)  # the first cycle begins at once

@@ -98,9 +98,11 @@ class Duel {
     if (chance(habits_.bad)) {
       const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300};
       if (chance(0.5)) {
-        sent_q.coeffs() *= uniform(0.0, 2.0);
+        sent_q.coeffs() *= uniform(0.0, 0.98);  // nearly unit ones tf2 takes as they are
       } else {
-        sent_p *= bad[pick(3)];
+        const double factor = bad[pick(3)];
+        sent_p *= factor;
+        is_huge_[frame] |= !std::isnan(factor);
       }
     }
     const std::string parent = chance(habits_.reparent) ? frameName(pick(kFrames + 1)) : parents_[frame];
@@ -167,7 +169,7 @@ class Duel {
       chain.insert(chain.begin(), from);
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const int number = chain[i] == "world" ? 0 : std::stoi(chain[i].substr(1));
-        if (went_back_[number]) return false;
+        if (went_back_[number] || is_huge_[number]) return false;
         if (is_static_[number]) continue;
         const auto& came = came_[chain[i]];
         const auto after = came.lower_bound(time);
@@ -187,6 +189,7 @@ class Duel {
   double now_ = 1000.0;
   std::array<std::string, kFrames + 1> parents_;
   std::array<bool, kFrames + 1> is_static_{}, went_back_{};
+  std::array<bool, kFrames + 1> is_huge_{};  // tf2 goes by the root, and loses there what is smaller
   std::array<double, kFrames + 1> steps_{};
   std::array<Quaterniond, kFrames + 1> rotations_ = filled(Quaterniond(Quaterniond::Identity()));
   std::array<Vector3d, kFrames + 1> translations_ = filled(Vector3d(Vector3d::Zero()));
