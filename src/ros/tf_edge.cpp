@@ -16,6 +16,8 @@ void TfEdge::record(const TfPose& pose, const TfKeep& keep, TfCounts& counts) {
   if (pose.stamp > records.back().stamp) {
     behind_count_ = 0;
     records.pushBack(pose);
+    // Between a transform that came late under another parent and this one, others were known once.
+    while (records.front().stamp < dropped_until && pose.stamp > dropped_until) records.dropFront(1);
     drop(keep);
   } else if (hasGoneBack(pose)) {
     const std::array<TfPose, kGoesOn> goes_on = behind_;

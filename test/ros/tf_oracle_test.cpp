@@ -247,7 +247,7 @@ TEST(TfOracle, NeverContradictsTf2WhateverIsSent) {
   long known = 0, only_tf2_knows = 0;
   for (const double reparent : {0.0, 0.02, 0.2}) {
     for (const double bad : {0.0, 0.05}) {
-      const Tally tally = duels(10, {0.2, 3.0, reparent, bad, bad});
+      const Tally tally = duels(60, {0.2, 3.0, reparent, bad, bad});
       known += tally.known;
       only_tf2_knows += tally.only_tf2_knows;
     }
