@@ -134,6 +134,20 @@ std::string notesOf(const PlannedJoints& plan) {
   return notes;
 }
 
+/// Where the base moves, objects that hang on the robot's links move along and are never in its way: mostly as their
+/// frame is the root link, for want of one that rests.
+std::string carriedNote(const PlannedScene& planned) {
+  std::string names;
+  int count = 0;
+  for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
+    if (!planned.scene.bodies[body].is_world || planned.now.carriers[body].link < 0) continue;
+    if (++count <= 3) names += (count == 1 ? "" : ", ") + planned.scene.bodies[body].name;
+  }
+  if (count == 0) return {};
+  return "these objects move with the robot's base, as their frames hang on it: " + names + (count > 3 ? ", ..." : "") +
+         "; give them, or fixed_frame, a frame that rests";
+}
+
 PlannedMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
   const CurrentPoses& now = planned.now;
   const PlannedJoints plan = completePlan(planned.robot, namedTrajectory(request, planned), now.joints,
@@ -149,6 +163,8 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
   }
   PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.unreachable, planned.sampling);
   result.notes = notesOf(plan);
+  const std::string carried = movesRoot(request, planned) ? carriedNote(planned) : "";
+  if (!carried.empty()) result.notes += (result.notes.empty() ? "" : "; ") + carried;
   return result;
 }
 

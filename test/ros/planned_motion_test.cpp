@@ -215,6 +215,32 @@ TEST_F(PlannedMotionTest, TheRootMovesByAMultiDofTrajectory) {
   }
 }
 
+/// Nothing of the base's motion can be told of what moves with it.
+TEST_F(PlannedMotionTest, ObjectsThatMoveWithTheBaseAreSaid) {
+  const auto base = [] {
+    QueryMotion::Request request;
+    request.multi_dof_trajectory.joint_names = {"virtual"};
+    request.multi_dof_trajectory.points.resize(2);
+    for (int i = 0; i < 2; ++i) {
+      auto& point = request.multi_dof_trajectory.points[i];
+      point.time_from_start = ros::Duration(i);
+      point.transforms.resize(1);
+      point.transforms[0].translation.x = i;
+      point.transforms[0].rotation.w = 1.0;
+    }
+    return request;
+  }();
+  motion(base);
+  EXPECT_EQ(planned_.notes.find("wall"), std::string::npos) << "it rests: " << planned_.notes;
+  now_.carriers[1] = {0, Isometry3d::Identity()};
+  motion(base);
+  EXPECT_NE(planned_.notes.find("these objects move with the robot's base"), std::string::npos)
+      << planned_.notes;
+  EXPECT_NE(planned_.notes.find("wall"), std::string::npos) << planned_.notes;
+  motion(swing({0.0, 0.1}));
+  EXPECT_EQ(planned_.notes.find("wall"), std::string::npos) << "the base rests: " << planned_.notes;
+}
+
 TEST_F(PlannedMotionTest, BadRequestsAreRefusedWithTheReason) {
   EXPECT_EQ(refusal(QueryMotion::Request()), "give either a trajectory or poses of links");
   EXPECT_EQ(refusal(swing({0.0})), "the trajectory has 1 points, two or more are needed");
