@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "common/nearest_name.h"
+#include "name_pair.h"
 
 namespace sdf_ccd {
 namespace {
-
-using Names = std::pair<std::string, std::string>;
-
-Names ordered(const std::string& a, const std::string& b) {
-  return a < b ? Names{a, b} : Names{b, a};
-}
 
 std::string textOf(const PairRule& rule) {
   return rule.a + " - " + rule.b;
@@ -63,8 +57,7 @@ bool matches(const PairRule& rule, const std::string& name_a, const std::string&
 }
 
 bool matchesAny(const std::vector<PairRule>& rules, const std::string& name_a, const std::string& name_b) {
-  return std::any_of(rules.begin(), rules.end(),
-                     [&](const PairRule& rule) { return matches(rule, name_a, name_b); });
+  return std::any_of(rules.begin(), rules.end(), [&](const PairRule& rule) { return matches(rule, name_a, name_b); });
 }
 
 void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std::string>& warnings) {
@@ -76,14 +69,15 @@ void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std
     return !pair.proved && matchesAny(rules.checked, pair.body_a, pair.body_b);
   };
   disabled.erase(std::remove_if(disabled.begin(), disabled.end(), wanted), disabled.end());
-  std::set<Names> left_out;
-  for (const DisabledPair& pair : disabled) left_out.insert(ordered(pair.body_a, pair.body_b));
+  std::set<NamePair> left_out;
+  for (const DisabledPair& pair : disabled) left_out.insert(namePair(pair.body_a, pair.body_b));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
       const std::string &a = scene.bodies[i].name, &b = scene.bodies[k].name;
       const auto rule = std::find_if(rules.allowed.begin(), rules.allowed.end(),
                                      [&](const PairRule& allowed) { return matches(allowed, a, b); });
-      if (rule == rules.allowed.end() || matchesAny(rules.checked, a, b) || left_out.count(ordered(a, b)) > 0) continue;
+      if (rule == rules.allowed.end() || matchesAny(rules.checked, a, b) || left_out.count(namePair(a, b)) > 0)
+        continue;
       disabled.push_back({a, b, "allowed_pairs: " + textOf(*rule)});
     }
 }

@@ -25,8 +25,8 @@ bool matches(const std::string& pattern, const std::string& name);
 bool matches(const PairRule& rule, const std::string& name_a, const std::string& name_b);
 bool matchesAny(const std::vector<PairRule>& rules, const std::string& name_a, const std::string& name_b);
 
-/// Leaves out pairs of a scene that are allowed to touch, and takes back what else left out pairs that are to be checked,
-/// but for DisabledPair::proved ones.
+/// Leaves out pairs of a scene that are allowed to touch, and takes back what else left out pairs that are to be
+/// checked, but for DisabledPair::proved ones.
 /// @param scene     with all of its bodies and disabled pairs.
 /// @param warnings  gets the patterns that no body's name matches.
 void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std::string>& warnings);

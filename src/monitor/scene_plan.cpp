@@ -5,18 +5,12 @@
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 #include "body/body_builder.h"
+#include "model/name_pair.h"
 
 namespace sdf_ccd {
 namespace {
-
-using Names = std::pair<std::string, std::string>;
-
-Names ordered(const std::string& a, const std::string& b) {
-  return a < b ? Names{a, b} : Names{b, a};
-}
 
 /// Size of what a body must be held against to tell whether another one could hold it [m].
 struct Extent {
@@ -53,25 +47,25 @@ bool isBox(const BodyDescription& body) {
   return primitive && std::holds_alternative<Box>(*primitive);
 }
 
-std::map<Names, std::string> disabledPairs(const SceneDescription& description) {
+std::map<NamePair, std::string> disabledPairs(const SceneDescription& description) {
   std::set<std::string> names;
   for (const BodyDescription& body : description.bodies) {
     if (!names.insert(body.name).second)
       throw std::invalid_argument("scene: two bodies are named \"" + body.name + "\"");
   }
-  std::map<Names, std::string> reasons;
+  std::map<NamePair, std::string> reasons;
   for (const DisabledPair& pair : description.disabled) {
     if (pair.body_a == pair.body_b)
       throw std::invalid_argument("scene: a disabled pair names \"" + pair.body_a + "\" twice");
-    reasons.emplace(ordered(pair.body_a, pair.body_b), pair.reason);
+    reasons.emplace(namePair(pair.body_a, pair.body_b), pair.reason);
   }
   return reasons;
 }
 
 /// Why the pair is not tested; empty if it is.
 std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
-                       const std::map<Names, std::string>& disabled) {
-  const auto found = disabled.find(ordered(a.name, b.name));
+                       const std::map<NamePair, std::string>& disabled) {
+  const auto found = disabled.find(namePair(a.name, b.name));
   if (found != disabled.end()) return found->second;
   if (a.is_world && b.is_world) return "both of the world";
   if (a.frame == b.frame) return "in the same frame";
@@ -84,7 +78,7 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
 }  // namespace
 
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options) {
-  const std::map<Names, std::string> disabled = disabledPairs(description);
+  const std::map<NamePair, std::string> disabled = disabledPairs(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
   plan.needs_field.assign(count, false);

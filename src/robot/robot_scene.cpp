@@ -6,22 +6,17 @@
 
 #include "geometry_extent.h"
 #include "link_geometry.h"
+#include "model/name_pair.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
 #include "srdf_pairs.h"
 
 namespace sdf_ccd {
 namespace {
 
-using NamePair = std::pair<std::string, std::string>;
-
 const char* const kRigidlyJoined = "rigidly joined";
 
 bool isProved(const std::string& reason) {
   return reason == kRigidlyJoined || reason == kOutOfReach;
-}
-
-NamePair sorted(const std::string& a, const std::string& b) {
-  return a < b ? NamePair(a, b) : NamePair(b, a);
 }
 
 /// Tells why a pair of links needs no check.
@@ -131,7 +126,7 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
 
 void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
   std::set<NamePair> disabled;
-  for (const DisabledPair& pair : scene.disabled) disabled.insert(sorted(pair.body_a, pair.body_b));
+  for (const DisabledPair& pair : scene.disabled) disabled.insert(namePair(pair.body_a, pair.body_b));
   const std::set<std::string> links(robot.links().begin(), robot.links().end());
   const std::vector<Isometry3d> X_RL = robot.forwardKinematics({});
   for (const BodyDescription& object : scene.bodies) {
@@ -140,7 +135,7 @@ void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
     if (!X_RB) continue;
     for (const BodyDescription& body : scene.bodies) {
       if (body.is_world || !body.failure.empty() || body.geometry.empty() || !links.count(body.name)) continue;
-      if (disabled.count(sorted(object.name, body.name))) continue;
+      if (disabled.count(namePair(object.name, body.name))) continue;
       std::string reason;
       if (robot.rigidlyJoined(robot.root(), body.name)) {
         reason = kRigidlyJoined;

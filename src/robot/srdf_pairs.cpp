@@ -3,27 +3,19 @@
 #include <algorithm>
 
 namespace sdf_ccd {
-namespace {
-
-std::pair<std::string, std::string> sorted(const std::string& a, const std::string& b) {
-  return a < b ? std::make_pair(a, b) : std::make_pair(b, a);
-}
-
-}  // namespace
-
 SrdfPairs::SrdfPairs(const Srdf& srdf) {
   for (const DisabledPair& pair : srdf.disabled) {
     if (isPattern(pair.body_a) || isPattern(pair.body_b)) {
       disabled_patterns_.push_back({{pair.body_a, pair.body_b}, pair.reason});
     } else {
-      disabled_.emplace(sorted(pair.body_a, pair.body_b), pair.reason);
+      disabled_.emplace(namePair(pair.body_a, pair.body_b), pair.reason);
     }
   }
   for (const auto& [a, b] : srdf.enabled) {
     if (isPattern(a) || isPattern(b)) {
       enabled_patterns_.push_back({a, b});
     } else {
-      enabled_.insert(sorted(a, b));
+      enabled_.insert(namePair(a, b));
     }
   }
   for (const std::string& link : srdf.disabled_by_default) {
@@ -36,7 +28,7 @@ SrdfPairs::SrdfPairs(const Srdf& srdf) {
 }
 
 std::string SrdfPairs::whyDisabled(const std::string& link_a, const std::string& link_b) const {
-  const auto found = disabled_.find(sorted(link_a, link_b));
+  const auto found = disabled_.find(namePair(link_a, link_b));
   if (found != disabled_.end()) return found->second;
   for (const auto& [rule, reason] : disabled_patterns_)
     if (matches(rule, link_a, link_b)) return reason;
@@ -44,13 +36,12 @@ std::string SrdfPairs::whyDisabled(const std::string& link_a, const std::string&
 }
 
 bool SrdfPairs::isEnabled(const std::string& link_a, const std::string& link_b) const {
-  return enabled_.count(sorted(link_a, link_b)) > 0 || matchesAny(enabled_patterns_, link_a, link_b);
+  return enabled_.count(namePair(link_a, link_b)) > 0 || matchesAny(enabled_patterns_, link_a, link_b);
 }
 
 bool SrdfPairs::isDisabledByDefault(const std::string& link) const {
-  return by_default_.count(link) > 0 ||
-         std::any_of(default_patterns_.begin(), default_patterns_.end(),
-                     [&](const std::string& pattern) { return matches(pattern, link); });
+  return by_default_.count(link) > 0 || std::any_of(default_patterns_.begin(), default_patterns_.end(),
+                                                    [&](const std::string& pattern) { return matches(pattern, link); });
 }
 
 std::vector<std::string> unknownLinks(const Srdf& srdf, const std::vector<std::string>& links) {
@@ -60,9 +51,8 @@ std::vector<std::string> unknownLinks(const Srdf& srdf, const std::vector<std::s
   for (const std::string& link : links) named.erase(link);
   std::vector<std::string> unknown;
   for (const std::string& name : named) {
-    const bool matched = isPattern(name) && std::any_of(links.begin(), links.end(), [&](const std::string& link) {
-                           return matches(name, link);
-                         });
+    const bool matched = isPattern(name) && std::any_of(links.begin(), links.end(),
+                                                        [&](const std::string& link) { return matches(name, link); });
     if (!matched) unknown.push_back(name);
   }
   return unknown;

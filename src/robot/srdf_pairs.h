@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/name_pair.h"
 #include "model/pair_rules.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
@@ -22,10 +23,8 @@ class SrdfPairs {
   bool isDisabledByDefault(const std::string& link) const;
 
  private:
-  using Names = std::pair<std::string, std::string>;  // in ascending order
-
-  std::map<Names, std::string> disabled_;
-  std::set<Names> enabled_;
+  std::map<NamePair, std::string> disabled_;
+  std::set<NamePair> enabled_;
   std::set<std::string> by_default_;
   std::vector<std::pair<PairRule, std::string>> disabled_patterns_;
   std::vector<PairRule> enabled_patterns_;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "model/error_budget.h"
+#include "model/name_pair.h"
 #include "monitor/scene_cost.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
@@ -18,21 +19,16 @@ namespace sdf_ccd {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using NamePair = std::pair<std::string, std::string>;
 
 constexpr std::size_t kRound = 256;    // states between two looks at which pairs are still open
 constexpr std::size_t kAlways = 1000;  // random states that tell what touches always: each costs a search for contacts
-
-NamePair sorted(const std::string& a, const std::string& b) {
-  return a < b ? NamePair(a, b) : NamePair(b, a);
-}
 
 /// Sorts the pairs of a described robot's bodies into those that have to be tested and those that need not.
 class PairSorter {
  public:
   PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene) : robot_(robot), srdf_(srdf) {
     for (const DisabledPair& pair : scene.disabled) {
-      if (pair.reason == kOutOfReach) out_of_reach_.insert(sorted(pair.body_a, pair.body_b));
+      if (pair.reason == kOutOfReach) out_of_reach_.insert(namePair(pair.body_a, pair.body_b));
     }
     for (const BodyDescription& body : scene.bodies) bodies_.insert(body.name);
     for (std::size_t link = 0; link < robot.links().size(); ++link) {
@@ -43,14 +39,15 @@ class PairSorter {
 
   /// False if the pair need not be tested; then it is told in `pairs`.
   bool mustBeTested(const BodyDescription& a, const BodyDescription& b, LearnedPairs& pairs) const {
-    const NamePair names = sorted(a.name, b.name);
+    const NamePair names = namePair(a.name, b.name);
     if (isKnown(a.name, b.name)) {
       ++pairs.known;
     } else if (neighbours_.count(names) > 0) {
       pairs.disabled.push_back({a.name, b.name, "Adjacent"});
     } else if (!a.failure.empty() || !b.failure.empty()) {
       pairs.unknown.push_back({a.name, b.name, !a.failure.empty() ? a.failure : b.failure});
-    } else if (const std::string joint = JointSampler::unboundedBetween(robot_, index_.at(a.name), index_.at(b.name)); !joint.empty()) {
+    } else if (const std::string joint = JointSampler::unboundedBetween(robot_, index_.at(a.name), index_.at(b.name));
+               !joint.empty()) {
       pairs.unknown.push_back({a.name, b.name, "nothing bounds joint " + joint});
     } else if (out_of_reach_.count(names) > 0) {
       pairs.disabled.push_back({a.name, b.name, "Never"});
@@ -83,7 +80,7 @@ class PairSorter {
         if (bodies_.count(b) == 0) {
           open.push_back(next);
         } else if (robot_.rigidlyJoined(a, b) || robot_.adjacent(a, b)) {
-          neighbours_.insert(sorted(a, b));
+          neighbours_.insert(namePair(a, b));
         }
       }
     }
