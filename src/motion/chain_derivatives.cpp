@@ -10,31 +10,18 @@ DerivativeSeries turnSeries(const DerivativeBounds& angle) {
   return {1.0, q1, q1 * q1 + angle.second, q1 * q1 * q1 + 3.0 * q1 * angle.second + angle.third};
 }
 
+DerivativeSeries slideSeries(double reach, const DerivativeBounds& slide) {
+  return {reach, slide.first, slide.second, slide.third};
+}
+
 }  // namespace
 
 void ChainDerivatives::addFrame(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide) {
-  turnBy(angle);
-  slideBy(reach, slide);
+  series_ = turnSeries(angle) * series_ + slideSeries(reach, slide);
 }
 
 void ChainDerivatives::addInverse(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide) {
-  slideBy(reach, slide);
-  turnBy(angle);
-}
-
-void ChainDerivatives::slideBy(double reach, const DerivativeBounds& slide) {
-  distance_ += reach;
-  first_ += slide.first;
-  second_ += slide.second;
-  third_ += slide.third;
-}
-
-/// Leibniz' rule for R x.
-void ChainDerivatives::turnBy(const DerivativeBounds& angle) {
-  const auto [r0, r1, r2, r3] = turnSeries(angle);
-  third_ += 3.0 * r1 * second_ + 3.0 * r2 * first_ + r3 * distance_;
-  second_ += 2.0 * r1 * first_ + r2 * distance_;
-  first_ += r1 * distance_;
+  series_ = turnSeries(angle) * (series_ + slideSeries(reach, slide));
 }
 
 DerivativeSeries DerivativeSeries::operator*(const DerivativeSeries& other) const {
@@ -51,7 +38,7 @@ CarriedDerivatives CarriedDerivatives::carrying(double reach, const DerivativeBo
                                                 const DerivativeBounds& slide) const {
   CarriedDerivatives result;
   result.turn_ = turn_ * turnSeries(angle);
-  result.shift_ = turn_ * DerivativeSeries{reach, slide.first, slide.second, slide.third} + shift_;
+  result.shift_ = turn_ * slideSeries(reach, slide) + shift_;
   return result;
 }
 
@@ -59,7 +46,7 @@ CarriedDerivatives CarriedDerivatives::carryingInverse(double reach, const Deriv
                                                        const DerivativeBounds& slide) const {
   CarriedDerivatives result;
   result.turn_ = turn_ * turnSeries(angle);
-  result.shift_ = result.turn_ * DerivativeSeries{reach, slide.first, slide.second, slide.third} + shift_;
+  result.shift_ = result.turn_ * slideSeries(reach, slide) + shift_;
   return result;
 }
 

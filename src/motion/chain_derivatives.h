@@ -12,6 +12,15 @@ struct DerivativeBounds {
   double third = 0.0;
 };
 
+/// A function and its derivatives, or what bounds them.
+struct DerivativeSeries {
+  double value = 0.0, first = 0.0, second = 0.0, third = 0.0;
+
+  /// Of the product, by Leibniz' rule.
+  DerivativeSeries operator*(const DerivativeSeries& other) const;
+  DerivativeSeries operator+(const DerivativeSeries& other) const;
+};
+
 /// Bounds how the points of a body can move while the frames that carry it turn and slide, from rates and reaches alone
 /// (Schwarzer, Saha, Latombe 2005; here up to third derivatives): joints of a robot along a trajectory, or the frames
 /// of tf2, which turns (slerp) and slides each of them evenly between two transforms.
@@ -20,7 +29,7 @@ struct DerivativeBounds {
 class ChainDerivatives {
  public:
   /// @param ball  holds the points; in the frame that is added first.
-  explicit ChainDerivatives(const BoundingBall& ball) : distance_(ball.center.norm() + ball.radius) {}
+  explicit ChainDerivatives(const BoundingBall& ball) : series_{ball.center.norm() + ball.radius} {}
 
   /// A frame that moves in its parent: x ↦ t(s) + R(s) x, R about an axis that does not turn.
   /// @param reach  |t(s)| is nowhere more [m].
@@ -30,26 +39,13 @@ class ChainDerivatives {
   /// The same passed the other way, from the parent to the frame: x ↦ R(s)ᵀ (x − t(s)).
   void addInverse(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide);
 
-  double distance() const { return distance_; }  ///< of any point from the last frame's origin [m]
-  double speed() const { return first_; }        ///< [m], as the following
-  double acceleration() const { return second_; }
-  double jerk() const { return third_; }
+  double distance() const { return series_.value; }  ///< of any point from the last frame's origin [m]
+  double speed() const { return series_.first; }     ///< [m], as the following
+  double acceleration() const { return series_.second; }
+  double jerk() const { return series_.third; }
 
  private:
-  void slideBy(double reach, const DerivativeBounds& slide);
-  void turnBy(const DerivativeBounds& angle);
-
-  double distance_;
-  double first_ = 0.0, second_ = 0.0, third_ = 0.0;
-};
-
-/// A function and its derivatives, or what bounds them.
-struct DerivativeSeries {
-  double value = 0.0, first = 0.0, second = 0.0, third = 0.0;
-
-  /// Of the product, by Leibniz' rule.
-  DerivativeSeries operator*(const DerivativeSeries& other) const;
-  DerivativeSeries operator+(const DerivativeSeries& other) const;
+  DerivativeSeries series_;
 };
 
 /// The same bounds the other way round: from the frame that points are seen from down to those that carry them, so that
