@@ -29,7 +29,7 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const Scene> scene, const DescribedScen
     : history_(described.fixed_frame, historyOptions(*scene, described, parameters)),
       tracker_(history_, trackedBodies(*scene), scene->pairs, parameters.tf),
       monitor_(scene, parameters.monitor),
-      reach_guard_(described) {}
+      reach_guard_(described, monitor_.scene()) {}
 
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
   const TfTracker::Step step = tracker_.next(now, cycle_);
@@ -51,7 +51,7 @@ void MonitorLoop::run(const CycleRequest& request) {
 }
 
 void MonitorLoop::guardReach() {
-  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_, scene().pairs);
+  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_);
   if (unchecked.empty()) return;
   guarded_ = *result_;
   addUnchecked(unchecked, guarded_);

@@ -25,7 +25,11 @@ std::vector<std::string> framesOf(const DescribedScene& described, std::vector<R
 
 }  // namespace
 
-ReachGuard::ReachGuard(const DescribedScene& described) : robot_(described.robot), chains_({}) {
+ReachGuard::ReachGuard(const DescribedScene& described, const Scene& scene)
+    : scene_(scene), robot_(described.robot), chains_({}), is_checked_(scene.bodies.size(), false) {
+  for (const PlannedPair& pair : scene.pairs) {
+    for (const int body : {pair.body_a, pair.body_b}) is_checked_[static_cast<std::size_t>(body)] = true;
+  }
   std::vector<RobotModel::Slide> slides;
   chains_ = TfChains(framesOf(described, slides));
   for (const RobotModel::Slide& slide : slides) {
@@ -46,11 +50,10 @@ ReachGuard::ReachGuard(const DescribedScene& described) : robot_(described.robot
   }
 }
 
-std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle,
-                                             const std::vector<PlannedPair>& pairs) {
+std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle) {
   std::vector<UncheckedPair> unchecked;
   if (!unreachable_.empty()) {
-    findSpans(cycle.motion, pairs);
+    findSpans(cycle.motion);
     findNear(cycle.motion, unchecked);
   }
   if (joints_.empty()) return unchecked;
@@ -73,15 +76,19 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
   return unchecked;
 }
 
-void ReachGuard::findSpans(const CycleMotion& motion, const std::vector<PlannedPair>& pairs) {
-  known_.assign(motion.X_WB.size(), {});
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const WaypointSpan span = motion.spans.empty() ? WaypointSpan{0, motion.times.size() - 1} : motion.spans[p];
+void ReachGuard::findSpans(const CycleMotion& motion) {
+  known_.assign(is_checked_.size(), {});
+  if (motion.spans.empty()) {
+    for (std::size_t body = 0; body < known_.size(); ++body)
+      if (is_checked_[body]) known_[body] = {0, motion.times.size() - 1};
+    return;
+  }
+  for (std::size_t p = 0; p < scene_.pairs.size(); ++p) {
+    const WaypointSpan span = motion.spans[p];
     if (span.empty()) continue;
-    for (const int body : {pairs[p].body_a, pairs[p].body_b}) {
+    for (const int body : {scene_.pairs[p].body_a, scene_.pairs[p].body_b}) {
       WaypointSpan& known = known_[static_cast<std::size_t>(body)];
-      known = known.empty() ? span
-                            : WaypointSpan{std::min(known.first, span.first), std::max(known.last, span.last)};
+      known = known.empty() ? span : WaypointSpan{std::min(known.first, span.first), std::max(known.last, span.last)};
     }
   }
 }
@@ -97,8 +104,9 @@ void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>&
     for (std::size_t k = std::max(known_[a].first, known_[b].first); k <= last; ++k) {
       const Vector3d way = motion.X_WB[a][k] * pair.ball_a.center - motion.X_WB[b][k] * pair.ball_b.center;
       if (way.squaredNorm() > reach * reach) continue;
-      unchecked.push_back({pair.body_a, pair.body_b,
-                           std::string(kOutOfReach) + " by the URDF, but tf has them near each other: is it this robot's?"});
+      unchecked.push_back(
+          {pair.body_a, pair.body_b,
+           std::string(kOutOfReach) + " by the URDF, but tf has them near each other: is it this robot's?"});
       break;
     }
   }

@@ -13,12 +13,11 @@ namespace sdf_ccd {
 /// large (RobotModel::reach()), and that tf has the links where the URDF's joints can take them.
 class ReachGuard {
  public:
-  explicit ReachGuard(const DescribedScene& described);
+  /// @param scene  of that, whose pairs are checked; must outlive this.
+  ReachGuard(const DescribedScene& described, const Scene& scene);
 
   /// The pairs that this does not hold for at some recorded time of the cycle, or whose joints tf does not have.
-  /// @param pairs  the scene's that are checked.
-  std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle,
-                                   const std::vector<PlannedPair>& pairs);
+  std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle);
 
  private:
   struct Joint {
@@ -28,11 +27,12 @@ class ReachGuard {
   };
 
   /// The waypoints of a body whose poses are those of tf, from a checked pair of it.
-  void findSpans(const CycleMotion& motion, const std::vector<PlannedPair>& pairs);
+  void findSpans(const CycleMotion& motion);
   void findNear(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const;
   void follow(const TfHistory& history, const TrackedCycle& cycle);
   std::string problem(std::size_t joint, const TrackedCycle& cycle);
 
+  const Scene& scene_;
   std::shared_ptr<const RobotModel> robot_;
   std::vector<Joint> joints_;
   TfChains chains_;  // to each joint's parent and child
@@ -41,8 +41,9 @@ class ReachGuard {
   TfWindow window_;
   std::vector<UncheckedPair> pairs_;               // each with no reason yet
   std::vector<std::vector<std::size_t>> rest_on_;  // per pair: joints
-  std::vector<UnreachablePair> unreachable_;       // of links: objects may be out of reach though balls around them meet
-  std::vector<WaypointSpan> known_;                // per body, in the last cycle
+  std::vector<UnreachablePair> unreachable_;  // of links: objects may be out of reach though balls around them meet
+  std::vector<bool> is_checked_;              // per body: it is in a pair
+  std::vector<WaypointSpan> known_;           // per body, in the last cycle
 };
 
 }  // namespace sdf_ccd
