@@ -63,7 +63,8 @@ class Words {
     std::istringstream stream(text);
     stream.imbue(std::locale::classic());
     double value = 0.0;
-    if (!(stream >> value) || !stream.eof() || !std::isfinite(value)) fail("a number is wanted, not " + shownText(text));
+    if (!(stream >> value) || !stream.eof() || !std::isfinite(value))
+      fail("a number is wanted, not " + shownText(text));
     return value;
   }
   double positive() {
@@ -83,9 +84,9 @@ class Words {
   }
   Isometry3d pose() {
     const Vector3d p = vector(), axis = vector();
-    const Quaterniond turn(number(), axis.x(), axis.y(), axis.z());
-    if (!(std::abs(turn.norm() - 1.0) < 0.01)) fail("a unit quaternion is wanted");
-    return Eigen::Translation3d(p) * turn.normalized();
+    const auto pose = poseOf(p, {number(), axis.x(), axis.y(), axis.z()});
+    if (!pose) fail("a unit quaternion is wanted");
+    return *pose;
   }
 
  private:
@@ -101,8 +102,8 @@ TriangleMesh readMesh(Words& words) {
     Vector3i corners;
     for (int k = 0; k < 3; ++k) {
       corners[k] = words.whole(kMostCorners);
-      if (corners[k] >= vertices) words.fail("a triangle has vertex " + std::to_string(corners[k]) + ", of " +
-                                             std::to_string(vertices));
+      if (corners[k] >= vertices)
+        words.fail("a triangle has vertex " + std::to_string(corners[k]) + ", of " + std::to_string(vertices));
     }
     mesh.triangles.push_back(corners);
   }
@@ -123,9 +124,9 @@ WorldShape readShape(Words& words) {
     made.shape = Primitive(Cylinder{radius, 0.5 * words.positive()});
   } else if (type == "plane") {
     const Vector3d normal = words.vector();
-    const double d = words.number();
-    if (!(normal.norm() > 0.0)) words.fail("a plane's normal is 0");
-    made.shape = Primitive(HalfSpace{normal.normalized(), -d / normal.norm()});
+    const auto solid = solidBelow(normal, words.number());
+    if (!solid) words.fail("a plane's normal is 0");
+    made.shape = *solid;
   } else if (type == "mesh") {
     made.shape = std::make_shared<const TriangleMesh>(readMesh(words));
   } else {
@@ -162,8 +163,10 @@ std::vector<WorldObject> parseMoveitScene(const std::string& text) {
   if (!words.goOn()) words.fail("it is empty");
   words.rest();  // the scene's name
   for (std::string mark; (mark = words.word()) != ".";) {
-    if (mark != "*") words.fail("* and an object's name, or a last line with a point is wanted, not " + shownText(mark));
-    if (objects.size() == std::size_t(kMostObjects)) words.fail("more than " + std::to_string(kMostObjects) + " objects");
+    if (mark != "*")
+      words.fail("* and an object's name, or a last line with a point is wanted, not " + shownText(mark));
+    if (objects.size() == std::size_t(kMostObjects))
+      words.fail("more than " + std::to_string(kMostObjects) + " objects");
     objects.push_back(readObject(words));
   }
   return objects;

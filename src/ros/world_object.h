@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,6 +21,18 @@ struct WorldShape {
   std::variant<Primitive, MeshObject, std::shared_ptr<const TriangleMesh>> shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
 };
+
+/// None if the quaternion is not unit, to a hundredth.
+inline std::optional<Isometry3d> poseOf(const Vector3d& p, const Quaterniond& q) {
+  if (!(std::abs(q.norm() - 1.0) < 0.01)) return std::nullopt;
+  return Isometry3d(Eigen::Translation3d(p) * q.normalized());
+}
+
+/// Where n·x + d ≤ 0, as messages write planes. None if the normal is 0.
+inline std::optional<Primitive> solidBelow(const Vector3d& n, double d) {
+  if (!(n.norm() > 0.0)) return std::nullopt;
+  return HalfSpace{n.normalized(), -d / n.norm()};
+}
 
 /// A static object of the world.
 struct WorldObject {

@@ -1,7 +1,5 @@
 #include "ros/world_parameters.h"
 
-#include <cmath>
-
 namespace sdf_ccd {
 namespace {
 
@@ -63,9 +61,9 @@ std::vector<double> fields(ParameterReader& reader, const std::string& key, cons
 Isometry3d messagePose(ParameterReader& reader) {
   const std::vector<double> p = fields(reader, "position", {"x", "y", "z"}, {0.0, 0.0, 0.0});
   const std::vector<double> q = fields(reader, "orientation", {"x", "y", "z", "w"}, {0.0, 0.0, 0.0, 1.0});
-  const Quaterniond turn(q[3], q[0], q[1], q[2]);
-  if (!(std::abs(turn.norm() - 1.0) < 0.01)) reader.fail("orientation", "a unit quaternion");
-  return Eigen::Translation3d(p[0], p[1], p[2]) * turn.normalized();
+  const auto pose = poseOf({p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]});
+  if (!pose) reader.fail("orientation", "a unit quaternion");
+  return *pose;
 }
 
 Primitive messagePrimitive(ParameterReader& reader) {
@@ -84,15 +82,15 @@ Primitive messagePrimitive(ParameterReader& reader) {
 
 Primitive messagePlane(ParameterReader& reader) {
   const std::vector<double> coef = reader.numbers("coef", 4, 4);  // a x + b y + c z + d = 0
-  const Vector3d normal(coef[0], coef[1], coef[2]);
-  if (!(normal.norm() > 0.0)) reader.fail("coef", "a normal that is not 0");
-  return HalfSpace{normal.normalized(), -coef[3] / normal.norm()};
+  const auto solid = solidBelow({coef[0], coef[1], coef[2]}, coef[3]);
+  if (!solid) reader.fail("coef", "a normal that is not 0");
+  return *solid;
 }
 
 MeshObject messageMesh(ParameterReader& reader) {
   // Vertices and triangles in YAML nobody writes by hand; tools name a file.
-  const std::vector<double> scale = reader.has("dimensions") ? reader.numbers("dimensions", 3, 3)
-                                                             : std::vector<double>{1.0, 1.0, 1.0};
+  const std::vector<double> scale =
+      reader.has("dimensions") ? reader.numbers("dimensions", 3, 3) : std::vector<double>{1.0, 1.0, 1.0};
   for (const double s : scale)
     if (s == 0.0) reader.fail("dimensions", "three numbers, none of them 0");
   return {required(reader, "resource"), {scale[0], scale[1], scale[2]}};
