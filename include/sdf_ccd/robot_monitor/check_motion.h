@@ -49,8 +49,8 @@ struct MotionsRequest {
   /// less deep.
   double margin = 0.0;
 
-  /// How far samples of a motion may stray from it [m], coarse first: what is not CLEAR is looked at again with the next
-  /// one. Most of a planner's edges are far from everything, and the coarse look takes a fraction of the fine one.
+  /// How far samples of a motion may stray from it [m], coarse first: what is not CLEAR is looked at again with the
+  /// next one. Most of a planner's edges are far from everything, and the coarse look takes a fraction of the fine one.
   std::vector<double> tolerances = {0.01, 1e-4};
 };
 
@@ -59,8 +59,8 @@ struct MotionVerdict {
   Verdict verdict = Verdict::kNotChecked;
   double error_bound = 0.0;  ///< largest of the pairs checked, the margin not counted [m]
   int pair = -1;             ///< in Scene::pairs: the first found that has the verdict; −1 if that is CLEAR
-  double time = -1.0;  ///< when they were found to touch, or else the begin of the part where that was found [s];
-                       ///< −1 if CLEAR
+  double time = -1.0;        ///< when they were found to touch, or else the begin of the part where that was found [s];
+                             ///< −1 if CLEAR
 };
 
 /// Checks motions on all cores, each for itself. Of a motion that is not CLEAR, checkMotion() tells all.
