@@ -46,7 +46,7 @@ Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
   constexpr double kShare = 0.1, kLeast = 0.01;  // of the range, and [m]
   Range range(-kInfinity, kInfinity);
   if (joint.type != urdf::Joint::CONTINUOUS && joint.limits && joint.limits->lower != joint.limits->upper) {
-    const auto [lower, upper] = std::minmax(joint.limits->lower, joint.limits->upper);
+    const double lower = joint.limits->lower, upper = joint.limits->upper;
     const double margin = std::max(kLeast, kShare * (upper - lower));
     range = {lower - margin, upper + margin};
   }

@@ -23,8 +23,7 @@ JointSampler::JointSampler(const RobotModel& robot, std::uint64_t seed) : random
     const urdf::Joint& joint = robot.jointAbove(static_cast<int>(link));
     if (joint.mimic) continue;
     if (hasLimits(joint) && (turns(joint) || joint.type == urdf::Joint::PRISMATIC)) {
-      const auto [lower, upper] = std::minmax(joint.limits->lower, joint.limits->upper);
-      joints_.push_back({joint.name, lower, upper, true});
+      joints_.push_back({joint.name, joint.limits->lower, joint.limits->upper, true});
     } else if (turns(joint)) {
       joints_.push_back({joint.name, -M_PI, M_PI, false});
       if (joint.type == urdf::Joint::REVOLUTE) without_limits_.push_back(joint.name);

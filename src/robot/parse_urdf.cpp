@@ -5,12 +5,14 @@
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <console_bridge/console.h>
 #include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "common/number_text.h"
 #include "common/text_limits.h"
 
 namespace sdf_ccd {
@@ -116,9 +118,18 @@ void checkTree(const urdf::ModelInterface& model) {
   }
 }
 
+/// As some are drawn by hand; without this every position would be beyond a limit.
+void orderLimits(urdf::Joint& joint, std::vector<std::string>& warnings) {
+  if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::PRISMATIC) return;
+  if (!joint.limits || !(joint.limits->lower > joint.limits->upper)) return;
+  warnings.push_back("joint " + joint.name + ": its lower limit " + numberText(joint.limits->lower) +
+                     " is above its upper one " + numberText(joint.limits->upper) + "; they are taken in turn");
+  std::swap(joint.limits->lower, joint.limits->upper);
+}
+
 }  // namespace
 
-std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml) {
+std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml, std::vector<std::string>& warnings) {
   const auto model = parse(xml);
   constexpr std::size_t kMostLinks = 10'000;
   if (model->links_.size() > kMostLinks) {
@@ -127,6 +138,7 @@ std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml) {
   }
   for (const auto& joint : model->joints_) checkJoint(*model, *joint.second);
   checkTree(*model);
+  for (const auto& joint : model->joints_) orderLimits(*joint.second, warnings);
   return model;
 }
 

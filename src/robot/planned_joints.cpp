@@ -24,7 +24,7 @@ bool hasManyDegrees(const urdf::Joint& joint) {
 std::string exceeds(const urdf::Joint& joint, double position) {
   const bool limited = joint.limits && (joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC);
   if (!limited) return {};
-  const auto [lower, upper] = std::minmax(joint.limits->lower, joint.limits->upper);
+  const double lower = joint.limits->lower, upper = joint.limits->upper;
   if (lower - kTolerance <= position && position <= upper + kTolerance) return {};
   return "position " + numberText(position) + " is beyond its limits [" + numberText(lower) + ", " + numberText(upper) +
          "]";

@@ -14,7 +14,7 @@
 namespace sdf_ccd {
 
 RobotModel::RobotModel(const std::string& urdf_xml, const std::string& source) try
-    : urdf_(parseUrdf(urdf_xml)), root_(urdf_->getRoot()->name), unread_(unreadLinks(*urdf_, urdf_xml)) {
+    : urdf_(parseUrdf(urdf_xml, warnings_)), root_(urdf_->getRoot()->name), unread_(unreadLinks(*urdf_, urdf_xml)) {
   std::vector<std::pair<const urdf::Link*, int>> open = {{urdf_->getRoot().get(), -1}};
   while (!open.empty()) {
     const auto [link, parent] = open.back();
@@ -98,20 +98,22 @@ std::vector<std::pair<int, bool>> RobotModel::path(int from, int to) const {
   return up;
 }
 
-int RobotModel::movableJointsBetween(const std::string& link_a, const std::string& link_b) const {
-  int count = 0;
+std::vector<int> RobotModel::jointsBetween(const std::string& link_a, const std::string& link_b) const {
+  std::vector<int> types;
   for (const auto& step : path(indexOf(link_a), indexOf(link_b))) {
-    if (jointAbove(step.first).type != urdf::Joint::FIXED) ++count;
+    const int type = jointAbove(step.first).type;
+    if (type != urdf::Joint::FIXED) types.push_back(type);
   }
-  return count;
+  return types;
 }
 
 bool RobotModel::rigidlyJoined(const std::string& link_a, const std::string& link_b) const {
-  return movableJointsBetween(link_a, link_b) == 0;
+  return jointsBetween(link_a, link_b).empty();
 }
 
 bool RobotModel::adjacent(const std::string& link_a, const std::string& link_b) const {
-  return movableJointsBetween(link_a, link_b) == 1;
+  const std::vector<int> types = jointsBetween(link_a, link_b);
+  return types.size() == 1 && types[0] != urdf::Joint::FLOATING && types[0] != urdf::Joint::PLANAR;
 }
 
 RobotModel::Reach RobotModel::reach(const std::string& link_a, const std::string& link_b) const {

@@ -106,6 +106,11 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
     warnings.push_back("robot " + robot.urdf().getName() + " has no link with a collision element");
   }
   warnOfVisualOnly(scene.visual_only, warnings);
+  warnings.insert(warnings.end(), robot.warnings().begin(), robot.warnings().end());
+  if (!srdf.robot.empty() && srdf.robot != robot.urdf().getName()) {
+    warnings.push_back("the SRDF is of robot " + srdf.robot + ", the URDF of robot " + robot.urdf().getName() +
+                       ": pairs that are allowed to touch may be those of another robot");
+  }
   for (const std::string& link : unknownLinks(srdf, robot.links()))
     warnings.push_back("the SRDF names link " + link + ", the URDF has none");
 

@@ -61,6 +61,7 @@ Srdf readSrdf(const std::string& xml) {
   }
 
   Srdf srdf;
+  if (const char* whose = robot->Attribute("name")) srdf.robot = whose;
   for (const XMLElement* element = robot->FirstChildElement(); element; element = element->NextSiblingElement()) {
     const std::string name = element->Name();
     if (name == "disable_collisions") {

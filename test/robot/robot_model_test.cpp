@@ -110,6 +110,31 @@ TEST(RobotModel, TellsRigidAndAdjacentLinks) {
   EXPECT_THROW(robot.adjacent("wheel", "leg"), std::invalid_argument);
 }
 
+TEST(RobotModel, NothingIsAdjacentAcrossAJointThatHoldsNothing) {
+  for (const std::string type : {"floating", "planar"}) {
+    const RobotModel robot(
+        twoLinks("<joint name='free' type='" + type + "'><parent link='a'/><child link='b'/></joint>"));
+    EXPECT_FALSE(robot.adjacent("a", "b")) << type;
+    EXPECT_FALSE(robot.rigidlyJoined("a", "b")) << type;
+  }
+}
+
+TEST(RobotModel, LimitsInTheWrongOrderAreExchangedAndTold) {
+  const auto hinge = [](const std::string& limits) {
+    return RobotModel(twoLinks("<joint name='hinge' type='revolute'><parent link='a'/><child link='b'/><limit " +
+                               limits + " effort='1' velocity='1'/></joint>"));
+  };
+  const RobotModel swapped = hinge("lower='1.5' upper='-0.5'");
+  ASSERT_EQ(swapped.warnings().size(), 1u);
+  EXPECT_EQ(swapped.warnings()[0],
+            "joint hinge: its lower limit 1.5 is above its upper one -0.5; they are taken in turn");
+  const urdf::Joint& joint = swapped.jointAbove(1);
+  EXPECT_EQ(joint.limits->lower, -0.5);
+  EXPECT_EQ(joint.limits->upper, 1.5);
+  EXPECT_EQ(swapped.position(joint, {}), 0.0);
+  EXPECT_TRUE(hinge("lower='-0.5' upper='1.5'").warnings().empty());
+}
+
 TEST(RobotModel, ReachIsExactOverOneJoint) {
   const RobotModel robot(kArm);
   const auto still = robot.reach("upper", "bracket");
@@ -251,7 +276,8 @@ std::string failureOf(const std::string& urdf) {
 
 TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
   const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
-    return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child + "'/></joint>";
+    return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child +
+           "'/></joint>";
   };
   const auto refusal = [](const std::string& content) { return failureOf("<robot name='r'>" + content + "</robot>"); };
   const std::string links = "<link name='a'/><link name='b'/><link name='c'/>";

@@ -204,6 +204,14 @@ TEST(RobotScene, SrdfDisablesAndEnables) {
   EXPECT_EQ(reasonFor(enabled, "c", "d"), "rigidly joined");
 }
 
+TEST(RobotScene, AnSrdfOfAnotherRobotIsTold) {
+  const Described described = describe(chain(), parseSrdf("<robot name='crane'/>"));
+  ASSERT_EQ(described.warnings.size(), 1u);
+  EXPECT_EQ(described.warnings[0].find("the SRDF is of robot crane, the URDF of robot chain"), 0u);
+  EXPECT_TRUE(describe(chain(), parseSrdf("<robot name='chain'/>")).warnings.empty());
+  EXPECT_TRUE(describe(chain(), parseSrdf("<robot/>")).warnings.empty());
+}
+
 TEST(RobotScene, SrdfMayNamePatterns) {
   Srdf srdf;
   srdf.disabled = {{"a", "?", "SRDF: Never"}, {"x*", "a", "SRDF: Never"}};

@@ -42,6 +42,9 @@ class RobotModel {
   /// Links whose collision elements urdf() does not hold, as the parser could not read all of them; reasons by link.
   const std::map<std::string, std::string>& unread() const { return unread_; }
 
+  /// What the URDF says amiss and was taken in another sense, a line each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   /// Pose of every link in the root's frame, in the order of links().
   ///
   /// Joints that are named nowhere are at zero (or at the nearest limit), planar and floating ones at identity. Mimic
@@ -57,7 +60,8 @@ class RobotModel {
   /// True if only fixed joints lie between the links.
   bool rigidlyJoined(const std::string& link_a, const std::string& link_b) const;
 
-  /// True if one movable joint, and else only fixed ones, lies between the links.
+  /// True if one movable joint, and else only fixed ones, lies between the links. Planar and floating joints hold
+  /// nothing together: links on either side of one are not adjacent.
   bool adjacent(const std::string& link_a, const std::string& link_b) const;
 
   /// Bounds of the distance between two links' origins over all joint positions [m]: no less and no more than this.
@@ -92,6 +96,7 @@ class RobotModel {
   double positionAt(const urdf::Joint& joint, const Isometry3d& X_PL) const;
 
  private:
+  std::vector<std::string> warnings_;
   std::shared_ptr<urdf::ModelInterface> urdf_;
   std::string root_;
   std::map<std::string, std::string> unread_;
@@ -102,7 +107,8 @@ class RobotModel {
   int indexOf(const std::string& link) const;
   void requireKnown(const JointPositions& positions, const JointPoses& poses) const;
   std::vector<std::pair<int, bool>> path(int from, int to) const;  ///< (link below the joint, whether it goes down)
-  int movableJointsBetween(const std::string& link_a, const std::string& link_b) const;
+  std::vector<int> jointsBetween(const std::string& link_a,
+                                 const std::string& link_b) const;  ///< types of those that move
 };
 
 }  // namespace sdf_ccd

@@ -37,6 +37,7 @@ Resource loadLocalResource(const std::string& uri, const PackageFinder& packages
 
 /// What is used of an SRDF file. Names are not compared with any robot here.
 struct Srdf {
+  std::string robot;                                  ///< whose it says it is; may be empty
   std::vector<DisabledPair> disabled;                 ///< reason: "SRDF: " and the file's
   std::map<std::string, JointPositions> states;       ///< "group/state"; "state" where the file names no group
   std::vector<std::string> disabled_by_default;       ///< links that are checked against those of `enabled` alone
@@ -64,8 +65,8 @@ struct RobotSceneOptions {
 /// that are rigidly joined, disabled by the SRDF, adjacent (unless asked for, or enabled by the SRDF by name), and out
 /// of reach of each other for every joint position by RobotModel::reach() between balls around their geometry. What
 /// that rests on must be watched: unreachablePairs().
-/// @param warnings  what else a user should know, a line each: files found under another spelling, an SRDF that names
-/// links the robot has not. Failures are not repeated here.
+/// @param warnings  what else a user should know, a line each: files found under another spelling, an SRDF of
+/// another robot's name, or that names links the robot has not; RobotModel::warnings(). Failures are not repeated here.
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                                const RobotSceneOptions& options, std::vector<std::string>& warnings);
 
