@@ -66,7 +66,7 @@ bool TfEdge::hasGoneBack(const TfPose& pose) {
   return behind_count_ == kGoesOn;
 }
 
-void TfEdge::beginAnew(const TfPose& pose, const char* what_has_changed, TfCounts& counts) {
+void TfEdge::beginAnew(const TfPose& pose, const std::string& what_has_changed, TfCounts& counts) {
   clear();
   records.pushBack(pose);
   version = ++counts.changes;

@@ -31,7 +31,7 @@ struct TfEdge {
   ros::Time dropped_until;  ///< up to here older transforms were known once
   bool is_cut = false;      ///< what was dropped went on to the records
   long version = 0;         ///< TfCounts::changes at the last one
-  const char* change = "";  ///< what that was, as in "hand …"
+  std::string change;       ///< what that was, as in "hand …"
   ros::Time heard;          ///< the clock at the last transform
 
   /// Where the frame's motion is another than what was known before: told, and then forgotten, by the history.
@@ -55,7 +55,7 @@ struct TfEdge {
   bool hasGoneBack(const TfPose& pose);
 
   /// Nothing of before holds any more.
-  void beginAnew(const TfPose& pose, const char* what_has_changed, TfCounts& counts);
+  void beginAnew(const TfPose& pose, const std::string& what_has_changed, TfCounts& counts);
 
   /// Drops what is too old, or too much.
   void drop(const TfKeep& keep);

@@ -127,9 +127,14 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
   } else if (!is_new && is_same_kind && !is_static && stamp < edge.records.front().stamp && !edge.hasGoneBack(pose)) {
     edge.recordBefore(pose, is_same_parent, keepOf(child), counts_);
   } else {
-    const char* change = is_new          ? "has come"
-                         : !is_same_kind ? (is_static ? "has become static" : "is no longer static")
-                                         : (is_static ? "has another static transform" : "has another parent");
+    std::string change = "has come";
+    if (!is_new && !is_same_kind) {
+      change = is_static ? "has become static" : "is no longer static";
+    } else if (!is_new) {
+      change = is_same_parent ? "has another static transform"
+                              : "has another parent, " + std::string(names.parent) + " instead of " +
+                                    tree_.name(tree_.parent(child));
+    }
     ros::Time last = edge.dropped_until;
     if (!is_new && !edge.is_static) last = std::max(last, edge.records.back().stamp);
     if (!clock_.isZero()) last = std::min(last, clock_);  // farther no cycle has gone

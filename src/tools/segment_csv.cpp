@@ -51,7 +51,9 @@ Segment parseSegment(const std::vector<std::string>& words) {
     if (!std::isfinite(*value)) throw std::runtime_error("\"" + words[i] + "\" is not finite");
     values[i] = *value;
   }
-  return {Vector3d(values), Vector3d(values + 3)};
+  const Segment segment{Vector3d(values), Vector3d(values + 3)};
+  if (!isWithinReach(segment)) throw std::runtime_error("the segment reaches farther than 1e12 m");
+  return segment;
 }
 
 }  // namespace

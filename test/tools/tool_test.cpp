@@ -241,6 +241,7 @@ TEST_F(Tool, QueryRefusesBadSegmentsByLine) {
       {"1,2,3,4,5,6\nox,oy,oz,ex,ey,ez\n", ":2: \"ox\" is not a number"},
       {"1,2,x,4,5,6\n", ":1: \"x\" is not a number"},
       {"1,2,3,4,5,1e999\n", ":1: \"1e999\" is not finite"},
+      {"1,2,3,4,5,6\n1,2,3,4,5,1e13\n", ":2: the segment reaches farther than 1e12 m"},
       {"ox,oy,oz,ex,ey,ez\n", "holds no segment"},
       {"", "holds no segment"},
       {std::string("\0\xff\0", 3), ":1: six numbers"}};

@@ -84,7 +84,7 @@ std::string CycleStatistics::summary(const ros::Time& begin) const {
   const std::string found = contactLines(begin) + uncertainLines();
   std::string text = verdictLine() + timeLine(begin);
   text += hasCheckedCycle() ? found + notCheckedLines() : notCheckedLines() + found;
-  text += contradictedLine(begin);
+  text += jumpLines(begin) + contradictedLine(begin);
   for (const std::string& line : runTimesAndBounds()) text += line + "\n";
   return text;
 }
@@ -109,6 +109,15 @@ std::string CycleStatistics::timeLine(const ros::Time& begin) const {
             " or more, where their transforms end";
   }
   return text + "\n";
+}
+
+std::string CycleStatistics::jumpLines(const ros::Time& begin) const {
+  std::vector<std::string> items;
+  for (std::size_t i = 1; i < cycles_.size(); ++i) {
+    if (cycles_[i].start >= cycles_[i - 1].end) continue;
+    items.push_back("from " + secondsSince(begin, cycles_[i - 1].end) + " to " + secondsSince(begin, cycles_[i].start));
+  }
+  return items.empty() ? "" : list("time jumped back, and everything began anew", items);
 }
 
 std::string CycleStatistics::contactLines(const ros::Time& begin) const {

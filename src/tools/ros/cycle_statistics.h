@@ -52,6 +52,7 @@ class CycleStatistics {
   std::string contactLines(const ros::Time& begin) const;
   std::string uncertainLines() const;
   std::string notCheckedLines() const;
+  std::string jumpLines(const ros::Time& begin) const;
   std::string contradictedLine(const ros::Time& begin) const;
 
   std::vector<CycleRecord> cycles_;
