@@ -24,7 +24,7 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
 
 }  // namespace
 
-MonitorLoop::MonitorLoop(std::shared_ptr<const Scene> scene, const DescribedScene& described,
+MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,
                          const MonitorParameters& parameters)
     : history_(described.fixed_frame, historyOptions(*scene, described, parameters)),
       tracker_(history_, trackedBodies(*scene), scene->pairs, parameters.tf),

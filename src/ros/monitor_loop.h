@@ -12,7 +12,7 @@ namespace sdf_ccd {
 /// Transforms go to history(), from any thread; the rest belongs to one.
 class MonitorLoop {
  public:
-  MonitorLoop(std::shared_ptr<const Scene> scene, const DescribedScene& described, const MonitorParameters& parameters);
+  MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described, const MonitorParameters& parameters);
 
   TfHistory& history() { return history_; }
   const TfTracker& tracker() const { return tracker_; }
