@@ -41,6 +41,7 @@ CollisionMonitor::~CollisionMonitor() {
   stop_asked_.notify_all();
   if (thread_.joinable()) thread_.join();
   if (ros::ok()) {
+    if (loop_) loop_->reset();
     publishUnchecked("the monitor has ended");
     if (outputs_) outputs_->finish();
     ros::WallDuration(kSending).sleep();

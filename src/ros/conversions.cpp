@@ -11,6 +11,10 @@ static_assert(static_cast<int>(Verdict::kContact) == PairContact::CONTACT, "as i
 static_assert(static_cast<int>(Verdict::kUncertain) == PairContact::UNCERTAIN, "as in the messages");
 static_assert(static_cast<int>(Verdict::kNotChecked) == PairContact::NOT_CHECKED, "as in the messages");
 
+ros::Time toTime(std::chrono::nanoseconds since_epoch) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(since_epoch.count()));
+}
+
 void setPointContact(const ContactPoint& point, const ros::Time& start, PointContact& message) {
   message.enter = start + ros::Duration(point.enter);
   message.exit = start + ros::Duration(point.exit);
@@ -19,11 +23,6 @@ void setPointContact(const ContactPoint& point, const ros::Time& start, PointCon
   message.depth_error = point.depth_error;
   message.position = toPoint(point.p_W);
   message.normal = toVector3(point.normal_W);
-}
-
-bool holdsAny(const Interval& interval, const std::vector<double>& samples) {
-  const auto first = std::lower_bound(samples.begin(), samples.end(), interval.enter);
-  return first != samples.end() && *first <= interval.exit;
 }
 
 }  // namespace
@@ -86,7 +85,7 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
 
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle) {
   return std::any_of(pair.intervals.begin(), pair.intervals.end(),
-                     [&](const Interval& interval) { return holdsAny(interval, cycle.samples); });
+                     [&](const Interval& interval) { return holdsSample(interval, cycle.samples); });
 }
 
 void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message) {
@@ -122,6 +121,23 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   message.error_chord = pair.error.chord;
   message.error_root = pair.error.root;
   message.error_gap = pair.error.gap;
+}
+
+void setContact(const TrackedContact& contact, Contact& message) {
+  message.id = contact.id;
+  message.body_a = contact.body_a;
+  message.body_b = contact.body_b;
+  message.begins = contact.begins;
+  message.ends = contact.ends;
+  message.is_lost = contact.is_lost;
+  message.verdict = static_cast<std::uint8_t>(contact.verdict);
+  message.begin = toTime(contact.begin);
+  message.end = toTime(contact.end);
+  message.cycles = contact.cycles;
+  message.seen_at_samples = contact.seen_at_samples;
+  setPointContact(contact.deepest, toTime(contact.deepest_origin), message.deepest);
+  message.max_force = contact.max_force;
+  message.error_bound = contact.error_bound;
 }
 
 void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages) {

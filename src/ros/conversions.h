@@ -11,6 +11,8 @@
 #include <geometry_msgs/Wrench.h>
 #include <ros/time.h>
 
+#include "monitor/contact_tracker.h"
+#include "sdf_ccd/Contact.h"
 #include "sdf_ccd/PairContact.h"
 #include "sdf_ccd/monitor/monitor.h"
 
@@ -46,6 +48,8 @@ bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
 
 /// Sets all of the message, whose memory is used again; as all that are called set….
 void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message);
+
+void setContact(const TrackedContact& contact, Contact& message);
 
 /// The pairs that are neither clear nor delayed.
 void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages);

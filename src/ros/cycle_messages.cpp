@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -44,6 +46,77 @@ std::string reasonOf(const CycleResult& result, const TrackedCycle& cycle) {
   return reason;
 }
 
+/// Why none of a body's pairs can be checked; empty if they can.
+const std::string& uncheckedReason(const MonitorLoop& loop, int body) {
+  const std::string& failure = loop.scene().bodies[body].failure;
+  return failure.empty() ? loop.cycle().motion.missing[body] : failure;
+}
+
+bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair) {
+  return !uncheckedReason(loop, pair.body_a).empty() || !uncheckedReason(loop, pair.body_b).empty();
+}
+
+/// Counts a pair of the body, if that is why it is not checked.
+void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std::vector<UncheckedBody>& bodies) {
+  const std::string& reason = uncheckedReason(loop, body);
+  if (reason.empty()) return;
+  const std::string& name = loop.scene().bodies[body].name;
+  auto said =
+      std::find_if(bodies.begin(), bodies.end(), [&](const UncheckedBody& other) { return other.body == name; });
+  if (said == bodies.end()) {
+    said = bodies.emplace(bodies.end());
+    said->body = name;
+    said->reason = reason;
+    said->since = since;
+    said->pairs = 0;
+  }
+  said->since = std::min(said->since, since);
+  ++said->pairs;
+}
+
+/// The pairs that are neither clear nor delayed, but those of bodies none of whose pairs could be checked: these.
+void setPairs(const MonitorLoop& loop, ContactArray& message) {
+  const CycleResult& result = loop.result();
+  const CycleContext context = contextOf(loop);
+  message.unchecked.clear();
+  std::size_t count = 0;
+  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const PairResult& pair = result.pairs[i];
+    if (pair.verdict == Verdict::kClear || pair.span.empty()) continue;
+    if (pair.verdict == Verdict::kNotChecked && isOfUncheckedBody(loop, pair)) {
+      const ros::Time since = context.start + ros::Duration(context.motion.times[pair.span.first]);
+      for (const int body : {pair.body_a, pair.body_b}) addUnchecked(loop, body, since, message.unchecked);
+      continue;
+    }
+    if (count == message.pairs.size()) message.pairs.emplace_back();
+    setPairContact(pair, context, message.pairs[count++]);
+  }
+  message.pairs.resize(count);
+}
+
+void setContacts(const MonitorLoop& loop, std::vector<Contact>& messages) {
+  const ContactTracker& contacts = loop.contacts();
+  messages.resize(contacts.size());
+  for (std::size_t i = 0; i < messages.size(); ++i) setContact(contacts[i], messages[i]);
+}
+
+/// What is plotted of a cycle.
+void setScalars(const MonitorLoop& loop, MonitorState& message) {
+  message.max_depth = message.max_force = 0.0;
+  message.min_clearance = std::numeric_limits<double>::infinity();
+  for (const PairResult& pair : loop.result().pairs) {
+    if (pair.span.empty() || pair.verdict == Verdict::kNotChecked) continue;
+    message.min_clearance =
+        std::min(message.min_clearance, pair.verdict == Verdict::kClear ? std::max(0.0, pair.clearance) : 0.0);
+    if (pair.intervals.empty()) continue;
+    message.max_depth = std::max(message.max_depth, pair.deepest.depth);
+    message.max_force = std::max(message.max_force, pair.on_a_W.force.norm());
+  }
+  if (!std::isfinite(message.min_clearance)) message.min_clearance = 0.0;
+  message.contacts = static_cast<std::uint32_t>(loop.contacts().size());
+}
+
 }  // namespace
 
 CycleContext contextOf(const MonitorLoop& loop) {
@@ -62,7 +135,8 @@ void setContactArray(const MonitorLoop& loop, ContactArray& message) {
   message.reason = reasonOf(result, cycle);
   setErrorBound(result, message);
   setDelays(cycle, message);
-  setPairContacts(result, contextOf(loop), message.pairs);
+  setPairs(loop, message);
+  setContacts(loop, message.contacts);
   message.checked = result.checked;
   message.skipped = result.skipped;
   message.not_checked = result.not_checked;
@@ -92,6 +166,7 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   message.latency = (now - cycle.end).toSec();
   setErrorBound(result, message);
   setDelays(cycle, message);
+  setScalars(loop, message);
   message.pairs_checked = result.checked;
   message.pairs_skipped = result.skipped;
   message.pairs_not_checked = result.not_checked;
@@ -110,6 +185,7 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
   message.header.stamp = message.cycle_start = message.complete_until = loop.cycle().end;
   message.verdict = ContactArray::NOT_CHECKED;
   message.reason = reason;
+  setContacts(loop, message.contacts);
   return message;
 }
 

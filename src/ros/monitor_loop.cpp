@@ -29,12 +29,20 @@ MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const Descri
     : history_(described.fixed_frame, historyOptions(*scene, described, parameters)),
       tracker_(history_, trackedBodies(*scene), scene->pairs, parameters.tf),
       monitor_(scene, parameters.monitor),
-      reach_guard_(described, monitor_.scene()) {}
+      reach_guard_(described, monitor_.scene()),
+      contacts_(monitor_.scene()) {}
 
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
   const TfTracker::Step step = tracker_.next(now, cycle_);
-  if (step == TfTracker::Step::kJump) monitor_.reset();
-  if (step == TfTracker::Step::kCycle) run(request);
+  contacts_.settle();
+  if (step == TfTracker::Step::kJump) {
+    monitor_.reset();
+    contacts_.lose();
+  }
+  if (step == TfTracker::Step::kCycle) {
+    run(request);
+    trackContacts(request);
+  }
   return step;
 }
 
@@ -58,9 +66,16 @@ void MonitorLoop::guardReach() {
   result_ = &guarded_;
 }
 
+void MonitorLoop::trackContacts(const CycleRequest& request) {
+  if (!request.wantsContacts()) return contacts_.lose();
+  contacts_.update({*result_, cycle_.motion, cycle_.samples, std::chrono::nanoseconds(cycle_.origin.toNSec())});
+}
+
 void MonitorLoop::reset() {
   tracker_.reset();
   monitor_.reset();
+  contacts_.settle();
+  contacts_.lose();
 }
 
 }  // namespace sdf_ccd

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "monitor/contact_tracker.h"
 #include "ros/parameters.h"
 #include "ros/reach_guard.h"
 
@@ -31,9 +32,14 @@ class MonitorLoop {
   const TrackedCycle& cycle() const { return cycle_; }
   const CycleResult& result() const { return *result_; }
 
+  /// Over all cycles, as far as they were asked for contacts (CycleRequest::contacts); else there are none. kJump and
+  /// reset() end all of them.
+  const ContactTracker& contacts() const { return contacts_; }
+
  private:
   void run(const CycleRequest& request);
   void guardReach();
+  void trackContacts(const CycleRequest& request);
 
   TfHistory history_;
   TfTracker tracker_;
@@ -42,6 +48,7 @@ class MonitorLoop {
   ReachGuard reach_guard_;
   CycleResult guarded_;  // with pairs that should not have been left out
   const CycleResult* result_ = nullptr;
+  ContactTracker contacts_;
 };
 
 }  // namespace sdf_ccd

@@ -33,10 +33,11 @@ Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, cons
 CycleRequest Outputs::request(int max_points) {
   lookForSubscribers();
   CycleRequest request;
-  request.wrenches = contacts_wanted_ || wrenches_wanted_;
-  request.contacts = contacts_wanted_ || markers_wanted_;
-  request.max_points = request.contacts ? max_points : 0;
-  request.skipped_pairs = markers_wanted_ || links_wanted_;  // the status tells the clearance of all
+  request.wrenches = contacts_wanted_ || wrenches_wanted_ || state_wanted_;
+  request.contacts = contacts_wanted_ || markers_wanted_ || state_wanted_;
+  request.max_points = contacts_wanted_ || markers_wanted_ ? max_points : 0;
+  // The status, and the state, tell the clearance of all.
+  request.skipped_pairs = markers_wanted_ || links_wanted_ || state_wanted_;
   return request;
 }
 
@@ -46,6 +47,7 @@ void Outputs::lookForSubscribers() {
   if (now - looked_ < kLookPeriod) return;
   looked_ = now;
   contacts_wanted_ = contacts_.getNumSubscribers() > 0;
+  state_wanted_ = state_.getNumSubscribers() > 0;
   markers_wanted_ = markers_.getNumSubscribers() > 0;
   links_wanted_ = links_.getNumSubscribers() > 0;
   wrenches_wanted_ = false;

@@ -85,7 +85,8 @@ class Outputs {
   MessagePool<ContactArray> contact_messages_;
 
   ros::WallTime looked_;  // for subscribers
-  bool contacts_wanted_ = false, wrenches_wanted_ = false, markers_wanted_ = false, links_wanted_ = false;
+  bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false;
+  bool markers_wanted_ = false, links_wanted_ = false;
 
   std::atomic<bool> finishes_{false};
   std::unique_ptr<OrderedWorker<Report>> worker_;

@@ -102,75 +102,44 @@ TEST_F(CheckBag, TfAndRatesAndPlotsTellTheSameContacts) {
   EXPECT_NEAR(std::stod(once["end"]), std::stod(often["end"]), 1e-6);
 }
 
-struct Touch {
-  double from, until;  // from the cycle's start [s]
-  double depth, depth_error;
-};
-
-/// A message of one pair of links, as a monitor would send it of a cycle of 0.1 s; its verdict is the truth.
-ContactArray toldOf(std::uint8_t verdict, double start, const std::vector<Touch>& touches) {
+/// A message of a monitor about one contact, up to now.
+ContactArray toldOf(std::uint64_t id, bool begins, double begin, double end) {
   ContactArray message;
-  message.cycle_start = ros::Time(start);
-  message.header.stamp = message.complete_until = ros::Time(start + 0.1);
-  message.verdict = verdict;
+  message.cycle_start = ros::Time(end - 0.1);
+  message.header.stamp = message.complete_until = ros::Time(end);
+  message.verdict = ContactArray::CONTACT;
   message.checked = 1;
-  message.pairs.resize(1);
-  PairContact& pair = message.pairs[0];
-  pair.body_a = "a";
-  pair.body_b = "b";
-  pair.verdict = verdict;
-  pair.error_field = 0.003;
-  pair.error_chord = 0.0001;
-  pair.error_gap = 0.001;
-  pair.error_bound = message.error_bound = 0.0041;
-  for (const Touch& touch : touches) {
-    TimeInterval interval;
-    interval.start = message.cycle_start + ros::Duration(touch.from);
-    interval.end = message.cycle_start + ros::Duration(touch.until);
-    pair.intervals.push_back(interval);
-    PointContact point;
-    point.enter = point.time = interval.start;
-    point.exit = interval.end;
-    point.depth = touch.depth;
-    point.depth_error = touch.depth_error;
-    pair.points.push_back(point);
-    if (point.depth >= pair.deepest.depth) pair.deepest = point;
-  }
-  pair.depth = pair.deepest.depth;
+  message.error_bound = 0.001;
+  message.contacts.resize(1);
+  Contact& contact = message.contacts[0];
+  contact.id = id;
+  contact.begins = begins;
+  contact.body_a = "a";
+  contact.body_b = "b";
+  contact.verdict = Contact::CONTACT;
+  contact.begin = ros::Time(begin);
+  contact.end = ros::Time(end);
   return message;
 }
 
-TEST_F(CheckBag, TheTableSaysOfContactsWhatTheMessagesSay) {
-  struct Case {
-    std::vector<ContactArray> told;
-    std::string verdicts;  // of the rows
-  };
-  constexpr std::uint8_t kContact = PairContact::CONTACT, kUncertain = PairContact::UNCERTAIN;
-  const std::vector<Case> cases = {
-      // Less deep than the field's largest error, but deeper than that of its location.
-      {{toldOf(kContact, kBegin, {{0.0, 0.02, 0.001, 0.0002}})}, "CONTACT "},
-      // As of an open mesh: deeper than the error bound, but perhaps only inside a cap.
-      {{toldOf(kUncertain, kBegin, {{0.0, 0.02, 0.01, 0.01}})}, "UNCERTAIN "},
-      // Surfaces that are known to cross, although no depth shows it.
-      {{toldOf(kContact, kBegin, {{0.0, 0.02, 0.0, 0.0}})}, "CONTACT "},
-      // Of two times within a cycle, one is proved.
-      {{toldOf(kContact, kBegin, {{0.0, 0.02, 0.0001, 0.0002}, {0.03, 0.05, 0.001, 0.0002}})}, "UNCERTAIN CONTACT "},
-      // One contact over two cycles: the second proves it, although it is less deep there.
-      {{toldOf(kUncertain, kBegin, {{0.05, 0.1, 0.002, 0.003}}),
-        toldOf(kContact, kBegin + 0.1, {{0.0, 0.05, 0.001, 0.0002}})},
-       "CONTACT "},
-  };
-  for (const Case& each : cases) {
-    {
-      rosbag::Bag bag(path("told.bag").string(), rosbag::bagmode::Write);
-      for (const ContactArray& message : each.told) bag.write("contacts", message.header.stamp, message);
+TEST_F(CheckBag, TheTableHasARowPerContactAsTheLastMessageHasIt) {
+  {
+    rosbag::Bag bag(path("told.bag").string(), rosbag::bagmode::Write);
+    // A contact, another one, and one of a monitor that has been started again.
+    for (const ContactArray& message :
+         {toldOf(1, true, kBegin, kBegin + 0.1), toldOf(1, false, kBegin, kBegin + 0.2),
+          toldOf(2, true, kBegin + 0.5, kBegin + 0.6), toldOf(1, true, kBegin + 0.8, kBegin + 0.9)}) {
+      bag.write("contacts", message.header.stamp, message);
     }
-    const ToolRun result = run("plot-bag told.bag --out told");
-    EXPECT_LE(result.exit_code, kPartlyDone) << result.error;
-    std::string verdicts;
-    for (Row contact : table("told/contacts.csv")) verdicts += contact["verdict"] + " ";
-    EXPECT_EQ(verdicts, each.verdicts);
   }
+  const ToolRun result = run("plot-bag told.bag --out told");
+  EXPECT_LE(result.exit_code, kPartlyDone) << result.error;
+  std::string rows;
+  for (Row contact : table("told/contacts.csv")) {
+    rows += contact["id"] + " " + contact["verdict"] + " " +
+            std::to_string(std::lround(10.0 * (std::stod(contact["end"]) - kBegin))) + "; ";
+  }
+  EXPECT_EQ(rows, "1 CONTACT 2; 2 CONTACT 6; 1 CONTACT 9; ");
 }
 
 TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {

@@ -128,11 +128,12 @@ TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
       EXPECT_EQ(last().verdict, ContactArray::NOT_CHECKED);
     }
     if (i == 25) {
-      const PairContact* pair = pairOf(last(), "hand", "plate");
-      ASSERT_NE(pair, nullptr);
-      EXPECT_EQ(pair->verdict, PairContact::NOT_CHECKED);
-      EXPECT_EQ(pair->reason, "hand has become static");
-      EXPECT_NEAR(pair->checked_from.toSec(), 10.0 + 19 * kPeriod, 1e-6);
+      EXPECT_EQ(last().pairs.size(), 0u);
+      ASSERT_EQ(last().unchecked.size(), 1u);
+      EXPECT_EQ(last().unchecked[0].body, "hand");
+      EXPECT_EQ(last().unchecked[0].reason, "hand has become static");
+      EXPECT_EQ(last().unchecked[0].pairs, 2u);
+      EXPECT_NEAR(last().unchecked[0].since.toSec(), 10.0 + 19 * kPeriod, 1e-6);
     }
     if (i > 25) {
       EXPECT_EQ(last().verdict, ContactArray::CONTACT) << i;
@@ -168,7 +169,8 @@ TEST_F(MonitorLoopTest, OneFrameWithTwoClocksDoesNotSilenceTheOthers) {
     if (i > 65) {
       EXPECT_FALSE(last().contradicted_since.isZero());
       EXPECT_EQ(last().late_frames, std::vector<std::string>{"hand"});
-      EXPECT_EQ(pairOf(last(), "hand", "plate")->verdict, PairContact::NOT_CHECKED);  // 1.5 s are too long ago
+      ASSERT_EQ(last().unchecked.size(), 1u);  // 1.5 s are too long ago
+      EXPECT_EQ(last().unchecked[0].body, "hand");
     }
   }
   EXPECT_EQ(jumps, 0);
@@ -241,10 +243,72 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
       EXPECT_EQ(last().cycle_start, end);
     }
     end = last().header.stamp;
-    ASSERT_EQ(last().pairs.size(), 3u);
-    EXPECT_NE(last().pairs[0].reason.find("orthonormal"), std::string::npos) << last().pairs[0].reason;
-    EXPECT_EQ(last().pairs[0].checked_until, end);
+    ASSERT_EQ(last().unchecked.size(), 3u);
+    EXPECT_EQ(last().unchecked[0].pairs, 2u);
+    EXPECT_NE(last().unchecked[0].reason.find("orthonormal"), std::string::npos) << last().unchecked[0].reason;
   }
+}
+
+TEST_F(MonitorLoopTest, AContactHasOneIdFromItsBeginToItsEnd) {
+  std::vector<Contact> told;
+  for (int i = 0; i < 30; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    sendHand(now, 0.03 * i);  // through the plate
+    if (step(now) != Step::kCycle) continue;
+    const MonitorState state = toMonitorState(*loop_, ros::Time(now));
+    EXPECT_EQ(state.contacts, last().contacts.size());
+    EXPECT_EQ(state.max_depth > 0.0, !last().pairs.empty());
+    EXPECT_EQ(state.max_force > 0.0, !last().pairs.empty());
+    EXPECT_EQ(state.min_clearance > 0.0, last().verdict == ContactArray::CLEAR);
+    told.insert(told.end(), last().contacts.begin(), last().contacts.end());
+  }
+  ASSERT_GT(told.size(), 3u);
+  EXPECT_TRUE(told.front().begins);
+  EXPECT_TRUE(told.back().ends);
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(told[i].id, 1u);
+    EXPECT_EQ(told[i].begins, i == 0);
+    EXPECT_EQ(told[i].ends, i + 1 == told.size());
+  }
+  EXPECT_NEAR((told.back().begin - ros::Time(10.0)).toSec(), (kPlate - kPlateHalf - kRadius) / 0.03 * kPeriod, 1e-3);
+  EXPECT_NEAR((told.back().end - ros::Time(10.0)).toSec(), (kPlate + kPlateHalf + kRadius) / 0.03 * kPeriod, 1e-3);
+  EXPECT_EQ(told.back().verdict, Contact::CONTACT);
+  EXPECT_GT(told.back().max_force, 0.0);
+  EXPECT_EQ(told.back().cycles, told.size());
+}
+
+TEST_F(MonitorLoopTest, ResetsAndJumpsEndAllContacts) {
+  const auto touch = [&](double from) {
+    for (int i = 0; i < 5; ++i) {
+      sendFoot(from + i * kPeriod);
+      sendHand(from + i * kPeriod, kPlate - kRadius);
+      step(from + i * kPeriod);
+    }
+    return from + 4 * kPeriod;
+  };
+  touch(10.0);
+  ASSERT_EQ(last().contacts.size(), 1u);
+  loop_->reset();
+  ContactArray told = toUncheckedContacts(*loop_, "reset");
+  ASSERT_EQ(told.contacts.size(), 1u);
+  EXPECT_TRUE(told.contacts[0].ends && told.contacts[0].is_lost);
+  const double end = touch(11.0);
+  ASSERT_EQ(last().contacts.size(), 1u);
+  EXPECT_EQ(last().contacts[0].id, 2u);
+  // While nothing comes it is said as it was.
+  ASSERT_EQ(step(end + 0.6), Step::kStalled);
+  told = toUncheckedContacts(*loop_, "no new transforms");
+  ASSERT_EQ(told.contacts.size(), 1u);
+  EXPECT_FALSE(told.contacts[0].begins || told.contacts[0].ends);
+  sendFoot(5.0);
+  sendHand(5.0, 0.0);
+  ASSERT_EQ(step(5.0), Step::kJump);
+  told = toUncheckedContacts(*loop_, "time has jumped back");
+  ASSERT_EQ(told.contacts.size(), 1u);
+  EXPECT_TRUE(told.contacts[0].is_lost);
+  touch(5.1);
+  EXPECT_EQ(last().contacts[0].id, 3u);
 }
 
 TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {

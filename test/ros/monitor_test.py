@@ -17,7 +17,7 @@ from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from visualization_msgs.msg import Marker, MarkerArray
 
-from sdf_ccd.msg import ContactArray, LinkPoses, MonitorState, PairContact
+from sdf_ccd.msg import Contact, ContactArray, LinkPoses, MonitorState, PairContact
 from sdf_ccd.srv import QueryMotion, QueryMotionRequest, QueryPoints
 
 PERIOD = 0.033  # [s]
@@ -157,6 +157,18 @@ class MonitorTest(unittest.TestCase):
             messages = list(self.contacts.messages)
         self.assertGreater(len(messages), 20)
         self.assertEqual(messages[-1].verdict, ContactArray.CLEAR)
+        # One contact, with one id from its begin to its end.
+        told = [contact for m in messages for contact in m.contacts]
+        self.assertEqual(len({contact.id for contact in told}), 1)
+        self.assertEqual([contact.begins for contact in told], [True] + [False] * (len(told) - 1))
+        self.assertEqual([contact.ends for contact in told], [False] * (len(told) - 1) + [True])
+        self.assertFalse(told[-1].is_lost)
+        self.assertEqual(told[-1].begin, told[0].begin)
+        self.assertEqual(told[-1].verdict, Contact.CONTACT)
+        self.assertEqual(len(messages[-1].contacts), 0)
+        # What is plotted.
+        self.assertIsNotNone(self.states.find(lambda m: m.max_depth > 0.0 and m.max_force > 0.0 and m.contacts == 1))
+        self.assertIsNotNone(self.states.find(lambda m: m.min_clearance > 0.0 and m.contacts == 0))
         for earlier, later in zip(messages, messages[1:]):
             self.assertEqual(earlier.header.stamp, later.cycle_start)
         # The markers of the contact are shown, and deleted when they are stale.
@@ -182,8 +194,7 @@ class MonitorTest(unittest.TestCase):
             self.send(0.0, None)
 
         def late(message):
-            pair = pair_of(message, 'other', 'plate')
-            return pair is not None and pair.verdict == PairContact.NOT_CHECKED and 'late' in pair.reason
+            return any(body.body == 'other' and 'late' in body.reason for body in message.unchecked)
 
         message = self.contacts.find(late)
         self.assertIsNotNone(message)
@@ -212,7 +223,7 @@ class MonitorTest(unittest.TestCase):
         self.contacts.clear()
         for _ in range(12):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.NOT_CHECKED and m.pairs))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.NOT_CHECKED and m.unchecked))
         self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
 
     def test_silence_is_not_checked(self):
@@ -416,8 +427,14 @@ class MonitorTest(unittest.TestCase):
         self.assertIn('point 1 is more than 1e+08 m', answer.message)
 
     def test_reset(self):
+        for _ in range(5):
+            self.send(PLATE)
+        self.assertIsNotNone(self.contacts.find(lambda m: m.contacts))
         self.reset()
         self.send(0.0)
+        ended = self.contacts.find(lambda m: m.reason == 'reset')
+        self.assertIsNotNone(ended)
+        self.assertEqual([contact.is_lost for contact in ended.contacts], [True])
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
         for _ in range(10):
             self.send(0.0)

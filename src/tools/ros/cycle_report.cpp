@@ -26,7 +26,7 @@ bool CycleReport::commit(const std::string& title) {
     subtitle += ", " + std::regex_replace(line, std::regex(" +"), " ");
   }
   const bool is_plotted = plotErrorTime(statistics_.cycles(), {title, subtitle}, plot_file_.part());
-  for (const ContactRecord& contact : statistics_.contacts()) contacts_file_.stream() << toRow(contact);
+  for (const Contact& contact : statistics_.contacts()) contacts_file_.stream() << toRow(contact);
   for (OutputFile* file : {&cycles_file_, &contacts_file_}) file->close();
   for (OutputFile* file : {&cycles_file_, &contacts_file_}) file->commit();
   if (is_plotted) plot_file_.commit();

@@ -38,8 +38,8 @@ std::string list(const std::string& heading, const std::vector<std::string>& ite
 }
 
 /// A reason without what differs from pair to pair and cycle to cycle: the links' names, and numbers.
-std::string kindOf(std::string reason, const PairContact& pair) {
-  for (const std::string& body : {pair.body_a, pair.body_b}) {
+std::string kindOf(std::string reason, const std::vector<std::string>& names) {
+  for (const std::string& body : names) {
     for (std::size_t at = reason.find(body); !body.empty() && at != std::string::npos; at = reason.find(body, at + 1)) {
       reason.replace(at, body.size(), "*");
     }
@@ -52,22 +52,26 @@ std::string kindOf(std::string reason, const PairContact& pair) {
 void CycleStatistics::add(const ContactArray& message) {
   cycles_.push_back(toRecord(message));
   late_frames_.insert(message.late_frames.begin(), message.late_frames.end());
-  joiner_.add(message);
+  contacts_.add(message);
   for (const PairContact& pair : message.pairs) {
-    PairCount& count = pairs_[nameOf(pair.body_a, pair.body_b)];
+    Count& count = pairs_[nameOf(pair.body_a, pair.body_b)];
     count.in_contact += pair.verdict == PairContact::CONTACT;
     count.uncertain += pair.verdict == PairContact::UNCERTAIN;
-    count.not_checked += pair.verdict == PairContact::NOT_CHECKED;
-    if (count.reason.empty() && !pair.reason.empty()) {
-      count.reason = pair.reason;
-      count.kind = kindOf(pair.reason, pair);
-    }
+    if (pair.verdict == PairContact::NOT_CHECKED) count.addUnchecked(pair.reason, {pair.body_a, pair.body_b});
   }
+  for (const UncheckedBody& body : message.unchecked) bodies_[body.body].addUnchecked(body.reason, {body.body});
+}
+
+void CycleStatistics::Count::addUnchecked(const std::string& why, const std::vector<std::string>& names) {
+  ++not_checked;
+  if (!reason.empty() || why.empty()) return;
+  reason = why;
+  kind = kindOf(why, names);
 }
 
 std::size_t CycleStatistics::neverChecked() const {
-  return std::count_if(pairs_.begin(), pairs_.end(),
-                       [&](const auto& pair) { return pair.second.not_checked == cycles_.size(); });
+  const auto isNever = [&](const auto& named) { return named.second.not_checked == cycles_.size(); };
+  return std::count_if(pairs_.begin(), pairs_.end(), isNever) + std::count_if(bodies_.begin(), bodies_.end(), isNever);
 }
 
 bool CycleStatistics::hasCheckedCycle() const {
@@ -122,10 +126,10 @@ std::string CycleStatistics::jumpLines(const ros::Time& begin) const {
 
 std::string CycleStatistics::contactLines(const ros::Time& begin) const {
   std::vector<std::string> items;
-  for (const ContactRecord& contact : joiner_.contacts()) {
-    if (contact.verdict != Verdict::kContact) continue;
-    items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsSince(begin, contact.start) + " for " +
-                    shortly((contact.end - contact.start).toSec()) + " s, " + shortly(1e3 * contact.deepest.depth) +
+  for (const Contact& contact : contacts_.contacts()) {
+    if (contact.verdict != Contact::CONTACT) continue;
+    items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsSince(begin, contact.begin) + " for " +
+                    shortly((contact.end - contact.begin).toSec()) + " s, " + shortly(1e3 * contact.deepest.depth) +
                     " mm deep" + (contact.seen_at_samples ? "" : ", between samples"));
   }
   const auto pairs = std::count_if(pairs_.begin(), pairs_.end(), [](const auto& p) { return p.second.in_contact > 0; });
@@ -144,14 +148,18 @@ std::string CycleStatistics::uncertainLines() const {
 /// By reason, that for which most was not checked first.
 std::vector<CycleStatistics::Unchecked> CycleStatistics::unchecked() const {
   std::map<std::string, Unchecked> reasons;
-  for (const auto& [name, count] : pairs_) {
-    if (count.not_checked == 0) continue;
-    Unchecked& reason = reasons[count.kind];
-    if (count.not_checked > reason.most_cycles) reason.example = name + ": " + count.reason;
-    ++reason.pairs;
-    reason.cycles += count.not_checked;
-    reason.most_cycles = std::max(reason.most_cycles, count.not_checked);
-  }
+  const auto addAll = [&](const std::map<std::string, Count>& counts, std::size_t Unchecked::*kind) {
+    for (const auto& [name, count] : counts) {
+      if (count.not_checked == 0) continue;
+      Unchecked& reason = reasons[count.kind];
+      if (count.not_checked > reason.most_cycles) reason.example = name + ": " + count.reason;
+      ++(reason.*kind);
+      reason.cycles += count.not_checked;
+      reason.most_cycles = std::max(reason.most_cycles, count.not_checked);
+    }
+  };
+  addAll(bodies_, &Unchecked::bodies);
+  addAll(pairs_, &Unchecked::pairs);
   std::vector<Unchecked> sorted;
   for (const auto& [kind, reason] : reasons) sorted.push_back(reason);
   std::stable_sort(sorted.begin(), sorted.end(), [](const Unchecked& a, const Unchecked& b) {
@@ -161,14 +169,19 @@ std::vector<CycleStatistics::Unchecked> CycleStatistics::unchecked() const {
 }
 
 std::string CycleStatistics::notCheckedLines() const {
-  std::size_t pairs = 0;
+  const auto counted = [](std::size_t bodies, std::size_t pairs) {
+    const std::string of_bodies = std::to_string(bodies) + " bodies", of_pairs = std::to_string(pairs) + " pairs";
+    return bodies == 0 ? of_pairs : pairs == 0 ? of_bodies : of_bodies + " and " + of_pairs;
+  };
+  std::size_t bodies = 0, pairs = 0;
   std::vector<std::string> items;
   for (const Unchecked& reason : unchecked()) {
+    bodies += reason.bodies;
     pairs += reason.pairs;
-    items.push_back(std::to_string(reason.pairs) + " pairs, in up to " + std::to_string(reason.most_cycles) +
+    items.push_back(counted(reason.bodies, reason.pairs) + ", in up to " + std::to_string(reason.most_cycles) +
                     " cycles, as " + reason.example);
   }
-  return list("not checked      " + std::to_string(pairs) + " pairs, in some cycle", items);
+  return list("not checked      " + counted(bodies, pairs) + ", in some cycle", items);
 }
 
 /// Empty if no transforms came late behind newer ones.

@@ -16,15 +16,15 @@ class CycleStatistics {
   void add(const ContactArray& message);
 
   const std::vector<CycleRecord>& cycles() const { return cycles_; }
-  std::vector<ContactRecord> contacts() const { return joiner_.contacts(); }
+  std::vector<Contact> contacts() const { return contacts_.contacts(); }
 
-  /// How many pairs were NOT_CHECKED in every cycle.
+  /// How many bodies, and pairs of others, were NOT_CHECKED in every cycle.
   std::size_t neverChecked() const;
 
   /// Whether some cycle was checked as a whole, its verdict being another than NOT_CHECKED.
   bool hasCheckedCycle() const;
 
-  /// "body - body: reason", an example of the reason for which most was not checked; empty if all was.
+  /// "body: reason" or "body - body: reason", an example of the reason for which most was not checked; empty if all was.
   std::string whyNotChecked() const;
 
   /// Cycles by verdict, what was checked, pairs in contact and in doubt, run times and error bounds.
@@ -35,15 +35,18 @@ class CycleStatistics {
   std::vector<std::string> runTimesAndBounds() const;
 
  private:
-  struct PairCount {
+  /// Of a pair, or of a body with all of its pairs.
+  struct Count {
     std::size_t in_contact = 0, uncertain = 0, not_checked = 0;  // cycles
     std::string reason, kind;                                    // the first that it was not checked for
+
+    void addUnchecked(const std::string& why, const std::vector<std::string>& names);
   };
 
-  /// Pairs that were not checked for one reason, but for the names and numbers in it.
+  /// Pairs and bodies that were not checked for one reason, but for the names and numbers in it.
   struct Unchecked {
-    std::string example;  // "body - body: reason"
-    std::size_t pairs = 0, cycles = 0, most_cycles = 0;
+    std::string example;  // "body - body: reason", "body: reason"
+    std::size_t pairs = 0, bodies = 0, cycles = 0, most_cycles = 0;
   };
 
   std::vector<Unchecked> unchecked() const;
@@ -56,8 +59,9 @@ class CycleStatistics {
   std::string contradictedLine(const ros::Time& begin) const;
 
   std::vector<CycleRecord> cycles_;
-  ContactJoiner joiner_;
-  std::map<std::string, PairCount> pairs_;  // by "body - body"
+  ContactRecords contacts_;
+  std::map<std::string, Count> pairs_;   // by "body - body"
+  std::map<std::string, Count> bodies_;  // that were not checked
   std::set<std::string> late_frames_;
 };
 
