@@ -50,6 +50,7 @@ CollisionMonitor::~CollisionMonitor() {
   if (service_spinner_) service_spinner_->stop();
   queries_.reset();
   outputs_.reset();
+  proximity_.reset();
   loop_.reset();
   scene_.reset();
   described_ = {};
@@ -137,8 +138,9 @@ void CollisionMonitor::setUp() {
   joint_watch_ = std::make_unique<JointWatch>(*described_.robot);
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
+  proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, *loop_, described_.scene,
-                                       parameters_.markers);
+                                       parameters_.markers, *proximity_);
   listen();
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
@@ -295,8 +297,9 @@ void CollisionMonitor::publishCycle() {
   last_cycle_ = last_step_ = now;
   last_idle_ = ros::WallTime();
   const boost::shared_ptr<MonitorState> state = state_messages_.take();
-  setMonitorState(*loop_, ros::Time::now(), *state);
-  outputs_->publish(state);
+  const ros::Time sent = ros::Time::now();
+  setMonitorState(*loop_, sent, *state);
+  outputs_->publish(state, proximity_->measure(*loop_, sent, *state));
   health_.stalled = false;
   health_.latency = state->latency;
   health_.run_time = state->run_time;
@@ -364,6 +367,7 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
   last_idle_ = ros::WallTime::now();
   const auto state =
       boost::make_shared<MonitorState>(toUncheckedState(described_.fixed_frame, reason, ros::Time::now()));
+  if (proximity_) proximity_->publishUnchecked(*state);
   outputs_ ? outputs_->publishUnchecked(reason, state) : state_publisher_.publish(state);
 }
 

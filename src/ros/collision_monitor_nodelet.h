@@ -87,6 +87,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   DescribedScene described_;
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<MonitorLoop> loop_;
+  std::unique_ptr<ProximityOutputs> proximity_;
   std::unique_ptr<Outputs> outputs_;
   std::unique_ptr<Queries> queries_;
   std::unique_ptr<JointWatch> joint_watch_;

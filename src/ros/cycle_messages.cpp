@@ -149,6 +149,28 @@ ContactArray toContactArray(const MonitorLoop& loop) {
   return message;
 }
 
+void setDistanceArray(const MonitorLoop& loop, double range, DistanceArray& message) {
+  message.header.stamp = loop.cycle().end;
+  message.header.frame_id = loop.fixedFrame();
+  message.range = range;
+  std::size_t count = 0;
+  for (const PairDistance& pair : loop.distances()) {
+    if (pair.any.width > range) continue;
+    if (count == message.distances.size()) message.distances.emplace_back();
+    Distance& distance = message.distances[count++];
+    distance.body_a = loop.scene().bodies[pair.body_a].name;
+    distance.body_b = loop.scene().bodies[pair.body_b].name;
+    distance.stamp = loop.cycle().origin + ros::Duration(pair.time);
+    distance.distance = pair.distance;
+    distance.error = pair.error;
+    distance.point_a = toPoint(pair.p_A_W);
+    distance.point_b = toPoint(pair.p_B_W);
+    distance.normal = toVector3(pair.normal_W);
+    distance.closing_speed = pair.closing_speed;
+  }
+  message.distances.resize(count);
+}
+
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message) {
   const TrackedCycle& cycle = loop.cycle();
   const CycleResult& result = loop.result();

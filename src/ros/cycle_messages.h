@@ -8,6 +8,7 @@
 #include "ros/conversions.h"
 #include "ros/monitor_loop.h"
 #include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/MonitorState.h"
 
 namespace sdf_ccd {
@@ -19,6 +20,9 @@ CycleContext contextOf(const MonitorLoop& loop);
 /// that may have been another before, and uses its memory again.
 void setContactArray(const MonitorLoop& loop, ContactArray& message);
 ContactArray toContactArray(const MonitorLoop& loop);
+
+/// Of the pairs that the loop has measured, those up to the range [m].
+void setDistanceArray(const MonitorLoop& loop, double range, DistanceArray& message);
 
 /// @param now  when it is sent, for its latency.
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message);

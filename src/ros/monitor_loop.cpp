@@ -30,7 +30,8 @@ MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const Descri
       tracker_(history_, trackedBodies(*scene), scene->pairs, parameters.tf),
       monitor_(scene, parameters.monitor),
       reach_guard_(described, monitor_.scene()),
-      contacts_(monitor_.scene()) {}
+      contacts_(monitor_.scene()),
+      distances_(scene) {}
 
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
   const TfTracker::Step step = tracker_.next(now, cycle_);
@@ -38,6 +39,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
   if (step == TfTracker::Step::kJump) {
     monitor_.reset();
     contacts_.lose();
+    distances_.forget();
   }
   if (step == TfTracker::Step::kCycle) {
     run(request);
@@ -71,11 +73,16 @@ void MonitorLoop::trackContacts(const CycleRequest& request) {
   contacts_.update({*result_, cycle_.motion, cycle_.samples, std::chrono::nanoseconds(cycle_.origin.toNSec())});
 }
 
+const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
+  return distances_.update(cycle_.motion, *result_, range);
+}
+
 void MonitorLoop::reset() {
   tracker_.reset();
   monitor_.reset();
   contacts_.settle();
   contacts_.lose();
+  distances_.forget();
 }
 
 }  // namespace sdf_ccd

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "monitor/contact_tracker.h"
+#include "monitor/pair_distances.h"
 #include "ros/parameters.h"
 #include "ros/reach_guard.h"
 
@@ -36,6 +37,13 @@ class MonitorLoop {
   /// reset() end all of them.
   const ContactTracker& contacts() const { return contacts_; }
 
+  /// Measures the pairs that may be nearer than the range [m] at the end of the last cycle, which was asked for the
+  /// clearances of all pairs (CycleRequest::skipped_pairs).
+  const std::vector<PairDistance>& measureDistances(double range);
+
+  /// As measured last.
+  const std::vector<PairDistance>& distances() const { return distances_.near(); }
+
  private:
   void run(const CycleRequest& request);
   void guardReach();
@@ -49,6 +57,7 @@ class MonitorLoop {
   CycleResult guarded_;  // with pairs that should not have been left out
   const CycleResult* result_ = nullptr;
   ContactTracker contacts_;
+  PairDistances distances_;
 };
 
 }  // namespace sdf_ccd

@@ -15,8 +15,13 @@ const ros::WallDuration kLookPeriod(0.02);
 }  // namespace
 
 Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
-                 const SceneDescription& scene, const MarkerOptions& options)
-    : loop_(loop), scene_(loop.scene()), drawer_(loop.fixedFrame(), options), link_markers_(scene), state_(state) {
+                 const SceneDescription& scene, const MarkerOptions& options, ProximityOutputs& proximity)
+    : loop_(loop),
+      scene_(loop.scene()),
+      proximity_(proximity),
+      drawer_(loop.fixedFrame(), options),
+      link_markers_(scene),
+      state_(state) {
   contacts_ = private_node.advertise<ContactArray>("contacts", 100);
   markers_ = private_node.advertise<visualization_msgs::MarkerArray>("markers", 10);
   links_ = private_node.advertise<visualization_msgs::MarkerArray>("links", 10, true);
@@ -37,7 +42,7 @@ CycleRequest Outputs::request(int max_points) {
   request.contacts = contacts_wanted_ || markers_wanted_ || state_wanted_;
   request.max_points = contacts_wanted_ || markers_wanted_ ? max_points : 0;
   // The status, and the state, tell the clearance of all.
-  request.skipped_pairs = markers_wanted_ || links_wanted_ || state_wanted_;
+  request.skipped_pairs = markers_wanted_ || links_wanted_ || state_wanted_ || proximity_.isWanted();
   return request;
 }
 
@@ -57,10 +62,12 @@ void Outputs::lookForSubscribers() {
   }
 }
 
-void Outputs::publish(const boost::shared_ptr<MonitorState>& state) {
+void Outputs::publish(const boost::shared_ptr<MonitorState>& state,
+                      const boost::shared_ptr<DistanceArray>& distances) {
   Report& report = worker_->next();
   report.is_unchecked = false;
   report.state = state;
+  report.distances = distances;
   report.draws_markers = markers_wanted_;
   report.draws_links = links_wanted_;
   if (contacts_wanted_) {
@@ -98,12 +105,14 @@ void Outputs::send(Report& report) {
     if (report.contacts) contacts_.publish(report.contacts);
     for (const auto& [link, wrench] : report.wrenches) wrenches_[link].publisher.publish(wrench);
     if (report.state) state_.publish(report.state);
+    if (report.distances) proximity_.publishDistances(report.distances);
     draw(report);
   } catch (const std::exception& error) {
     ROS_ERROR_THROTTLE(1.0, "The messages of a cycle are not sent: %s", error.what());
   }
   report.contacts.reset();
   report.state.reset();
+  report.distances.reset();
   report.wrenches.clear();
 }
 

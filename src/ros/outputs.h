@@ -14,6 +14,7 @@
 #include "ros/markers.h"
 #include "ros/message_pool.h"
 #include "ros/ordered_worker.h"
+#include "ros/proximity_outputs.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/MonitorState.h"
 
@@ -37,13 +38,14 @@ class Outputs {
  public:
   /// @param state  publishes the states that are given.
   Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
-          const SceneDescription& scene, const MarkerOptions& options);
+          const SceneDescription& scene, const MarkerOptions& options, ProximityOutputs& proximity);
 
   /// What the subscribers want to know of the next cycle.
   CycleRequest request(int max_points);
 
   /// Of the loop's last cycle. @param state  of that cycle.
-  void publish(const boost::shared_ptr<MonitorState>& state);
+  /// @param distances  the same, or null.
+  void publish(const boost::shared_ptr<MonitorState>& state, const boost::shared_ptr<DistanceArray>& distances);
 
   /// Nothing is checked after the last cycle, for this reason: a message without pairs, and no markers.
   /// @param state  that says so.
@@ -64,6 +66,7 @@ class Outputs {
   struct Report {                              // of a cycle, or that there is none
     boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
     boost::shared_ptr<MonitorState> state;
+    boost::shared_ptr<DistanceArray> distances;
     std::vector<std::pair<std::size_t, WrenchMessage>> wrenches;  // by link
     CycleSnapshot snapshot;
     bool draws_markers = false, draws_links = false;  // of the snapshot
@@ -78,6 +81,7 @@ class Outputs {
 
   const MonitorLoop& loop_;
   const Scene& scene_;
+  ProximityOutputs& proximity_;
   MarkerDrawer drawer_;
   LinkMarkers link_markers_;
   ros::Publisher state_, contacts_, markers_, links_;

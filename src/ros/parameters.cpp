@@ -75,6 +75,31 @@ ShellOptions readShell(ParameterReader reader, const std::optional<ErrorBudget>&
   return shell;
 }
 
+ProximityParameters readProximity(ParameterReader& reader) {
+  ProximityParameters proximity;
+  proximity.report_distance = reader.notNegative("report_distance", 0.0);
+  ProximityThresholds& thresholds = proximity.thresholds;
+  thresholds.warning = reader.notNegative("warning_distance", 0.0);
+  thresholds.stop = reader.notNegative("stop_distance", 0.0);
+  thresholds.hysteresis = reader.notNegative("hysteresis", 0.005);
+  if (thresholds.warning > 0.0 && thresholds.warning < thresholds.stop) {
+    reader.fail("warning_distance", "no less than stop_distance");
+  }
+  ParameterReader scale = reader.group("velocity_scale");
+  StoppingPromise promise;
+  promise.stop_distance = thresholds.stop;
+  const bool is_wanted = scale.has("max_speed");
+  promise.max_speed = scale.positive("max_speed", promise.max_speed);
+  promise.max_acceleration = scale.notNegative("max_acceleration", promise.max_acceleration);
+  promise.deceleration = scale.positive("deceleration", promise.deceleration);
+  promise.reaction_time = scale.notNegative("reaction_time", promise.reaction_time);
+  promise.period = scale.positive("period", promise.period);
+  promise.max_age = scale.positive("max_age", promise.max_age);
+  scale.finish();
+  if (is_wanted) proximity.promise = promise;
+  return proximity;
+}
+
 ContactOptions readContact(ParameterReader reader) {
   ContactOptions contact;
   contact.stiffness_per = static_cast<StiffnessPer>(
@@ -157,6 +182,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   }
   parameters.rate = reader.positive("rate", 30.0);
 
+  parameters.proximity = readProximity(reader);
   parameters.max_points = reader.integer("max_points", 20, 0);
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);

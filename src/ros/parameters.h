@@ -1,11 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <ros/node_handle.h>
 
 #include "model/pair_rules.h"
+#include "monitor/proximity.h"
+#include "monitor/velocity_scale.h"
 #include "ros/markers.h"
 #include "ros/parameter_reader.h"
 #include "ros/tf_tracker.h"
@@ -21,6 +24,13 @@ struct OctomapObject {
   std::string frame;  ///< empty: the fixed frame
   Isometry3d X_frame_B = Isometry3d::Identity();
   double cell_size = 0.0;  ///< of its field [m]; 0: half a voxel
+};
+
+/// How near is near: what can change while the monitor runs.
+struct ProximityParameters {
+  double report_distance = 0.0;  ///< pairs nearer than this are listed [m]; 0: none
+  ProximityThresholds thresholds;
+  std::optional<StoppingPromise> promise;  ///< of whoever obeys the velocity scale; none: it is not published
 };
 
 /// All parameters of the monitor; config/monitor.yaml documents them.
@@ -44,6 +54,7 @@ struct MonitorParameters {
   MonitorOptions monitor;
   TfTrackerOptions tf;
   MarkerOptions markers;
+  ProximityParameters proximity;
   double rate = 0.0;  ///< [Hz]
   int max_points = 0;
   std::vector<std::string> unknown;  ///< what nothing reads, with what may be meant; in groups it is refused

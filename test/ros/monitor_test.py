@@ -11,13 +11,13 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point, Pose, TransformStamped, WrenchStamped
-from std_msgs.msg import Header, String
+from std_msgs.msg import Float64, Header, String
 from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from visualization_msgs.msg import Marker, MarkerArray
 
-from sdf_ccd.msg import Contact, ContactArray, LinkPoses, MonitorState, PairContact
+from sdf_ccd.msg import Contact, ContactArray, DistanceArray, LinkPoses, MonitorState, PairContact
 from sdf_ccd.srv import QueryMotion, QueryMotionRequest, QueryPoints
 
 PERIOD = 0.033  # [s]
@@ -174,6 +174,49 @@ class MonitorTest(unittest.TestCase):
         # The markers of the contact are shown, and deleted when they are stale.
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.ADD for x in m.markers)))
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETE for x in m.markers)))
+
+    def test_distances_are_measured_for_who_asks(self):
+        distances = Recorder('/collision_monitor/distances', DistanceArray)
+        scales = Recorder('/collision_monitor/velocity_scale', Float64)
+        self.wait_for(distances)
+        self.send(0.28)
+        self.send(0.3)
+        near = distances.find(lambda m: m.distances and abs(m.distances[0].point_a.x - 0.32) < 1e-4)
+        self.assertIsNotNone(near)
+        self.assertEqual(near.range, 0.3)
+        self.assertEqual(len(near.distances), 1)
+        pair = near.distances[0]
+        self.assertEqual({pair.body_a, pair.body_b}, {'ball', 'plate'})
+        self.assertEqual(pair.stamp, near.header.stamp)
+        self.assertAlmostEqual(pair.distance, PLATE - RADIUS - 0.3, delta=1e-4)
+        self.assertLess(pair.error, 1e-4)
+        self.assertAlmostEqual(pair.point_b.x, PLATE, delta=1e-4)
+        self.assertAlmostEqual(pair.normal.x, 1.0, delta=1e-4)
+        self.assertGreater(pair.closing_speed, 0.1)
+        # Slowly towards it: warned of, slowed, and stopped.
+        for x, proximity in ((0.3, MonitorState.FREE), (0.42, MonitorState.WARNING), (0.47, MonitorState.STOP)):
+            self.states.clear()
+            for _ in range(4):
+                self.send(x)
+            self.assertIsNotNone(self.states.find(lambda m: m.proximity == proximity), x)
+        self.assertIsNotNone(scales.find(lambda m: m.data == 0.0))
+        self.assertIsNotNone(scales.find(lambda m: 0.0 < m.data < 1.0))
+        scales.clear()
+        for _ in range(15):
+            self.send(-1.5, -1.5)
+        self.assertIsNotNone(scales.find(lambda m: m.data == 1.0))
+        # Far away nothing is listed.
+        distances.clear()
+        self.send(-1.5)
+        self.assertIsNotNone(distances.find(lambda m: not m.distances))
+        for recorder in (distances, scales):
+            recorder.subscriber.unregister()
+
+    def wait_for(self, recorder):
+        """Until the monitor has seen that somebody listens."""
+        end = time.monotonic() + 10.0
+        while not recorder.messages and time.monotonic() < end:
+            self.send(0.0)
 
     def test_late_frame_delays_only_its_own_pairs(self):
         for ball in (0.4, 0.6, 0.6):

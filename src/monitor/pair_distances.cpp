@@ -1,0 +1,202 @@
+#include "monitor/pair_distances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "body/body_triangles.h"
+#include "monitor/contact_tracker.h"
+#include "query/shell_distance.h"
+#include "query/surface_distance.h"
+#include "sdf_ccd/motion/two_body_motion.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// What the distance of triangles may be off by, over the size of the bodies: see surfaceDistance().
+constexpr double kTriangleError = 1e-7;
+
+bool isHalfSpaceBody(const Body& body) {
+  return !body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
+    return part.field.primitive() && isHalfSpace(*part.field.primitive());
+  });
+}
+
+/// Whether the bodies touch at the end of the span, as far as the cycle tells.
+bool touchesAtEnd(const PairResult& pair, double end) {
+  constexpr double kJoin = std::chrono::duration<double>(ContactTracker::kJoin).count();
+  return pair.verdict == Verdict::kContact && !pair.intervals.empty() && pair.intervals.back().exit + kJoin >= end;
+}
+
+/// How far points of the ball at most get against the direction n of F, from one pose to the next.
+double closingAlong(const Vector3d& n_F, const Isometry3d& X_from, const Isometry3d& X_to, const BoundingBall& ball) {
+  const double middle = -n_F.dot(X_to * ball.center - X_from * ball.center);
+  return middle + ball.radius * ((X_to.linear() - X_from.linear()).transpose() * n_F).norm();
+}
+
+}  // namespace
+
+PairDistances::PairDistances(std::shared_ptr<const Scene> scene)
+    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {}
+
+void PairDistances::forget() {
+  for (Pair& pair : pairs_) pair.is_known = pair.is_near = false;
+  near_.clear();
+}
+
+const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion, const CycleResult& result,
+                                                       double range) {
+  near_.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const PairResult& pair = result.pairs[i];
+    Pair& known = pairs_[i];
+    if (pair.span.empty()) {
+      // Its time is before the cycle: told from the cycle's start on.
+      if (known.is_near) known.last.time -= motion.times.back();
+    } else if (pair.verdict == Verdict::kNotChecked) {
+      known.is_near = known.is_known = false;
+    } else {
+      measure(i, motion, pair, range);
+    }
+    if (known.is_near) near_.push_back(known.last);
+  }
+  return near_;
+}
+
+/// Whether the pair surely is farther apart than the range: by what is known of it, without looking.
+bool PairDistances::isFar(std::size_t i, const PairResult& result, const Isometry3d& X_FP, double range) {
+  if (result.verdict == Verdict::kClear && result.clearance > range) return true;
+  const Pair& pair = pairs_[i];
+  if (!pair.is_known || pair.at_least <= range) return false;
+  return pair.at_least - maxDisplacement(pair.X_FP, X_FP, scene_->bodies[result.body_b].ball) > range;
+}
+
+void PairDistances::measure(std::size_t i, const CycleMotion& motion, const PairResult& result, double range) {
+  Pair& pair = pairs_[i];
+  const Isometry3d &X_WA = motion.X_WB[result.body_a][result.span.last],
+                   &X_WB = motion.X_WB[result.body_b][result.span.last];
+  const Isometry3d X_AB = relativePose(X_WA, X_WB);
+  pair.is_near = false;
+  if (isFar(i, result, X_AB, range)) return;
+  PairDistance found;
+  found.pair = static_cast<int>(i);
+  found.body_a = result.body_a;
+  found.body_b = result.body_b;
+  found.time = motion.times[result.span.last];
+  if (touchesAtEnd(result, found.time)) {
+    found.p_A_W = found.p_B_W = result.deepest.p_W;
+    found.normal_W = result.deepest.normal_W;
+    pair.is_known = false;
+  } else {
+    const bool is_within = findNearest(i, X_WA, X_WB, range, found);
+    // A half-space's ball does not hold it; what is known of others is told of from here on.
+    pair.is_known = !isHalfSpaceBody(scene_->bodies[result.body_b]);
+    pair.at_least = is_within ? found.distance - found.error : range;
+    pair.X_FP = X_AB;
+    if (!is_within) return;
+    if (result.verdict == Verdict::kClear) {
+      found.error = std::min(found.error, std::max(0.0, found.distance - result.clearance));
+    } else {
+      found.error = std::max(found.error, found.distance);  // they may touch
+    }
+  }
+  found.any.width = std::max(0.0, found.distance - found.error);
+  setSpeeds(motion, result.span, found);
+  pair.last = found;
+  pair.is_near = true;
+}
+
+bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
+                                PairDistance& found) {
+  const PlannedPair& pair = scene_->pairs[i];
+  const Body &a = scene_->bodies[pair.body_a], &b = scene_->bodies[pair.body_b];
+  if (a.triangles && b.triangles) return nearestOfSurfaces(i, X_WA, X_WB, range, found);
+  // Of a body without a shell, points of its components tell little: where only these are, the other one's shell is.
+  bool is_within = false;
+  found.distance = std::numeric_limits<double>::infinity();
+  if (a.shell.size() > 0 && !b.parts.empty())
+    is_within |= nearestOfShell(pair.body_a, pair.body_b, true, X_WB, X_WA, range, found);
+  if (b.shell.size() > 0 && !a.parts.empty())
+    is_within |= nearestOfShell(pair.body_b, pair.body_a, false, X_WA, X_WB, range, found);
+  return is_within;
+}
+
+bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
+                                      PairDistance& found) {
+  const PlannedPair& pair = scene_->pairs[i];
+  const BodyTriangles &a = *scene_->bodies[pair.body_a].triangles, &b = *scene_->bodies[pair.body_b].triangles;
+  const Isometry3d X_AB = relativePose(X_WA, X_WB);
+  const double error = a.deviation + b.deviation + kTriangleError * (a.tree.ball().radius + b.tree.ball().radius);
+  const auto nearest = surfaceDistance(a.tree, b.tree, X_AB, range + error, pairs_[i].witness, memory_);
+  if (!nearest) return false;
+  found.distance = nearest->distance;
+  found.error = error;
+  found.p_A_W = X_WA * nearest->p_A;
+  found.p_B_W = X_WA * nearest->q_A;
+  const Vector3d way = X_WA.linear() * (nearest->q_A - nearest->p_A);
+  if (nearest->distance > 0.0) found.normal_W = way / nearest->distance;
+  const auto slab = slabBetween(a.tree, b.tree, X_AB, *nearest);
+  if (slab && *slab > a.deviation + b.deviation) found.slab = ClosingGap{*slab - a.deviation - b.deviation, 0.0, 0.0};
+  return true;
+}
+
+/// Takes the nearest point of the shell, if it is nearer than what was found before.
+bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF,
+                                   const Isometry3d& X_WP, double range, PairDistance& found) {
+  const Body &p = scene_->bodies[shell_body], &f = scene_->bodies[field_body];
+  const double gap = p.shell.covering_radius;
+  bool is_within = false;
+  for (const BodyPart& part : f.parts) {
+    const Isometry3d X_GP = part.X_BG.inverse() * relativePose(X_WF, X_WP);
+    const double limit = std::min(range + gap, found.distance + found.error);
+    const ShellDistance nearest = shellDistance(part.field, p.shell, p.tree, X_GP, limit, pending_);
+    if (nearest.point < 0) continue;
+    is_within = true;
+    if (nearest.value >= found.distance) {
+      found.error = std::max(found.error, found.distance - (nearest.value - nearest.error - gap));
+      continue;
+    }
+    const double low = std::min(nearest.value - nearest.error - gap, found.distance - found.error);
+    found.distance = std::max(0.0, nearest.value);
+    found.error = std::max(nearest.error, found.distance - low);
+    const Vector3d on_p = X_WF * (part.X_BG * nearest.p_F);
+    const double slope = nearest.gradient_F.norm();
+    const Vector3d out_W = slope > 0.0 ? Vector3d(X_WF.linear() * (part.X_BG.linear() * (nearest.gradient_F / slope)))
+                                       : Vector3d(Vector3d::Zero());
+    const Vector3d on_f = on_p - nearest.value * out_W;
+    found.p_A_W = shell_is_a ? on_p : on_f;
+    found.p_B_W = shell_is_a ? on_f : on_p;
+    found.normal_W = shell_is_a ? Vector3d(-out_W) : out_W;
+  }
+  if (is_within && isHalfSpaceBody(f) && f.parts.size() == 1) {
+    found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
+  }
+  return is_within;
+}
+
+/// Mean speeds over the last step.
+void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& span, PairDistance& found) const {
+  const auto& X_WA = motion.X_WB[found.body_a];
+  const auto& X_WB = motion.X_WB[found.body_b];
+  const double over = motion.times[span.last] - motion.times[span.last - 1];
+  const Isometry3d &X_WA_now = X_WA[span.last], &X_WA_then = X_WA[span.last - 1], &X_WB_now = X_WB[span.last],
+                   &X_WB_then = X_WB[span.last - 1];
+  const Vector3d p_then = X_WA_then * (X_WA_now.inverse() * found.p_A_W),
+                 q_then = X_WB_then * (X_WB_now.inverse() * found.p_B_W);
+  found.closing_speed = ((found.p_A_W - p_then) - (found.p_B_W - q_then)).dot(found.normal_W) / over;
+
+  // A half-space's ball does not hold it, so the other body moves against it.
+  const bool f_is_a = !isHalfSpaceBody(scene_->bodies[found.body_b]);
+  const BoundingBall& ball = scene_->bodies[f_is_a ? found.body_b : found.body_a].ball;
+  const Isometry3d X_then = f_is_a ? relativePose(X_WA_then, X_WB_then) : relativePose(X_WB_then, X_WA_then);
+  const Isometry3d X_now = f_is_a ? relativePose(X_WA_now, X_WB_now) : relativePose(X_WB_now, X_WA_now);
+  found.any.closing = maxDisplacement(X_then, X_now, ball) / over;
+  found.any.over = over;
+  if (!found.slab) return;
+  const Vector3d away_F = f_is_a ? Vector3d(X_WA_now.linear().transpose() * found.normal_W)
+                                 : Vector3d(X_WB_now.linear().transpose() * -found.normal_W);
+  found.slab->closing = closingAlong(away_F, X_then, X_now, ball) / over;
+  found.slab->over = over;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,54 @@
+#include "monitor/velocity_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/number_text.h"
+
+namespace sdf_ccd {
+
+void validate(const StoppingPromise& promise) {
+  const auto require = [](const char* what, double value, bool is_good) {
+    if (!is_good || !std::isfinite(value))
+      throw std::invalid_argument(std::string("velocity scale: ") + what + " " + numberText(value));
+  };
+  require("max_speed", promise.max_speed, promise.max_speed > 0.0);
+  require("max_acceleration", promise.max_acceleration, promise.max_acceleration >= 0.0);
+  require("deceleration", promise.deceleration, promise.deceleration > 0.0);
+  require("reaction_time", promise.reaction_time, promise.reaction_time >= 0.0);
+  require("period", promise.period, promise.period > 0.0);
+  require("stop_distance", promise.stop_distance, promise.stop_distance >= 0.0);
+  require("max_age", promise.max_age, promise.max_age > 0.0);
+}
+
+double allowedClosing(const ClosingGap& gap, double age, const StoppingPromise& promise) {
+  const double a = promise.deceleration, P = promise.period, T = age + promise.reaction_time;
+  const double now = gap.closing + 0.5 * promise.max_acceleration * gap.over;
+  // Nothing closes faster than V; what opens may close by the time.
+  const double fastest = std::clamp(now + promise.max_acceleration * T, 0.0, promise.max_speed);
+  const double left = gap.width - promise.stop_distance - fastest * T;
+  const double braking = fastest * fastest / (2.0 * a);
+  if (left < fastest * P + braking) return std::max(0.0, (left - braking) / P);
+  return 2.0 * left / (P + std::sqrt(P * P + 2.0 * left / a));  // of u P + u²/2a = left, without cancellation
+}
+
+double scaleRange(const StoppingPromise& promise) {
+  const double V = promise.max_speed;
+  return promise.stop_distance + V * (promise.max_age + promise.reaction_time + promise.period) +
+         V * V / (2.0 * promise.deceleration);
+}
+
+double velocityScale(const std::vector<PairDistance>& pairs, double age, const StoppingPromise& promise) {
+  double allowed = promise.max_speed;
+  for (const PairDistance& pair : pairs) {
+    const double of_pair = std::max(0.0, age - pair.time);
+    if (of_pair > promise.max_age) return 0.0;
+    double of_gap = allowedClosing(pair.any, of_pair, promise);
+    if (pair.slab) of_gap = std::max(of_gap, allowedClosing(*pair.slab, of_pair, promise));
+    allowed = std::min(allowed, of_gap);
+  }
+  return allowed / promise.max_speed;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,47 @@
+#include "query/shell_distance.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sdf_ccd {
+
+ShellDistance shellDistance(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
+                            const Isometry3d& X_FP, double max_distance, std::vector<int>& pending) {
+  ShellDistance nearest;
+  nearest.value = std::numeric_limits<double>::infinity();
+  double low = std::numeric_limits<double>::infinity();  // no point of those looked at is nearer
+  const auto cut = [&] { return std::min(max_distance, nearest.value); };
+  pending.clear();
+  if (!tree.nodes.empty()) pending.push_back(0);
+  while (!pending.empty()) {
+    const SphereTree::Node& node = tree.nodes[static_cast<std::size_t>(pending.back())];
+    pending.pop_back();
+    if (field.lowerBound(X_FP * node.center) - node.radius > cut()) continue;
+    if (node.first_child >= 0) {
+      const auto first = static_cast<std::ptrdiff_t>(pending.size());
+      for (int k = 0; k < node.child_count; ++k) pending.push_back(node.first_child + k);
+      // The last is looked at next: the one whose middle is nearest.
+      const auto nearer = [&](int a, int b) {
+        return field.lowerBound(X_FP * tree.nodes[a].center) < field.lowerBound(X_FP * tree.nodes[b].center);
+      };
+      const auto best = std::min_element(pending.begin() + first, pending.end(), nearer);
+      std::iter_swap(best, pending.end() - 1);
+      continue;
+    }
+    for (int i = node.begin; i < node.end; ++i) {
+      const Vector3d p_F = X_FP * shell.points[i];
+      if (field.lowerBound(p_F) > cut()) continue;
+      const FieldSample sample = field.sample(p_F);
+      low = std::min(low, sample.value - sample.error);
+      if (sample.value >= nearest.value) continue;
+      nearest = {i, sample.value, sample.error, p_F, sample.gradient};
+    }
+  }
+  if (nearest.point < 0 || nearest.value - nearest.error > max_distance) return {};
+  // Another one whose own error is larger may be nearer in truth; and one whose lower bound was above the value is
+  // not.
+  nearest.error = std::max(nearest.error, nearest.value - low);
+  return nearest;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,130 @@
+#include "query/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "moving_boxes.h"
+#include "sdf_ccd/common/cancel.h"
+#include "triangle_pair.h"
+
+namespace sdf_ccd {
+namespace {
+
+class DistanceQuery {
+ public:
+  DistanceQuery(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB, double max_distance,
+                SeparationMemory& memory)
+      : a_(a), b_(b), X_AB_(X_AB), best_(max_distance), boxes_(a, b, {X_AB, X_AB}, 0.0), memory_(memory) {}
+
+  std::optional<SurfaceDistance> run(SeparationWitness& witness) {
+    if (witness.near_a >= 0) test(witness.near_a, witness.near_b, witness);
+    memory_.stack.clear();
+    memory_.stack.push_back({a_.root(), b_.root(), 0.0F});
+    while (!memory_.stack.empty() && best_ > 0.0) {
+      cancel_.check();
+      const SeparationMemory::Boxes next = memory_.stack.back();
+      memory_.stack.pop_back();
+      if (next.gap < best_) descend(next, witness);
+    }
+    return found_;
+  }
+
+ private:
+  void test(int i, int k, SeparationWitness& witness) {
+    const RoundedTriangle &t_a = a_.triangle(i), &t_b = b_.triangle(k);
+    Corners in_a = t_b.corners;
+    for (Vector3d& p : in_a) p = X_AB_ * p;
+    const ClosestPair closest = closestPoints(t_a.corners, in_a);
+    const double length = std::sqrt(closest.distance2);
+    const double distance = std::max(0.0, length - t_a.radius - t_b.radius);
+    // Corners of crossing triangles may be far from each other.
+    const std::optional<Vector3d> crossing = mayCross(t_a.corners, in_a) ? crossingPoint(t_a.corners, in_a, 0.0)
+                                                                         : std::optional<Vector3d>();
+    if (!crossing && !(distance < best_)) return;
+    witness.near_a = i;
+    witness.near_b = k;
+    if (crossing) {
+      best_ = 0.0;
+      found_ = SurfaceDistance{0.0, *crossing, *crossing};
+      return;
+    }
+    best_ = distance;
+    const Vector3d way = closest.on_b - closest.on_a;
+    const Vector3d n = length > 0.0 ? Vector3d(way / length) : Vector3d(Vector3d::UnitZ());
+    const double from_a = std::min(t_a.radius, length), from_b = std::min(t_b.radius, length - from_a);
+    found_ = SurfaceDistance{distance, closest.on_a + from_a * n, closest.on_b - from_b * n};
+  }
+
+  /// False only if a plane along a face of one surely separates them.
+  static bool mayCross(const Corners& a, const Corners& b) {
+    const auto isBeside = [](const Corners& face, const Corners& other) {
+      const Vector3d n = (face[1] - face[0]).cross(face[2] - face[0]);
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Vector3d& p : other) {
+        const double along = n.dot(p - face[0]);
+        low = std::min(low, along);
+        high = std::max(high, along);
+      }
+      return low > 0.0 || high < 0.0;
+    };
+    return !isBeside(a, b) && !isBeside(b, a);
+  }
+
+  void descend(const SeparationMemory::Boxes& at, SeparationWitness& witness) {
+    const std::int32_t below_a = a_.node(at.a.node).below[at.a.lane], below_b = b_.node(at.b.node).below[at.b.lane];
+    const bool end_a = BoxTree::isTriangle(below_a), end_b = BoxTree::isTriangle(below_b);
+    if (end_a && end_b) return test(BoxTree::triangleOf(below_a), BoxTree::triangleOf(below_b), witness);
+    const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
+    NearBoxes found;
+    const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
+    // What is above it in single precision is above it.
+    const float cut = std::nextafter(static_cast<float>(std::min(best_, 1e29)), std::numeric_limits<float>::infinity());
+    into_a ? boxes_.gapsInA(node, at.b, cut, found) : boxes_.gapsInB(node, at.a, cut, found);
+    const std::size_t first = memory_.stack.size();
+    for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
+      const auto i = static_cast<std::int32_t>(__builtin_ctz(near));
+      memory_.stack.push_back(into_a ? SeparationMemory::Boxes{{below_a, i}, at.b, found.gaps[i]}
+                                     : SeparationMemory::Boxes{at.a, {below_b, i}, found.gaps[i]});
+    }
+    // The nearest are looked into first: then most of the others need not be.
+    std::sort(memory_.stack.begin() + static_cast<std::ptrdiff_t>(first), memory_.stack.end(),
+              [](const SeparationMemory::Boxes& x, const SeparationMemory::Boxes& y) { return x.gap > y.gap; });
+  }
+
+  const BoxTree &a_, &b_;
+  Isometry3d X_AB_;
+  double best_;
+  MovingBoxes boxes_;
+  SeparationMemory& memory_;
+  std::optional<SurfaceDistance> found_;
+  CancelTicks<1024> cancel_;
+};
+
+}  // namespace
+
+std::optional<SurfaceDistance> surfaceDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
+                                               double max_distance, SeparationWitness& witness,
+                                               SeparationMemory& memory) {
+  const double apart = (X_AB * b.origin() - a.origin()).norm() - a.ball().radius - b.ball().radius;
+  if (apart > max_distance + kBoxRounding * (a.ball().radius + b.ball().radius + std::abs(apart))) return std::nullopt;
+  return DistanceQuery(a, b, X_AB, max_distance, memory).run(witness);
+}
+
+std::optional<double> slabBetween(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
+                                  const SurfaceDistance& nearest) {
+  constexpr double kSlack = 0.05;  // of the distance, on either side
+  if (!(nearest.distance > 0.0)) return std::nullopt;
+  const Vector3d n = (nearest.q_A - nearest.p_A).normalized();
+  MovingBoxes boxes(a, b, {X_AB, X_AB}, 0.0);
+  boxes.setDirection(n);
+  const double begin = n.dot(nearest.p_A - a.origin()), slack = kSlack * nearest.distance;
+  const double reach_a = boxes.supportA(begin + slack);
+  if (!std::isfinite(reach_a)) return std::nullopt;
+  const double reach_b = boxes.supportB(-(begin + nearest.distance - slack));
+  if (!std::isfinite(reach_b)) return std::nullopt;
+  const double width = -reach_b - reach_a;
+  return width > 0.0 ? std::optional<double>(width) : std::nullopt;
+}
+
+}  // namespace sdf_ccd

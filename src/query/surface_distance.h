@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "query/separation.h"
+
+namespace sdf_ccd {
+
+/// Where two surfaces of triangles are nearest to each other.
+struct SurfaceDistance {
+  double distance = 0.0;           ///< [m]; 0 where they cross
+  Vector3d p_A = Vector3d::Zero();  ///< on A [m], frame A
+  Vector3d q_A = Vector3d::Zero();  ///< on B [m], frame A
+};
+
+/// The distance of two surfaces at one pose, with its witness points.
+///
+/// Boxes are left out that surely are farther apart than the nearest triangles that are known; of triangles the nearest
+/// points are those of closestPoints(): the distance is that of its witness points, and the true one less by 1e-7 of
+/// the triangles' size at most (edges that are nearly parallel), else by rounding.
+/// @param max_distance  surfaces that are farther apart need not be told [m].
+/// @param witness       as in separation(); where to look first, which tells nothing about the result.
+/// @return nothing if the surfaces are farther apart than max_distance.
+/// Cost: of bodies that moved little since the last query some 1 to 5 µs.
+std::optional<SurfaceDistance> surfaceDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
+                                               double max_distance, SeparationWitness& witness,
+                                               SeparationMemory& memory);
+
+/// A lower bound of the width of the gap between two surfaces, across a direction: of a slab that has all of A on one
+/// side and all of B on the other, if there is one about as wide as the distance.
+/// @param nearest  of the surfaces, apart.
+/// @return [m]; nothing if there is no such slab, or to find it takes long.
+std::optional<double> slabBetween(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
+                                  const SurfaceDistance& nearest);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,175 @@
+#include "monitor/pair_distances.h"
+
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "oracle/triangle_distance.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+using test::Real;
+using test::uniform;
+using test::Vector3r;
+
+constexpr double kRange = 0.3;
+
+/// Of two boxes, by their faces.
+double boxDistance(const Vector3d& half_a, const Isometry3d& X_WA, const Vector3d& half_b, const Isometry3d& X_WB) {
+  const TriangleMesh a = test::boxMesh(half_a), b = test::boxMesh(half_b);
+  Real least = 1e300L;
+  const auto placed = [](const TriangleMesh& mesh, int i, const Isometry3d& X) {
+    test::Triangle3r t;
+    const Corners corners = cornersOf(mesh, i);
+    for (int k = 0; k < 3; ++k) t[k] = (X * corners[k]).cast<Real>();
+    return t;
+  };
+  for (int i = 0; i < int(a.triangles.size()); ++i)
+    for (int k = 0; k < int(b.triangles.size()); ++k)
+      least = std::min(least, test::triangleDistance(placed(a, i, X_WA), placed(b, k, X_WB)));
+  return static_cast<double>(least);
+}
+
+class PairDistancesTest : public ::testing::Test {
+ protected:
+  PairDistancesTest()
+      : scene_(test::build({test::body("box", Primitive(Box{kBox})), test::body("block", Primitive(Box{kBlock}), true),
+                            test::body("ball", Primitive(Sphere{kRadius})),
+                            test::body("ground", test::ground(), true)},
+                           test::fine(0.005))),
+        monitor_(scene_, test::soft()),
+        distances_(scene_) {}
+
+  const std::vector<PairDistance>& cycle(const std::vector<Isometry3d>& from, const std::vector<Isometry3d>& to) {
+    CycleMotion motion;
+    motion.times = {0.0, 0.1};
+    for (std::size_t b = 0; b < to.size(); ++b) motion.X_WB.push_back({from[b], to[b]});
+    result_ = monitor_.run(motion, {true, 3});
+    return distances_.update(motion, result_, kRange);
+  }
+
+  static const Vector3d kBox, kBlock;
+  static constexpr double kRadius = 0.1;
+
+  std::shared_ptr<const Scene> scene_;
+  Monitor monitor_;
+  PairDistances distances_;
+  CycleResult result_;
+};
+
+const Vector3d PairDistancesTest::kBox(0.1, 0.05, 0.08), PairDistancesTest::kBlock(0.05, 0.3, 0.2);
+
+TEST_F(PairDistancesTest, AreTrueWithWitnessesOnBothBodiesAndNothingNearIsLeftOut) {
+  Random random(5);
+  int near = 0, left_out = 0, of_ground = 0;
+  std::vector<Isometry3d> last;
+  for (int i = 0; i < 400; ++i) {
+    // Small steps, and now and then a large one.
+    const std::vector<Isometry3d> now =
+        last.empty() || i % 50 == 0
+            ? std::vector<Isometry3d>{test::translation({0.5, 0, 0.5}) * test::pose(random, 3.0, 0.4),
+                                      test::translation({0, 0, 0.5}), test::translation({-0.4, 0, 0.6}),
+                                      Isometry3d::Identity()}
+            : std::vector<Isometry3d>{last[0] * test::pose(random, 0.05, 0.03), last[1],
+                                      last[2] * test::pose(random, 0.05, 0.03), last[3]};
+    const auto& found = cycle(last.empty() ? now : last, now);
+    last = now;
+    for (std::size_t p = 0; p < scene_->pairs.size(); ++p) {
+      const PlannedPair& pair = scene_->pairs[p];
+      const std::string names = scene_->bodies[pair.body_a].name + " " + scene_->bodies[pair.body_b].name;
+      double truth = 0.0;
+      const Vector3d ball = now[2].translation();
+      if (names == "box block") {
+        truth = boxDistance(kBox, now[0], kBlock, now[1]);
+      } else if (names == "box ball" || names == "block ball") {
+        const Vector3d half = names == "box ball" ? kBox : kBlock;
+        const Vector3d p_B = now[names == "box ball" ? 0 : 1].inverse() * ball;
+        truth = std::max(0.0, (p_B.cwiseAbs() - half).cwiseMax(0.0).norm() - kRadius);
+      } else if (names == "ball ground") {
+        truth = std::max(0.0, ball.z() - kRadius);
+      } else {
+        for (const Vector3d& corner : test::boxMesh(kBox).vertices)
+          truth = std::min(&corner == &test::boxMesh(kBox).vertices[0] ? 1e300 : truth, (now[0] * corner).z());
+        truth = 1e300;
+        for (const Vector3d& corner : test::boxMesh(kBox).vertices) truth = std::min(truth, (now[0] * corner).z());
+        truth = std::max(0.0, truth);
+      }
+      const auto of_pair = std::find_if(found.begin(), found.end(),
+                                        [&](const PairDistance& each) { return each.pair == static_cast<int>(p); });
+      if (of_pair == found.end()) {
+        EXPECT_GT(truth, kRange - 1e-9) << names;
+        ++left_out;
+        continue;
+      }
+      ++near;
+      of_ground += names.find("ground") != std::string::npos;
+      EXPECT_LE(std::abs(of_pair->distance - truth), of_pair->error + 1e-9) << names << " " << truth;
+      EXPECT_LE(of_pair->any.width, truth + 1e-9);
+      if (result_.pairs[p].verdict != Verdict::kClear) continue;
+      EXPECT_LT(of_pair->error, names.find("ground") == std::string::npos ? 1e-4 : 0.006) << names;
+      EXPECT_NEAR((of_pair->p_B_W - of_pair->p_A_W).norm(), of_pair->distance, 1e-6) << names;
+      EXPECT_NEAR(((of_pair->p_B_W - of_pair->p_A_W) / of_pair->distance - of_pair->normal_W).norm(), 0.0, 1e-6);
+      if (of_pair->slab) {
+        EXPECT_LE(of_pair->slab->width, truth + 1e-9) << names;
+      }
+    }
+  }
+  EXPECT_GT(near, 300);
+  EXPECT_GT(left_out, 100);
+  EXPECT_GT(of_ground, 20);
+}
+
+TEST_F(PairDistancesTest, SpeedsAreThoseAtWhichTheyClose) {
+  const std::vector<Isometry3d> rest = {test::translation({0.4, 0, 0.5}), test::translation({0, 0, 0.5}),
+                                        test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
+  std::vector<Isometry3d> moved = rest;
+  moved[0] = test::translation({0.37, 0.01, 0.5});
+  cycle(rest, rest);
+  const auto& found = cycle(rest, moved);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].distance, 0.22, 1e-9);
+  EXPECT_NEAR(found[0].closing_speed, 0.3, 1e-9);
+  EXPECT_NEAR(found[0].any.closing, std::hypot(0.3, 0.1), 1e-6);
+  EXPECT_EQ(found[0].any.over, 0.1);
+  ASSERT_TRUE(found[0].slab);
+  EXPECT_NEAR(found[0].slab->closing, 0.3, 1e-6);
+  const auto& back = cycle(moved, rest);
+  EXPECT_NEAR(back[0].slab->closing, -0.3, 1e-6);
+}
+
+TEST_F(PairDistancesTest, WhatTouchesHasNone) {
+  const std::vector<Isometry3d> touch = {test::translation({0.14, 0, 0.5}), test::translation({0, 0, 0.5}),
+                                         test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
+  const auto& found = cycle(touch, touch);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].distance, 0.0);
+  EXPECT_EQ(found[0].any.width, 0.0);
+  // Wholly inside it touches no surface.
+  const std::vector<Isometry3d> inside = {touch[0], touch[1], test::translation({0, 0, 0.5}), touch[3]};
+  for (const PairDistance& each : cycle(inside, inside)) EXPECT_EQ(each.any.width, 0.0) << each.pair;
+}
+
+TEST_F(PairDistancesTest, OfPairsThatAreDelayedTheLastOneStands) {
+  const std::vector<Isometry3d> rest = {test::translation({0.4, 0, 0.5}), test::translation({0, 0, 0.5}),
+                                        test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
+  cycle(rest, rest);
+  CycleMotion motion;
+  motion.times = {0.0, 0.1};
+  for (const Isometry3d& X : rest) motion.X_WB.push_back({X, X});
+  motion.spans.assign(scene_->pairs.size(), {0, 0});
+  result_ = monitor_.run(motion, {true, 3});
+  const auto& found = distances_.update(motion, result_, kRange);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].time, 0.0, 1e-12);
+  motion.spans.clear();
+  motion.missing.assign(4, "");
+  motion.missing[0] = "lost";
+  result_ = monitor_.run(motion, {true, 3});
+  EXPECT_TRUE(distances_.update(motion, result_, kRange).empty());
+}
+
+}  // namespace
+}  // namespace sdf_ccd

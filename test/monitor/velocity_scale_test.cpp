@@ -1,0 +1,245 @@
+#include "monitor/velocity_scale.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <memory>
+
+#include "monitor/scene_case.h"
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "oracle/triangle_distance.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::direction;
+using test::Random;
+using test::uniform;
+
+StoppingPromise anyPromise(Random& random) {
+  StoppingPromise promise;
+  promise.max_speed = uniform(random, 0.2, 3.0);
+  promise.max_acceleration = uniform(random, 0.0, 20.0);
+  promise.deceleration = uniform(random, 0.5, 10.0);
+  promise.reaction_time = uniform(random, 0.0, 0.2);
+  promise.period = uniform(random, 0.01, 0.2);
+  promise.stop_distance = uniform(random, 0.0, 0.1);
+  return promise;
+}
+
+/// A robot that keeps its promise, and not more: it obeys as late as it may, and goes as fast as it may.
+class Robot {
+ public:
+  Robot(const StoppingPromise& promise, Random& random) : promise_(promise), random_(random) {}
+
+  void hear(double time, double scale) {
+    brakeAfterSilence(time);
+    heard_.push_back({time + promise_.reaction_time, scale});
+    last_ = time;
+  }
+
+  /// The speed after a step from now on, towards one that is wanted.
+  double next(double now, double step, double speed, double wanted) {
+    brakeAfterSilence(now);
+    while (!heard_.empty() && heard_.front().first <= now) {
+      scale_ = heard_.front().second;
+      heard_.pop_front();
+    }
+    const double limit = scale_ * promise_.max_speed;
+    if (speed > limit) return std::max(limit, speed - promise_.deceleration * step);
+    const double fastest = std::min(limit, speed + promise_.max_acceleration * step);
+    return std::clamp(wanted, std::min(fastest, speed - 2.0 * promise_.deceleration * step), fastest);
+  }
+
+  Random& random() { return random_; }
+
+ private:
+  /// It reacts to silence as to a scale of 0.
+  void brakeAfterSilence(double now) {
+    if (now <= last_ + promise_.period || silent_since_ == last_) return;
+    heard_.push_back({last_ + promise_.period + promise_.reaction_time, 0.0});
+    silent_since_ = last_;
+  }
+
+  StoppingPromise promise_;
+  Random& random_;
+  std::deque<std::pair<double, double>> heard_;
+  double scale_ = 0.0, last_ = -1e9, silent_since_ = -1e9;
+};
+
+struct Outcome {
+  double least = 1e300, last = 0.0;  // widths less the stop distance [m]
+  double fastest = 0.0;
+};
+
+/// A gap that a robot closes as it likes, and as the scale lets it.
+Outcome close(const StoppingPromise& promise, Random& random, bool is_greedy) {
+  constexpr double kStep = 1e-3, kLength = 12.0;
+  Robot robot(promise, random);
+  double width = promise.stop_distance + uniform(random, 0.01, 2.0), speed = 0.0, wanted = promise.max_speed;
+  double next_scale = 0.0;
+  std::vector<double> widths, speeds;
+  Outcome outcome;
+  for (int i = 0; i * kStep < kLength; ++i) {
+    const double now = i * kStep;
+    widths.push_back(width);
+    speeds.push_back(speed);
+    outcome.least = std::min(outcome.least, width - promise.stop_distance);
+    outcome.fastest = std::max(outcome.fastest, speed);
+    if (now >= next_scale) {
+      // What is known is up to as old as it may be, and a mean over some time before that.
+      const int age = std::min(i, static_cast<int>(uniform(random, 0.0, 0.15) / kStep));
+      const int over = std::min(i - age, 1 + static_cast<int>(uniform(random, 0.0, 0.05) / kStep));
+      if (over > 0) {
+        PairDistance pair;
+        pair.any.width = widths[i - age];
+        pair.any.over = over * kStep;
+        pair.any.closing = (widths[i - age - over] - widths[i - age]) / pair.any.over;
+        robot.hear(now, velocityScale({pair}, age * kStep, promise));
+      }
+      // The next one comes in time, or for a while none at all.
+      next_scale = now + (uniform(random, 0.0, 1.0) < 0.02 ? 5.0 : 0.95) * promise.period;
+    }
+    if (!is_greedy && i % 50 == 0) wanted = uniform(random, -1.0, 1.0) * promise.max_speed;
+    speed = robot.next(now, kStep, speed, wanted);
+    width -= speed * kStep;
+    outcome.last = width - promise.stop_distance;
+  }
+  return outcome;
+}
+
+TEST(VelocityScale, WhoObeysNeverComesNearerThanTheStopDistanceAndComesThatNear) {
+  Random random(3);
+  for (int i = 0; i < 400; ++i) {
+    const StoppingPromise promise = anyPromise(random);
+    const bool is_greedy = i % 2 == 0;
+    const Outcome outcome = close(promise, random, is_greedy);
+    // The steps of the simulation are not smooth: a speed holds for one, and what brakes comes one later.
+    const double step = 2e-3 * promise.max_speed;
+    EXPECT_GE(outcome.least, -step) << i;
+    if (!is_greedy) continue;
+    // It lets the robot come as near as what may happen until it obeys, if it accelerates meanwhile.
+    const double T = 0.15 + promise.reaction_time;
+    const double fastest = std::min(promise.max_speed, promise.max_acceleration * (T + 0.025));
+    const double near = fastest * T + fastest * fastest / (2.0 * promise.deceleration);
+    EXPECT_LT(outcome.least, 1.01 * near + 0.01) << i;
+  }
+}
+
+TEST(VelocityScale, WhatIsFarOrOpensIsNotSlowed) {
+  StoppingPromise promise;
+  promise.max_acceleration = 1.0;
+  PairDistance pair;
+  pair.any = {scaleRange(promise), promise.max_speed, 0.0};
+  EXPECT_EQ(velocityScale({pair}, promise.max_age, promise), 1.0);
+  pair.any = {0.1, promise.max_speed, 0.01};
+  EXPECT_LT(velocityScale({pair}, 0.0, promise), 0.2);
+  pair.slab = ClosingGap{0.1, -0.5, 0.01};  // along it they part
+  EXPECT_GT(velocityScale({pair}, 0.0, promise), 0.25);
+  EXPECT_EQ(velocityScale({}, 0.0, promise), 1.0);
+  EXPECT_EQ(velocityScale({pair}, promise.max_age + 1e-3, promise), 0.0);  // nothing is known of it any more
+  pair.any = *pair.slab = {0.0, 0.0, 0.01};
+  EXPECT_EQ(velocityScale({pair}, 0.0, promise), 0.0);
+}
+
+TEST(VelocityScale, PromisesAreChecked) {
+  StoppingPromise promise;
+  promise.deceleration = 0.0;
+  EXPECT_THROW(validate(promise), std::invalid_argument);
+  promise = {};
+  promise.stop_distance = std::nan("");
+  EXPECT_THROW(validate(promise), std::invalid_argument);
+}
+
+/// Of two meshes at their poses, over all pairs of triangles.
+double trueDistance(const TriangleMesh& a, const Isometry3d& X_WA, const TriangleMesh& b, const Isometry3d& X_WB) {
+  const auto placed = [](const TriangleMesh& mesh, const Isometry3d& X) {
+    std::vector<test::Triangle3r> all;
+    for (int i = 0; i < int(mesh.triangles.size()); ++i) {
+      const Corners corners = cornersOf(mesh, i);
+      all.push_back({});
+      for (int k = 0; k < 3; ++k) all.back()[k] = (X * corners[k]).cast<test::Real>();
+    }
+    return all;
+  };
+  test::Real least = 1e300L;
+  const auto in_a = placed(a, X_WA), in_b = placed(b, X_WB);
+  for (const auto& t : in_a)
+    for (const auto& u : in_b) least = std::min(least, test::triangleDistance(t, u));
+  return static_cast<double>(least);
+}
+
+/// A body flies at random among others, and at them, as a robot that obeys; the truth are the meshes themselves.
+TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
+  Random random(11);
+  double nearest = 1e300;
+  for (int run = 0; run < 3; ++run) {
+    StoppingPromise promise;
+    promise.max_speed = 1.0;
+    promise.max_acceleration = 8.0;
+    promise.deceleration = 4.0;
+    promise.reaction_time = 0.03;
+    promise.period = 0.05;
+    promise.stop_distance = 0.005;
+    const TriangleMesh flyer = test::icosphere(0.08, 0), block = test::boxMesh({0.05, 0.3, 0.2});
+    const auto scene = test::build({test::body("flyer", test::meshShape(flyer)),
+                                    test::body("block", test::meshShape(block), true),
+                                    test::body("ball", Primitive(Sphere{0.1}), true),
+                                    test::body("ground", test::ground(), true)},
+                                   test::fine(0.01));
+    const Isometry3d X_block = test::translation({0.4, 0.0, 0.3}), X_ball = test::translation({-0.3, 0.2, 0.3});
+    Monitor monitor(scene, test::soft());
+    PairDistances distances(scene);
+    Robot robot(promise, random);
+    constexpr double kStep = 5e-3;
+    Isometry3d X = test::translation({0.0, 0.0, 0.4}), X_last = X;
+    Vector3d way = direction(random), spin = direction(random);
+    double speed = 0.0, known = 0.0;
+    std::vector<Isometry3d> poses = {X};
+    for (int i = 1; i < 800; ++i) {
+      const double now = i * kStep;
+      if (i % 40 == 0 && speed == 0.0) {
+        // From rest another way: what it promises is about the speed of any point, so the way may be any.
+        const Vector3d aim = i % 80 == 0 ? Vector3d(X_block.translation() - X.translation()).normalized()
+                                         : Vector3d(direction(random));
+        way = aim;
+        spin = 2.0 * direction(random);
+      }
+      // The speed is that of the fastest point of the ball: 1 + |spin| r of the middle's.
+      const double reach = 1.0 + spin.norm() * 0.08;
+      const double wanted = (X.translation() - Vector3d(0, 0, 0.3)).norm() > 1.0 ? 0.0 : promise.max_speed;
+      if (wanted == 0.0) way = -X.translation().normalized();
+      speed = robot.next(now, kStep, speed, wanted);
+      X.translation() += speed / reach * kStep * way;
+      X.linear() = Eigen::AngleAxisd(speed / reach * spin.norm() * kStep, spin.normalized()) * X.linear();
+      poses.push_back(X);
+      TriangleMesh point;  // the ball's middle
+      point.vertices = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+      point.triangles = {{0, 1, 2}};
+      nearest = std::min({nearest, trueDistance(flyer, X, block, X_block), trueDistance(flyer, X, point, X_ball) - 0.1});
+      for (const Vector3d& p : flyer.vertices) nearest = std::min(nearest, (X * p).z());
+      ASSERT_GE(nearest, promise.stop_distance - 0.001) << run << " " << i;
+      if (i % 8 != 0) continue;
+      CycleMotion motion;
+      motion.X_WB.resize(4);
+      for (std::size_t k = 0; k < poses.size(); ++k) {
+        motion.times.push_back(kStep * double(k));
+        motion.X_WB[0].push_back(poses[k]);
+        motion.X_WB[1].push_back(X_block);
+        motion.X_WB[2].push_back(X_ball);
+        motion.X_WB[3].push_back(Isometry3d::Identity());
+      }
+      const CycleResult& result = monitor.run(motion, {false, 0});
+      ASSERT_EQ(result.verdict, Verdict::kClear);
+      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise)), motion.times.back(), promise));
+      poses = {X};
+      known = now;
+    }
+    EXPECT_GT(known, 0.0);
+  }
+  EXPECT_LT(nearest, 0.05);  // it comes near all the same
+}
+
+}  // namespace
+}  // namespace sdf_ccd

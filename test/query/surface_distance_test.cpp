@@ -1,0 +1,123 @@
+#include "query/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+#include "oracle/triangle_distance.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::Random;
+using test::Real;
+using test::Triangle3r;
+using test::Vector3r;
+
+BoxTree treeOf(const TriangleMesh& mesh, double radius = 0.0) {
+  std::vector<RoundedTriangle> all;
+  for (int i = 0; i < int(mesh.triangles.size()); ++i) all.push_back({cornersOf(mesh, i), radius});
+  return BoxTree(std::move(all));
+}
+
+/// No part of it is flat, and it is not convex.
+TriangleMesh bumpySphere(Random& random, double radius, int subdivisions) {
+  TriangleMesh mesh = test::icosphere(radius, subdivisions);
+  for (Vector3d& v : mesh.vertices) v *= test::uniform(random, 0.6, 1.4);
+  return mesh;
+}
+
+/// Over all pairs of triangles, in long double.
+Real trueDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB) {
+  const Eigen::Matrix<Real, 3, 3> R = X_AB.linear().cast<Real>();
+  const Vector3r t = X_AB.translation().cast<Real>();
+  Real least = 1e300L;
+  for (int i = 0; i < int(a.size()); ++i) {
+    Triangle3r in_a;
+    for (int k = 0; k < 3; ++k) in_a[k] = a.triangle(i).corners[k].cast<Real>();
+    for (int j = 0; j < int(b.size()); ++j) {
+      Triangle3r in_b;
+      for (int k = 0; k < 3; ++k) in_b[k] = R * b.triangle(j).corners[k].cast<Real>() + t;
+      least = std::min(least, test::triangleDistance(in_a, in_b) - a.triangle(i).radius - b.triangle(j).radius);
+    }
+  }
+  return std::max<Real>(least, 0);
+}
+
+/// Of a point from a surface.
+Real distanceFrom(const BoxTree& tree, const Vector3d& p) {
+  Real least = 1e300L;
+  const Vector3r q = p.cast<Real>();
+  for (int i = 0; i < int(tree.size()); ++i) {
+    Triangle3r t;
+    for (int k = 0; k < 3; ++k) t[k] = tree.triangle(i).corners[k].cast<Real>();
+    least = std::min(least, std::abs(test::triangleDistance(t, {q, q, q}) - tree.triangle(i).radius));
+  }
+  return least;
+}
+
+TEST(SurfaceDistance, IsThatOfAllPairsOfTrianglesWithPointsOnBothSurfaces) {
+  Random random(7);
+  int apart = 0, crossing = 0;
+  SeparationMemory memory;
+  for (int i = 0; i < 20; ++i) {
+    const double radius = i % 3 == 0 ? 0.02 : 0.0;
+    const BoxTree a = treeOf(bumpySphere(random, 0.2, 1), radius),
+                  b = treeOf(bumpySphere(random, 0.1, 1));
+    SeparationWitness witness;
+    Isometry3d X_AB = test::pose(random, 3.0, 0.5);
+    for (int k = 0; k < 4; ++k) {  // the witness of the last one helps, and tells nothing wrong
+      X_AB = X_AB * test::pose(random, 0.1, 0.05);
+      const Real truth = trueDistance(a, b, X_AB);
+      const auto found = surfaceDistance(a, b, X_AB, 1e3, witness, memory);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(found->distance, double(truth), 1e-9);
+      EXPECT_NEAR((found->q_A - found->p_A).norm(), found->distance, 1e-12);
+      if (truth > 0) {
+        ++apart;
+        EXPECT_LT(distanceFrom(a, found->p_A), 1e-9);
+        EXPECT_LT(distanceFrom(b, X_AB.inverse() * found->q_A), 1e-9);
+      } else {
+        ++crossing;
+      }
+      // Within a distance, or nothing.
+      SeparationWitness none;
+      const double limit = test::uniform(random, 0.0, 0.4);
+      const auto near = surfaceDistance(a, b, X_AB, limit, none, memory);
+      ASSERT_EQ(bool(near), double(truth) < limit) << double(truth) << " " << limit;
+      if (near) {
+        EXPECT_NEAR(near->distance, double(truth), 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(apart, 16);
+  EXPECT_GT(crossing, 8);
+}
+
+TEST(SurfaceDistance, ASlabHasEitherSurfaceOnItsOwnSide) {
+  Random random(8);
+  int found = 0;
+  for (int i = 0; i < 60; ++i) {
+    const BoxTree a = treeOf(bumpySphere(random, 0.2, 1)),
+                  b = treeOf(bumpySphere(random, 0.1, 1));
+    const Isometry3d X_AB = test::pose(random, 3.0, 0.7);
+    SeparationWitness witness;
+    SeparationMemory memory;
+    const SurfaceDistance nearest = *surfaceDistance(a, b, X_AB, 1e3, witness, memory);
+    const auto width = slabBetween(a, b, X_AB, nearest);
+    if (!width) continue;
+    ++found;
+    const Vector3d n = (nearest.q_A - nearest.p_A).normalized();
+    double reach_a = -1e300, begin_b = 1e300;
+    for (int k = 0; k < int(a.size()); ++k)
+      for (const Vector3d& p : a.triangle(k).corners) reach_a = std::max(reach_a, n.dot(p));
+    for (int k = 0; k < int(b.size()); ++k)
+      for (const Vector3d& p : b.triangle(k).corners) begin_b = std::min(begin_b, n.dot(X_AB * p));
+    EXPECT_LE(*width, begin_b - reach_a);
+    EXPECT_GE(*width, 0.85 * nearest.distance);
+  }
+  EXPECT_GT(found, 10);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
