@@ -121,6 +121,18 @@ void BodyTwists::forget() {
   }
 }
 
+void BodyTwists::take(const BodyTwists& other, const std::vector<BodyRun>& bodies) {
+  origin_ = other.origin_;
+  for (const BodyRun& run : bodies) {
+    std::copy_n(other.bodies_.begin() + static_cast<std::ptrdiff_t>(run.from), run.count,
+                bodies_.begin() + static_cast<std::ptrdiff_t>(run.to));
+    for (int row = 0; row < static_cast<int>(TwistRow::kCount); ++row) {
+      const float* from = other.row(static_cast<TwistRow>(row));
+      std::copy_n(from + run.from, run.count, &at(static_cast<TwistRow>(row), run.to));
+    }
+  }
+}
+
 void BodyTwists::lose(std::size_t b) {
   for (int row = 0; row < static_cast<int>(TwistRow::kCount); ++row)
     at(static_cast<TwistRow>(row), b) = std::numeric_limits<float>::quiet_NaN();

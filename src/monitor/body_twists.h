@@ -29,6 +29,11 @@ enum class TwistRow {
 /// Bodies in a row are a multiple of this.
 constexpr std::size_t kTwistLanes = lanes::kFloatWidth;
 
+/// Bodies of one scene that stand in a row in another one too.
+struct BodyRun {
+  std::size_t to, from, count;
+};
+
 /// How bodies move, each worked out once a step, for all of its pairs.
 ///
 /// Followed are bodies whose motion goes on where it ended the cycle before; what is bitwise at rest costs a
@@ -49,6 +54,9 @@ class BodyTwists {
 
   /// Forgets where bodies were.
   void forget();
+
+  /// Takes over what is known of bodies between two cycles, without allocating.
+  void take(const BodyTwists& other, const std::vector<BodyRun>& bodies);
 
   /// By body, stride() of them.
   const float* row(TwistRow row) const { return rows_.data() + static_cast<std::size_t>(row) * stride_; }

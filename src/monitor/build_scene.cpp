@@ -7,9 +7,9 @@
 #include "body/body_builder.h"
 #include "body/body_triangles.h"
 #include "monitor/scene_cost.h"
-#include "pair_bound.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
+#include "scene_totals.h"
 #include "surface_crossing.h"
 
 namespace sdf_ccd {
@@ -42,41 +42,16 @@ class Pace {
   double all_ = 0.0;
 };
 
-bool isLarger(const ErrorBound& a, const ErrorBound& b) {
-  return a.total() > b.total();
-}
-
-void countPairs(Scene& scene) {
-  for (BodyReport& report : scene.reports) report.pairs = 0;
-  for (const PlannedPair& pair : scene.pairs) {
-    ++scene.reports[pair.body_a].pairs;
-    ++scene.reports[pair.body_b].pairs;
-  }
-}
-
-void setBounds(double motion_margin, Scene& scene) {
-  scene.bound = {};
-  for (BodyReport& report : scene.reports) report.bound = {};
-  for (const PlannedPair& pair : scene.pairs) {
-    ErrorBound bound = pairBound(scene, pair);
-    if (bound.total() == 0.0) continue;  // of a body that was not built
-    bound.chord = motion_margin;
-    for (ErrorBound* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
-      if (isLarger(bound, *largest)) *largest = bound;
-  }
-}
-
 /// Of bodies that are in a pair with another one that has them.
-void makeTriangles(const SceneDescription& description, MeshPool& pool, Scene& scene) {
-  const auto possible = [&](int i) {
-    return scene.bodies[i].failure.empty() && whyNoShell(description.bodies[i]).empty();
-  };
-  std::vector<char> wanted(scene.bodies.size(), 0);
-  for (const PlannedPair& pair : scene.pairs)
+void makeTriangles(const SceneDescription& description, const std::vector<PlannedPair>& pairs, MeshPool& pool,
+                   std::vector<Body>& bodies) {
+  const auto possible = [&](int i) { return bodies[i].failure.empty() && whyNoShell(description.bodies[i]).empty(); };
+  std::vector<char> wanted(bodies.size(), 0);
+  for (const PlannedPair& pair : pairs)
     if (possible(pair.body_a) && possible(pair.body_b)) wanted[pair.body_a] = wanted[pair.body_b] = 1;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     checkCancelled();
-    if (wanted[i] != 0) scene.bodies[i].triangles = trianglesOf(description.bodies[i], pool);
+    if (wanted[i] != 0) bodies[i].triangles = trianglesOf(description.bodies[i], pool);
   }
 }
 
@@ -87,7 +62,7 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const bool checkable = body_a.failure.empty() && body_b.failure.empty();
   PlannedPair pair{a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()};
   if (body_a.is_world && body_b.is_world) {
-    scene.left_out.push_back({what, "both of the world"});
+    scene.left_out.push_back({what, "both of the world", a, b});
   } else if (checkable && !pair.a_shell_b_field && !pair.b_shell_a_field) {
     throw std::invalid_argument(what +
                                 ": neither has a shell, as they hold half-spaces or voxels; if both are of the "
@@ -113,6 +88,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
       plan.expected && plan.expected->meshes ? plan.expected->meshes : std::make_shared<MeshPool>(options);
   const std::size_t count = description.bodies.size();
   const Pace pace(description, plan.expected.get());
+  std::vector<Body> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     const BodyDescription& described = description.bodies[i];
     checkCancelled();
@@ -122,17 +98,18 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     report_progress(0.0);
     const BodyNeeds needs{plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], plan.needs_witnesses[i]};
     BuiltBody built = buildBody(described, needs, options, *pool, report_progress);
-    scene.bodies.push_back(std::move(built.body));
+    bodies.push_back(std::move(built.body));
     scene.reports.push_back(std::move(built.report));
   }
   for (const PlannedPair& pair : scene.pairs) {
-    if (!hasOpenings(scene.bodies[pair.body_a]) && !hasOpenings(scene.bodies[pair.body_b])) continue;
+    if (!hasOpenings(bodies[pair.body_a]) && !hasOpenings(bodies[pair.body_b])) continue;
     for (const int i : {pair.body_a, pair.body_b}) {
-      Body& body = scene.bodies[i];
+      Body& body = bodies[i];
       if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
     }
   }
-  makeTriangles(description, *pool, scene);
+  makeTriangles(description, scene.pairs, *pool, bodies);
+  scene.bodies = BodyList(std::move(bodies));
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
   countPairs(scene);
   setBounds(options.motion_margin, scene);
@@ -151,7 +128,7 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   }
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) addPair(bodies, a, b, scene);
-  scene.bodies = std::move(bodies);
+  scene.bodies = BodyList(std::move(bodies));
   countPairs(scene);
   setBounds(motion_margin, scene);
   return scene;
@@ -165,7 +142,8 @@ void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
       stay.push_back(pair);
     } else {
       scene.left_out.push_back(
-          {"pair " + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name, reasons[p]});
+          {"pair " + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name, reasons[p], pair.body_a,
+           pair.body_b});
     }
   }
   if (stay.size() == scene.pairs.size()) return;

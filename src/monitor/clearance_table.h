@@ -43,6 +43,20 @@ class ClearanceTable {
   void forget(int pair) { budget_[slot(pair)] = kUnknown; }
   void forget();
 
+  /// A pair of this table and where another table has it.
+  struct Moved {
+    std::int32_t to, from;  // slots
+  };
+  Moved moved(int pair, const ClearanceTable& other, int other_pair) const {
+    return {slots_[static_cast<std::size_t>(pair)], other.slots_[static_cast<std::size_t>(other_pair)]};
+  }
+
+  /// Takes over what another table knows between two cycles.
+  void take(const ClearanceTable& other, const std::vector<Moved>& pairs) {
+    for (const Moved& pair : pairs)
+      budget_[static_cast<std::size_t>(pair.to)] = other.budget_[static_cast<std::size_t>(pair.from)];
+  }
+
   /// Whether something is known of the pair.
   bool isKnown(int pair) const { return budget_[slot(pair)] != kUnknown; }
 

@@ -1,6 +1,7 @@
 #include "sdf_ccd/monitor/monitor.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include "model/error_budget.h"
 #include "motion/validate_motion.h"
 #include "pair_checker.h"
+#include "scene_difference.h"
 #include "schedule.h"
 #include "sdf_ccd/common/cancel.h"
 #include "summarise.h"
@@ -66,6 +68,9 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory() {
 }
 
 struct Monitor::Impl {
+  Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
+       std::shared_ptr<MonitorMemory> shared_memory);
+
   void takeSpans(const CycleMotion& motion);
   void takeSkipped(const CycleRequest& request);
   void checkDue(const CycleMotion& motion, const CycleRequest& request);
@@ -86,39 +91,55 @@ struct Monitor::Impl {
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
   bool are_of_cycle = false;      // what results say of pairs that are not due is of the last cycle, and of no later one
-  std::size_t last_waypoint = 0;  // that all results' spans end at; 0 if they differ
+  std::atomic<std::size_t> last_waypoint{0};  // that all results' spans end at; 0 if they differ
 };
 
+Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
+                    std::shared_ptr<MonitorMemory> shared_memory)
+    : scene(std::move(of_scene)),
+      options(with_options),
+      siblings(siblingsOf(*scene)),
+      bodies(std::make_unique<SweptBodies>(*scene)),
+      memory(std::move(shared_memory)) {
+  checkers.reserve(scene->pairs.size());
+  result.pairs.reserve(scene->pairs.size());
+  for (const PlannedPair& pair : scene->pairs) {
+    checkers.emplace_back(*scene, pair, siblings, options);
+    PairResult& of_pair = result.pairs.emplace_back();
+    of_pair.body_a = pair.body_a;
+    of_pair.body_b = pair.body_b;
+  }
+  const std::size_t pairs = checkers.size();
+  schedule = std::make_unique<Schedule>(*scene, checkers);
+  due_in_cycle.assign(pairs, 0);
+  last_due.reserve(pairs);
+  shape.pairs = pairs;
+  for (const Body& body : scene->bodies) {
+    shape.bodies.push_back(body.name);
+    shape.without_poses.push_back(!body.failure.empty());
+  }
+}
+
+/// A monitor of the next scene, and what it takes over of the one before.
+struct MonitorChange::Impl {
+  std::unique_ptr<Monitor::Impl> monitor;
+  std::shared_ptr<const Scene> before;
+  Schedule::Kept kept;
+  std::vector<int> pair_now;  // per pair of the scene before; -1 if it is no longer there
+};
+
+MonitorChange::MonitorChange(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MonitorChange::~MonitorChange() = default;
+
 Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
-                 std::shared_ptr<MonitorMemory> memory)
-    : impl_(new Impl) {
+                 std::shared_ptr<MonitorMemory> memory) {
   validate(options.contact);
   if (!(options.chords.tolerance > 0.0) || !std::isfinite(options.chords.tolerance))
     throw std::invalid_argument("monitor: chord tolerance " + numberText(options.chords.tolerance) + " m");
   if (options.chords.max_chords < 1)
     throw std::invalid_argument("monitor: max_chords " + std::to_string(options.chords.max_chords));
   if (!scene) throw std::invalid_argument("monitor: no scene");
-  impl_->scene = std::move(scene);
-  impl_->options = options;
-  impl_->memory = memory ? std::move(memory) : makeMonitorMemory();
-  impl_->siblings = siblingsOf(*impl_->scene);
-  impl_->bodies = std::make_unique<SweptBodies>(*impl_->scene);
-  for (const PlannedPair& pair : impl_->scene->pairs) {
-    impl_->checkers.emplace_back(*impl_->scene, pair, impl_->siblings, impl_->options);
-    PairResult result;
-    result.body_a = pair.body_a;
-    result.body_b = pair.body_b;
-    impl_->result.pairs.push_back(result);
-  }
-  const std::size_t pairs = impl_->checkers.size();
-  impl_->schedule = std::make_unique<Schedule>(*impl_->scene, impl_->checkers);
-  impl_->due_in_cycle.assign(pairs, 0);
-  impl_->last_due.reserve(pairs);
-  impl_->shape.pairs = pairs;
-  for (const Body& body : impl_->scene->bodies) {
-    impl_->shape.bodies.push_back(body.name);
-    impl_->shape.without_poses.push_back(!body.failure.empty());
-  }
+  impl_ = std::make_unique<Impl>(std::move(scene), options, memory ? std::move(memory) : makeMonitorMemory());
 }
 
 Monitor::Monitor(std::vector<Body> bodies, const MonitorOptions& options)
@@ -229,6 +250,53 @@ const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_
   for (std::size_t b = 0; b < X_WB.size() && b < scene().bodies.size(); ++b)
     requireUnambiguousTurns(X_WB[b], "monitor: " + scene().bodies[b].name);
   return run(motion, request);
+}
+
+std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next) const {
+  if (!next) throw std::invalid_argument("monitor: no scene");
+  auto change = std::make_unique<MonitorChange::Impl>();
+  change->before = impl_->scene;
+  change->monitor = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
+  Impl& monitor = *change->monitor;
+  const SceneDifference difference(*impl_->scene, *monitor.scene);
+  change->kept.bodies = difference.bodyRuns();
+  change->pair_now = difference.pairsNow();
+  // Those that stay and are not tested in the next cycle are clear; all others are set by their tests.
+  const std::size_t last = impl_->last_waypoint;
+  monitor.last_waypoint = last;
+  for (PairResult& result : monitor.result.pairs)
+    if (last > 0) result.span = {0, last};
+  for (std::size_t p = 0; p < change->pair_now.size(); ++p) {
+    const int now = change->pair_now[p];
+    if (now < 0) continue;
+    const PairChecker& checker = monitor.checkers[static_cast<std::size_t>(now)];
+    setSkipped(checker.bound(), checker.margin(), monitor.result.pairs[static_cast<std::size_t>(now)]);
+    change->kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));
+  }
+  return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));
+}
+
+void Monitor::adopt(MonitorChange& change) {
+  MonitorChange::Impl& made = *change.impl_;
+  if (made.before != impl_->scene) throw std::logic_error("monitor: a scene prepared of another one");
+  Impl& next = *made.monitor;
+  next.schedule->take(*impl_->schedule, made.kept);
+  // What a pair that is not due knows beside its clearance only makes its next test quicker.
+  for (const int pair : impl_->last_due) {
+    const int now = made.pair_now[static_cast<std::size_t>(pair)];
+    if (now < 0) continue;
+    const auto from = static_cast<std::size_t>(pair), to = static_cast<std::size_t>(now);
+    next.checkers[to].take(impl_->checkers[from]);
+    const int body_a = next.result.pairs[to].body_a, body_b = next.result.pairs[to].body_b;
+    const WaypointSpan span = next.result.pairs[to].span;
+    std::swap(next.result.pairs[to], impl_->result.pairs[from]);
+    next.result.pairs[to].body_a = body_a;
+    next.result.pairs[to].body_b = body_b;
+    next.result.pairs[to].span = span;
+    next.last_due.push_back(now);
+  }
+  impl_.swap(made.monitor);
+  made.before.reset();  // it is not prepared for again
 }
 
 void Monitor::reset() {

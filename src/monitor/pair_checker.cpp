@@ -88,6 +88,13 @@ void PairChecker::remember(double clearance, const Isometry3d& X_WA, const Isome
   X_FP_last_ = relativeMotion().f() == pair_.body_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
 }
 
+void PairChecker::take(const PairChecker& other) {
+  clearance_ = other.clearance_;
+  outside_ = other.outside_;
+  X_FP_last_ = other.X_FP_last_;
+  if (surfaces_) surfaces_->take(*other.surfaces_);
+}
+
 /// Takes the motion, and what it may have used up of the clearance.
 void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
   if (surfaces_) {

@@ -46,6 +46,9 @@ class PairChecker {
   /// @param clearance  lower bound of the distance [m], of bodies at these poses.
   void remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB);
 
+  /// Takes over what another checker knows of the same pair, in a scene that has its bodies too.
+  void take(const PairChecker& other);
+
   /// Whether the pair is known to be clear, and by how much at the last run's end [m].
   bool isKnown() const { return clearance_ != kUnknown; }
   double clearance() const { return clearance_; }

@@ -97,13 +97,18 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
     return is_large[large] && !is_large[small] && extents[large].longest_side > extents[small].diagonal;
   };
 
+  std::size_t world_pairs = 0;
   for (int i = 0; i < count; ++i) {
     for (int k = i + 1; k < count; ++k) {
       const BodyDescription& a = description.bodies[i];
       const BodyDescription& b = description.bodies[k];
+      if (a.is_world && b.is_world && !options.list_world_pairs) {
+        ++world_pairs;
+        continue;
+      }
       const std::string reason = whyLeftOut(a, b, disabled);
       if (!reason.empty()) {
-        plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason});
+        plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason, i, k});
         continue;
       }
       const bool checkable = a.failure.empty() && b.failure.empty();
@@ -123,6 +128,9 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       if (b_shell) plan.needs_shell[k] = plan.needs_field[i] = true;
     }
   }
+
+  if (world_pairs > 0)
+    plan.left_out.push_back({"all " + std::to_string(world_pairs) + " pairs of objects", "both of the world"});
 
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];

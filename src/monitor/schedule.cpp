@@ -5,10 +5,12 @@
 namespace sdf_ccd {
 
 Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
-    : scene_(scene), bodies_(scene), table_(scene.pairs), is_whole_(scene.bodies.size(), 0) {
+    : scene_(scene), bodies_(scene), table_(scene.pairs), is_paired_(scene.bodies.size(), 0), is_whole_(scene.bodies.size(), 0) {
   for (std::size_t i = 0; i < checkers.size(); ++i)
     table_.setMargin(static_cast<int>(i), checkers[i].margin(), checkers[i].bound().total());
   due_.reserve(checkers.size());
+  for (const PlannedPair& pair : scene.pairs)
+    for (const int body : {pair.body_a, pair.body_b}) is_paired_[static_cast<std::size_t>(body)] = 1;
 }
 
 bool Schedule::isWhole(const CycleMotion& motion, std::size_t pair) const {
@@ -70,6 +72,13 @@ void Schedule::settle(const CycleMotion& motion, const std::vector<PairChecker>&
 double Schedule::motionError(int pair) const {
   const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];
   return bodies_.poseError(planned.body_a, planned.body_b);
+}
+
+void Schedule::take(const Schedule& other, const Kept& kept) {
+  bodies_.take(other.bodies_, kept.bodies);
+  table_.take(other.table_, kept.pairs);
+  all_whole_ = other.all_whole_;
+  if (all_whole_) is_whole_.swap(is_paired_);
 }
 
 void Schedule::forget() {

@@ -40,6 +40,18 @@ class Schedule {
 
   void forget();
 
+  /// What two schedules' scenes have in common.
+  struct Kept {
+    std::vector<BodyRun> bodies;  ///< those that both know
+    std::vector<ClearanceTable::Moved> pairs;
+  };
+  ClearanceTable::Moved moved(int pair, const Schedule& other, int other_pair) const {
+    return table_.moved(pair, other.table_, other_pair);
+  }
+
+  /// Takes over what another schedule knows between two cycles, without allocating.
+  void take(const Schedule& other, const Kept& kept);
+
  private:
   bool isWhole(const CycleMotion& motion, std::size_t pair) const;
   void findWhole(const CycleMotion& motion);
@@ -50,7 +62,8 @@ class Schedule {
   ClearanceTable table_;
   std::vector<DuePair> due_;
   QuietPairs quiet_;
-  std::vector<char> is_whole_;  // per body: some pair of it is checked over all of the cycle
+  std::vector<char> is_paired_;  // per body, before anything is taken: it is in a pair
+  std::vector<char> is_whole_;   // per body: some pair of it is checked over all of the cycle
   bool all_whole_ = false;
 };
 

@@ -38,6 +38,12 @@ class SurfacePair {
   /// Forgets where the last motion was looked at first: answers depend on what is asked alone then.
   void forget() { witness_ = closed_witness_ = {}; }
 
+  /// Looks where another one did first, of the same bodies.
+  void take(const SurfacePair& other) {
+    witness_ = other.witness_;
+    closed_witness_ = other.closed_witness_;
+  }
+
   struct Answer {
     SeparationState state = SeparationState::kOpen;
     double clearance = 0.0;                ///< where apart: lower bound of the distance at the motion's end [m]

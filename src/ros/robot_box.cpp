@@ -12,7 +12,7 @@ constexpr double kSlack = 0.15;  // of the size: what stays within needs not fol
 }  // namespace
 
 void RobotBox::update(const CycleResult& result, const CycleContext& cycle) {
-  const std::vector<Body>& bodies = cycle.scene.bodies;
+  const BodyList& bodies = cycle.scene.bodies;
   balls_.resize(bodies.size());
   for (const PairResult& pair : result.pairs) {
     if (pair.span.empty()) continue;

@@ -2,6 +2,7 @@
 
 #include "allocations.h"
 #include "monitor/scene_case.h"
+#include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd {
 namespace {
@@ -80,6 +81,36 @@ TEST(Allocation, DoesNotGrowWithTheNumberOfPairs) {
   };
   const double one = peak(1), six = peak(6);  // the six balls are far from each other
   EXPECT_LT(six, 1.5 * one) << one << " MB of one";
+}
+
+/// Two links among many objects: nothing is allocated or freed while a change is taken over.
+TEST(Allocation, NoneWhileAChangeIsTakenOver) {
+  SceneDescription description{{body("a", Primitive(Sphere{0.1})), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))}, {}};
+  for (int i = 0; i < 300; ++i) {
+    description.bodies.push_back(body("o" + std::to_string(i), Primitive(Sphere{0.05}), true));
+    description.bodies.back().X_frame_B = translation({0.3 * i, 0, 0});
+  }
+  WorldEditor editor(fine(0.03));
+  auto snapshot = editor.next(description);
+  Monitor monitor(snapshot->scene, {});
+  const auto run = [&] {
+    CycleMotion motion;
+    motion.times = {0.0, 0.1};
+    for (const BodyDescription& one : description.bodies) motion.X_WB.push_back(still(one.X_frame_B * translation({0, 0, one.is_world ? 0.0 : 0.3})));
+    return monitor.run(motion, {}).checked;
+  };
+  run();
+  EXPECT_LT(run(), 40);
+  description.bodies.erase(description.bodies.begin() + 40);
+  description.bodies.push_back(body("new", Primitive(Sphere{0.05}), true));
+  description.bodies.back().X_frame_B = translation({0, 5, 0});
+  snapshot = editor.next(description);
+  const auto change = monitor.prepare(snapshot->scene);
+  const long before = allocations, held_before = held;
+  monitor.adopt(*change);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(held, held_before);
+  EXPECT_LT(run(), 40) << "what was known is not known any more";
 }
 
 }  // namespace

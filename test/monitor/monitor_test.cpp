@@ -301,8 +301,9 @@ TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
 
 TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
   Scene scene = *build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
-  scene.bodies[1].shell.covering_radius = 0.2;
-  scene.bodies[1].ball.radius = 0.1 + 0.2;
+  Body& ball = scene.bodies.edit(1);
+  ball.shell.covering_radius = 0.2;
+  ball.ball.radius = 0.1 + 0.2;
   Monitor monitor(std::make_shared<const Scene>(scene), soft());
   for (const double height : {2.0, 0.35}) {  // from the ball alone, and from the points
     monitor.reset();

@@ -79,6 +79,19 @@ struct MonitorOptions {
 struct MonitorMemory;
 std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
+/// What another scene needs of a monitor, made ahead by Monitor::prepare(); after Monitor::adopt() what the monitor no
+/// longer needs. To be destroyed by a thread that has the time for it.
+class MonitorChange {
+ public:
+  ~MonitorChange();
+
+ private:
+  friend class Monitor;
+  struct Impl;
+  explicit MonitorChange(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Runs cycles over all pairs of a scene and remembers how far apart they were.
 ///
 /// Two bodies that are all triangles (meshes, boxes, cylinders, balls: Body::triangles) are CLEAR if their surfaces are
@@ -112,6 +125,11 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory();
 /// the arena (it makes its scratch memory once). However many chords touch however many points, what is known of them
 /// is put together as it comes: memory is as that of a few chords. Pairs run in parallel on the caller's TBB arena;
 /// results do not depend on the number of threads. Not thread-safe: one cycle at a time.
+///
+/// The scene may change between two cycles: another thread prepares the next one while cycles run, and adopt() takes it
+/// over. Of a pair whose two bodies are the same in both (BodyList::shared()), tested in the same way, all that is known
+/// stays; what is new or has changed begins unknown. adopt() moves what is known, pointer by pointer where it can: it
+/// frees nothing, and allocates nothing. Verdicts are those of a monitor made anew of the scene.
 class Monitor {
  public:
   /// @param memory  to be shared with other monitors; null: its own.
@@ -135,12 +153,20 @@ class Monitor {
   const CycleResult& check(const std::vector<std::vector<Isometry3d>>& X_WB, double duration = 1.0,
                            const CycleRequest& request = {});
 
+  /// Makes what another scene needs. From any thread, also while a cycle runs, but not while adopt() does.
+  std::unique_ptr<MonitorChange> prepare(std::shared_ptr<const Scene> next) const;
+
+  /// Takes over a scene between two cycles. What run() returned is no longer valid.
+  /// @param change  that prepare() made of this monitor, since the last adopt(). @throws std::logic_error otherwise.
+  void adopt(MonitorChange& change);
+
   /// Forgets all clearances, as when time jumps.
   void reset();
 
   const Scene& scene() const;
 
  private:
+  friend class MonitorChange;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/body/body_list.h"
 #include "sdf_ccd/body/body_options.h"
 #include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/monitor/scene_plan.h"
@@ -14,7 +14,7 @@
 namespace sdf_ccd {
 
 struct Scene {
-  std::vector<Body> bodies;
+  BodyList bodies;
   std::vector<PlannedPair> pairs;
   std::vector<LeftOut> left_out;
   std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid

@@ -24,6 +24,7 @@ struct PlannedPair {
 struct LeftOut {
   std::string what;  ///< "pair a - b", "shell of map", "field of ground"
   std::string reason;
+  int body_a = -1, body_b = -1;  ///< of a pair
 };
 
 struct SceneCost;
@@ -46,6 +47,7 @@ struct PlanOptions {
   double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
   double large_shell_points = 2e4;  ///< a primitive that needs more is not sampled for the sake of smaller bodies
   double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled apart
+  bool list_world_pairs = true;     ///< else pairs of two objects of the world are left out in one line: they are many
 };
 
 /// What has no shell but more than half-spaces has witnesses instead: a voxel map, and whatever else is of the same

@@ -1,0 +1,119 @@
+#include "prepared_bodies.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "body/body_triangles.h"
+#include "storage/content_hash.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kUnused = 32;  // bodies kept out of use
+constexpr std::size_t kHashes = 1024;
+
+void append(const double* numbers, std::size_t count, std::string& key) {
+  key.append(reinterpret_cast<const char*>(numbers), count * sizeof(double));
+}
+
+struct AppendSizes {
+  std::string& key;
+  void operator()(const Sphere& sphere) const { append(&sphere.radius, 1, key); }
+  void operator()(const Box& box) const { append(box.half_size.data(), 3, key); }
+  void operator()(const Cylinder& cylinder) const {
+    append(&cylinder.radius, 1, key);
+    append(&cylinder.half_length, 1, key);
+  }
+  void operator()(const HalfSpace& half_space) const {
+    append(half_space.normal.data(), 3, key);
+    append(&half_space.offset, 1, key);
+  }
+};
+
+}  // namespace
+
+const std::string& GeometryKeys::hashOf(const std::shared_ptr<const TriangleMesh>& mesh) {
+  Known& known = hashes_[mesh.get()];
+  if (known.mesh.lock() == mesh && !known.hash.empty()) return known.hash;
+  known = {mesh, contentHash(*mesh, {})};
+  return known.hash;
+}
+
+std::string GeometryKeys::keyOf(const BodyDescription& body) {
+  if (hashes_.size() > kHashes) {
+    for (auto known = hashes_.begin(); known != hashes_.end();)
+      known = known->second.mesh.expired() ? hashes_.erase(known) : std::next(known);
+  }
+  std::string key;
+  for (const GeometryDescription& geometry : body.geometry) {
+    key += static_cast<char>('0' + geometry.shape.index());
+    if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
+      key += static_cast<char>('0' + primitive->index());
+      std::visit(AppendSizes{key}, *primitive);
+    } else {
+      const auto& mesh = std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
+      key += mesh ? hashOf(mesh) : "none";
+    }
+    append(geometry.X_BG.data(), 16, key);
+    key += geometry.watertight_voxels ? 'v' : '-';
+    const double cell = geometry.cell_size.value_or(0.0);
+    append(&cell, 1, key);
+  }
+  return key;
+}
+
+bool PreparedNeeds::cover(const PreparedNeeds& other) const {
+  const auto has = [](bool mine, bool wanted) { return mine || !wanted; };
+  return has(of_body.field, other.of_body.field) && has(of_body.shell, other.of_body.shell) &&
+         (!other.of_body.shell || !of_body.edges_only || other.of_body.edges_only) &&
+         has(of_body.witnesses, other.of_body.witnesses) && has(triangles, other.triangles) &&
+         has(surface, other.surface);
+}
+
+PreparedNeeds PreparedNeeds::operator|(const PreparedNeeds& other) const {
+  PreparedNeeds all;
+  all.of_body.field = of_body.field || other.of_body.field;
+  all.of_body.shell = of_body.shell || other.of_body.shell;
+  all.of_body.witnesses = of_body.witnesses || other.of_body.witnesses;
+  // Only the edges are wanted if all who want a shell want these.
+  all.of_body.edges_only = all.of_body.shell && (!of_body.shell || of_body.edges_only) &&
+                           (!other.of_body.shell || other.of_body.edges_only);
+  all.triangles = triangles || other.triangles;
+  all.surface = surface || other.surface;
+  return all;
+}
+
+PreparedBody* PreparedBodies::find(const std::string& key, const PreparedNeeds& needs) {
+  const auto found = bodies_.find(key);
+  return found != bodies_.end() && found->second.needs.cover(needs) ? &found->second : nullptr;
+}
+
+PreparedBody& PreparedBodies::make(const std::string& key, const BodyDescription& description,
+                                   const PreparedNeeds& needs, const BodyOptions& options, MeshPool& pool) {
+  const auto known = bodies_.find(key);
+  const PreparedNeeds all = known == bodies_.end() ? needs : known->second.needs | needs;
+  BuiltBody built = buildBody(description, all.of_body, options, pool, {});
+  if (!built.body.failure.empty())
+    throw std::invalid_argument(description.name + ": " + built.body.failure);
+  if (all.triangles) built.body.triangles = trianglesOf(description, pool);
+  if (all.surface) built.body.surface = surfaceOf(description, pool);
+  return add(key, all, built.body, built.report);
+}
+
+PreparedBody& PreparedBodies::add(const std::string& key, const PreparedNeeds& needs, const Body& body,
+                                  const BodyReport& report) {
+  PreparedBody& prepared = bodies_[key];
+  prepared = {needs, std::make_shared<const Body>(body), report, prepared.used};
+  return prepared;
+}
+
+void PreparedBodies::dropUnused(std::uint64_t version) {
+  std::vector<std::pair<std::uint64_t, std::string>> unused;
+  for (const auto& [key, prepared] : bodies_)
+    if (prepared.used < version) unused.emplace_back(prepared.used, key);
+  if (unused.size() <= kUnused) return;
+  std::sort(unused.begin(), unused.end());
+  for (std::size_t i = 0; i + kUnused < unused.size(); ++i) bodies_.erase(unused[i].second);
+}
+
+}  // namespace sdf_ccd

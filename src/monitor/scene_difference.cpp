@@ -1,0 +1,59 @@
+#include "scene_difference.h"
+
+#include <cstdint>
+#include <unordered_map>
+
+namespace sdf_ccd {
+namespace {
+
+std::uint64_t keyOf(int a, int b) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b);
+}
+
+bool sameTests(const PlannedPair& a, const PlannedPair& b) {
+  return a.a_shell_b_field == b.a_shell_b_field && a.b_shell_a_field == b.b_shell_a_field &&
+         a.a_edges_only == b.a_edges_only && a.b_edges_only == b.b_edges_only &&
+         a.a_witnesses_b_field == b.a_witnesses_b_field && a.b_witnesses_a_field == b.b_witnesses_a_field;
+}
+
+}  // namespace
+
+SceneDifference::SceneDifference(const Scene& before, const Scene& now) {
+  std::unordered_map<const Body*, int> known;
+  for (std::size_t b = 0; b < before.bodies.size(); ++b) known[before.bodies.shared(b).get()] = static_cast<int>(b);
+  for (std::size_t b = 0; b < now.bodies.size(); ++b) {
+    const auto found = known.find(now.bodies.shared(b).get());
+    bodies_before_.push_back(found == known.end() ? -1 : found->second);
+  }
+  std::unordered_map<std::uint64_t, int> pairs;
+  pairs.reserve(now.pairs.size());
+  for (std::size_t p = 0; p < now.pairs.size(); ++p) {
+    const int a = bodies_before_[static_cast<std::size_t>(now.pairs[p].body_a)];
+    const int b = bodies_before_[static_cast<std::size_t>(now.pairs[p].body_b)];
+    if (a >= 0 && b >= 0) pairs.emplace(keyOf(a, b), static_cast<int>(p));
+  }
+  pairs_now_.reserve(before.pairs.size());
+  for (const PlannedPair& pair : before.pairs) {
+    const auto found = pairs.find(keyOf(pair.body_a, pair.body_b));
+    const bool stays = found != pairs.end() && sameTests(pair, now.pairs[static_cast<std::size_t>(found->second)]);
+    pairs_now_.push_back(stays ? found->second : -1);
+  }
+}
+
+std::vector<BodyRun> SceneDifference::bodyRuns() const {
+  std::vector<BodyRun> runs;
+  for (std::size_t b = 0; b < bodies_before_.size(); ++b) {
+    if (bodies_before_[b] < 0) continue;
+    const auto from = static_cast<std::size_t>(bodies_before_[b]);
+    const bool goes_on = !runs.empty() && runs.back().to + runs.back().count == b &&
+                         runs.back().from + runs.back().count == from;
+    if (goes_on) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({b, from, 1});
+    }
+  }
+  return runs;
+}
+
+}  // namespace sdf_ccd

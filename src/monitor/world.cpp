@@ -1,0 +1,233 @@
+#include "sdf_ccd/monitor/world.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "model/name_pair.h"
+#include "monitor/scene_cost.h"
+#include "prepared_bodies.h"
+#include "scene_totals.h"
+#include "sdf_ccd/common/cancel.h"
+#include "surface_crossing.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool samePlace(const Body& body, const BodyDescription& description) {
+  return body.frame == description.frame && body.is_world == description.is_world &&
+         body.X_frame_B.matrix() == description.X_frame_B.matrix() && body.failure == description.failure;
+}
+
+std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& description) {
+  auto body = std::make_shared<Body>(prepared);
+  body->name = description.name;
+  body->frame = description.frame;
+  body->X_frame_B = description.X_frame_B;
+  body->is_world = description.is_world;
+  body->failure = description.failure;
+  return body;
+}
+
+/// The description of a built scene, with the failures and pairs that building has left out.
+SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan, const Scene& scene) {
+  for (std::size_t b = 0; b < description.bodies.size(); ++b) description.bodies[b].failure = scene.bodies[b].failure;
+  std::set<std::pair<int, int>> stay;
+  for (const PlannedPair& pair : scene.pairs) stay.emplace(pair.body_a, pair.body_b);
+  std::unordered_map<std::string, const std::string*> reasons;
+  for (const LeftOut& left_out : scene.left_out) reasons.emplace(left_out.what, &left_out.reason);
+  for (const PlannedPair& pair : plan.pairs) {
+    if (stay.count({pair.body_a, pair.body_b}) > 0) continue;
+    const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
+    const auto reason = reasons.find("pair " + a + " - " + b);
+    description.disabled.push_back({a, b, reason == reasons.end() ? "left out" : *reason->second});
+  }
+  return description;
+}
+
+}  // namespace
+
+struct WorldEditor::Impl {
+  /// A body of the last version.
+  struct Named {
+    std::uint64_t id;
+    std::shared_ptr<const Body> body, prepared;
+  };
+
+  std::vector<PreparedNeeds> needsOf(const SceneDescription& description, const ScenePlan& plan) const;
+  void requireAffordable(const SceneDescription& description, const ScenePlan& plan,
+                         const std::vector<std::string>& keys, const std::vector<PreparedNeeds>& needs);
+  void finish(WorldSnapshot& snapshot, const std::vector<std::shared_ptr<const Body>>& prepared);
+
+  BodyOptions options;
+  GeometryKeys keys;
+  PreparedBodies bodies;
+  std::unordered_map<std::string, Named> named;
+  std::uint64_t last_id = 0;
+  std::shared_ptr<const WorldSnapshot> last;
+};
+
+WorldEditor::WorldEditor(const BodyOptions& options) : impl_(new Impl) {
+  impl_->options = options;
+}
+WorldEditor::~WorldEditor() = default;
+
+const std::shared_ptr<const WorldSnapshot>& WorldEditor::last() const {
+  return impl_->last;
+}
+
+/// But for surfaces, which fields that are built tell of.
+std::vector<PreparedNeeds> WorldEditor::Impl::needsOf(const SceneDescription& description,
+                                                      const ScenePlan& plan) const {
+  std::vector<PreparedNeeds> needs(description.bodies.size());
+  std::vector<char> can_be_triangles;
+  for (std::size_t b = 0; b < needs.size(); ++b) {
+    needs[b].of_body = {plan.needs_field[b], plan.needs_shell[b], plan.edges_only[b], plan.needs_witnesses[b]};
+    const BodyDescription& body = description.bodies[b];
+    can_be_triangles.push_back(body.failure.empty() && whyNoShell(body).empty());
+  }
+  for (const PlannedPair& pair : plan.pairs) {
+    const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
+    if (can_be_triangles[a] != 0 && can_be_triangles[b] != 0) needs[a].triangles = needs[b].triangles = true;
+  }
+  return needs;
+}
+
+/// Of what is not there yet.
+void WorldEditor::Impl::requireAffordable(const SceneDescription& description, const ScenePlan& plan,
+                                          const std::vector<std::string>& keys,
+                                          const std::vector<PreparedNeeds>& needs) {
+  SceneDescription missing;
+  ScenePlan missing_plan;
+  for (std::size_t b = 0; b < keys.size(); ++b) {
+    const BodyDescription& body = description.bodies[b];
+    if (!body.failure.empty() || !needs[b].of_body.any() || bodies.find(keys[b], needs[b])) continue;
+    const bool has_mesh = std::any_of(
+        body.geometry.begin(), body.geometry.end(),
+        [](const GeometryDescription& part) { return !std::holds_alternative<Primitive>(part.shape); });
+    const bool is_large_primitive = !has_mesh && plan.needs_shell[b] && !plan.edges_only[b];
+    if (!has_mesh && !is_large_primitive) continue;  // they cost next to nothing
+    missing.bodies.push_back(body);
+    missing_plan.needs_field.push_back(plan.needs_field[b]);
+    missing_plan.needs_shell.push_back(plan.needs_shell[b]);
+    missing_plan.edges_only.push_back(plan.edges_only[b]);
+    missing_plan.needs_witnesses.push_back(plan.needs_witnesses[b]);
+  }
+  if (!missing.bodies.empty()) sdf_ccd::requireAffordable(expectedCost(missing, missing_plan, options), options);
+}
+
+/// Names the bodies, counts what there is, and makes it the last version.
+void WorldEditor::Impl::finish(WorldSnapshot& snapshot, const std::vector<std::shared_ptr<const Body>>& prepared) {
+  std::unordered_map<std::string, Named> now;
+  const BodyList& list = snapshot.scene->bodies;
+  for (std::size_t b = 0; b < list.size(); ++b) {
+    const auto known = named.find(list[b].name);
+    const std::uint64_t id = known == named.end() ? ++last_id : known->second.id;
+    snapshot.body_ids.push_back(id);
+    now[list[b].name] = {id, list.shared(b), prepared[b]};
+  }
+  named = std::move(now);
+}
+
+std::shared_ptr<const WorldSnapshot> WorldEditor::begin(SceneDescription description, const ScenePlan& plan,
+                                                        Scene scene) {
+  auto snapshot = std::make_shared<WorldSnapshot>();
+  snapshot->version = 1;
+  snapshot->seconds = scene.build_seconds;
+  const std::vector<PreparedNeeds> needs = impl_->needsOf(description, plan);
+  std::vector<std::shared_ptr<const Body>> prepared(description.bodies.size());
+  for (std::size_t b = 0; b < prepared.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    if (!body.failure.empty() || description.bodies[b].geometry.empty() || !needs[b].of_body.any()) continue;
+    PreparedNeeds has = needs[b];
+    has.surface = body.surface != nullptr;
+    const std::string key = impl_->keys.keyOf(description.bodies[b]);
+    PreparedBody* known = impl_->bodies.find(key, has);
+    if (!known) known = &impl_->bodies.add(key, has, body, scene.reports[b]);
+    known->used = 1;
+    prepared[b] = known->body;
+    ++snapshot->prepared;
+  }
+  snapshot->description = std::make_shared<const SceneDescription>(withLeftOut(std::move(description), plan, scene));
+  snapshot->scene = std::make_shared<const Scene>(std::move(scene));
+  impl_->finish(*snapshot, prepared);
+  impl_->last = snapshot;
+  return snapshot;
+}
+
+std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription description,
+                                                       const std::function<void(const std::string&)>& progress) {
+  const auto start = Clock::now();
+  const std::uint64_t version = impl_->last ? impl_->last->version + 1 : 1;
+  PlanOptions plan_options = planOptions(impl_->options);
+  plan_options.list_world_pairs = false;
+  const ScenePlan plan = planScene(description, plan_options);
+  const std::size_t count = description.bodies.size();
+  std::vector<PreparedNeeds> needs = impl_->needsOf(description, plan);
+  std::vector<std::string> keys;
+  for (const BodyDescription& body : description.bodies) keys.push_back(impl_->keys.keyOf(body));
+  impl_->requireAffordable(description, plan, keys, needs);
+
+  auto snapshot = std::make_shared<WorldSnapshot>();
+  snapshot->version = version;
+  MeshPool pool(impl_->options);
+  std::vector<PreparedBody*> prepared(count, nullptr);
+  const auto prepare = [&](std::size_t b) {
+    checkCancelled();
+    const BodyDescription& body = description.bodies[b];
+    if (!body.failure.empty() || !needs[b].of_body.any()) return;
+    prepared[b] = impl_->bodies.find(keys[b], needs[b]);
+    if (prepared[b]) return;
+    if (progress) progress(body.name);
+    prepared[b] = &impl_->bodies.make(keys[b], body, needs[b], impl_->options, pool);
+    ++snapshot->prepared;
+  };
+  for (std::size_t b = 0; b < count; ++b) prepare(b);
+  for (std::size_t b = 0; b < count; ++b) prepare(b);  // what one of equal content has got since
+  const auto isOpen = [&](int b) { return prepared[b] && hasOpenings(*prepared[b]->body); };
+  for (const PlannedPair& pair : plan.pairs) {
+    if (!isOpen(pair.body_a) && !isOpen(pair.body_b)) continue;
+    for (const int b : {pair.body_a, pair.body_b}) {
+      if (!prepared[b] || needs[b].surface) continue;
+      needs[b].surface = true;
+      prepare(static_cast<std::size_t>(b));
+    }
+  }
+
+  Scene scene;
+  scene.max_error = impl_->options.max_error;
+  scene.pairs = plan.pairs;
+  scene.left_out = plan.left_out;
+  scene.visual_only = description.visual_only;
+  std::vector<std::shared_ptr<const Body>> bodies(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    const BodyDescription& body = description.bodies[b];
+    if (prepared[b]) prepared[b]->used = version;
+    if (prepared[b]) bodies[b] = prepared[b]->body;
+    const auto known = impl_->named.find(body.name);
+    const bool same = known != impl_->named.end() && known->second.prepared == bodies[b] &&
+                      samePlace(*known->second.body, body);
+    scene.bodies.push_back(same ? known->second.body : placed(bodies[b] ? *bodies[b] : Body(), body));
+    if (!same && bodies[b]) ++snapshot->shared;
+    scene.reports.push_back(prepared[b] ? prepared[b]->report : BodyReport());
+    scene.reports.back().name = body.name;
+    if (!prepared[b]) scene.reports.back().field = body.failure.empty() ? "left out" : "failed";
+  }
+  snapshot->shared = std::max(0, snapshot->shared - snapshot->prepared);
+  countPairs(scene);
+  setBounds(impl_->options.motion_margin, scene);
+  scene.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  snapshot->seconds = scene.build_seconds;
+  snapshot->description = std::make_shared<const SceneDescription>(std::move(description));
+  snapshot->scene = std::make_shared<const Scene>(std::move(scene));
+  impl_->bodies.dropUnused(version);
+  impl_->finish(*snapshot, bodies);
+  impl_->last = snapshot;
+  return snapshot;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,248 @@
+#include "sdf_ccd/monitor/world.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include "monitor/scene_case.h"
+#include "oracle/random.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+BodyOptions coarse() {
+  BodyOptions options = fine(0.03);
+  options.field.cells = 12;
+  return options;
+}
+
+ScenePlan planOf(const SceneDescription& description, const BodyOptions& options) {
+  return planScene(description, planOptions(options));
+}
+
+/// A world of some links and objects that changes at random.
+class ChangingWorld {
+ public:
+  explicit ChangingWorld(unsigned seed) : random_(seed) {
+    links_ = {body("link0", Primitive(Sphere{0.1})), body("link1", Primitive(Box{{0.1, 0.06, 0.05}})),
+              body("link2", meshShape(torusMesh(0.12, 0.04, 16, 8)))};
+    description_.bodies = links_;
+    for (const char* link : {"link0", "link1", "link2"}) moving_[link] = pose({uniform(random_, -0.5, 0.5), 0, 0}, 0, {0, 0, 1});
+  }
+
+  const SceneDescription& description() const { return description_; }
+
+  /// One to four changes: adds, removes, moves, attaches, detaches, allows and forbids.
+  void change() {
+    for (int n = 1 + int(uniform(random_, 0.0, 4.0)); n > 0; --n) changeOnce();
+  }
+
+  /// Poses over one cycle: links go on from where they were, objects stand where their frames are.
+  CycleMotion motion() {
+    std::map<std::string, std::vector<Isometry3d>> frames;
+    frames["world"] = still(Isometry3d::Identity());
+    for (auto& [link, X] : moving_) {
+      const Vector3d to(uniform(random_, -0.6, 0.6), uniform(random_, -0.6, 0.6), uniform(random_, -0.3, 0.3));
+      const Vector3d shift = 0.15 * (to - X.translation());
+      const Isometry3d next = pose(X.translation() + shift, 0.0, {0, 0, 1}) *
+                              pose({0, 0, 0}, uniform(random_, -0.2, 0.2), direction(random_)) *
+                              Isometry3d(X.linear());
+      frames[link] = {X, next};
+      X = next;
+    }
+    CycleMotion motion;
+    motion.times = {0.0, 0.1};
+    for (const BodyDescription& body : description_.bodies) {
+      motion.X_WB.emplace_back();
+      for (const Isometry3d& X_WF : frames.at(body.frame)) motion.X_WB.back().push_back(X_WF * body.X_frame_B);
+    }
+    return motion;
+  }
+
+ private:
+  BodyDescription object() {
+    const int kind = int(uniform(random_, 0.0, 4.0));
+    const std::string name = "object" + std::to_string(++objects_);
+    const Shape shape = kind == 0   ? Shape(Primitive(Sphere{0.08}))
+                        : kind == 1 ? Shape(Primitive(Box{{0.05, 0.08, 0.1}}))
+                        : kind == 2 ? Shape(Primitive(Cylinder{0.05, 0.1}))
+                                    : meshShape(torusMesh(0.1, 0.03, 12, 8));
+    BodyDescription made = body(name, shape, true);
+    made.X_frame_B = place();
+    return made;
+  }
+  Isometry3d place() {
+    return pose({uniform(random_, -0.8, 0.8), uniform(random_, -0.8, 0.8), uniform(random_, -0.4, 0.4)},
+                uniform(random_, -3.0, 3.0), direction(random_));
+  }
+  BodyDescription& anyObject() {
+    return description_.bodies[links_.size() + std::size_t(uniform(random_, 0.0, 0.999) * double(description_.bodies.size() - links_.size()))];
+  }
+  void dropPairs(const std::string& name) {
+    auto& disabled = description_.disabled;
+    disabled.erase(std::remove_if(disabled.begin(), disabled.end(),
+                                  [&](const DisabledPair& pair) { return pair.body_a == name || pair.body_b == name; }),
+                   disabled.end());
+  }
+  void changeOnce() {
+    const std::size_t objects = description_.bodies.size() - links_.size();
+    const int what = objects == 0 ? 0 : objects > 12 ? 1 : int(uniform(random_, 0.0, 6.0));
+    if (what == 0) {
+      description_.bodies.push_back(object());
+      return;
+    }
+    BodyDescription& one = anyObject();
+    if (what == 1) {
+      dropPairs(one.name);
+      const std::string name = one.name;
+      auto& bodies = description_.bodies;
+      bodies.erase(std::find_if(bodies.begin(), bodies.end(), [&](const BodyDescription& b) { return b.name == name; }));
+    } else if (what == 2) {
+      one.X_frame_B = place();
+    } else if (what == 3) {  // attached
+      one.is_world = false;
+      one.frame = "link1";
+      one.X_frame_B = pose({0.2, 0, 0}, 0.3, {0, 0, 1});
+      dropPairs(one.name);
+    } else if (what == 4) {
+      one.is_world = true;
+      one.frame = "world";
+      one.X_frame_B = place();
+    } else {
+      dropPairs(one.name);
+      if (uniform(random_, 0.0, 1.0) < 0.5) description_.disabled.push_back({"link0", one.name, "allowed"});
+    }
+  }
+
+  Random random_;
+  std::vector<BodyDescription> links_;
+  SceneDescription description_;
+  std::map<std::string, Isometry3d> moving_;
+  int objects_ = 0;
+};
+
+void expectSame(const CycleResult& changed, const CycleResult& anew, const Scene& scene, std::uint64_t version) {
+  ASSERT_EQ(changed.pairs.size(), anew.pairs.size());
+  for (std::size_t p = 0; p < anew.pairs.size(); ++p) {
+    const std::string pair = scene.bodies[anew.pairs[p].body_a].name + " " + scene.bodies[anew.pairs[p].body_b].name +
+                             " version " + std::to_string(version);
+    ASSERT_EQ(changed.pairs[p].body_a, anew.pairs[p].body_a) << pair;
+    ASSERT_EQ(changed.pairs[p].body_b, anew.pairs[p].body_b) << pair;
+    ASSERT_EQ(changed.pairs[p].verdict, anew.pairs[p].verdict) << pair;
+    ASSERT_EQ(changed.pairs[p].intervals.size(), anew.pairs[p].intervals.size()) << pair;
+    for (std::size_t i = 0; i < anew.pairs[p].intervals.size(); ++i)
+      ASSERT_NEAR(changed.pairs[p].intervals[i].enter, anew.pairs[p].intervals[i].enter, 1e-12) << pair;
+    ASSERT_LT((changed.pairs[p].on_a_W.force - anew.pairs[p].on_a_W.force).norm(), 1e-6) << pair;
+  }
+  EXPECT_EQ(changed.verdict, anew.verdict);
+}
+
+/// The same verdicts, pair by pair, as a monitor made anew from a scene that buildScene() makes of the same description.
+TEST(World, ChangesAreAsAMonitorBuiltAnew) {
+  const BodyOptions options = coarse();
+  int contacts = 0, skipped = 0;
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    ChangingWorld world(seed);
+    WorldEditor editor(options);
+    const ScenePlan plan = planOf(world.description(), options);
+    auto snapshot = editor.begin(world.description(), plan, buildScene(world.description(), plan, options));
+    Monitor monitor(snapshot->scene, soft());
+    for (int version = 2; version < 30; ++version) {
+      world.change();
+      snapshot = editor.next(world.description());
+      ASSERT_EQ(snapshot->version, std::uint64_t(version));
+      const auto change = monitor.prepare(snapshot->scene);
+      monitor.adopt(*change);
+      const auto anew = std::make_shared<const Scene>(
+          buildScene(world.description(), planOf(world.description(), options), options));
+      for (int cycle = 0; cycle < 3; ++cycle) {
+        const CycleMotion motion = world.motion();
+        CycleRequest request;
+        request.skipped_pairs = version % 2 == 0;
+        const CycleResult changed = monitor.run(motion, request);
+        const CycleResult expected = Monitor(anew, soft()).run(motion, request);
+        expectSame(changed, expected, *snapshot->scene, snapshot->version);
+        if (HasFatalFailure()) return;
+        contacts += changed.verdict == Verdict::kContact;
+        skipped += changed.skipped;
+      }
+    }
+  }
+  EXPECT_GT(contacts, 20);
+  EXPECT_GT(skipped, 150);
+}
+
+TEST(World, KeepsIdsAndBodiesThatDoNotChange) {
+  const BodyOptions options = coarse();
+  SceneDescription description{{body("arm", meshShape(torusMesh(0.12, 0.04, 16, 8))), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  WorldEditor editor(options);
+  const auto first = editor.next(description);
+  EXPECT_EQ(first->version, 1U);
+  description.bodies.push_back(body("box", Primitive(Box{{0.1, 0.1, 0.1}}), true));
+  const auto second = editor.next(description);
+  EXPECT_EQ(second->prepared, 1);
+  EXPECT_EQ(second->scene->bodies.shared(0), first->scene->bodies.shared(0));
+  EXPECT_EQ(second->body_ids[1], first->body_ids[1]);
+
+  description.bodies.erase(description.bodies.begin() + 1);
+  const auto third = editor.next(description);
+  EXPECT_EQ(third->prepared, 0);
+  EXPECT_EQ(third->body_ids[1], second->body_ids[2]);
+  EXPECT_EQ(third->scene->bodies.shared(1), second->scene->bodies.shared(2));
+  // Back, and another of the same geometry: nothing is made again.
+  description.bodies.push_back(body("wall", Primitive(Box{{1, 0.1, 1}}), true));
+  description.bodies.push_back(body("box2", Primitive(Box{{0.1, 0.1, 0.1}}), true));
+  const auto fourth = editor.next(description);
+  EXPECT_EQ(fourth->prepared, 0);
+  EXPECT_EQ(fourth->shared, 2);
+  EXPECT_NE(fourth->body_ids[2], first->body_ids[1]);
+  EXPECT_EQ(first->scene->bodies.size(), 2U);  // as it was
+}
+
+TEST(World, AChangeThatFailsChangesNothing) {
+  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  WorldEditor editor(coarse());
+  const auto first = editor.next(description);
+  SceneDescription bad = description;
+  bad.bodies.push_back(body("flat", Primitive(Box{{0.1, 0.0, 0.1}}), true));
+  EXPECT_THROW(editor.next(bad), std::invalid_argument);
+  bad.bodies.back() = body("wall", Primitive(Sphere{0.1}), true);
+  EXPECT_THROW(editor.next(bad), std::invalid_argument);
+  EXPECT_EQ(editor.last(), first);
+  EXPECT_EQ(editor.next(description)->version, 2U);
+}
+
+TEST(World, LeavesOutWhatTheFirstSceneLeftOut) {
+  SceneDescription description{
+      {body("a", Primitive(Sphere{0.1})), body("b", Primitive(Sphere{0.1})), body("c", Primitive(Sphere{0.1}))}, {}};
+  const BodyOptions options = coarse();
+  const ScenePlan plan = planOf(description, options);
+  Scene scene = buildScene(description, plan, options);
+  leaveOut({"", "overlap", ""}, scene);
+  WorldEditor editor(options);
+  const auto first = editor.begin(description, plan, scene);
+  const auto second = editor.next(*first->description);
+  ASSERT_EQ(second->scene->pairs.size(), 2U);
+  EXPECT_EQ(second->description->disabled.back().reason, "overlap");
+  EXPECT_EQ(second->prepared, 0);
+}
+
+TEST(World, AMonitorRefusesAChangeOfAnotherScene) {
+  WorldEditor editor(coarse());
+  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  const auto first = editor.next(description);
+  description.bodies.push_back(body("box", Primitive(Box{{0.1, 0.1, 0.1}}), true));
+  const auto second = editor.next(description);
+  Monitor monitor(first->scene, {});
+  const auto change = monitor.prepare(second->scene), late = monitor.prepare(second->scene);
+  monitor.adopt(*change);
+  EXPECT_THROW(monitor.adopt(*late), std::logic_error);
+  EXPECT_EQ(&monitor.scene(), second->scene.get());
+}
+
+}  // namespace
+}  // namespace sdf_ccd
