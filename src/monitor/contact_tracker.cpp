@@ -51,38 +51,55 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples) {
   return first != samples.end() && *first <= interval.exit;
 }
 
-void ContactTracker::adopt(const Scene& scene) {
+ContactTracker::Change ContactTracker::prepare(const Scene& next) const {
   using Names = std::pair<std::string, std::string>;
-  std::map<Names, int> known;
-  for (std::size_t i = 0; i < last_.size(); ++i) {
-    if (last_[i] >= 0) known[std::minmax(names_[i].first, names_[i].second)] = last_[i];
+  Change change;
+  std::map<Names, int> now;
+  for (std::size_t i = 0; i < next.pairs.size(); ++i) {
+    const PlannedPair& pair = next.pairs[i];
+    change.names.push_back({next.bodies[pair.body_a].name, next.bodies[pair.body_b].name});
+    now[std::minmax(change.names[i].first, change.names[i].second)] = static_cast<int>(i);
   }
-  for (const int slot : listed_) {
-    const int pair = contacts_[slot].pair;
-    if (pair >= 0 && last_[pair] != slot) contacts_[slot].pair = -1;
+  for (const Names& names : names_) {
+    const auto found = now.find(std::minmax(names.first, names.second));
+    change.pairs_now.push_back(found == now.end() ? -1 : found->second);
   }
-  names_.clear();
-  last_.assign(scene.pairs.size(), -1);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    const PlannedPair& pair = scene.pairs[i];
-    names_.push_back({scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name});
-    if (known.empty()) continue;
-    const auto found = known.find(std::minmax(names_[i].first, names_[i].second));
-    if (found == known.end()) continue;
-    last_[i] = found->second;
-    contacts_[found->second].pair = static_cast<int>(i);
-    known.erase(found);
-  }
-  for (const auto& [names, slot] : known) {  // pairs that are not checked any more
-    if (contacts_[slot].is_open) {
-      close(contacts_[slot], true);
-      list(slot);
+  change.last.assign(next.pairs.size(), -1);
+  // At most one contact of each pair, and those that end with the pairs until now.
+  change.listed.reserve(next.pairs.size() + 2 * names_.size());
+  change.looked_at.reserve(next.pairs.size() + 2 * names_.size());
+  return change;
+}
+
+void ContactTracker::adopt(const Scene& scene) {
+  Change change = prepare(scene);
+  adopt(change);
+}
+
+void ContactTracker::adopt(Change& change) {
+  change.listed.assign(listed_.begin(), listed_.end());
+  listed_.swap(change.listed);
+  looked_at_.swap(change.looked_at);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    Slot& contact = contacts_[i];
+    if (contact.pair < 0) continue;
+    const auto pair = static_cast<std::size_t>(contact.pair);
+    const bool is_last = last_[pair] == static_cast<int>(i);
+    contact.pair = is_last ? change.pairs_now[pair] : -1;
+    if (!is_last) continue;
+    if (contact.pair >= 0) {
+      change.last[static_cast<std::size_t>(contact.pair)] = static_cast<int>(i);
+      continue;
     }
-    contacts_[slot].pair = -1;
-    if (!contacts_[slot].is_listed) free_.push_back(slot);
+    // The pair is not checked any more.
+    if (contact.is_open) {
+      close(contact, true);
+      list(static_cast<int>(i));
+    }
+    if (!contact.is_listed) free_.push_back(static_cast<int>(i));
   }
-  listed_.reserve(scene.pairs.size());
-  looked_at_.reserve(scene.pairs.size());
+  names_.swap(change.names);
+  last_.swap(change.last);
 }
 
 void ContactTracker::settle() {

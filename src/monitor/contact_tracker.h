@@ -59,7 +59,18 @@ class ContactTracker {
 
   explicit ContactTracker(const Scene& scene) { adopt(scene); }
 
-  /// Takes another world over between two cycles. Contacts of pairs that it holds too go on; others end as lost.
+  /// What another world needs, to be made beside running cycles.
+  struct Change {
+    std::vector<std::pair<std::string, std::string>> names;
+    std::vector<int> last, listed, looked_at;
+    std::vector<int> pairs_now;  ///< per pair until now; -1 if the next world does not hold it
+  };
+  Change prepare(const Scene& next) const;
+
+  /// Takes another world over between two cycles. Contacts of pairs that it holds too go on; others end as lost. Costs
+  /// what touches; frees and allocates nothing.
+  /// @param change  that prepare() made since the last call; afterwards what was before.
+  void adopt(Change& change);
   void adopt(const Scene& scene);
 
   /// Takes the next cycle of the adopted scene, all contacts computed (CycleRequest::contacts).

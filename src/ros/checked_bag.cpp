@@ -2,8 +2,7 @@
 
 #include <set>
 
-#include <std_msgs/String.h>
-
+#include "ros/plan_message.h"
 #include "ros/world_markers.h"
 
 namespace sdf_ccd {
@@ -27,9 +26,7 @@ CheckedBag::CheckedBag(BagWriter& bag, const MonitorLoop& loop, const SceneDescr
     : loop_(loop), drawer_(loop.fixedFrame(), markers), link_markers_(scene), bag_(bag) {}
 
 void CheckedBag::addScene(const SceneDescription& description, const ros::Time& begin) {
-  std_msgs::String plan;
-  plan.data = planTable(loop_.scene());
-  writeLatched(kMonitor + "plan", begin, plan);
+  writeLatched(kMonitor + "plan", begin, toPlan(*loop_.world(), loop_.fixedFrame(), begin));
   writeLatched(kMonitor + "world", begin, toWorldMarkers(description));
 }
 

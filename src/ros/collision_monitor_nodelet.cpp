@@ -6,11 +6,11 @@
 #include <chrono>
 
 #include <ros/package.h>
-#include <std_msgs/String.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "monitor/over_budget.h"
 #include "ros/cycle_messages.h"
+#include "ros/plan_message.h"
 #include "ros/world_markers.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -48,11 +48,13 @@ CollisionMonitor::~CollisionMonitor() {
   }
   service_queue_.disable();  // the spinner wakes up at once
   if (service_spinner_) service_spinner_->stop();
+  scene_editor_.reset();
   queries_.reset();
   outputs_.reset();
   proximity_.reset();
   loop_.reset();
-  scene_.reset();
+  first_world_.reset();
+  world_editor_.reset();
   described_ = {};
   returnFreedMemory();
 }
@@ -60,7 +62,7 @@ CollisionMonitor::~CollisionMonitor() {
 void CollisionMonitor::onInit() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   state_publisher_ = private_node.advertise<MonitorState>("state", 100, true);
-  plan_publisher_ = private_node.advertise<std_msgs::String>("plan", 1, true);
+  plan_publisher_ = private_node.advertise<Plan>("plan", 1, true);
   world_publisher_ = private_node.advertise<visualization_msgs::MarkerArray>("world", 1, true);
   diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), private_node, getName());
   serve();
@@ -72,9 +74,11 @@ void CollisionMonitor::serve() {
   node.setCallbackQueue(&service_queue_);
   services_ = {node.advertiseService("query_motion", &CollisionMonitor::queryMotion, this),
                node.advertiseService("query_points", &CollisionMonitor::queryPoints, this),
+               node.advertiseService("update_scene", &CollisionMonitor::updateScene, this),
+               node.advertiseService("get_plan", &CollisionMonitor::getPlan, this),
                node.advertiseService("reset", &CollisionMonitor::reset, this)};
-  // One for each query that is answered, and one that says that there are too many.
-  service_spinner_ = std::make_unique<ros::AsyncSpinner>(QueryLimits().queries + 1, &service_queue_);
+  // One for each query and change that is answered or waits, and one that says that there are too many.
+  service_spinner_ = std::make_unique<ros::AsyncSpinner>(QueryLimits().queries + 4, &service_queue_);
   service_spinner_->start();
 }
 
@@ -111,9 +115,20 @@ void CollisionMonitor::setUpThenCycle() {
   }
 }
 
+/// A world that is ready meanwhile is taken over at once: this is between two cycles.
 bool CollisionMonitor::waitFor(double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                          std::chrono::duration<double>(seconds));
   std::unique_lock<std::mutex> lock(stop_mutex_);
-  return !stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return stop_ || !ros::ok(); });
+  for (;;) {
+    const bool is_asked = stop_asked_.wait_until(lock, end, [&] { return stop_ || !ros::ok() || world_is_ready_; });
+    if (stop_ || !ros::ok()) return false;
+    if (!is_asked) return true;
+    world_is_ready_ = false;
+    lock.unlock();
+    scene_editor_->adopt();
+    lock.lock();
+  }
 }
 
 void CollisionMonitor::readWhenThere() {
@@ -137,14 +152,25 @@ void CollisionMonitor::setUp() {
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   joint_watch_ = std::make_unique<JointWatch>(*described_.robot);
   buildFields();
-  loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
+  loop_ = std::make_unique<MonitorLoop>(first_world_, described_, parameters_);
   proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity);
-  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, *loop_, described_.scene,
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, world_publisher_, *loop_,
                                        parameters_.markers, *proximity_);
   listen();
   returnFreedMemory();
-  queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
-  queries_->drawOn(getPrivateNodeHandle().advertise<visualization_msgs::MarkerArray>("planned", 2), described_.scene);
+  queries_ = std::make_unique<Queries>(first_world_, described_, parameters_, loop_->history());
+  queries_->drawOn(getPrivateNodeHandle().advertise<visualization_msgs::MarkerArray>("planned", 2));
+  const auto wake = [this] {
+    {
+      const std::lock_guard<std::mutex> lock(stop_mutex_);
+      world_is_ready_ = true;
+    }
+    stop_asked_.notify_all();
+  };
+  scene_editor_ = std::make_unique<SceneEditor>(std::move(world_editor_), described_, parameters_,
+                                                SceneEditor::Parts{*loop_, *outputs_, *queries_}, wake,
+                                                [this](const CheckedWorld& world) { publishPlan(world); });
+  first_world_.reset();
   health_.building.clear();
   forget("waiting for transforms");
   const std::lock_guard<std::mutex> lock(ready_mutex_);
@@ -155,42 +181,48 @@ void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
   const ScenePlan plan = affordablePlan(described_, parameters_.scene);
   NODELET_INFO("Expected: %s", summary(*plan.expected).c_str());
-  scene_ = buildDescribed(described_, plan, parameters_.scene, [this](const std::string& body, double share) {
+  const std::shared_ptr<const Scene> scene = buildDescribed(
+      described_, plan, parameters_.scene, [this](const std::string& body, double share) {
     checkCancelled();
     const std::string progress = "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
     idle(progress);
     logNowAndThen(progress);
   });
   checkCancelled();
+  world_editor_ = std::make_unique<WorldEditor>(parameters_.scene);
+  first_world_ = std::make_shared<const CheckedWorld>(world_editor_->begin(described_.scene, plan, *scene),
+                                                      described_.unreachable);
   health_.warnings = described_.warnings;
-  health_.bad_bodies = failedBodies(*scene_);
+  health_.bad_bodies = failedBodies(*scene);
   for (const std::string& body : health_.bad_bodies) NODELET_ERROR("Not checked: %s", body.c_str());
-  for (const BodyReport& report : scene_->reports) {
+  for (const BodyReport& report : scene->reports) {
     for (const std::string& warning : report.warnings) {
       NODELET_WARN("%s: %s", report.name.c_str(), warning.c_str());
       health_.warnings.push_back(report.name + ": " + warning);
     }
   }
-  for (const std::string& warning : scene_->warnings) {
+  for (const std::string& warning : scene->warnings) {
     NODELET_WARN("%s", warning.c_str());
     health_.warnings.push_back(warning);
   }
-  const std::string over = overBudget(*scene_, parameters_.scene);
+  const std::string over = overBudget(*scene, parameters_.scene);
   if (!over.empty()) {
     NODELET_WARN("%s", over.c_str());
     health_.warnings.push_back(over);
   }
   health_.wanted_rate = parameters_.rate;
   health_.max_error = parameters_.scene.max_error.value_or(0.0);
-  health_.pairs = static_cast<int>(scene_->pairs.size());
+  health_.pairs = static_cast<int>(scene->pairs.size());
   health_.pairs_left_out = static_cast<int>(
-      std::count_if(scene_->left_out.begin(), scene_->left_out.end(),
+      std::count_if(scene->left_out.begin(), scene->left_out.end(),
                     [](const LeftOut& left_out) { return left_out.what.rfind("pair ", 0) == 0; }));
-  std_msgs::String table;
-  table.data = planTable(*scene_);
-  plan_publisher_.publish(table);
+  publishPlan(*first_world_);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
-               described_.fixed_frame.c_str(), table.data.c_str());
+               described_.fixed_frame.c_str(), planTable(*scene).c_str());
+}
+
+void CollisionMonitor::publishPlan(const CheckedWorld& world) {
+  plan_publisher_.publish(boost::make_shared<Plan>(toPlan(world, described_.fixed_frame, ros::Time::now())));
 }
 
 void CollisionMonitor::logNowAndThen(const std::string& progress) {
@@ -279,7 +311,6 @@ void CollisionMonitor::cycle() {
     case TfTracker::Step::kCycle:
       break;
   }
-  publishWorld();
   publishCycle();
 }
 
@@ -343,9 +374,9 @@ std::string CollisionMonitor::contradicted() {
   return is_old ? "" : late_;
 }
 
-/// Large maps take a while to be drawn: not before somebody looks at them.
+/// While it is built; then Outputs does. Large maps take a while to be drawn: not before somebody looks at them.
 void CollisionMonitor::publishWorld() {
-  if (is_world_drawn_ || world_publisher_.getNumSubscribers() == 0 || described_.fixed_frame.empty()) return;
+  if (loop_ || is_world_drawn_ || world_publisher_.getNumSubscribers() == 0 || described_.fixed_frame.empty()) return;
   world_publisher_.publish(toWorldMarkers(described_.scene));
   is_world_drawn_ = true;
 }
@@ -372,7 +403,7 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
 }
 
 void CollisionMonitor::forget(const std::string& reason) {
-  is_world_drawn_ = false;  // rviz drops what it shows when time jumps back
+  if (outputs_) outputs_->drawWorldAgain();  // rviz drops what it shows when time jumps back
   health_.missing.clear();
   last_cycle_ = ros::WallTime();
   last_step_ = ros::WallTime::now();
@@ -407,6 +438,27 @@ void CollisionMonitor::answer(const Request& request, Response& response) {
     response = {};
     response.message = "the monitor ends";
   }
+}
+
+bool CollisionMonitor::updateScene(UpdateScene::Request& request, UpdateScene::Response& response) {
+  response.failed_change = -1;
+  if (!isReady(response.message)) return true;
+  const CancelScope scope(stop_);
+  try {
+    scene_editor_->update(request, response);
+  } catch (const Cancelled&) {
+    response = {};
+    response.failed_change = -1;
+    response.message = "the monitor ends";
+  }
+  return true;
+}
+
+bool CollisionMonitor::getPlan(GetPlan::Request&, GetPlan::Response& response) {
+  if (!isReady(response.message)) return true;
+  response.plan = toPlan(*queries_->world(), described_.fixed_frame, ros::Time::now());
+  response.success = true;
+  return true;
 }
 
 bool CollisionMonitor::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {

@@ -16,7 +16,10 @@
 #include "ros/joint_watch.h"
 #include "ros/outputs.h"
 #include "ros/queries.h"
+#include "ros/scene_editor.h"
+#include "sdf_ccd/GetPlan.h"
 #include "sdf_ccd/MonitorState.h"
+#include "sdf_ccd/UpdateScene.h"
 
 namespace sdf_ccd {
 
@@ -32,13 +35,14 @@ namespace sdf_ccd {
 /// Publishes, below the node's name, besides what Outputs and Diagnostics do:
 ///   state  sdf_ccd/MonitorState  every cycle, and, as NOT_CHECKED, once a second while there is none and on unloading;
 ///                                latched
-///   plan   std_msgs/String       what is checked against what, and what is left out and why; latched
-///   world  visualization_msgs/MarkerArray  the world's objects as they are checked; latched
+///   plan   sdf_ccd/Plan          what is checked against what, and what is left out and why; latched
 ///   planned  visualization_msgs/MarkerArray  the last motion that query_motion was asked about
 ///
 /// Serves, below the node's name:
 ///   query_motion  sdf_ccd/QueryMotion
 ///   query_points  sdf_ccd/QueryPoints
+///   update_scene  sdf_ccd/UpdateScene  changes the world's objects and the pairs, while the monitor runs
+///   get_plan      sdf_ccd/GetPlan      what is checked now
 ///   reset         std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
 ///
 /// Building and cycles have a thread of their own, and so has what publishes and draws them; transforms have a callback
@@ -76,20 +80,25 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
   bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
+  bool updateScene(UpdateScene::Request& request, UpdateScene::Response& response);
+  bool getPlan(GetPlan::Request& request, GetPlan::Response& response);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
   bool isReady(std::string& why_not);
   template <class Request, class Response>
   void answer(const Request& request, Response& response);
+  void publishPlan(const CheckedWorld& world);
 
   // Set while setting up, in this order; then only the cycles' thread changes them.
   MonitorParameters parameters_;
   bool is_world_drawn_ = false;
   DescribedScene described_;
-  std::shared_ptr<const Scene> scene_;
+  std::unique_ptr<WorldEditor> world_editor_;
+  std::shared_ptr<const CheckedWorld> first_world_;
   std::unique_ptr<MonitorLoop> loop_;
   std::unique_ptr<ProximityOutputs> proximity_;
   std::unique_ptr<Outputs> outputs_;
   std::unique_ptr<Queries> queries_;
+  std::unique_ptr<SceneEditor> scene_editor_;
   std::unique_ptr<JointWatch> joint_watch_;
 
   std::unique_ptr<Diagnostics> diagnostics_;
@@ -119,6 +128,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::atomic<bool> reset_asked_{false};
   std::mutex stop_mutex_;
   std::condition_variable stop_asked_;
+  bool world_is_ready_ = false;  // guarded by stop_mutex_
   std::atomic<bool> stop_{false};  // set under stop_mutex_, for stop_asked_
   std::thread thread_;
 };

@@ -128,6 +128,7 @@ void setContactArray(const MonitorLoop& loop, ContactArray& message) {
   const CycleResult& result = loop.result();
   message.header.stamp = cycle.end;
   message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
   message.cycle_start = cycle.start;
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
@@ -176,6 +177,7 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   const CycleResult& result = loop.result();
   message.header.stamp = cycle.end;
   message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
   message.verdict = static_cast<std::uint8_t>(result.verdict);
   message.missing = missingBodies(loop);
   for (const Body& body : loop.scene().bodies) {
@@ -204,6 +206,7 @@ MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
 ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason) {
   ContactArray message;
   message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
   message.header.stamp = message.cycle_start = message.complete_until = loop.cycle().end;
   message.verdict = ContactArray::NOT_CHECKED;
   message.reason = reason;

@@ -4,7 +4,7 @@ namespace sdf_ccd {
 
 void CycleSnapshot::take(const MonitorLoop& loop) {
   const CycleResult& result = loop.result();
-  scene_ = &loop.scene();
+  world_ = loop.world();
   motion_ = loop.cycle().motion;
   samples_ = loop.cycle().samples;
   origin_ = loop.cycle().origin;

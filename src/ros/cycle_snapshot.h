@@ -12,11 +12,14 @@ class CycleSnapshot {
   /// again.
   void take(const MonitorLoop& loop);
 
+  /// Gives back the world.
+  void release() { world_.reset(); }
+
   const CycleResult& result() const { return result_; }
-  CycleContext context() const { return {*scene_, motion_, samples_, origin_}; }
+  CycleContext context() const { return {world_->scene(), motion_, samples_, origin_}; }
 
  private:
-  const Scene* scene_ = nullptr;
+  std::shared_ptr<const CheckedWorld> world_;
   CycleResult result_;
   CycleMotion motion_;
   std::vector<double> samples_;

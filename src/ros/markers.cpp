@@ -70,6 +70,11 @@ double MarkerDrawer::letter() const {
 
 MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now) {
   MarkerArray markers;
+  if (begins_anew_) {
+    markers.markers.push_back(marker("", 0, Marker::SPHERE));
+    markers.markers.back().action = Marker::DELETEALL;
+    begins_anew_ = false;
+  }
   states_.update(result, cycle);
   box_.update(result, cycle);
   const ros::Time end = cycle.start + ros::Duration(cycle.motion.times.back());
@@ -90,6 +95,13 @@ MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cy
   if (shown_.size() > listed.size()) text += "\nand " + std::to_string(shown_.size() - listed.size()) + " more";
   markers.markers.push_back(statusMarker(text, states_.verdict()));
   return markers;
+}
+
+void MarkerDrawer::take(const std::vector<int>& before) {
+  states_.take(before);
+  begins_anew_ |= !shown_.empty();
+  shown_.clear();
+  numbers_ = 0;
 }
 
 MarkerArray MarkerDrawer::clear(const std::string& reason) {

@@ -34,6 +34,10 @@ class MarkerDrawer {
   /// Deletes everything, and says that nothing is checked, for this reason.
   visualization_msgs::MarkerArray clear(const std::string& reason);
 
+  /// Goes on with another world: what is shown of pairs that are no longer there is deleted.
+  /// @param before  per pair: its index until now; -1 if it is new.
+  void take(const std::vector<int>& before);
+
   /// As it was drawn last.
   const PairStates& states() const { return states_; }
 
@@ -60,6 +64,7 @@ class MarkerDrawer {
   RobotBox box_;
   std::map<int, Shown> shown_;  // by pair
   int numbers_ = 0;             // that are drawn
+  bool begins_anew_ = false;    // all that was drawn is deleted first, as ids are others now
 };
 
 /// Heights at which labels of that height do not overlap, seen from anywhere beside them: where two are near each

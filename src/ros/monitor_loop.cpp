@@ -1,7 +1,9 @@
 #include "ros/monitor_loop.h"
 
 #include <algorithm>
+#include <set>
 
+#include "monitor/scene_difference.h"
 #include "monitor/summarise.h"
 
 namespace sdf_ccd {
@@ -24,22 +26,76 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
 
 }  // namespace
 
+MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedScene described,
+                         const MonitorParameters& parameters)
+    : world_(std::move(world)),
+      described_(std::move(described)),
+      tf_options_(parameters.tf),
+      history_(described_.fixed_frame, historyOptions(world_->scene(), described_, parameters)),
+      tracker_(std::make_unique<TfTracker>(history_, world_->bodies, world_->scene().pairs, tf_options_)),
+      monitor_(world_->snapshot->scene, parameters.monitor),
+      reach_guard_(std::make_unique<ReachGuard>(*world_, described_)),
+      contacts_(monitor_.scene()),
+      distances_(std::make_unique<PairDistances>(world_->snapshot->scene)) {}
+
 MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,
                          const MonitorParameters& parameters)
-    : history_(described.fixed_frame, historyOptions(*scene, described, parameters)),
-      tracker_(history_, trackedBodies(*scene), scene->pairs, parameters.tf),
-      monitor_(scene, parameters.monitor),
-      reach_guard_(described, monitor_.scene()),
-      contacts_(monitor_.scene()),
-      distances_(scene) {}
+    : MonitorLoop(firstWorld(scene, described.scene, described.unreachable), described, parameters) {}
+
+std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWorld> next) {
+  auto change = std::make_unique<LoopChange>();
+  const Scene& scene = next->scene();
+  std::set<std::string> frames;
+  for (const Body& body : scene.bodies) frames.insert(withoutLeadingSlash(body.frame));
+  history_.wantBesides({frames.begin(), frames.end()});
+
+  const SceneDifference difference(monitor_.scene(), scene);
+  change->bodies_before = difference.bodiesBefore();
+  change->pairs_before.assign(scene.pairs.size(), -1);
+  for (std::size_t p = 0; p < difference.pairsNow().size(); ++p) {
+    const int now = difference.pairsNow()[p];
+    if (now >= 0) change->pairs_before[static_cast<std::size_t>(now)] = static_cast<int>(p);
+  }
+  change->monitor = monitor_.prepare(next->snapshot->scene);
+  change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
+  change->tracker->warmUp();
+  change->reach_guard = std::make_unique<ReachGuard>(*next, described_);
+  change->contacts = contacts_.prepare(scene);
+  change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
+  constexpr std::size_t kPoses = 16;  // of a body in a cycle, mostly fewer
+  CycleMotion& motion = change->cycle.motion;
+  motion.X_WB.resize(scene.bodies.size());
+  for (std::vector<Isometry3d>& poses : motion.X_WB) poses.reserve(kPoses);
+  motion.missing.resize(scene.bodies.size());
+  motion.motion_error.reserve(scene.bodies.size());
+  motion.spans.reserve(scene.pairs.size());
+  change->world = std::move(next);
+  return change;
+}
+
+void MonitorLoop::adopt(LoopChange& change) {
+  monitor_.adopt(*change.monitor);
+  change.tracker->take(*tracker_, change.bodies_before, change.pairs_before);
+  tracker_.swap(change.tracker);
+  reach_guard_.swap(change.reach_guard);
+  contacts_.adopt(change.contacts);
+  distances_.swap(change.distances);
+  std::swap(cycle_, change.cycle);
+  cycle_.start = change.cycle.start;
+  cycle_.end = change.cycle.end;
+  cycle_.complete_until = change.cycle.complete_until;
+  cycle_.delayed_since = change.cycle.delayed_since;
+  world_.swap(change.world);
+  result_ = nullptr;
+}
 
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
-  const TfTracker::Step step = tracker_.next(now, cycle_);
+  const TfTracker::Step step = tracker_->next(now, cycle_);
   contacts_.settle();
   if (step == TfTracker::Step::kJump) {
     monitor_.reset();
     contacts_.lose();
-    distances_.forget();
+    distances_->forget();
   }
   if (step == TfTracker::Step::kCycle) {
     run(request);
@@ -61,7 +117,7 @@ void MonitorLoop::run(const CycleRequest& request) {
 }
 
 void MonitorLoop::guardReach() {
-  const std::vector<UncheckedPair> unchecked = reach_guard_.check(history_, cycle_);
+  const std::vector<UncheckedPair> unchecked = reach_guard_->check(history_, cycle_);
   if (unchecked.empty()) return;
   guarded_ = *result_;
   addUnchecked(unchecked, guarded_);
@@ -74,15 +130,15 @@ void MonitorLoop::trackContacts(const CycleRequest& request) {
 }
 
 const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
-  return distances_.update(cycle_.motion, *result_, range);
+  return distances_->update(cycle_.motion, *result_, range);
 }
 
 void MonitorLoop::reset() {
-  tracker_.reset();
+  tracker_->reset();
   monitor_.reset();
   contacts_.settle();
   contacts_.lose();
-  distances_.forget();
+  distances_->forget();
 }
 
 }  // namespace sdf_ccd

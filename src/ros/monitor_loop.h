@@ -9,16 +9,34 @@
 
 namespace sdf_ccd {
 
+/// What a loop needs of another world, made ahead by MonitorLoop::prepare(); after MonitorLoop::adopt() what the loop no
+/// longer needs. To be destroyed by a thread that has the time for it.
+struct LoopChange {
+  std::shared_ptr<const CheckedWorld> world;
+  std::unique_ptr<MonitorChange> monitor;
+  std::unique_ptr<TfTracker> tracker;
+  std::unique_ptr<ReachGuard> reach_guard;
+  ContactTracker::Change contacts;
+  std::unique_ptr<PairDistances> distances;
+  TrackedCycle cycle;
+  std::vector<int> bodies_before, pairs_before;  ///< as TfTracker::take()
+};
+
 /// From transforms to results: one cycle of the monitor after the other, whoever brings the transforms and the clock.
 ///
 /// Transforms go to history(), from any thread; the rest belongs to one.
 class MonitorLoop {
  public:
-  MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described, const MonitorParameters& parameters);
+  /// @param described  the robot's; of its scene's bodies the first are those of the world.
+  MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedScene described, const MonitorParameters& parameters);
+
+  /// Of a world that does not change.
+  MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,
+              const MonitorParameters& parameters);
 
   TfHistory& history() { return history_; }
-  const TfTracker& tracker() const { return tracker_; }
   const Scene& scene() const { return monitor_.scene(); }
+  const std::shared_ptr<const CheckedWorld>& world() const { return world_; }
   const std::string& fixedFrame() const { return history_.fixedFrame(); }
 
   /// Checks what has become known. After kCycle, cycle() and result() are those of the new cycle; kJump forgets all
@@ -26,6 +44,15 @@ class MonitorLoop {
   /// @param now  the ROS clock, 0 if it does not run yet.
   /// If a check fails, its cycle has been checked nowhere.
   TfTracker::Step step(const ros::Time& now, const CycleRequest& request);
+
+  /// Makes what another world needs, beside running cycles but not while adopt() runs. Its frames are followed from now
+  /// on, those of earlier ones no longer.
+  std::unique_ptr<LoopChange> prepare(std::shared_ptr<const CheckedWorld> next);
+
+  /// Goes on with another world, between two cycles: result() is valid again after the next one, and cycle() has but
+  /// its times. Frees nothing.
+  /// @param change  that prepare() made since the last adopt().
+  void adopt(LoopChange& change);
 
   /// Forgets everything but the transforms; the next cycle begins with the next of them.
   void reset();
@@ -42,22 +69,25 @@ class MonitorLoop {
   const std::vector<PairDistance>& measureDistances(double range);
 
   /// As measured last.
-  const std::vector<PairDistance>& distances() const { return distances_.near(); }
+  const std::vector<PairDistance>& distances() const { return distances_->near(); }
 
  private:
   void run(const CycleRequest& request);
   void guardReach();
   void trackContacts(const CycleRequest& request);
 
+  std::shared_ptr<const CheckedWorld> world_;
+  const DescribedScene described_;
+  const TfTrackerOptions tf_options_;
   TfHistory history_;
-  TfTracker tracker_;
+  std::unique_ptr<TfTracker> tracker_;
   Monitor monitor_;
   TrackedCycle cycle_;
-  ReachGuard reach_guard_;
+  std::unique_ptr<ReachGuard> reach_guard_;
   CycleResult guarded_;  // with pairs that should not have been left out
   const CycleResult* result_ = nullptr;
   ContactTracker contacts_;
-  PairDistances distances_;
+  std::unique_ptr<PairDistances> distances_;
 };
 
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ros/world_object.h"
+#include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {
 
@@ -12,5 +13,8 @@ namespace sdf_ccd {
 /// refused.
 /// @throws std::runtime_error with the line and the reason.
 std::vector<WorldObject> parseMoveitScene(const std::string& text);
+
+/// That text of bodies in one frame, as it is now; numbers so that they are read again as they were.
+std::string moveitScene(const std::vector<BodyDescription>& bodies);
 
 }  // namespace sdf_ccd

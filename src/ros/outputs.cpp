@@ -1,38 +1,79 @@
 #include "ros/outputs.h"
 
 #include <algorithm>
+#include <map>
+#include <unordered_map>
 
 #include <ros/console.h>
 
 #include "ros/cycle_messages.h"
+#include "ros/world_markers.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kWaiting = 8;  // cycles whose messages may wait
 const ros::WallDuration kLookPeriod(0.02);
+const ros::WallDuration kWorldPeriod(1.0);
+
+/// Per pair now: its index before; -1 if it was not there. By the bodies' names.
+std::vector<int> samePairs(const Scene& before, const Scene& now) {
+  std::unordered_map<std::string, int> bodies;
+  for (std::size_t b = 0; b < before.bodies.size(); ++b) bodies[before.bodies[b].name] = static_cast<int>(b);
+  std::map<std::pair<int, int>, int> pairs;
+  for (std::size_t p = 0; p < before.pairs.size(); ++p)
+    pairs[{before.pairs[p].body_a, before.pairs[p].body_b}] = static_cast<int>(p);
+  const auto bodyBefore = [&](int body) {
+    const auto found = bodies.find(now.bodies[static_cast<std::size_t>(body)].name);
+    return found == bodies.end() ? -1 : found->second;
+  };
+  std::vector<int> same;
+  for (const PlannedPair& pair : now.pairs) {
+    const auto found = pairs.find({bodyBefore(pair.body_a), bodyBefore(pair.body_b)});
+    same.push_back(found == pairs.end() ? -1 : found->second);
+  }
+  return same;
+}
 
 }  // namespace
 
-Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
-                 const SceneDescription& scene, const MarkerOptions& options, ProximityOutputs& proximity)
-    : loop_(loop),
-      scene_(loop.scene()),
+Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world,
+                 const MonitorLoop& loop, const MarkerOptions& options, ProximityOutputs& proximity)
+    : node_(private_node),
+      loop_(loop),
       proximity_(proximity),
-      drawer_(loop.fixedFrame(), options),
-      link_markers_(scene),
-      state_(state) {
-  contacts_ = private_node.advertise<ContactArray>("contacts", 100);
-  markers_ = private_node.advertise<visualization_msgs::MarkerArray>("markers", 10);
-  links_ = private_node.advertise<visualization_msgs::MarkerArray>("links", 10, true);
-  for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
-    if (scene_.bodies[body].is_world) continue;
-    LinkWrench link;
-    link.body = static_cast<int>(body);
-    link.publisher = private_node.advertise<geometry_msgs::WrenchStamped>(wrenchTopic(scene_.bodies[body]), 100);
-    wrenches_.push_back(link);
-  }
+      state_(state),
+      world_publisher_(world),
+      drawer_(loop.fixedFrame(), options) {
+  contacts_ = node_.advertise<ContactArray>("contacts", 100);
+  markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 10);
+  links_ = node_.advertise<visualization_msgs::MarkerArray>("links", 10, true);
+  wrenches_ = std::move(*prepare(*loop.world()));
+  goOnWith(loop.world());
   worker_ = std::make_unique<OrderedWorker<Report>>(kWaiting, [this](Report& report) { send(report); });
+}
+
+Outputs::~Outputs() = default;
+
+std::unique_ptr<Outputs::LinkWrenches> Outputs::prepare(const CheckedWorld& next) {
+  auto wrenches = std::make_unique<LinkWrenches>();
+  const BodyList& bodies = next.scene().bodies;
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (bodies[body].is_world) continue;
+    const std::string topic = wrenchTopic(bodies[body]);
+    const auto known = std::find_if(wrenches_.begin(), wrenches_.end(),
+                                    [&](const LinkWrench& link) { return link.topic == topic; });
+    LinkWrench link{static_cast<int>(body), topic, {}, false, {}};
+    if (known != wrenches_.end()) {
+      link.publisher = known->publisher;
+      link.messages = known->messages;
+    } else {
+      link.publisher = node_.advertise<geometry_msgs::WrenchStamped>(topic, 100);
+      link.messages = std::make_shared<MessagePool<geometry_msgs::WrenchStamped>>();
+    }
+    wrenches->push_back(std::move(link));
+  }
+  return wrenches;
 }
 
 CycleRequest Outputs::request(int max_points) {
@@ -77,10 +118,11 @@ void Outputs::publish(const boost::shared_ptr<MonitorState>& state,
   for (std::size_t i = 0; i < wrenches_.size() && wrenches_wanted_; ++i) {
     LinkWrench& link = wrenches_[i];
     if (!link.is_wanted || !loop_.cycle().motion.missing[link.body].empty()) continue;
-    report.wrenches.emplace_back(i, link.messages.take());
+    report.wrenches.emplace_back(link.publisher, link.messages->take());
     setWrenchStamped(loop_, link.body, *report.wrenches.back().second);
   }
   if (report.draws_markers || report.draws_links) report.snapshot.take(loop_);
+  setWorld(report);
   worker_->handOver();
 }
 
@@ -92,7 +134,29 @@ void Outputs::publishUnchecked(const std::string& reason, const boost::shared_pt
   report.state = state;
   report.draws_links = links_wanted_;
   if (contacts_wanted_) report.contacts = boost::make_shared<ContactArray>(toUncheckedContacts(loop_, reason));
+  setWorld(report);
   worker_->handOver();
+}
+
+/// Large worlds take a while to be drawn: not before somebody looks at them.
+void Outputs::setWorld(Report& report) {
+  const ros::WallTime now = ros::WallTime::now();
+  report.draws_world = false;
+  if (loop_.world()->version() != world_drawn_ && (world_drawn_ == 0 || now - world_drawn_at_ > kWorldPeriod))
+    report.draws_world = world_publisher_.getNumSubscribers() > 0;
+  if (report.draws_world) {
+    world_drawn_ = loop_.world()->version();
+    world_drawn_at_ = now;
+  }
+  if (report.draws_markers || report.draws_links || report.draws_world) report.world = loop_.world();
+}
+
+/// Of the thread that draws.
+void Outputs::goOnWith(const std::shared_ptr<const CheckedWorld>& world) {
+  if (world == drawn_) return;
+  if (drawn_) drawer_.take(samePairs(drawn_->scene(), world->scene()));
+  link_markers_ = std::make_unique<LinkMarkers>(world->description());
+  drawn_ = world;
 }
 
 void Outputs::finish() {
@@ -103,7 +167,7 @@ void Outputs::finish() {
 void Outputs::send(Report& report) {
   try {
     if (report.contacts) contacts_.publish(report.contacts);
-    for (const auto& [link, wrench] : report.wrenches) wrenches_[link].publisher.publish(wrench);
+    for (const auto& [publisher, wrench] : report.wrenches) publisher.publish(wrench);
     if (report.state) state_.publish(report.state);
     if (report.distances) proximity_.publishDistances(report.distances);
     draw(report);
@@ -114,9 +178,15 @@ void Outputs::send(Report& report) {
   report.state.reset();
   report.distances.reset();
   report.wrenches.clear();
+  report.world.reset();
+  report.snapshot.release();
 }
 
 void Outputs::draw(const Report& report) {
+  if (report.world) goOnWith(report.world);
+  if (report.draws_world)
+    world_publisher_.publish(
+        boost::make_shared<visualization_msgs::MarkerArray>(toWorldMarkers(report.world->description())));
   if (report.is_unchecked) {
     markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(drawer_.clear(report.reason)));
   } else if (finishes_ || (!report.draws_markers && !report.draws_links)) {
@@ -130,7 +200,7 @@ void Outputs::draw(const Report& report) {
 }
 
 void Outputs::drawLinks() {
-  auto drawn = link_markers_.draw(drawer_.states().ofBodies(scene_));
+  auto drawn = link_markers_->draw(drawer_.states().ofBodies(drawn_->scene()));
   if (drawn) links_.publish(boost::make_shared<visualization_msgs::MarkerArray>(std::move(*drawn)));
 }
 

@@ -27,6 +27,8 @@ namespace sdf_ccd {
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
 ///                                                    link's frame, about its origin [N, N·m]
 ///   markers          visualization_msgs/MarkerArray  contacts and status to look at
+///   world            visualization_msgs/MarkerArray  the world's objects as they are checked, again after changes, at
+///                                                    most once a second; latched
 ///   links            visualization_msgs/MarkerArray  the links' collision shapes in the colours of their verdicts, all
 ///                                                    of them when one changes; latched
 /// Nothing is put together, or computed, that has no subscriber.
@@ -37,8 +39,31 @@ namespace sdf_ccd {
 class Outputs {
  public:
   /// @param state  publishes the states that are given.
-  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
-          const SceneDescription& scene, const MarkerOptions& options, ProximityOutputs& proximity);
+  /// @param world  publishes the world's objects.
+  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world,
+          const MonitorLoop& loop, const MarkerOptions& options, ProximityOutputs& proximity);
+
+  ~Outputs();
+
+  /// The wrenches on one link, or on what is attached to one.
+  struct LinkWrench {
+    int body;
+    std::string topic;
+    ros::Publisher publisher;
+    bool is_wanted = false;
+    std::shared_ptr<MessagePool<geometry_msgs::WrenchStamped>> messages;
+  };
+  using LinkWrenches = std::vector<LinkWrench>;
+
+  /// What another world needs, beside running cycles but not while adopt() runs: publishers of what is attached now.
+  std::unique_ptr<LinkWrenches> prepare(const CheckedWorld& next);
+
+  /// Goes on with the loop's world, between two cycles. Frees nothing.
+  /// @param wrenches  that prepare() made; afterwards those of before, to be destroyed by a thread that has the time.
+  void adopt(LinkWrenches& wrenches) { wrenches_.swap(wrenches); }
+
+  /// The world is drawn once more, as after a jump of time, when rviz drops what it shows.
+  void drawWorldAgain() { world_drawn_ = 0; }
 
   /// What the subscribers want to know of the next cycle.
   CycleRequest request(int max_points);
@@ -55,21 +80,17 @@ class Outputs {
   void finish();
 
  private:
-  struct LinkWrench {
-    int body;
-    ros::Publisher publisher;
-    bool is_wanted = false;
-    MessagePool<geometry_msgs::WrenchStamped> messages;
-  };
   using WrenchMessage = boost::shared_ptr<geometry_msgs::WrenchStamped>;
 
   struct Report {                              // of a cycle, or that there is none
     boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
     boost::shared_ptr<MonitorState> state;
     boost::shared_ptr<DistanceArray> distances;
-    std::vector<std::pair<std::size_t, WrenchMessage>> wrenches;  // by link
+    std::vector<std::pair<ros::Publisher, WrenchMessage>> wrenches;
     CycleSnapshot snapshot;
     bool draws_markers = false, draws_links = false;  // of the snapshot
+    std::shared_ptr<const CheckedWorld> world;        // that this is about; null if nothing is drawn
+    bool draws_world = false;
     bool is_unchecked = false;
     std::string reason;  // why
   };
@@ -78,14 +99,22 @@ class Outputs {
   void send(Report& report);
   void draw(const Report& report);
   void drawLinks();
+  void setWorld(Report& report);
+  void goOnWith(const std::shared_ptr<const CheckedWorld>& world);
 
+  ros::NodeHandle node_;
   const MonitorLoop& loop_;
-  const Scene& scene_;
   ProximityOutputs& proximity_;
+  ros::Publisher state_, world_publisher_, contacts_, markers_, links_;
+  LinkWrenches wrenches_;
+  std::uint64_t world_drawn_ = 0;  // its version
+  ros::WallTime world_drawn_at_;
+
+  // Of the thread that draws.
+  std::shared_ptr<const CheckedWorld> drawn_;
   MarkerDrawer drawer_;
-  LinkMarkers link_markers_;
-  ros::Publisher state_, contacts_, markers_, links_;
-  std::vector<LinkWrench> wrenches_;
+  std::unique_ptr<LinkMarkers> link_markers_;
+
   MessagePool<ContactArray> contact_messages_;
 
   ros::WallTime looked_;  // for subscribers

@@ -28,6 +28,15 @@ void PairStates::update(const CycleResult& result, const CycleContext& cycle) {
   }
 }
 
+void PairStates::take(const std::vector<int>& before) {
+  std::vector<PairState> pairs(before.size());
+  for (std::size_t p = 0; p < before.size(); ++p) {
+    const auto old = static_cast<std::size_t>(before[p]);
+    if (before[p] >= 0 && old < pairs_.size()) pairs[p] = pairs_[old];
+  }
+  pairs_ = std::move(pairs);
+}
+
 void PairStates::clear() {
   pairs_.assign(pairs_.size(), {});
 }

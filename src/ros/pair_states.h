@@ -27,6 +27,9 @@ class PairStates {
 
   void update(const CycleResult& result, const CycleContext& cycle);
 
+  /// Goes on with other pairs. @param before  per pair: its index until now; -1 if it is new.
+  void take(const std::vector<int>& before);
+
   /// Nothing is known any more.
   void clear();
 

@@ -51,6 +51,7 @@ class ParameterReader {
   std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
 
   /// Of lists of two texts each; none if it is not set.
+  std::vector<std::string> texts(const std::string& key);
   std::vector<std::pair<std::string, std::string>> textPairs(const std::string& key);
 
   ParameterReader group(const std::string& key);

@@ -157,6 +157,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
 
   parameters.world = readWorld(reader);
   parameters.world_file = reader.text("world_file", "");
+  parameters.resource_roots = reader.texts("resource_roots");
   parameters.octomap = readOctomap(reader.group("octomap"));
   const std::optional<ErrorBudget> budget = readBudget(reader);
   parameters.scene.field = readField(reader.group("field"), budget);

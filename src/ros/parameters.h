@@ -49,6 +49,7 @@ struct MonitorParameters {
   bool leave_out_overlapping = true;  ///< see leaveOutOverlapping()
   std::vector<WorldObject> world;
   std::string world_file;  ///< further objects; empty: none
+  std::vector<std::string> resource_roots;  ///< folders whose files requests may name
   OctomapObject octomap;
   BodyOptions scene;
   MonitorOptions monitor;

@@ -1,7 +1,5 @@
 #include "ros/queries.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +7,7 @@
 
 #include "common/number_text.h"
 #include "ros/conversions.h"
+#include "ros/low_priority.h"
 #include "ros/planned_markers.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
@@ -16,17 +15,10 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kNiceness = 5;  // of answers: cycles have 0
 constexpr std::size_t kPointsPerPiece = 500;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
-}
-
-void lowerPriority() {
-  thread_local bool is_low = false;
-  if (!is_low) setpriority(PRIO_PROCESS, 0, kNiceness);  // of this thread alone, on Linux
-  is_low = true;
 }
 
 void requireAtMost(std::size_t most, std::size_t given, const std::string& what) {
@@ -80,27 +72,29 @@ void Queries::answerWith(const Work& work, Response& response) {
   }
 }
 
-Queries::Queries(std::shared_ptr<const Scene> scene, const DescribedScene& described,
-                 const MonitorParameters& parameters, const TfHistory& history, const TfTracker& tracker,
-                 const QueryLimits& limits)
-    : scene_(scene),
+Queries::Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene& described,
+                 const MonitorParameters& parameters, const TfHistory& history, const QueryLimits& limits)
+    : world_(std::move(world)),
       robot_(described.robot),
       tf_prefix_(described.tf_prefix),
       base_joint_(described.base_joint),
-      unreachable_(described.unreachable),
       sampling_(parameters.tf.sampling),
       options_(parameters.monitor),
       max_points_(parameters.max_points),
       max_age_(parameters.tf.max_latency),
       history_(history),
-      tracker_(tracker),
       limits_(limits),
       turns_(limits.queries),
       arena_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)) {}
 
-void Queries::drawOn(const ros::Publisher& publisher, const SceneDescription& description) {
-  drawn_ = publisher;
-  description_ = &description;
+void Queries::setWorld(std::shared_ptr<const CheckedWorld> world) {
+  const std::lock_guard<std::mutex> lock(world_mutex_);
+  world_.swap(world);
+}
+
+std::shared_ptr<const CheckedWorld> Queries::world() const {
+  const std::lock_guard<std::mutex> lock(world_mutex_);
+  return world_;
 }
 
 void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
@@ -108,12 +102,12 @@ void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response&
   if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
 }
 
-PlannedMotion Queries::plan(const QueryMotion::Request& request) const {
-  CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, *scene_);
-  tracker_.posesAt(ros::Time(), now.X_WB, now.missing);
+PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWorld& world) const {
+  CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, world.scene());
+  posesAt(history_, world.bodies, ros::Time(), now.X_WB, now.missing);
   const std::string frame = withoutLeadingSlash(request.multi_dof_trajectory.header.frame_id);
   history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
-  PlannedMotion planned = toPlannedMotion(request, {*scene_, *robot_, base_joint_, unreachable_, now, sampling_});
+  PlannedMotion planned = toPlannedMotion(request, {world.scene(), *robot_, base_joint_, world.unreachable, now, sampling_});
   const std::string old = ros::Time::isValid() ? oldTransformsNote(now, ros::Time::now(), max_age_) : "";
   if (!old.empty()) planned.notes += (planned.notes.empty() ? "" : "; ") + old;
   return planned;
@@ -123,17 +117,19 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   requireAtMost(limits_.waypoints,
                 request.trajectory.points.size() + request.multi_dof_trajectory.points.size() + request.poses.size(),
                 "waypoints");
+  const std::shared_ptr<const CheckedWorld> world = this->world();
+  response.scene_version = world->version();
   double spent = 0.0;
   PlannedMotion planned;
   {
     const Piece piece(*this, spent);
-    planned = plan(request);
+    planned = plan(request, *world);
   }
   CycleRequest wanted;
   wanted.max_points = max_points_;
-  MotionCheck check(scene_, options_, planned, wanted, memory_);
+  MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
-  if (description_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(*description_);
+  if (drawn_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(world->description());
   while (!check.isDone()) {
     const Piece piece(*this, spent);
     const CancelPoint cancel;
@@ -151,7 +147,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   }
   response.verdict = static_cast<std::uint8_t>(result.verdict);
   response.error_bound = result.error_bound;
-  const CycleContext context{*scene_, check.ends(), planned.samples, ros::Time()};
+  const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
   setPairContacts(result, context, response.pairs);
   if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
@@ -166,14 +162,17 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   requireAtMost(limits_.points, request.points.size(), "points");
   const std::string frame =
       request.header.frame_id.empty() ? history_.fixedFrame() : withoutLeadingSlash(request.header.frame_id);
+  const std::shared_ptr<const CheckedWorld> world = this->world();
+  const Scene& scene = world->scene();
+  response.scene_version = world->version();
   Isometry3d X_WQ;
   std::string problem;
   if (!history_.lookup(frame, request.header.stamp, X_WQ, problem)) refuse(problem);
   std::vector<Isometry3d> X_WB;
   std::vector<std::string> missing;
-  tracker_.posesAt(request.header.stamp, X_WB, missing);
+  posesAt(history_, world->bodies, request.header.stamp, X_WB, missing);
   for (std::size_t body = 0; body < missing.size(); ++body) {
-    const Body& description = scene_->bodies[body];
+    const Body& description = scene.bodies[body];
     if (!description.failure.empty()) {
       response.message += "not counted: " + description.failure + "\n";
     } else if (!missing[body].empty()) {
@@ -194,12 +193,12 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
       if (!(p_W.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
         refuse("point " + std::to_string(i) + " is more than " + numberText(kFarthestPose) + " m from the origin");
       }
-      const NearestBody nearest = nearestBody(*scene_, X_WB, p_W);
+      const NearestBody nearest = nearestBody(scene, X_WB, p_W);
       const bool none = nearest.body < 0;
       response.distances.push_back(none ? std::numeric_limits<double>::infinity() : nearest.distance);
       response.errors.push_back(nearest.error);
       response.gradients.push_back(toVector3(X_WQ.linear().transpose() * nearest.gradient_W));
-      response.bodies.push_back(none ? "" : scene_->bodies[nearest.body].name);
+      response.bodies.push_back(none ? "" : scene.bodies[nearest.body].name);
     }
   }
 }

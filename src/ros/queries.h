@@ -2,14 +2,15 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include <ros/publisher.h>
 #include <tbb/task_arena.h>
 
+#include "ros/checked_world.h"
 #include "ros/describe_scene.h"
 #include "ros/planned_motion.h"
-#include "ros/tf_tracker.h"
 #include "ros/work_turns.h"
 #include "sdf_ccd/QueryMotion.h"
 #include "sdf_ccd/QueryPoints.h"
@@ -31,12 +32,16 @@ struct QueryLimits {
 /// What a CancelScope of the calling thread asks for ends an answer with Cancelled.
 class Queries {
  public:
-  Queries(std::shared_ptr<const Scene> scene, const DescribedScene& described, const MonitorParameters& parameters,
-          const TfHistory& history, const TfTracker& tracker, const QueryLimits& limits = {});
+  Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene& described,
+          const MonitorParameters& parameters, const TfHistory& history, const QueryLimits& limits = {});
+
+  /// Answers that begin from now on are about this world; those that have begun go on with theirs. From any thread.
+  void setWorld(std::shared_ptr<const CheckedWorld> world);
+
+  std::shared_ptr<const CheckedWorld> world() const;
 
   /// Draws each motion that is asked for, while somebody looks at it (PlannedMarkers). To be called before answer().
-  /// @param description  what the scene was built from; must outlive this.
-  void drawOn(const ros::Publisher& publisher, const SceneDescription& description);
+  void drawOn(const ros::Publisher& publisher) { drawn_ = publisher; }
 
   void answer(const QueryMotion::Request& request, QueryMotion::Response& response);
   void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
@@ -48,22 +53,20 @@ class Queries {
   template <class Response, class Work>
   void answerWith(const Work& work, Response& response);
 
-  PlannedMotion plan(const QueryMotion::Request& request) const;
+  PlannedMotion plan(const QueryMotion::Request& request, const CheckedWorld& world) const;
   void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response);
   void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response);
 
-  std::shared_ptr<const Scene> scene_;
+  mutable std::mutex world_mutex_;
+  std::shared_ptr<const CheckedWorld> world_;  // guarded by world_mutex_
   std::shared_ptr<const RobotModel> robot_;
   std::string tf_prefix_, base_joint_;
-  std::vector<UnreachablePair> unreachable_;
   MotionSampling sampling_;
   MonitorOptions options_;
   int max_points_;
   double max_age_;  // of transforms that need no note [s]
   const TfHistory& history_;
-  const TfTracker& tracker_;
   ros::Publisher drawn_;  // nothing is drawn without
-  const SceneDescription* description_ = nullptr;
   QueryLimits limits_;
   WorkTurns turns_;
   std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // of all answers, as one works at a time

@@ -8,9 +8,10 @@ namespace sdf_ccd {
 namespace {
 
 /// Per joint: the frames of its parent and its child.
-std::vector<std::string> framesOf(const DescribedScene& described, std::vector<RobotModel::Slide>& slides) {
+std::vector<std::string> framesOf(const CheckedWorld& world, const DescribedScene& described,
+                                  std::vector<RobotModel::Slide>& slides) {
   std::vector<std::string> frames;
-  for (const UnreachablePair& pair : described.unreachable) {
+  for (const UnreachablePair& pair : world.unreachable) {
     for (const RobotModel::Slide& slide : pair.slides) {
       const auto isSame = [&](const RobotModel::Slide& other) { return other.joint == slide.joint; };
       if (std::any_of(slides.begin(), slides.end(), isSame)) continue;
@@ -25,18 +26,18 @@ std::vector<std::string> framesOf(const DescribedScene& described, std::vector<R
 
 }  // namespace
 
-ReachGuard::ReachGuard(const DescribedScene& described, const Scene& scene)
-    : scene_(scene), robot_(described.robot), chains_({}), is_checked_(scene.bodies.size(), false) {
-  for (const PlannedPair& pair : scene.pairs) {
+ReachGuard::ReachGuard(const CheckedWorld& world, const DescribedScene& described)
+    : scene_(world.scene()), robot_(described.robot), chains_({}), is_checked_(scene_.bodies.size(), false) {
+  for (const PlannedPair& pair : scene_.pairs) {
     for (const int body : {pair.body_a, pair.body_b}) is_checked_[static_cast<std::size_t>(body)] = true;
   }
   std::vector<RobotModel::Slide> slides;
-  chains_ = TfChains(framesOf(described, slides));
+  chains_ = TfChains(framesOf(world, described, slides));
   for (const RobotModel::Slide& slide : slides) {
     joints_.push_back({slide, robot_->urdf().getJoint(slide.joint).get(), ""});
   }
-  for (const UnreachablePair& pair : described.unreachable) {
-    const auto isLink = [&](int body) { return !described.scene.bodies[static_cast<std::size_t>(body)].is_world; };
+  for (const UnreachablePair& pair : world.unreachable) {
+    const auto isLink = [&](int body) { return !scene_.bodies[static_cast<std::size_t>(body)].is_world; };
     if (isLink(pair.body_a) && isLink(pair.body_b)) unreachable_.push_back(pair);
     std::vector<std::size_t> rests_on;
     for (const RobotModel::Slide& slide : pair.slides) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/checked_world.h"
 #include "ros/describe_scene.h"
 #include "ros/tf_tracker.h"
 
@@ -13,8 +14,9 @@ namespace sdf_ccd {
 /// large (RobotModel::reach()), and that tf has the links where the URDF's joints can take them.
 class ReachGuard {
  public:
-  /// @param scene  of that, whose pairs are checked; must outlive this.
-  ReachGuard(const DescribedScene& described, const Scene& scene);
+  /// @param world  whose pairs are checked; must outlive this.
+  /// @param robot  with its frames in tf.
+  ReachGuard(const CheckedWorld& world, const DescribedScene& robot);
 
   /// The pairs that this does not hold for at some recorded time of the cycle, or whose joints tf does not have.
   std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle);

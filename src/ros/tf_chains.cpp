@@ -1,6 +1,7 @@
 #include "ros/tf_chains.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace sdf_ccd {
 namespace {
@@ -9,6 +10,11 @@ const TimePart kNever{ros::TIME_MAX, ros::Time()};
 
 }  // namespace
 
+TfChains::TfChains(std::vector<std::string> frames) : frames_(std::move(frames)) {
+  std::unordered_map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < frames_.size(); ++i) first_of_.push_back(first.emplace(frames_[i], i).first->second);
+}
+
 void TfChains::update(const TfTree& tree, int fixed_frame) {
   if (topology_ == tree.topology(depends_on_all_)) return;
   steps_.clear();
@@ -16,7 +22,13 @@ void TfChains::update(const TfTree& tree, int fixed_frame) {
   ways_.resize(frames_.size());
   tree.upwards(fixed_frame, above_);
   depends_on_all_ = false;
-  for (std::size_t i = 0; i < frames_.size(); ++i) find(tree, fixed_frame, frames_[i], ways_[i]);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (first_of_[i] == i) {
+      find(tree, fixed_frame, frames_[i], ways_[i]);
+    } else {
+      ways_[i] = ways_[first_of_[i]];
+    }
+  }
   topology_ = tree.topology(depends_on_all_);
 }
 

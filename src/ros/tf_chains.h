@@ -30,7 +30,7 @@ struct TfSpan {
 /// Used through a TfHistory, which guards the transforms.
 class TfChains {
  public:
-  explicit TfChains(std::vector<std::string> frames) : frames_(std::move(frames)) {}
+  explicit TfChains(std::vector<std::string> frames);
 
   const std::vector<std::string>& frames() const { return frames_; }
 
@@ -72,6 +72,7 @@ class TfChains {
   const Account& account(const TfTree& tree, int step, const TimePart& part);
 
   std::vector<std::string> frames_;
+  std::vector<std::size_t> first_of_;  // per frame: the first of that name
   long topology_ = -1;
   bool depends_on_all_ = false;  // on frames that are not followed
   std::vector<Step> steps_;      // each behind the one before it

@@ -42,6 +42,16 @@ TfHistory::TfHistory(const std::string& fixed_frame, const TfHistoryOptions& opt
   tree_.pin(fixed_);
 }
 
+void TfHistory::wantBesides(const std::vector<std::string>& frames) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (frames == besides_) return;
+  besides_ = frames;
+  tree_.wantBesides(frames);
+  followers_.resize(std::max(followers_.size(), tree_.size()), TfTree::kNone);
+  last_child_ = TfTree::kNone;
+  static_missed_ |= static_dropped_;
+}
+
 void TfHistory::watchClock(const ros::Time& now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool jumps = now < before(clock_, ros::Time::isSimTime() ? kSimJumpBack : kJumpBack);

@@ -39,6 +39,9 @@ class TfHistory {
 
   const std::string& fixedFrame() const { return fixed_frame_; }
 
+  /// Follows these frames too, and no longer those that the last call named. Costs nothing if they are the same.
+  void wantBesides(const std::vector<std::string>& frames);
+
   /// Takes over a message of /tf or /tf_static. Of a frame whose stamps have gone back by more than a second, and go on
   /// from there, what is known begins anew; a single old transform is a late one.
   void add(const tf2_msgs::TFMessage& message, bool is_static);
@@ -105,6 +108,7 @@ class TfHistory {
   const ros::Duration keep_;
   mutable std::mutex mutex_;
   TfTree tree_;
+  std::vector<std::string> besides_;
   int fixed_;                   // the fixed frame's number
   std::vector<int> followers_;  // per frame: the one that came behind it last
   int last_child_ = TfTree::kNone;

@@ -45,11 +45,11 @@ std::string TfTracker::seconds(const ros::Duration& duration) {
   return fmt::format("{:.2f} s", duration.toSec());
 }
 
-bool TfTracker::isTooFar(const Isometry3d& X_WB) {
+bool isTooFar(const Isometry3d& X_WB) {
   return !(X_WB.translation().lpNorm<Eigen::Infinity>() <= kFarthestPose);
 }
 
-std::string TfTracker::tooFar(const std::string& frame) {
+std::string tooFar(const std::string& frame) {
   return fmt::format("{} is more than {:.0g} m from the origin", frame, kFarthestPose);
 }
 
@@ -74,6 +74,7 @@ TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies,
     distances_.push_back((body.X_frame_B * body.ball_B.center).norm() + body.ball_B.radius);
   }
   for (const PlannedPair& pair : pairs_) is_paired_[pair.body_a] = is_paired_[pair.body_b] = 1;
+  times_.assign(pairs_.size(), {});
   reset();
 }
 
@@ -271,14 +272,36 @@ void TfTracker::advancePairs(TrackedCycle& cycle) {
   together_ = {cycle.start, cycle.end};
 }
 
-void TfTracker::posesAt(const ros::Time& time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) const {
-  X_WB.assign(bodies_.size(), Isometry3d::Identity());
-  missing.resize(bodies_.size());
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+void TfTracker::take(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs) {
+  begin_ = other.begin_;
+  last_end_ = other.last_end_;
+  waits_since_ = other.waits_since_;
+  time_to_go_back_ = other.time_to_go_back_;
+  goes_back_ = other.goes_back_;
+  late_.swap(other.late_);
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (bodies[body] < 0) continue;
+    const auto before = static_cast<std::size_t>(bodies[body]);
+    versions_[body] = other.versions_[before];
+    changed_[body] = other.changed_[before];
+    too_late_[body].swap(other.too_late_[before]);
+  }
+  are_together_ = other.are_together_;
+  together_ = other.together_;
+  for (std::size_t p = 0; p < pairs.size() && !are_together_ && !other.times_.empty(); ++p)
+    times_[p] = pairs[p] < 0 ? TimePart{last_end_, last_end_} : other.times_[static_cast<std::size_t>(pairs[p])];
+}
+
+void posesAt(const TfHistory& history, const std::vector<TrackedBody>& bodies, const ros::Time& time,
+             std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) {
+  X_WB.assign(bodies.size(), Isometry3d::Identity());
+  missing.resize(bodies.size());
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
     Isometry3d X_WF;
-    if (!missing[body].empty() || !history_.lookup(frames_[body], time, X_WF, missing[body])) continue;
-    X_WB[body] = X_WF * bodies_[body].X_frame_B;
-    if (isTooFar(X_WB[body])) missing[body] = tooFar(frames_[body]);
+    const std::string frame = withoutLeadingSlash(bodies[body].frame);
+    if (!missing[body].empty() || !history.lookup(frame, time, X_WF, missing[body])) continue;
+    X_WB[body] = X_WF * bodies[body].X_frame_B;
+    if (isTooFar(X_WB[body])) missing[body] = tooFar(frame);
   }
 }
 

@@ -24,6 +24,14 @@ struct TrackedBody {
 
 std::vector<TrackedBody> trackedBodies(const Scene& scene);
 
+/// Whether a body is farther away than can be computed with, and what is said of it.
+bool isTooFar(const Isometry3d& X_WB);
+std::string tooFar(const std::string& frame);
+
+/// Poses of all bodies at a time, 0 for the latest of each; `missing` says per body why its pose is not known.
+void posesAt(const TfHistory& history, const std::vector<TrackedBody>& bodies, const ros::Time& time,
+             std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing);
+
 /// The motion of all bodies over one cycle (start, end], and over what was left of earlier ones.
 struct TrackedCycle {
   ros::Time start;
@@ -72,8 +80,12 @@ class TfTracker {
   /// The next cycle begins with the next transforms.
   void reset();
 
-  /// Poses of all bodies at a time, 0 for the latest of each; `missing` says per body why its pose is not known.
-  void posesAt(const ros::Time& time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) const;
+  /// Goes on with other bodies where another tracker is between two cycles; without allocating.
+  /// @param bodies, pairs  per body and pair, its index there; -1 if it is new, and begins at the last cycle's end.
+  void take(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs);
+
+  /// Finds the ways to all frames, ahead of the first step.
+  void warmUp() { history_.spans(chains_, spans_); }
 
  private:
   void look(const ros::Time& now, std::vector<std::string>& missing);
@@ -97,8 +109,6 @@ class TfTracker {
   void boundJerks(double start, double end, std::vector<double>& jerk);
   void setSpans(TrackedCycle& cycle) const;
   static std::string seconds(const ros::Duration& duration);
-  static bool isTooFar(const Isometry3d& X_WB);
-  static std::string tooFar(const std::string& frame);
 
   TfHistory& history_;
   std::vector<TrackedBody> bodies_;

@@ -11,6 +11,23 @@ TfTree::TfTree(const std::vector<std::string>& wanted)
     wanted_.push_back(frame);
     setFollowed(frame, true);
   }
+  from_the_beginning_ = wanted_.size();
+}
+
+void TfTree::wantBesides(const std::vector<std::string>& names) {
+  if (follows_all_) return;
+  const std::vector<int> before(wanted_.begin() + static_cast<std::ptrdiff_t>(from_the_beginning_), wanted_.end());
+  wanted_.resize(from_the_beginning_);
+  for (const int frame : before) frames_[frame].is_wanted = false;
+  for (const std::string& name : names) {
+    const int frame = add(name);
+    if (frames_[frame].is_wanted) continue;
+    frames_[frame].is_wanted = true;
+    wanted_.push_back(frame);
+  }
+  for (const int frame : before) dropIfUnused(frame);
+  ++followed_topology_;  // what was no frame may be one
+  followWanted();
 }
 
 int TfTree::find(std::string_view name) const {

@@ -32,6 +32,9 @@ class TfTree {
   /// Gives it one. It is wanted, or has to get a transform or a child soon.
   int add(std::string_view name);
 
+  /// Follows these frames too, and no longer those that the last call named; for trees that do not follow all.
+  void wantBesides(const std::vector<std::string>& names);
+
   /// Keeps the frame's number, whatever comes.
   void pin(int frame) { frames_[frame].is_pinned = true; }
 
@@ -88,7 +91,8 @@ class TfTree {
   std::deque<Frame> frames_;                           // whose names stay where they are
   std::unordered_map<std::string_view, int> numbers_;  // by name
   std::vector<int> free_;
-  std::vector<int> wanted_;
+  std::vector<int> wanted_;                            // those from the beginning, then those besides
+  std::size_t from_the_beginning_ = 0;
   std::size_t others_[2] = {0, 0};
   std::size_t followed_ = 0;
   std::size_t most_followed_ = 0;  // before what is followed is found anew

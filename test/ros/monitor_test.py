@@ -11,13 +11,13 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point, Pose, TransformStamped, WrenchStamped
-from std_msgs.msg import Float64, Header, String
+from std_msgs.msg import Float64, Header
 from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from visualization_msgs.msg import Marker, MarkerArray
 
-from sdf_ccd.msg import Contact, ContactArray, DistanceArray, LinkPoses, MonitorState, PairContact
+from sdf_ccd.msg import Contact, ContactArray, DistanceArray, LinkPoses, MonitorState, PairContact, Plan
 from sdf_ccd.srv import QueryMotion, QueryMotionRequest, QueryPoints
 
 PERIOD = 0.033  # [s]
@@ -81,7 +81,7 @@ class MonitorTest(unittest.TestCase):
         cls.query_points = rospy.ServiceProxy('/collision_monitor/query_points', QueryPoints)
         cls.reset = rospy.ServiceProxy('/collision_monitor/reset', Empty)
         cls.stamp = rospy.Time.now()
-        assert Recorder('/collision_monitor/plan', String).find(lambda m: 'plate' in m.data, 60.0), 'no plan'
+        assert Recorder('/collision_monitor/plan', Plan).find(lambda m: 'plate' in m.names, 60.0), 'no plan'
         end = time.monotonic() + 30.0
         while cls.contacts.find(lambda m: m.verdict == ContactArray.CLEAR, 0.0) is None:
             assert time.monotonic() < end, 'no complete cycle'
@@ -504,7 +504,7 @@ class MonitorTest(unittest.TestCase):
         process = subprocess.Popen(['rosrun', 'sdf_ccd', 'collision_monitor', '__name:=slow_monitor', '_rate:=0.001',
                                     '_urdf_parameter:=/collision_monitor/robot_description'])
         try:
-            self.assertIsNotNone(Recorder('/slow_monitor/plan', String).find(lambda m: True))
+            self.assertIsNotNone(Recorder('/slow_monitor/plan', Plan).find(lambda m: True))
             time.sleep(0.5)  # the first cycle begins at once
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.wait(10.0), 0)

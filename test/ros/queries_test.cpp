@@ -33,7 +33,7 @@ class QueriesTest : public ::testing::Test {
     loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters);
     loop_->history().add(message({stampedTransform("base", "ball", kStart, 1.0)}), false);
     limits_.seconds = 0.1;
-    queries_ = std::make_unique<Queries>(scene_, described_, parameters, loop_->history(), loop_->tracker(), limits_);
+    queries_ = std::make_unique<Queries>(loop_->world(), described_, parameters, loop_->history(), limits_);
   }
 
   DescribedScene described_;

@@ -203,7 +203,7 @@ def kill_monitor(bench, rounds):
 def kill_monitor_beside(bench, rounds):
     import rosgraph
     import rospy
-    from std_msgs.msg import String
+    from sdf_ccd.msg import Plan
     while not rosgraph.is_master_online():
         time.sleep(0.1)
     cache = bench.fresh('monitor_cache')
@@ -218,7 +218,7 @@ def kill_monitor_beside(bench, rounds):
         start = time.monotonic()
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            rospy.wait_for_message('collision_monitor/plan', String, TIME_LIMIT)
+            rospy.wait_for_message('collision_monitor/plan', Plan, TIME_LIMIT)
             return time.monotonic() - start
         except rospy.ROSException:
             return None

@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""Changes the scene of a running monitor, and looks at what its cycles and answers say."""
+import os
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped
+from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+
+from sdf_ccd.msg import ContactArray, MonitorState, Plan, SceneChange
+from sdf_ccd.srv import GetPlan, QueryPoints, UpdateScene
+
+PERIOD = 0.02  # [s]
+
+
+def pose(x=0.0, y=0.0, z=0.0):
+    return Pose(position=Point(x, y, z), orientation=Quaternion(0, 0, 0, 1))
+
+
+def box(name, where, size=(0.1, 0.1, 0.1), frame=''):
+    return SceneChange(type=SceneChange.ADD, object=name, pose=where, header=Header(frame_id=frame),
+                       primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=size)])
+
+
+class WorldTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.condition, cls.contacts, cls.states, cls.plans = threading.Condition(), [], [], []
+        cls.place = [0.0, 0.0]
+        cls.tf = rospy.Publisher('/tf', TFMessage, queue_size=1000)
+        for topic, kind, kept in (('contacts', ContactArray, cls.contacts), ('state', MonitorState, cls.states),
+                                  ('plan', Plan, cls.plans)):
+            rospy.Subscriber('/collision_monitor/' + topic, kind, lambda m, kept=kept: cls.keep(m, kept),
+                             queue_size=1000)
+        rospy.wait_for_service('/collision_monitor/update_scene', 60.0)
+        cls.update = rospy.ServiceProxy('/collision_monitor/update_scene', UpdateScene)
+        cls.points = rospy.ServiceProxy('/collision_monitor/query_points', QueryPoints)
+        cls.get_plan = rospy.ServiceProxy('/collision_monitor/get_plan', GetPlan)
+        threading.Thread(target=cls.move, daemon=True).start()
+        end = time.monotonic() + 60.0
+        while not cls.find(cls.contacts, lambda m: m.verdict == ContactArray.CLEAR, 1.0):
+            assert time.monotonic() < end, 'no complete cycle'
+
+    @classmethod
+    def keep(cls, message, kept):
+        with cls.condition:
+            kept.append(message)
+            cls.condition.notify_all()
+
+    @classmethod
+    def move(cls):
+        while not rospy.is_shutdown():
+            message = TFMessage()
+            for frame, x, y in (('ball', cls.place[0], 0.0), ('other', cls.place[1], 0.5), ('belt', 0.3, 3.0)):
+                transform = TransformStamped(header=Header(stamp=rospy.Time.now(), frame_id='base'),
+                                             child_frame_id=frame)
+                transform.transform.translation.x, transform.transform.translation.y = x, y
+                transform.transform.rotation.w = 1.0
+                message.transforms.append(transform)
+            cls.tf.publish(message)
+            time.sleep(PERIOD)
+
+    @classmethod
+    def find(cls, kept, test, timeout=5.0):
+        """The first message from now on that passes the test; None if none comes in time."""
+        end = time.monotonic() + timeout
+        with cls.condition:
+            del kept[:]
+            seen = 0
+            while True:
+                for message in kept[seen:]:
+                    if test(message):
+                        return message
+                seen = len(kept)
+                if not cls.condition.wait(max(0.0, end - time.monotonic())):
+                    return None
+
+    def change(self, *changes, **more):
+        answer = self.update(changes=list(changes), **more)
+        self.assertTrue(answer.success, answer.message)
+        self.assertTrue(answer.adopted)
+        return answer
+
+    def setUp(self):
+        self.place[:] = [0.0, 0.0]
+        self.change(SceneChange(type=SceneChange.CLEAR), SceneChange(type=SceneChange.FORGET_RULES))
+
+    def touching(self, a, b, version):
+        return self.find(self.contacts, lambda m: m.scene_version == version and any(
+            {p.body_a, p.body_b} == {a, b} and p.verdict == p.CONTACT for p in m.pairs))
+
+    def clear(self, version):
+        return self.find(self.contacts, lambda m: m.scene_version == version and m.verdict == m.CLEAR)
+
+    def test_an_object_comes_moves_and_goes(self):
+        before = self.change().scene_version
+        answer = self.change(box('box', pose(0.0)))
+        self.assertEqual(answer.scene_version, before + 1)
+        self.assertEqual(answer.objects, ['box'])
+        self.assertIsNotNone(self.touching('ball', 'box', answer.scene_version))
+        moved = self.change(SceneChange(type=SceneChange.MOVE, object='box', pose=pose(0.4)))
+        self.assertIsNotNone(self.clear(moved.scene_version))
+        self.assertEqual(moved.prepared, 0)
+        gone = self.change(SceneChange(type=SceneChange.REMOVE, object='box'))
+        self.assertEqual(gone.objects, [])
+        self.assertIsNotNone(self.find(self.states, lambda m: m.scene_version == gone.scene_version))
+
+    def test_an_object_follows_its_frame(self):
+        answer = self.change(box('box', pose(-0.3, -3.0), frame='belt'))
+        self.assertIsNotNone(self.touching('ball', 'box', answer.scene_version))
+        lost = self.change(box('box', pose(), frame='nowhere'))
+        found = self.find(self.states, lambda m: m.scene_version == lost.scene_version and any(
+            'nowhere' in line for line in m.missing))
+        self.assertIsNotNone(found)
+        self.assertEqual(found.verdict, MonitorState.NOT_CHECKED)
+
+    def test_a_grasped_object_is_checked_against_the_world(self):
+        self.change(box('part', pose(0.06, 0.0, 0.0)), box('shelf', pose(1.0, 0.0), (0.2, 1.0, 1.0)))
+        grasped = self.change(SceneChange(type=SceneChange.ATTACH, object='part', link='ball'))
+        self.assertIsNotNone(self.clear(grasped.scene_version))  # ball and part touch, and may
+        self.place[0] = 0.8
+        self.assertIsNotNone(self.touching('part', 'shelf', grasped.scene_version))
+        self.place[0] = 0.3
+        self.assertIsNotNone(self.clear(grasped.scene_version))
+        time.sleep(0.3)
+        put = self.change(SceneChange(type=SceneChange.DETACH, object='part'))
+        self.place[0] = -0.5
+        self.assertIsNotNone(self.clear(put.scene_version))
+        answer = self.points(header=Header(), points=[Point(0.36, 0.0, 0.0)])
+        self.assertEqual(answer.bodies, ['part'])
+        self.assertEqual(answer.scene_version, put.scene_version)
+        self.assertLess(answer.distances[0], -0.04)
+
+    def test_pairs_are_allowed_and_checked_again(self):
+        self.change(box('box', pose()))
+        allowed = self.change(SceneChange(type=SceneChange.ALLOW, body_a='b?x', body_b='*'))
+        self.assertIsNotNone(self.clear(allowed.scene_version))
+        plan = self.get_plan().plan
+        self.assertEqual(plan.scene_version, allowed.scene_version)
+        left_out = {(plan.names[a], plan.names[b]): plan.reasons[r]
+                    for a, b, r in zip(plan.left_out_a, plan.left_out_b, plan.left_out_reason)}
+        self.assertEqual(left_out[('ball', 'box')], 'update_scene: b?x - *')
+        self.assertTrue(any(p.scene_version == allowed.scene_version for p in list(self.plans)) or
+                        self.find(self.plans, lambda m: m.scene_version == allowed.scene_version))
+        checked = self.change(SceneChange(type=SceneChange.CHECK, body_a='box', body_b='ball'))
+        self.assertIsNotNone(self.touching('ball', 'box', checked.scene_version))
+
+    def test_all_changes_or_none(self):
+        before = self.change(box('kept', pose(1.0)))
+        bad = SceneChange(type=SceneChange.ADD, object='bad', primitives=[
+            SolidPrimitive(type=SolidPrimitive.BOX, dimensions=(0.1, float('nan'), 0.1))])
+        answer = self.update(changes=[box('new', pose(1.0)), SceneChange(type=SceneChange.REMOVE, object='kept'), bad])
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.failed_change, 2)
+        self.assertIn('primitives[0]', answer.message)
+        self.assertEqual(answer.scene_version, before.scene_version)
+        self.assertEqual(answer.objects, ['kept'])
+
+    def test_a_mesh_in_the_request(self):
+        corners = [(x, y, z) for x in (-.1, .1) for y in (-.1, .1) for z in (-.1, .1)]
+        quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+        triangles = [MeshTriangle(t) for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+        mesh = Mesh(vertices=[Point(*c) for c in corners], triangles=triangles)
+        answer = self.change(SceneChange(type=SceneChange.ADD, object='mesh', pose=pose(0.05), meshes=[mesh]))
+        self.assertGreaterEqual(answer.prepared, 1)
+        self.assertIsNotNone(self.touching('ball', 'mesh', answer.scene_version))
+        again = self.change(SceneChange(type=SceneChange.ADD, object='twin', pose=pose(3.0), meshes=[mesh]))
+        self.assertEqual(again.prepared, 0)
+
+    def test_a_scene_is_saved_and_loaded(self):
+        folder = tempfile.mkdtemp(dir='/tmp')
+        file = os.path.join(folder, 'w.scene')
+        self.change(box('a', pose(0.0)), box('b', pose(0.5)), save_file=file)
+        self.change(SceneChange(type=SceneChange.CLEAR))
+        answer = self.change(SceneChange(type=SceneChange.LOAD, file=file))
+        self.assertEqual(answer.objects, ['a', 'b'])
+        self.assertIsNotNone(self.touching('ball', 'a', answer.scene_version))
+        refused = self.update(changes=[SceneChange(type=SceneChange.LOAD, file='/etc/w.scene')])
+        self.assertIn('resource_roots', refused.message)
+
+    def test_no_contact_is_missed_while_the_scene_changes(self):
+        answer = self.change(box('wall', pose(0.0)))
+        stop = threading.Event()
+        errors = []
+
+        def churn():
+            i = 0
+            proxy = rospy.ServiceProxy('/collision_monitor/update_scene', UpdateScene)
+            while not stop.is_set():
+                i += 1
+                said = proxy(changes=[box('o%d' % (i % 7), pose(3.0 + i % 5))])
+                if not said.success or not said.adopted:
+                    errors.append(said.message)
+        thread = threading.Thread(target=churn)
+        thread.start()
+        time.sleep(1.0)
+        with self.condition:
+            del self.contacts[:]
+        time.sleep(3.0)
+        with self.condition:
+            heard = list(self.contacts)
+        stop.set()
+        thread.join()
+        self.assertEqual(errors, [])
+        self.assertGreater(heard[-1].scene_version, answer.scene_version + 20)
+        self.assertGreater(len(heard), 40)
+        for message in heard:
+            self.assertTrue(any({p.body_a, p.body_b} == {'ball', 'wall'} and p.verdict == p.CONTACT
+                                for p in message.pairs), message)
+        ends = [m.header.stamp for m in heard]
+        for earlier, later in zip(heard, heard[1:]):
+            self.assertEqual(earlier.header.stamp, later.cycle_start)  # no time is left out
+        self.assertEqual(ends, sorted(ends))
+
+
+if __name__ == '__main__':
+    rospy.init_node('world_test')
+    rostest.rosrun('sdf_ccd', 'world', WorldTest, sys.argv)
