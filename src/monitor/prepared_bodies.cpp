@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kUnused = 32;  // bodies kept out of use
+constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{64} << 20;  // of bodies kept out of use
 constexpr std::size_t kHashes = 1024;
 
 void append(const double* numbers, std::size_t count, std::string& key) {
@@ -111,9 +111,13 @@ void PreparedBodies::dropUnused(std::uint64_t version) {
   std::vector<std::pair<std::uint64_t, std::string>> unused;
   for (const auto& [key, prepared] : bodies_)
     if (prepared.used < version) unused.emplace_back(prepared.used, key);
-  if (unused.size() <= kUnused) return;
-  std::sort(unused.begin(), unused.end());
-  for (std::size_t i = 0; i + kUnused < unused.size(); ++i) bodies_.erase(unused[i].second);
+  std::sort(unused.rbegin(), unused.rend());  // the last ones first
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < unused.size(); ++i) {
+    const BodyReport& report = bodies_[unused[i].second].report;
+    bytes += report.field_bytes + report.shell_bytes;
+    if (i >= kUnused || bytes > kUnusedBytes) bodies_.erase(unused[i].second);
+  }
 }
 
 }  // namespace sdf_ccd

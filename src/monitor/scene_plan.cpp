@@ -25,6 +25,7 @@ Extent extentOf(const BodyDescription& body) {
     const auto* primitive = std::get_if<Primitive>(&geometry.shape);
     const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
     if (mesh && !*mesh) continue;  // a failure that building the body will name
+    if (geometry.watertight_voxels) return {0.0, std::numeric_limits<double>::infinity()};  // only a field itself
     const AlignedBox3d box = primitive ? boundingBox(*primitive) : boundingBox(**mesh);
     if (!box.sizes().allFinite()) return {0.0, std::numeric_limits<double>::infinity()};
     for (int k = 0; k < 8; ++k) all.extend(geometry.X_BG * box.corner(AlignedBox3d::CornerType(k)));

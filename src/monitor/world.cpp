@@ -63,7 +63,18 @@ struct WorldEditor::Impl {
                          const std::vector<std::string>& keys, const std::vector<PreparedNeeds>& needs);
   void finish(WorldSnapshot& snapshot, const std::vector<std::shared_ptr<const Body>>& prepared);
 
+  const DistanceField* fieldOf(const GeometryDescription& part) const;
+  void provideFields(const BodyDescription& body, MeshPool& pool) const;
+  void forgetFields();
+
+  /// Of a mesh, made elsewhere.
+  struct Provided {
+    std::weak_ptr<const TriangleMesh> mesh;
+    DistanceField field;
+  };
+
   BodyOptions options;
+  std::unordered_map<const TriangleMesh*, Provided> fields;
   GeometryKeys keys;
   PreparedBodies bodies;
   std::unordered_map<std::string, Named> named;
@@ -78,6 +89,27 @@ WorldEditor::~WorldEditor() = default;
 
 const std::shared_ptr<const WorldSnapshot>& WorldEditor::last() const {
   return impl_->last;
+}
+
+void WorldEditor::provide(const std::shared_ptr<const TriangleMesh>& mesh, const DistanceField& field) {
+  impl_->fields.insert_or_assign(mesh.get(), Impl::Provided{mesh, field});
+}
+
+const DistanceField* WorldEditor::Impl::fieldOf(const GeometryDescription& part) const {
+  const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&part.shape);
+  const auto found = mesh ? fields.find(mesh->get()) : fields.end();
+  return found != fields.end() && found->second.mesh.lock() == *mesh ? &found->second.field : nullptr;
+}
+
+void WorldEditor::Impl::provideFields(const BodyDescription& body, MeshPool& pool) const {
+  for (const GeometryDescription& part : body.geometry)
+    if (const DistanceField* field = fieldOf(part)) pool.find(part).field = *field;
+}
+
+/// Of meshes that are gone.
+void WorldEditor::Impl::forgetFields() {
+  for (auto field = fields.begin(); field != fields.end();)
+    field = field->second.mesh.expired() ? fields.erase(field) : std::next(field);
 }
 
 /// But for surfaces, which fields that are built tell of.
@@ -108,7 +140,7 @@ void WorldEditor::Impl::requireAffordable(const SceneDescription& description, c
     if (!body.failure.empty() || !needs[b].of_body.any() || bodies.find(keys[b], needs[b])) continue;
     const bool has_mesh = std::any_of(
         body.geometry.begin(), body.geometry.end(),
-        [](const GeometryDescription& part) { return !std::holds_alternative<Primitive>(part.shape); });
+        [this](const GeometryDescription& part) { return !std::holds_alternative<Primitive>(part.shape) && !fieldOf(part); });
     const bool is_large_primitive = !has_mesh && plan.needs_shell[b] && !plan.edges_only[b];
     if (!has_mesh && !is_large_primitive) continue;  // they cost next to nothing
     missing.bodies.push_back(body);
@@ -183,6 +215,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
     prepared[b] = impl_->bodies.find(keys[b], needs[b]);
     if (prepared[b]) return;
     if (progress) progress(body.name);
+    impl_->provideFields(body, pool);
     prepared[b] = &impl_->bodies.make(keys[b], body, needs[b], impl_->options, pool);
     ++snapshot->prepared;
   };
@@ -225,6 +258,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   snapshot->description = std::make_shared<const SceneDescription>(std::move(description));
   snapshot->scene = std::make_shared<const Scene>(std::move(scene));
   impl_->bodies.dropUnused(version);
+  impl_->forgetFields();
   impl_->finish(*snapshot, bodies);
   impl_->last = snapshot;
   return snapshot;

@@ -251,6 +251,14 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   return "";
 }
 
+std::string ChangingScene::whyTileLeftOut(const BodyDescription& tile, const BodyDescription& other) const {
+  const PairRules& rules = fixed_->rules;
+  if (rules.allowed.empty()) return "";
+  const bool is_allowed =
+      !matchesAny(rules.checked, tile.name, other.name) && matchesAny(rules.allowed, tile.name, other.name);
+  return is_allowed ? "allowed_pairs" : "";
+}
+
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   if (objects_.size() > limits.objects)
     throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
@@ -261,9 +269,11 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   for (const auto& [name, object] : objects_) ordered.push_back(&object);
   std::sort(ordered.begin(), ordered.end(), [](const Object* a, const Object* b) { return a->since < b->since; });
   for (const Object* object : ordered) scene.bodies.push_back(object->body);
+  const std::size_t first_tile = scene.bodies.size();
+  if (tiles_) scene.bodies.insert(scene.bodies.end(), tiles_->begin(), tiles_->end());
 
-  const auto objectOf = [&](std::size_t body) {
-    return body < fixed_->links.size() ? nullptr : ordered[body - fixed_->links.size()];
+  const auto objectOf = [&](std::size_t body) -> const Object* {
+    return body < fixed_->links.size() || body >= first_tile ? nullptr : ordered[body - fixed_->links.size()];
   };
   // What start-up said of what is as it was.
   std::set<std::string> as_first;
@@ -294,11 +304,12 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       const BodyDescription &body_a = scene.bodies[i], &body_b = scene.bodies[k];
       if (body_a.is_world && body_b.is_world) continue;
       const bool is_new = (a && !a->is_as_first) || (b && !b->is_as_first);
-      if (!is_new && rules_.empty()) continue;
+      if (!is_new && rules_.empty() && (k < first_tile || fixed_->rules.allowed.empty())) continue;
       const Rule* rule = lastRule(body_a.name, body_b.name);
       bool proved = false;
       std::string reason;
       if (is_new) reason = b && !b->is_as_first ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
+      if (reason.empty() && !proved && k >= first_tile) reason = whyTileLeftOut(body_b, body_a);
       if (rule && !proved) reason = rule->is_allowed ? "update_scene: " + rule->pair.a + " - " + rule->pair.b : "";
       if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
       scene.disabled.push_back({body_a.name, body_b.name, reason, proved});

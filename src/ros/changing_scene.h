@@ -35,7 +35,11 @@ class ChangingScene {
 
   /// Sets an object, or replaces it, by a body of the world.
   void set(BodyDescription body);
-  void remove(const std::string& object) { objects_.erase(object); }
+
+  /// The tiles of a live map, in the place of those before.
+  void setTiles(std::vector<BodyDescription> tiles) {
+    tiles_ = std::make_shared<const std::vector<BodyDescription>>(std::move(tiles));
+  }
 
   /// All of it, to be built. @throws std::length_error if that is more than may be.
   SceneDescription description(const RequestLimits& limits) const;
@@ -76,10 +80,12 @@ class ChangingScene {
   std::string frameOf(const SceneChange& change, const std::string& otherwise) const;
   Object& find(const std::string& name);
   const Rule* lastRule(const std::string& a, const std::string& b) const;
+  std::string whyTileLeftOut(const BodyDescription& tile, const BodyDescription& other) const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
 
   std::shared_ptr<const Fixed> fixed_;
   std::map<std::string, Object> objects_;
+  std::shared_ptr<const std::vector<BodyDescription>> tiles_;
   std::vector<Rule> rules_;
   std::size_t count_ = 0;
 };

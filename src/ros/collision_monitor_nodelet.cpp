@@ -48,6 +48,7 @@ CollisionMonitor::~CollisionMonitor() {
   }
   service_queue_.disable();  // the spinner wakes up at once
   if (service_spinner_) service_spinner_->stop();
+  live_map_.reset();
   scene_editor_.reset();
   queries_.reset();
   outputs_.reset();
@@ -171,6 +172,8 @@ void CollisionMonitor::setUp() {
                                                 SceneEditor::Parts{*loop_, *outputs_, *queries_}, wake,
                                                 [this](const CheckedWorld& world) { publishPlan(world); });
   first_world_.reset();
+  if (!parameters_.live_map.topic.empty())
+    live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(), stop_);
   health_.building.clear();
   forget("waiting for transforms");
   const std::lock_guard<std::mutex> lock(ready_mutex_);
@@ -222,6 +225,13 @@ void CollisionMonitor::buildFields() {
 }
 
 void CollisionMonitor::publishPlan(const CheckedWorld& world) {
+  const ros::WallTime now = ros::WallTime::now();
+  {
+    const std::lock_guard<std::mutex> lock(plan_mutex_);
+    const bool is_soon = !plan_published_.isZero() && now - plan_published_ < ros::WallDuration(1.0);
+    if (is_soon && live_map_) return;  // there will be another one
+    plan_published_ = now;
+  }
   plan_publisher_.publish(boost::make_shared<Plan>(toPlan(world, described_.fixed_frame, ros::Time::now())));
 }
 

@@ -14,6 +14,7 @@
 
 #include "ros/diagnostics.h"
 #include "ros/joint_watch.h"
+#include "ros/live_map.h"
 #include "ros/outputs.h"
 #include "ros/queries.h"
 #include "ros/scene_editor.h"
@@ -30,6 +31,7 @@ namespace sdf_ccd {
 ///
 /// Subscribes:
 ///   /tf, /tf_static  tf2_msgs/TFMessage
+///   the parameter octomap/topic  octomap_msgs/Octomap  see LiveMap
 ///   joint_states     sensor_msgs/JointState  only to name joints whose positions are not finite
 ///
 /// Publishes, below the node's name, besides what Outputs and Diagnostics do:
@@ -99,6 +101,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::unique_ptr<Outputs> outputs_;
   std::unique_ptr<Queries> queries_;
   std::unique_ptr<SceneEditor> scene_editor_;
+  std::unique_ptr<LiveMap> live_map_;
   std::unique_ptr<JointWatch> joint_watch_;
 
   std::unique_ptr<Diagnostics> diagnostics_;
@@ -111,6 +114,9 @@ class CollisionMonitor : public nodelet::Nodelet {
   ros::WallTime last_log_;                        // of the progress of building
   ros::WallTime last_static_;                     // when /tf_static was listened to
   ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
+
+  std::mutex plan_mutex_;
+  ros::WallTime plan_published_;
 
   MessagePool<MonitorState> state_messages_;
   ros::Publisher state_publisher_;

@@ -7,6 +7,7 @@
 #include <ros/console.h>
 
 #include "ros/cycle_messages.h"
+#include "ros/shape_marker.h"
 #include "ros/world_markers.h"
 
 namespace sdf_ccd {
@@ -184,9 +185,7 @@ void Outputs::send(Report& report) {
 
 void Outputs::draw(const Report& report) {
   if (report.world) goOnWith(report.world);
-  if (report.draws_world)
-    world_publisher_.publish(
-        boost::make_shared<visualization_msgs::MarkerArray>(toWorldMarkers(report.world->description())));
+  if (report.draws_world) drawWorld(*report.world);
   if (report.is_unchecked) {
     markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(drawer_.clear(report.reason)));
   } else if (finishes_ || (!report.draws_markers && !report.draws_links)) {
@@ -197,6 +196,17 @@ void Outputs::draw(const Report& report) {
     if (report.draws_markers) markers_.publish(markers);
   }
   if (report.draws_links) drawLinks();
+}
+
+void Outputs::drawWorld(const CheckedWorld& world) {
+  const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(toWorldMarkers(world.description()));
+  if (has_drawn_world_) {  // what is no longer there goes
+    visualization_msgs::Marker all = makeMarker(loop_.fixedFrame(), "", 0, visualization_msgs::Marker::CUBE);
+    all.action = visualization_msgs::Marker::DELETEALL;
+    markers->markers.insert(markers->markers.begin(), all);
+  }
+  has_drawn_world_ = true;
+  world_publisher_.publish(markers);
 }
 
 void Outputs::drawLinks() {

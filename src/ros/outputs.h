@@ -98,6 +98,7 @@ class Outputs {
   void lookForSubscribers();
   void send(Report& report);
   void draw(const Report& report);
+  void drawWorld(const CheckedWorld& world);
   void drawLinks();
   void setWorld(Report& report);
   void goOnWith(const std::shared_ptr<const CheckedWorld>& world);
@@ -114,6 +115,7 @@ class Outputs {
   std::shared_ptr<const CheckedWorld> drawn_;
   MarkerDrawer drawer_;
   std::unique_ptr<LinkMarkers> link_markers_;
+  bool has_drawn_world_ = false;
 
   MessagePool<ContactArray> contact_messages_;
 

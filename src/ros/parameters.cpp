@@ -115,8 +115,13 @@ ContactOptions readContact(ParameterReader reader) {
   return contact;
 }
 
-OctomapObject readOctomap(ParameterReader reader) {
+OctomapObject readOctomap(ParameterReader reader, LiveMapParameters& live) {
   OctomapObject octomap;
+  live.topic = reader.name("topic", "");
+  live.unknown = static_cast<UnknownSpace>(
+      reader.choice("unknown", {"free", "occupied", "occupied_near"}, static_cast<int>(live.unknown)));
+  live.unknown_distance = reader.notNegative("unknown_distance", live.unknown_distance);
+  live.padding = reader.notNegative("padding", live.padding);
   octomap.file = reader.text("file", "");
   octomap.frame = reader.name("frame", "");
   octomap.X_frame_B = readPose(reader);
@@ -158,7 +163,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.world = readWorld(reader);
   parameters.world_file = reader.text("world_file", "");
   parameters.resource_roots = reader.texts("resource_roots");
-  parameters.octomap = readOctomap(reader.group("octomap"));
+  parameters.octomap = readOctomap(reader.group("octomap"), parameters.live_map);
   const std::optional<ErrorBudget> budget = readBudget(reader);
   parameters.scene.field = readField(reader.group("field"), budget);
   parameters.scene.shell = readShell(reader.group("shell"), budget);

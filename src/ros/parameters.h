@@ -14,6 +14,7 @@
 #include "ros/tf_tracker.h"
 #include "ros/world_object.h"
 #include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor/voxel_map.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
@@ -31,6 +32,14 @@ struct ProximityParameters {
   double report_distance = 0.0;  ///< pairs nearer than this are listed [m]; 0: none
   ProximityThresholds thresholds;
   std::optional<StoppingPromise> promise;  ///< of whoever obeys the velocity scale; none: it is not published
+};
+
+/// The world as an OctoMap that comes on a topic, from the parameters `octomap/…` too.
+struct LiveMapParameters {
+  std::string topic;  ///< empty: none
+  UnknownSpace unknown = UnknownSpace::kFree;
+  double unknown_distance = 0.5;  ///< [m]
+  double padding = 0.03;          ///< of the robot's own voxels [m]
 };
 
 /// All parameters of the monitor; config/monitor.yaml documents them.
@@ -51,6 +60,7 @@ struct MonitorParameters {
   std::string world_file;  ///< further objects; empty: none
   std::vector<std::string> resource_roots;  ///< folders whose files requests may name
   OctomapObject octomap;
+  LiveMapParameters live_map;
   BodyOptions scene;
   MonitorOptions monitor;
   TfTrackerOptions tf;

@@ -148,7 +148,7 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   response.adopted = true;
   if (!request.changes.empty()) {
     scene_ = std::move(scene);
-    last_ = world;
+    setLast(world);
     const auto ready = Clock::now();
     response.adopted = handOver(world);
     response.adopt_seconds = secondsSince(ready);
@@ -158,6 +158,30 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   }
   for (const std::string& warning : sources.warnings) response.message += warning + "\n";
   response.success = true;
+}
+
+void SceneEditor::setLast(std::shared_ptr<const CheckedWorld> world) {
+  const std::lock_guard<std::mutex> lock(last_mutex_);
+  last_.swap(world);
+}
+
+std::shared_ptr<const CheckedWorld> SceneEditor::world() {
+  const std::lock_guard<std::mutex> lock(last_mutex_);
+  return last_;
+}
+
+std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, const std::vector<MadeField>& fields) {
+  lowerPriority();
+  const Turn turn(*this);
+  for (const MadeField& made : fields) editor_->provide(made.mesh, made.field);
+  ChangingScene scene = scene_;
+  scene.setTiles(std::move(tiles));
+  const std::shared_ptr<const CheckedWorld> world = make(scene);
+  scene_ = std::move(scene);
+  setLast(world);
+  handOver(world);
+  changed_(*world);
+  return world->version();
 }
 
 void SceneEditor::update(const UpdateScene::Request& request, UpdateScene::Response& response) {

@@ -22,6 +22,12 @@ struct PreparedWorld {
   std::unique_ptr<Outputs::LinkWrenches> wrenches;
 };
 
+/// The field of a mesh, made elsewhere.
+struct MadeField {
+  std::shared_ptr<const TriangleMesh> mesh;
+  DistanceField field;
+};
+
 /// Makes the next version of the world beside the cycles, by threads that call it, one after the other and of lower
 /// priority than cycles, on at most half of the cores; and hands it to the thread that runs these.
 ///
@@ -46,6 +52,17 @@ class SceneEditor {
   /// Answers a request. Never throws but for Cancelled.
   void update(const UpdateScene::Request& request, UpdateScene::Response& response);
 
+  /// Puts a live map's tiles in the place of those before. @return the version with them.
+  /// @throws std::exception if they cannot be had; Cancelled. The scene stays as it is then.
+  /// @param fields  of those tiles that are new.
+  std::uint64_t setMap(std::vector<BodyDescription> tiles, const std::vector<MadeField>& fields);
+
+  /// The last version that was made. From any thread.
+  std::shared_ptr<const CheckedWorld> world();
+
+  /// For what is made beside cycles.
+  tbb::task_arena& arena() { return arena_; }
+
   /// Takes over what is ready, if anything is; by the cycles' thread, between two cycles. Some microseconds.
   /// @return whether there was something.
   bool adopt();
@@ -55,6 +72,7 @@ class SceneEditor {
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
   std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene);
   bool handOver(const std::shared_ptr<const CheckedWorld>& world);
+  void setLast(std::shared_ptr<const CheckedWorld> world);
   void withdraw();
   void save(const std::string& file, const ChangingScene& scene, ChangeSources& sources);
 
@@ -66,10 +84,11 @@ class SceneEditor {
   std::function<void(const CheckedWorld&)> changed_;
   tbb::task_arena arena_;
 
+  std::mutex last_mutex_;
   std::timed_mutex turn_;
   std::atomic<int> callers_{0};
   ChangingScene scene_;                                // guarded by turn_, as all below
-  std::shared_ptr<const CheckedWorld> last_;           // that was made
+  std::shared_ptr<const CheckedWorld> last_;           // that was made; also by last_mutex_
   std::unique_ptr<PreparedWorld> given_;               // to the cycles' thread, last
   std::atomic<PreparedWorld*> offered_{nullptr};       // until that takes it
   std::atomic<const PreparedWorld*> adopted_{nullptr};  // when it has taken it over

@@ -64,9 +64,6 @@ std::vector<Vector3d> surfaceVoxels(const TriangleMesh& surface, double& size) {
 
 visualization_msgs::MarkerArray toWorldMarkers(const SceneDescription& scene) {
   visualization_msgs::MarkerArray markers;
-  if (scene.bodies.empty()) return markers;
-  markers.markers.push_back(makeMarker(scene.bodies.front().frame, "", 0, Marker::CUBE));
-  markers.markers.back().action = Marker::DELETEALL;
   for (const BodyDescription& body : scene.bodies) {
     if (!body.is_world) continue;
     for (const GeometryDescription& geometry : body.geometry) {

@@ -42,6 +42,10 @@ class WorldEditor {
   /// @param plan  that it was built by, with the same options.
   std::shared_ptr<const WorldSnapshot> begin(SceneDescription description, const ScenePlan& plan, Scene scene);
 
+  /// Takes the field of a mesh that is made already (a tile of a map), for descriptions that have that mesh, as long as
+  /// the mesh lives. It must be as accurate as the options ask for.
+  void provide(const std::shared_ptr<const TriangleMesh>& mesh, const DistanceField& field);
+
   /// Makes the next version. If it throws, the last version stays the last.
   /// @param progress  called with the name of each body that is being made.
   /// @throws std::invalid_argument if two bodies share a name, or one that is new or has changed cannot be made (the

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <optional>
+
+#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// A cube of voxels, each occupied or not: what lies outside is not.
+struct VoxelBlock {
+  static constexpr int kSide = 20;  ///< voxels
+  static constexpr std::size_t kCount = std::size_t{kSide} * kSide * kSide;
+
+  std::bitset<kCount> occupied;  ///< x fastest, then y, then z
+
+  static std::size_t index(int x, int y, int z) {
+    return (static_cast<std::size_t>(z) * kSide + static_cast<std::size_t>(y)) * kSide + static_cast<std::size_t>(x);
+  }
+};
+
+/// Where a block's voxels lie.
+struct VoxelPlace {
+  Vector3d origin = Vector3d::Zero();  ///< lowest corner of the first voxel [m], frame F
+  double size = 0.0;                   ///< of a voxel [m]
+};
+
+/// Boundary of a block's occupied voxels, two triangles a face, with shared vertices; see loadOctomapSurface().
+TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelPlace& place);
+
+/// The field of a block's occupied voxels, with cells of half a voxel and exact distances at their corners: as
+/// buildField() makes it of voxelSurface(), in about a millisecond.
+///
+/// The square of the distance from a lattice point to a set of cubes is the least sum of squares of its distances to
+/// their intervals along the axes, so that one axis after the other can be dealt with (Felzenszwalb & Huttenlocher,
+/// "Distance transforms of sampled functions", 2012). All are whole numbers of cells.
+/// @param band  as in FieldOptions [m].
+/// @return none if nothing is occupied.
+std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelPlace& place, double band);
+
+}  // namespace sdf_ccd
