@@ -44,6 +44,16 @@ void PairDistances::forget() {
   near_.clear();
 }
 
+void PairDistances::take(const PairDistances& before, const std::vector<int>& pairs_before) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (pairs_before[i] < 0 || !before.pairs_[pairs_before[i]].is_near) continue;
+    pairs_[i] = before.pairs_[pairs_before[i]];
+    pairs_[i].last.pair = static_cast<int>(i);
+    pairs_[i].last.body_a = scene_->pairs[i].body_a;
+    pairs_[i].last.body_b = scene_->pairs[i].body_b;
+  }
+}
+
 const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion, const CycleResult& result,
                                                        double range) {
   near_.clear();

@@ -48,6 +48,11 @@ class PairDistances {
 
   void forget();
 
+  /// Goes on from another scene's, between two cycles: what was near there, and is the same pair here, stays known until
+  /// it is measured. Only pairs that are delayed need it.
+  /// @param pairs_before  per pair here: the same pair there; −1 if there is none.
+  void take(const PairDistances& before, const std::vector<int>& pairs_before);
+
  private:
   struct Pair {
     bool is_known = false;

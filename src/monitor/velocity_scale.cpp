@@ -39,7 +39,9 @@ double scaleRange(const StoppingPromise& promise) {
          V * V / (2.0 * promise.deceleration);
 }
 
-double velocityScale(const std::vector<PairDistance>& pairs, double age, const StoppingPromise& promise) {
+double velocityScale(const std::vector<PairDistance>& pairs, double age, double oldest,
+                     const StoppingPromise& promise) {
+  if (!(oldest <= promise.max_age)) return 0.0;
   double allowed = promise.max_speed;
   for (const PairDistance& pair : pairs) {
     const double of_pair = std::max(0.0, age - pair.time);

@@ -52,7 +52,8 @@ double allowedClosing(const ClosingGap& gap, double age, const StoppingPromise& 
 double scaleRange(const StoppingPromise& promise);
 
 /// The largest scale in [0, 1] that keeps all pairs apart.
-/// @param age  of the last cycle's start, t₀ [s]; of a pair: less its PairDistance::time.
-double velocityScale(const std::vector<PairDistance>& pairs, double age, const StoppingPromise& promise);
+/// @param age     of the last cycle's start, t₀ [s]; of a pair: less its PairDistance::time.
+/// @param oldest  of what is known of any pair, those included that are not listed as they are beyond scaleRange() [s]
+double velocityScale(const std::vector<PairDistance>& pairs, double age, double oldest, const StoppingPromise& promise);
 
 }  // namespace sdf_ccd

@@ -79,6 +79,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   tracker_.swap(change.tracker);
   reach_guard_.swap(change.reach_guard);
   contacts_.adopt(change.contacts);
+  change.distances->take(*distances_, change.pairs_before);
   distances_.swap(change.distances);
   std::swap(cycle_, change.cycle);
   cycle_.start = change.cycle.start;

@@ -38,9 +38,9 @@ boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, co
   const CycleResult& result = loop.result();
   const bool is_known = result.not_checked == 0 && result.verdict != Verdict::kUncertain;
   if (scalesVelocity()) {
-    const double age = (now - loop.cycle().origin).toSec();
+    const double age = (now - loop.cycle().origin).toSec(), oldest = (now - loop.cycle().complete_until).toSec();
     const bool is_safe = is_known && result.verdict != Verdict::kContact;
-    publishScale(is_safe ? velocityScale(near, age, *parameters_.promise) : 0.0);
+    publishScale(is_safe ? velocityScale(near, age, oldest, *parameters_.promise) : 0.0);
   }
   double nearest = is_known && result.verdict != Verdict::kContact ? std::numeric_limits<double>::infinity() : 0.0;
   for (const PairDistance& pair : near) nearest = std::min(nearest, pair.any.width);

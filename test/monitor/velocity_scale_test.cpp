@@ -96,7 +96,7 @@ Outcome close(const StoppingPromise& promise, Random& random, bool is_greedy) {
         pair.any.width = widths[i - age];
         pair.any.over = over * kStep;
         pair.any.closing = (widths[i - age - over] - widths[i - age]) / pair.any.over;
-        robot.hear(now, velocityScale({pair}, age * kStep, promise));
+        robot.hear(now, velocityScale({pair}, age * kStep, age * kStep, promise));
       }
       // The next one comes in time, or for a while none at all.
       next_scale = now + (uniform(random, 0.0, 1.0) < 0.02 ? 5.0 : 0.95) * promise.period;
@@ -132,15 +132,16 @@ TEST(VelocityScale, WhatIsFarOrOpensIsNotSlowed) {
   promise.max_acceleration = 1.0;
   PairDistance pair;
   pair.any = {scaleRange(promise), promise.max_speed, 0.0};
-  EXPECT_EQ(velocityScale({pair}, promise.max_age, promise), 1.0);
+  EXPECT_EQ(velocityScale({pair}, promise.max_age, promise.max_age, promise), 1.0);
   pair.any = {0.1, promise.max_speed, 0.01};
-  EXPECT_LT(velocityScale({pair}, 0.0, promise), 0.2);
+  EXPECT_LT(velocityScale({pair}, 0.0, 0.0, promise), 0.2);
   pair.slab = ClosingGap{0.1, -0.5, 0.01};  // along it they part
-  EXPECT_GT(velocityScale({pair}, 0.0, promise), 0.25);
-  EXPECT_EQ(velocityScale({}, 0.0, promise), 1.0);
-  EXPECT_EQ(velocityScale({pair}, promise.max_age + 1e-3, promise), 0.0);  // nothing is known of it any more
+  EXPECT_GT(velocityScale({pair}, 0.0, 0.0, promise), 0.25);
+  EXPECT_EQ(velocityScale({}, 0.0, 0.0, promise), 1.0);
+  EXPECT_EQ(velocityScale({}, 0.0, promise.max_age + 1e-3, promise), 0.0);  // of some pair, and none was near
+  EXPECT_EQ(velocityScale({pair}, promise.max_age + 1e-3, 0.0, promise), 0.0);  // nothing is known of it any more
   pair.any = *pair.slab = {0.0, 0.0, 0.01};
-  EXPECT_EQ(velocityScale({pair}, 0.0, promise), 0.0);
+  EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
 }
 
 TEST(VelocityScale, PromisesAreChecked) {
@@ -232,7 +233,7 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       }
       const CycleResult& result = monitor.run(motion, {false, 0});
       ASSERT_EQ(result.verdict, Verdict::kClear);
-      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise)), motion.times.back(), promise));
+      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise)), motion.times.back(), 0.0, promise));
       poses = {X};
       known = now;
     }
