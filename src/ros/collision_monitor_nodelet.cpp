@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kIdlePeriod = 1.0;     // [s]
 constexpr double kLogPeriod = 3.0;      // of building's progress [s]
-constexpr double kLongestPeriod = 1e6;  // longer ones overflow clocks [s]
 constexpr double kLateShown = 3.0;      // a contradiction by late transforms, in the diagnostics [s]
 constexpr double kSending = 0.05;       // until the last messages have left [s]
 constexpr double kPatience = 2.0;       // until it is warned of what is not checked [s]
@@ -34,11 +33,8 @@ void returnFreedMemory() {
 }  // namespace
 
 CollisionMonitor::~CollisionMonitor() {
-  {
-    const std::lock_guard<std::mutex> lock(stop_mutex_);
-    stop_ = true;
-  }
-  stop_asked_.notify_all();
+  stop_ = true;
+  trigger_.stop();
   if (thread_.joinable()) thread_.join();
   if (ros::ok()) {
     if (loop_) loop_->reset();
@@ -98,22 +94,17 @@ void CollisionMonitor::setUpThenCycle() {
     NODELET_FATAL("Nothing is checked: %s", error.what());
     health_.failure = error.what();
   }
-  const double period = health_.failure.empty() ? std::min(1.0 / parameters_.rate, kLongestPeriod) : kIdlePeriod;
-  for (double left = 0.0; waitFor(left);) {
-    const ros::WallTime start = ros::WallTime::now();
+  TriggerOptions trigger = parameters_.trigger;
+  if (!health_.failure.empty()) trigger = {TriggerKind::kTimer, {}, kIdlePeriod, 0.0};
+  trigger_.setOptions(trigger);
+  while (trigger_.wait() && ros::ok()) {
     try {
       health_.failure.empty() ? cycle() : idle(health_.failure);
     } catch (const std::exception& error) {
       NODELET_ERROR_THROTTLE(1.0, "A cycle was not checked: %s", error.what());
       idle(error.what());
     }
-    left = period - (ros::WallTime::now() - start).toSec();
   }
-}
-
-bool CollisionMonitor::waitFor(double seconds) {
-  std::unique_lock<std::mutex> lock(stop_mutex_);
-  return !stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return stop_ || !ros::ok(); });
 }
 
 void CollisionMonitor::readWhenThere() {
@@ -125,7 +116,7 @@ void CollisionMonitor::readWhenThere() {
       NODELET_WARN_ONCE("Waiting: %s", missing.what());
       idle(std::string("waiting: ") + missing.what());
     }
-    if (!waitFor(kIdlePeriod)) throw Cancelled();
+    if (!trigger_.waitFor(kIdlePeriod) || !ros::ok()) throw Cancelled();
   }
 }
 
@@ -235,6 +226,10 @@ void CollisionMonitor::take(const tf2_msgs::TFMessage& message, bool is_static) 
   try {
     history.watchClock(ros::Time::now());
     history.add(message, is_static);
+    if (!is_static) trigger_.onTransforms();
+    for (std::size_t i = 0; i < message.transforms.size() && trigger_.wantsFrames(); ++i) {
+      trigger_.onFrame(withoutLeadingSlash(message.transforms[i].child_frame_id));
+    }
   } catch (const std::exception& error) {
     NODELET_WARN_THROTTLE(10.0, "Transforms are dropped: %s", error.what());
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -54,7 +53,6 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   void run();
   void setUpThenCycle();
-  bool waitFor(double seconds);  ///< false, and at once, if the nodelet is being unloaded
   void readWhenThere();
   void setUp();
   void buildFields();
@@ -117,9 +115,8 @@ class CollisionMonitor : public nodelet::Nodelet {
   bool ready_ = false;  // guarded by ready_mutex_, as the reason
   std::string not_ready_ = "starting";
   std::atomic<bool> reset_asked_{false};
-  std::mutex stop_mutex_;
-  std::condition_variable stop_asked_;
-  std::atomic<bool> stop_{false};  // set under stop_mutex_, for stop_asked_
+  std::atomic<bool> stop_{false};
+  CycleTrigger trigger_;
   std::thread thread_;
 };
 

@@ -159,6 +159,19 @@ std::vector<double> ParameterReader::numbers(const std::string& key, std::size_t
   return numbers;
 }
 
+std::vector<std::string> ParameterReader::texts(const std::string& key) {
+  std::vector<std::string> texts;
+  XmlRpcValue* value = find(key);
+  if (!value) return texts;
+  if (value->getType() != XmlRpcValue::TypeArray) fail(key, "a list of texts");
+  for (int i = 0; i < value->size(); ++i) {
+    XmlRpcValue& text = (*value)[i];
+    if (text.getType() != XmlRpcValue::TypeString || static_cast<std::string>(text).empty()) fail(key, "a list of texts");
+    texts.push_back(static_cast<std::string>(text));
+  }
+  return texts;
+}
+
 std::vector<std::pair<std::string, std::string>> ParameterReader::textPairs(const std::string& key) {
   std::vector<std::pair<std::string, std::string>> pairs;
   XmlRpcValue* value = find(key);
