@@ -304,8 +304,20 @@ void CollisionMonitor::publishCycle() {
   health_.contradicted = contradicted();
   health_.out_of_order = loop_->history().outOfOrder();
   health_.bad_joints = joint_watch_->lines("joint_states");
+  warnOfMovingFrame();
   warnWhileUnchecked(!health_.missing.empty());
   diagnostics_->update(health_);
+}
+
+/// Once a second is often enough.
+void CollisionMonitor::warnOfMovingFrame() {
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - last_frame_check_).toSec() < kIdlePeriod) return;
+  last_frame_check_ = now;
+  const std::string warning = loop_->movingFixedFrame();
+  if (!warning.empty() && health_.moving_frame.empty()) NODELET_WARN("%s", warning.c_str());
+  // It says so from then on: also while the robot rests.
+  if (!warning.empty()) health_.moving_frame = warning;
 }
 
 /// Says on the console, now and then, why bodies are not checked.

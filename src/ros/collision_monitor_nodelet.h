@@ -70,6 +70,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void forget(const std::string& reason);
   void publishCycle();
   void warnWhileUnchecked(bool is_unchecked);
+  void warnOfMovingFrame();
   std::string contradicted();
 
   bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
@@ -99,6 +100,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::string late_;                              // what was said of that
   ros::WallTime last_log_;                        // of the progress of building
   ros::WallTime last_static_;                     // when /tf_static was listened to
+  ros::WallTime last_frame_check_;
   ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
 
   MessagePool<MonitorState> state_messages_;

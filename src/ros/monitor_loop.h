@@ -27,6 +27,10 @@ class MonitorLoop {
   /// If a check fails, its cycle has been checked nowhere.
   TfTracker::Step step(const ros::Time& now, const CycleRequest& request);
 
+  /// A warning, if the fixed frame moves in tf, as the base of a mobile robot does, and objects of the world rest in it: so
+  /// they ride along. Empty else.
+  std::string movingFixedFrame() const;
+
   /// Forgets everything but the transforms; the next cycle begins with the next of them.
   void reset();
 

@@ -311,6 +311,23 @@ TEST_F(MonitorLoopTest, ResetsAndJumpsEndAllContacts) {
   EXPECT_EQ(last().contacts[0].id, 3u);
 }
 
+TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
+  const auto driveTo = [&](double x) {
+    for (int i = 0; i < 30; ++i) {
+      const double now = 10.0 + i * kPeriod;
+      sendHand(now, 0.0);
+      sendFoot(now);
+      send(stampedTransform("odom", "world", now, x * i / 29.0));
+      step(now);
+    }
+    return loop_->movingFixedFrame();
+  };
+  EXPECT_EQ(driveTo(0.001), "");
+  begin();
+  const std::string warning = driveTo(0.5);
+  EXPECT_EQ(warning.find("the fixed frame world moves in odom, and objects of the world with it, as plate"), 0u) << warning;
+}
+
 TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
   // The foot turns and drives on a curve that wants samples of its own; the hand, far away, is always 0.4 s late.
   std::size_t most_times = 0;

@@ -153,7 +153,9 @@ void run(const Arguments& arguments) {
   }
   MonitorLoop loop(scene, described, parameters);
   const double took = check(motion, parameters, described, loop, files);
-  for (const std::string& warning : motion.warnings()) {
+  std::vector<std::string> of_motion = motion.warnings();
+  if (!loop.movingFixedFrame().empty()) of_motion.push_back(loop.movingFixedFrame());
+  for (const std::string& warning : of_motion) {
     std::cerr << "sdf_ccd: warning: " << warning << std::endl;
     warnings.push_back(warning);
   }
