@@ -130,8 +130,8 @@ void CollisionMonitor::setUp() {
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
   proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity);
-  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, *loop_, described_.scene,
-                                       parameters_.markers, *proximity_);
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, *loop_, described_, parameters_.markers,
+                                       *proximity_);
   listen();
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
@@ -214,7 +214,10 @@ void CollisionMonitor::listen() {
   ros::NodeHandle node(getNodeHandle());
   node.setCallbackQueue(&tf_queue_);
   const boost::function<void(const sensor_msgs::JointStateConstPtr&)> watch =
-      [this](const sensor_msgs::JointStateConstPtr& joints) { joint_watch_->add(*joints); };
+      [this](const sensor_msgs::JointStateConstPtr& joints) {
+        joint_watch_->add(*joints);
+        trigger_.onJointStates();
+      };
   joint_subscriber_ = node.subscribe<sensor_msgs::JointState>("joint_states", 10, watch);
   tf_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &tf_queue_);
   tf_spinner_->start();

@@ -14,16 +14,18 @@ const ros::WallDuration kLookPeriod(0.02);
 
 }  // namespace
 
-Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
-                 const SceneDescription& scene, const MarkerOptions& options, ProximityOutputs& proximity)
+Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, MonitorLoop& loop,
+                 const DescribedScene& described, const MarkerOptions& options, ProximityOutputs& proximity)
     : loop_(loop),
       scene_(loop.scene()),
       proximity_(proximity),
       drawer_(loop.fixedFrame(), options),
-      link_markers_(scene),
+      link_markers_(described.scene),
+      torques_(described, scene_),
       state_(state) {
   contacts_ = private_node.advertise<ContactArray>("contacts", 100);
   markers_ = private_node.advertise<visualization_msgs::MarkerArray>("markers", 10);
+  torques_.advertise(private_node);
   links_ = private_node.advertise<visualization_msgs::MarkerArray>("links", 10, true);
   for (std::size_t body = 0; body < scene_.bodies.size(); ++body) {
     if (scene_.bodies[body].is_world) continue;
@@ -38,7 +40,7 @@ Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, cons
 CycleRequest Outputs::request(int max_points) {
   lookForSubscribers();
   CycleRequest request;
-  request.wrenches = contacts_wanted_ || wrenches_wanted_ || state_wanted_;
+  request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || state_wanted_;
   request.contacts = contacts_wanted_ || markers_wanted_ || state_wanted_;
   request.max_points = contacts_wanted_ || markers_wanted_ ? max_points : 0;
   // The status, and the state, tell the clearance of all.
@@ -54,6 +56,7 @@ void Outputs::lookForSubscribers() {
   contacts_wanted_ = contacts_.getNumSubscribers() > 0;
   state_wanted_ = state_.getNumSubscribers() > 0;
   markers_wanted_ = markers_.getNumSubscribers() > 0;
+  torques_wanted_ = torques_.isWanted();
   links_wanted_ = links_.getNumSubscribers() > 0;
   wrenches_wanted_ = false;
   for (LinkWrench& link : wrenches_) {
@@ -68,6 +71,7 @@ void Outputs::publish(const boost::shared_ptr<MonitorState>& state,
   report.is_unchecked = false;
   report.state = state;
   report.distances = distances;
+  if (torques_wanted_) report.torques = torques_.toMessage(loop_);
   report.draws_markers = markers_wanted_;
   report.draws_links = links_wanted_;
   if (contacts_wanted_) {
@@ -105,6 +109,7 @@ void Outputs::send(Report& report) {
     if (report.contacts) contacts_.publish(report.contacts);
     for (const auto& [link, wrench] : report.wrenches) wrenches_[link].publisher.publish(wrench);
     if (report.state) state_.publish(report.state);
+    if (report.torques) torques_.publish(report.torques);
     if (report.distances) proximity_.publishDistances(report.distances);
     draw(report);
   } catch (const std::exception& error) {
@@ -113,6 +118,7 @@ void Outputs::send(Report& report) {
   report.contacts.reset();
   report.state.reset();
   report.distances.reset();
+  report.torques.reset();
   report.wrenches.clear();
 }
 

@@ -15,6 +15,7 @@
 #include "ros/message_pool.h"
 #include "ros/ordered_worker.h"
 #include "ros/proximity_outputs.h"
+#include "ros/torque_output.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/MonitorState.h"
 
@@ -26,6 +27,7 @@ namespace sdf_ccd {
 ///   contacts         sdf_ccd/ContactArray            every cycle, and once a second while there is none
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
 ///                                                    link's frame, about its origin [N, N·m]
+///   joint_torques    sensor_msgs/JointState          as TorqueOutput does
 ///   markers          visualization_msgs/MarkerArray  contacts and status to look at
 ///   links            visualization_msgs/MarkerArray  the links' collision shapes in the colours of their verdicts, all
 ///                                                    of them when one changes; latched
@@ -37,8 +39,8 @@ namespace sdf_ccd {
 class Outputs {
  public:
   /// @param state  publishes the states that are given.
-  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const MonitorLoop& loop,
-          const SceneDescription& scene, const MarkerOptions& options, ProximityOutputs& proximity);
+  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, MonitorLoop& loop, const DescribedScene& described,
+          const MarkerOptions& options, ProximityOutputs& proximity);
 
   /// What the subscribers want to know of the next cycle.
   CycleRequest request(int max_points);
@@ -67,6 +69,7 @@ class Outputs {
     boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
     boost::shared_ptr<MonitorState> state;
     boost::shared_ptr<DistanceArray> distances;
+    boost::shared_ptr<sensor_msgs::JointState> torques;
     std::vector<std::pair<std::size_t, WrenchMessage>> wrenches;  // by link
     CycleSnapshot snapshot;
     bool draws_markers = false, draws_links = false;  // of the snapshot
@@ -79,17 +82,18 @@ class Outputs {
   void draw(const Report& report);
   void drawLinks();
 
-  const MonitorLoop& loop_;
+  MonitorLoop& loop_;
   const Scene& scene_;
   ProximityOutputs& proximity_;
   MarkerDrawer drawer_;
   LinkMarkers link_markers_;
+  TorqueOutput torques_;
   ros::Publisher state_, contacts_, markers_, links_;
   std::vector<LinkWrench> wrenches_;
   MessagePool<ContactArray> contact_messages_;
 
   ros::WallTime looked_;  // for subscribers
-  bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false;
+  bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
   bool markers_wanted_ = false, links_wanted_ = false;
 
   std::atomic<bool> finishes_{false};
