@@ -67,6 +67,7 @@ void CollisionMonitor::serve() {
   ros::NodeHandle node(getPrivateNodeHandle());
   node.setCallbackQueue(&service_queue_);
   services_ = {node.advertiseService("query_motion", &CollisionMonitor::queryMotion, this),
+               node.advertiseService("query_motions", &CollisionMonitor::queryMotions, this),
                node.advertiseService("query_points", &CollisionMonitor::queryPoints, this),
                node.advertiseService("reset", &CollisionMonitor::reset, this)};
   // One for each query that is answered, and one that says that there are too many.
@@ -399,6 +400,11 @@ bool CollisionMonitor::isReady(std::string& why_not) {
 bool CollisionMonitor::queryMotion(QueryMotion::Request& request, QueryMotion::Response& response) {
   answer(request, response);
   if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
+  return true;
+}
+
+bool CollisionMonitor::queryMotions(QueryMotions::Request& request, QueryMotions::Response& response) {
+  answer(request, response);
   return true;
 }
 

@@ -37,6 +37,7 @@ namespace sdf_ccd {
 ///
 /// Serves, below the node's name:
 ///   query_motion  sdf_ccd/QueryMotion
+///   query_motions  sdf_ccd/QueryMotions
 ///   query_points  sdf_ccd/QueryPoints
 ///   reset         std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
 ///
@@ -74,6 +75,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::string contradicted();
 
   bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
+  bool queryMotions(QueryMotions::Request& request, QueryMotions::Response& response);
   bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
   bool isReady(std::string& why_not);
