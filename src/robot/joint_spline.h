@@ -14,8 +14,8 @@ struct JointKnot {
 
 enum class JointSplineOrder { kLinear, kCubic, kQuintic };
 
-/// How a joint moves from one time to the next, as joint_trajectory_controller has it: by the polynomial of least degree
-/// that has what is given at both ends.
+/// How a joint moves from one time to the next, as joint_trajectory_controller has it: by the polynomial of least
+/// degree that has what is given at both ends.
 ///
 /// Source: ros_controllers, joint_trajectory_controller, quintic_spline_segment.h. It takes cubic splines where only
 /// velocities are given, quintic ones where accelerations are too.
@@ -34,8 +34,8 @@ class JointSpline {
   double duration_;
 };
 
-/// Into how many pieces of the same length linear motion has to be cut so that it strays from the spline by no more than
-/// the tolerance: |q(t) − linear| ≤ max |q̈| h² / 8 on a piece of length h.
+/// Into how many pieces of the same length linear motion has to be cut so that it strays from the spline by no more
+/// than the tolerance: |q(t) − linear| ≤ max |q̈| h² / 8 on a piece of length h.
 /// @throws std::invalid_argument if these are more than a million.
 int piecesWithin(const JointSpline& spline, double duration, double tolerance);
 

@@ -9,9 +9,9 @@
 
 namespace sdf_ccd {
 
-/// What wrenches on a robot's links do at its joints: the generalised forces τ = Σ Jᵀ F of the joints that turn about an
-/// axis or slide along one. Their product with the joints' rates is the power of the wrenches, as long as the root rests:
-/// motors that hold the robot against them have to exert −τ.
+/// What wrenches on a robot's links do at its joints: the generalised forces τ = Σ Jᵀ F of the joints that turn about
+/// an axis or slide along one. Their product with the joints' rates is the power of the wrenches, as long as the root
+/// rests: motors that hold the robot against them have to exert −τ.
 ///
 /// A joint that mimics another has none of its own: its part counts for that one, times its multiplier.
 class JointTorques {
@@ -44,7 +44,7 @@ class JointTorques {
   };
 
   std::vector<std::string> joints_;
-  std::vector<int> below_;   // per part: the link below it
+  std::vector<int> below_;  // per part: the link below it
   std::vector<Part> parts_;
   std::vector<std::pair<int, int>> joints_below_;
   std::vector<int> parent_;  // per link: −1 of the root

@@ -13,8 +13,8 @@ void requireSizes(const std::vector<std::string>& joints, const std::vector<Join
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto require = [&](const char* what, std::size_t size, bool may_be_empty) {
       if (size == joints.size() || (may_be_empty && size == 0)) return;
-      throw std::invalid_argument("point " + std::to_string(i) + " of the trajectory has " + std::to_string(size) + " " +
-                                  what + " for " + std::to_string(joints.size()) + " joints");
+      throw std::invalid_argument("point " + std::to_string(i) + " of the trajectory has " + std::to_string(size) +
+                                  " " + what + " for " + std::to_string(joints.size()) + " joints");
     };
     require("positions", points[i].positions.size(), false);
     require("velocities", points[i].velocities.size(), true);

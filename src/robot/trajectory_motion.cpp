@@ -196,8 +196,7 @@ std::vector<double> TrajectoryMotion::jointErrors() const {
   for (std::size_t i = 1; i < trajectory_.times.size(); ++i) {
     moveAlong(i, moves);
     for (std::size_t link = 1; link < moves.size(); ++link) {
-      farthest[link] =
-          std::max({farthest[link], moves[link].X_start.translation().norm(), moves[link].t_end.norm()});
+      farthest[link] = std::max({farthest[link], moves[link].X_start.translation().norm(), moves[link].t_end.norm()});
     }
   }
   for (std::size_t body = 0; body < bodies_.size(); ++body) {

@@ -17,13 +17,13 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kIdlePeriod = 1.0;     // [s]
-constexpr double kLogPeriod = 3.0;      // of building's progress [s]
-constexpr double kLateShown = 3.0;      // a contradiction by late transforms, in the diagnostics [s]
-constexpr double kSending = 0.05;       // until the last messages have left [s]
-constexpr double kPatience = 2.0;       // until it is warned of what is not checked [s]
-constexpr double kWarnPeriod = 10.0;    // of such warnings [s]
-constexpr double kStaticPeriod = 2.0;   // at most as often static transforms are asked for again [s]
+constexpr double kIdlePeriod = 1.0;    // [s]
+constexpr double kLogPeriod = 3.0;     // of building's progress [s]
+constexpr double kLateShown = 3.0;     // a contradiction by late transforms, in the diagnostics [s]
+constexpr double kSending = 0.05;      // until the last messages have left [s]
+constexpr double kPatience = 2.0;      // until it is warned of what is not checked [s]
+constexpr double kWarnPeriod = 10.0;   // of such warnings [s]
+constexpr double kStaticPeriod = 2.0;  // at most as often static transforms are asked for again [s]
 
 /// What a thread has freed, glibc keeps for the heap of that thread: of threads that build and end, for nothing.
 void returnFreedMemory() {
@@ -131,8 +131,8 @@ void CollisionMonitor::setUp() {
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
   proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity);
-  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, *loop_, described_, parameters_.markers,
-                                       *proximity_);
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, *loop_, described_,
+                                       parameters_.markers, *proximity_);
   listen();
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
@@ -175,9 +175,9 @@ void CollisionMonitor::buildFields() {
   health_.wanted_rate = parameters_.rate;
   health_.max_error = parameters_.scene.max_error.value_or(0.0);
   health_.pairs = static_cast<int>(scene_->pairs.size());
-  health_.pairs_left_out = static_cast<int>(
-      std::count_if(scene_->left_out.begin(), scene_->left_out.end(),
-                    [](const LeftOut& left_out) { return left_out.what.rfind("pair ", 0) == 0; }));
+  health_.pairs_left_out =
+      static_cast<int>(std::count_if(scene_->left_out.begin(), scene_->left_out.end(),
+                                     [](const LeftOut& left_out) { return left_out.what.rfind("pair ", 0) == 0; }));
   std_msgs::String table;
   table.data = planTable(*scene_);
   plan_publisher_.publish(table);

@@ -95,13 +95,13 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   std::unique_ptr<Diagnostics> diagnostics_;
   MonitorHealth health_;
-  ros::WallTime last_cycle_;                      // when it was published
-  ros::WallTime last_step_;                       // of the loop that found anything
-  ros::WallTime last_idle_;                       // when it was said that nothing is checked; 0 after a cycle
-  ros::WallTime last_late_;                       // when transforms contradicted a cycle
-  std::string late_;                              // what was said of that
-  ros::WallTime last_log_;                        // of the progress of building
-  ros::WallTime last_static_;                     // when /tf_static was listened to
+  ros::WallTime last_cycle_;   // when it was published
+  ros::WallTime last_step_;    // of the loop that found anything
+  ros::WallTime last_idle_;    // when it was said that nothing is checked; 0 after a cycle
+  ros::WallTime last_late_;    // when transforms contradicted a cycle
+  std::string late_;           // what was said of that
+  ros::WallTime last_log_;     // of the progress of building
+  ros::WallTime last_static_;  // when /tf_static was listened to
   ros::WallTime last_frame_check_;
   ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
 

@@ -14,7 +14,8 @@ namespace sdf_ccd {
 /// Transforms go to history(), from any thread; the rest belongs to one.
 class MonitorLoop {
  public:
-  MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described, const MonitorParameters& parameters);
+  MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,
+              const MonitorParameters& parameters);
 
   TfHistory& history() { return history_; }
   const TfTracker& tracker() const { return tracker_; }
@@ -27,8 +28,8 @@ class MonitorLoop {
   /// If a check fails, its cycle has been checked nowhere.
   TfTracker::Step step(const ros::Time& now, const CycleRequest& request);
 
-  /// A warning, if the fixed frame moves in tf, as the base of a mobile robot does, and objects of the world rest in it: so
-  /// they ride along. Empty else.
+  /// A warning, if the fixed frame moves in tf, as the base of a mobile robot does, and objects of the world rest in
+  /// it: so they ride along. Empty else.
   std::string movingFixedFrame() const;
 
   /// Forgets everything but the transforms; the next cycle begins with the next of them.

@@ -65,8 +65,7 @@ void Outputs::lookForSubscribers() {
   }
 }
 
-void Outputs::publish(const boost::shared_ptr<MonitorState>& state,
-                      const boost::shared_ptr<DistanceArray>& distances) {
+void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost::shared_ptr<DistanceArray>& distances) {
   Report& report = worker_->next();
   report.is_unchecked = false;
   report.state = state;

@@ -22,13 +22,13 @@ struct QueryLimits {
   std::size_t waypoints = 2000;  ///< of all trajectories of a motion
   std::size_t motions = 2000;    ///< of query_motions
   std::size_t points = 20000;    ///< of query_points; or of all motions of query_motions
-  double seconds = 2.0;  ///< of computing; the answer comes within milliseconds after
-  int queries = 4;       ///< at a time
+  double seconds = 2.0;          ///< of computing; the answer comes within milliseconds after
+  int queries = 4;               ///< at a time
 };
 
 /// Answers query_motion, query_motions and query_points, beside the cycles and of lower priority than these, on at most
-/// half of the cores. Several calls at a time take turns. A motion is followed piece by piece, so memory does not grow with its
-/// length.
+/// half of the cores. Several calls at a time take turns. A motion is followed piece by piece, so memory does not grow
+/// with its length.
 ///
 /// What a CancelScope of the calling thread asks for ends an answer with Cancelled.
 class Queries {

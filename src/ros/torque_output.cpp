@@ -7,8 +7,7 @@
 
 namespace sdf_ccd {
 
-TorqueOutput::TorqueOutput(const DescribedScene& described, const Scene& scene)
-    : torques_(*described.robot) {
+TorqueOutput::TorqueOutput(const DescribedScene& described, const Scene& scene) : torques_(*described.robot) {
   for (const std::string& link : described.robot->links())
     frames_.push_back(withoutLeadingSlash(described.tf_prefix + link));
   for (const Body& body : scene.bodies) {

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include <boost/shared_ptr.hpp>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <sensor_msgs/JointState.h>
+#include <boost/shared_ptr.hpp>
 
 #include "robot/joint_torques.h"
 #include "ros/describe_scene.h"

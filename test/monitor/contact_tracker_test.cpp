@@ -281,7 +281,8 @@ TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
 }
 
 /// What the tracker must say, from all intervals at once: stays of each pair, joined where breaks are short.
-std::multiset<std::tuple<std::string, Time, Time>> joined(std::map<std::string, std::vector<std::pair<Time, Time>>> all) {
+std::multiset<std::tuple<std::string, Time, Time>> joined(
+    std::map<std::string, std::vector<std::pair<Time, Time>>> all) {
   std::multiset<std::tuple<std::string, Time, Time>> contacts;
   for (auto& [name, stays] : all) {
     std::sort(stays.begin(), stays.end());

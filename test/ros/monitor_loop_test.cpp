@@ -325,7 +325,8 @@ TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
   EXPECT_EQ(driveTo(0.001), "");
   begin();
   const std::string warning = driveTo(0.5);
-  EXPECT_EQ(warning.find("the fixed frame world moves in odom, and objects of the world with it, as plate"), 0u) << warning;
+  EXPECT_EQ(warning.find("the fixed frame world moves in odom, and objects of the world with it, as plate"), 0u)
+      << warning;
 }
 
 TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {

@@ -17,12 +17,14 @@ class TorqueOutputTest : public ::testing::Test {
   TorqueOutputTest() {
     MonitorParameters parameters = parseParameters({}, "~");
     parameters.urdf =
-        "<robot name='r'><link name='base'/><link name='boom'/><link name='ball'><collision><geometry><sphere radius='0.1'/>"
+        "<robot name='r'><link name='base'/><link name='boom'/><link name='ball'><collision><geometry><sphere "
+        "radius='0.1'/>"
         "</geometry></collision></link><link name='lost'/>"
         "<joint name='turn' type='continuous'><parent link='base'/><child link='boom'/><axis xyz='0 0 1'/></joint>"
         "<joint name='slide' type='prismatic'><parent link='boom'/><child link='ball'/><origin xyz='1 0 0'/>"
         "<axis xyz='0 1 0'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>"
-        "<joint name='other' type='continuous'><parent link='base'/><child link='lost'/><axis xyz='0 0 1'/></joint></robot>";
+        "<joint name='other' type='continuous'><parent link='base'/><child link='lost'/><axis xyz='0 0 "
+        "1'/></joint></robot>";
     parameters.scene.cache_directory.clear();
     WorldObject wall;
     wall.name = "wall";
@@ -31,12 +33,13 @@ class TorqueOutputTest : public ::testing::Test {
     parameters.world.push_back(wall);
     described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
     const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
-    loop_ = std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters.scene, {}), described_, parameters);
+    loop_ =
+        std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters.scene, {}), described_, parameters);
   }
 
   void step(double now) {
-    loop_->history().add(message({stampedTransform("base", "boom", now, 0.0), stampedTransform("boom", "ball", now, 1.0)}),
-                         false);
+    loop_->history().add(
+        message({stampedTransform("base", "boom", now, 0.0), stampedTransform("boom", "ball", now, 1.0)}), false);
     loop_->step(ros::Time(now), {});
   }
 
