@@ -10,9 +10,10 @@ namespace sdf_ccd {
 
 /// How wide a gap between two bodies is, and how fast it closes: two ways to look at a pair.
 struct ClosingGap {
-  double width = 0.0;    ///< lower bound of the bodies' distance [m]
-  double closing = 0.0;  ///< upper bound of the mean speed at which that becomes less over `over` [m/s]; may be negative
-  double over = 0.0;     ///< up to the time of the distance [s]
+  double width = 0.0;  ///< lower bound of the bodies' distance [m]
+  double closing =
+      0.0;            ///< upper bound of the mean speed at which that becomes less over `over` [m/s]; may be negative
+  double over = 0.0;  ///< up to the time of the distance [s]
 };
 
 /// How far two bodies are apart at one time: the end of what is known of them in the cycle.

@@ -24,10 +24,10 @@ class ProximityWatch {
     const auto isWithin = [&](Proximity level, double threshold) {
       return threshold > 0.0 && distance < threshold + (level_ >= level ? thresholds.hysteresis : 0.0);
     };
-    level_ = !thresholds.any()                                ? Proximity::kNotWatched
-             : isWithin(Proximity::kStop, thresholds.stop)    ? Proximity::kStop
+    level_ = !thresholds.any()                                   ? Proximity::kNotWatched
+             : isWithin(Proximity::kStop, thresholds.stop)       ? Proximity::kStop
              : isWithin(Proximity::kWarning, thresholds.warning) ? Proximity::kWarning
-                                                              : Proximity::kFree;
+                                                                 : Proximity::kFree;
     return level_;
   }
 

@@ -39,8 +39,8 @@ void validate(const StoppingPromise& promise);
 /// J holds then from when the robot obeys this scale until it obeys the next one, if it held before. Until t_k + T_k
 /// w ≥ m, which is ĉ²/2a or more, or u = 0 and it brakes. From then on, let c₀ ≤ ĉ be the speed at t_k + T_k.
 ///  - While c > u, it falls by a per second: w − c²/2a does not fall, as its rate is at least −c + c a / a. J stays.
-///  - From c ≤ u on, it stays so. Where c₀ ≤ u: all along w ≥ m − u P, which is u²/2a or more in (1); in (2) it is ĉ²/2a,
-///    and u < ĉ. So J holds. Where c₀ > u > 0, which is in (2): to come down to u took c₀²/2a − u²/2a of the width at
+///  - From c ≤ u on, it stays so. Where c₀ ≤ u: all along w ≥ m − u P, which is u²/2a or more in (1); in (2) it is
+///    ĉ²/2a, and u < ĉ. So J holds. Where c₀ > u > 0, which is in (2): to come down to u took c₀²/2a − u²/2a of the width at
 ///    most, so m − ĉ²/2a + u²/2a = u P + u²/2a is left, or more, and after P at speeds up to u still u²/2a. So J holds.
 ///    Where u = 0: J stays till it rests.
 /// Beyond P without a scale, the robot brakes: J stays. And J says w ≥ 0. Gaps along several directions are looked at,

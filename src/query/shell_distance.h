@@ -9,9 +9,9 @@ namespace sdf_ccd {
 
 /// The point of a shell that is nearest to a field's surface, as far as the field knows.
 struct ShellDistance {
-  int point = -1;         ///< of the shell
-  double value = 0.0;     ///< of the field there [m], negative inside
-  double error = 0.0;     ///< of it there, and of what else might be nearer [m]
+  int point = -1;                          ///< of the shell
+  double value = 0.0;                      ///< of the field there [m], negative inside
+  double error = 0.0;                      ///< of it there, and of what else might be nearer [m]
   Vector3d p_F = Vector3d::Zero();         ///< where the point is [m]
   Vector3d gradient_F = Vector3d::Zero();  ///< of the field there, pointing out
 };

@@ -39,8 +39,8 @@ class DistanceQuery {
     const double length = std::sqrt(closest.distance2);
     const double distance = std::max(0.0, length - t_a.radius - t_b.radius);
     // Corners of crossing triangles may be far from each other.
-    const std::optional<Vector3d> crossing = mayCross(t_a.corners, in_a) ? crossingPoint(t_a.corners, in_a, 0.0)
-                                                                         : std::optional<Vector3d>();
+    const std::optional<Vector3d> crossing =
+        mayCross(t_a.corners, in_a) ? crossingPoint(t_a.corners, in_a, 0.0) : std::optional<Vector3d>();
     if (!crossing && !(distance < best_)) return;
     witness.near_a = i;
     witness.near_b = k;

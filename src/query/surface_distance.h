@@ -8,7 +8,7 @@ namespace sdf_ccd {
 
 /// Where two surfaces of triangles are nearest to each other.
 struct SurfaceDistance {
-  double distance = 0.0;           ///< [m]; 0 where they cross
+  double distance = 0.0;            ///< [m]; 0 where they cross
   Vector3d p_A = Vector3d::Zero();  ///< on A [m], frame A
   Vector3d q_A = Vector3d::Zero();  ///< on B [m], frame A
 };

@@ -1,8 +1,10 @@
 #include "sdf_ccd/robot/planned_motion.h"
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "motion/validate_motion.h"
 #include "robot/trajectory_motion.h"
 #include "sdf_ccd/motion/screw_motion.h"
@@ -56,10 +58,11 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
   }
   const auto along = std::make_shared<TrajectoryMotion>(robot, plan.trajectory, bodies.bodies);
   result.waypoints = along->waypoints();
-  result.piece = [along, waypoints = result.waypoints, missing, balls, sampling](std::size_t first, std::size_t last,
-                                                                                 CycleMotion& motion) {
+  result.piece = [along, waypoints = result.waypoints, missing, balls, sampling, errors = along->jointErrors()](
+                     std::size_t first, std::size_t last, CycleMotion& motion) {
     motion.missing = missing;
     sampleMotion({waypoints.begin() + first, waypoints.begin() + last + 1}, along->source(), balls, sampling, motion);
+    for (std::size_t body = 0; body < errors.size(); ++body) motion.motion_error[body] += errors[body];
     startAtZero(motion);
   };
   return result;
@@ -85,6 +88,17 @@ PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
     startAtZero(piece);
   };
   return result;
+}
+
+PlannedMotion withMargin(PlannedMotion motion, double margin) {
+  if (!(margin >= 0.0) || !std::isfinite(margin)) refuse("a margin of " + numberText(margin) + " m");
+  if (margin == 0.0) return motion;
+  motion.piece = [piece = std::move(motion.piece), margin](std::size_t first, std::size_t last, CycleMotion& result) {
+    piece(first, last, result);
+    result.motion_error.resize(result.X_WB.size(), 0.0);
+    for (double& error : result.motion_error) error += 0.5 * margin;
+  };
+  return motion;
 }
 
 }  // namespace sdf_ccd

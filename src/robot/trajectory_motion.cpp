@@ -115,6 +115,7 @@ RobotTrajectory merged(const RobotTrajectory& joints, const RobotTrajectory& joi
   const std::vector<double>&a = joints.times, &b = joints_and_root.times;
   if (a.front() != b.front() || a.back() != b.back()) refuse("two trajectories do not begin and end at the same times");
   RobotTrajectory both;
+  both.joint_error = std::max(joints.joint_error, joints_and_root.joint_error);
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both.times));
   for (const double time : both.times) {
     RobotState state = stateAt(joints_and_root, time);
@@ -177,6 +178,40 @@ std::vector<double> TrajectoryMotion::waypoints() const {
     waypoints.push_back(times[i]);
   }
   return waypoints;
+}
+
+std::vector<double> TrajectoryMotion::jointErrors() const {
+  std::vector<double> errors(bodies_.size(), 0.0);
+  if (trajectory_.joint_error == 0.0) return errors;
+  const auto multiplierOf = [&](const urdf::Joint& joint) {  // of a joint whose position the trajectory has; else 0
+    double multiplier = 1.0;
+    for (const urdf::Joint* next = &joint; next->mimic;
+         next = robot_.urdf().joints_.at(next->mimic->joint_name).get()) {
+      multiplier *= next->mimic->multiplier;
+    }
+    return trajectory_.states[0].positions.count(robot_.leader(joint).name) > 0 ? std::abs(multiplier) : 0.0;
+  };
+  std::vector<double> farthest(robot_.links().size(), 0.0);  // per link: of its origin from its joint's frame [m]
+  std::vector<FrameMove> moves;
+  for (std::size_t i = 1; i < trajectory_.times.size(); ++i) {
+    moveAlong(i, moves);
+    for (std::size_t link = 1; link < moves.size(); ++link) {
+      farthest[link] = std::max({farthest[link], moves[link].X_start.translation().norm(), moves[link].t_end.norm()});
+    }
+  }
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const CarriedBody& carried = bodies_[body];
+    double reach = (carried.X_LB * carried.ball_B.center).norm() + carried.ball_B.radius;  // from the link's origin
+    for (int link = carried.link; link > 0; link = robot_.parent(link)) {
+      const urdf::Joint& joint = robot_.jointAbove(link);
+      const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+      const double error = multiplierOf(joint) * trajectory_.joint_error;
+      if (turns) errors[body] += error * reach;
+      if (joint.type == urdf::Joint::PRISMATIC) errors[body] += error;
+      reach += farthest[link] + error + toEigen(joint.parent_to_joint_origin_transform).translation().norm();
+    }
+  }
+  return errors;
 }
 
 MotionSource TrajectoryMotion::source() {

@@ -26,6 +26,10 @@ class TrajectoryMotion {
   /// @throws std::invalid_argument if that takes more than 2000 added times, some 300 revolutions.
   std::vector<double> waypoints() const;
 
+  /// Per body: no point of its ball is farther than this from where the trajectory has it, by its joint_error [m]: of a
+  /// joint that turns, that times the reach of what it carries; of one that slides, that itself; all added up.
+  std::vector<double> jointErrors() const;
+
   /// For sampleMotion(), at waypoints(); poses are those of CarriedBody, in the world. It refers to this object.
   /// Between times on both sides of a waypoint nothing is bounded: the jerk is infinite.
   MotionSource source();

@@ -17,14 +17,13 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kIdlePeriod = 1.0;     // [s]
-constexpr double kLogPeriod = 3.0;      // of building's progress [s]
-constexpr double kLongestPeriod = 1e6;  // longer ones overflow clocks [s]
-constexpr double kLateShown = 3.0;      // a contradiction by late transforms, in the diagnostics [s]
-constexpr double kSending = 0.05;       // until the last messages have left [s]
-constexpr double kPatience = 2.0;       // until it is warned of what is not checked [s]
-constexpr double kWarnPeriod = 10.0;    // of such warnings [s]
-constexpr double kStaticPeriod = 2.0;   // at most as often static transforms are asked for again [s]
+constexpr double kIdlePeriod = 1.0;    // [s]
+constexpr double kLogPeriod = 3.0;     // of building's progress [s]
+constexpr double kLateShown = 3.0;     // a contradiction by late transforms, in the diagnostics [s]
+constexpr double kSending = 0.05;      // until the last messages have left [s]
+constexpr double kPatience = 2.0;      // until it is warned of what is not checked [s]
+constexpr double kWarnPeriod = 10.0;   // of such warnings [s]
+constexpr double kStaticPeriod = 2.0;  // at most as often static transforms are asked for again [s]
 
 /// What a thread has freed, glibc keeps for the heap of that thread: of threads that build and end, for nothing.
 void returnFreedMemory() {
@@ -34,11 +33,8 @@ void returnFreedMemory() {
 }  // namespace
 
 CollisionMonitor::~CollisionMonitor() {
-  {
-    const std::lock_guard<std::mutex> lock(stop_mutex_);
-    stop_ = true;
-  }
-  stop_asked_.notify_all();
+  stop_ = true;
+  trigger_.stop();
   if (thread_.joinable()) thread_.join();
   if (ros::ok()) {
     if (loop_) loop_->reset();
@@ -74,6 +70,7 @@ void CollisionMonitor::serve() {
   ros::NodeHandle node(getPrivateNodeHandle());
   node.setCallbackQueue(&service_queue_);
   services_ = {node.advertiseService("query_motion", &CollisionMonitor::queryMotion, this),
+               node.advertiseService("query_motions", &CollisionMonitor::queryMotions, this),
                node.advertiseService("query_points", &CollisionMonitor::queryPoints, this),
                node.advertiseService("update_scene", &CollisionMonitor::updateScene, this),
                node.advertiseService("get_plan", &CollisionMonitor::getPlan, this),
@@ -103,32 +100,19 @@ void CollisionMonitor::setUpThenCycle() {
     NODELET_FATAL("Nothing is checked: %s", error.what());
     health_.failure = error.what();
   }
-  const double period = health_.failure.empty() ? std::min(1.0 / parameters_.rate, kLongestPeriod) : kIdlePeriod;
-  for (double left = 0.0; waitFor(left);) {
-    const ros::WallTime start = ros::WallTime::now();
+  TriggerOptions trigger = parameters_.trigger;
+  if (!health_.failure.empty()) trigger = {TriggerKind::kTimer, {}, kIdlePeriod, 0.0};
+  trigger_.setOptions(trigger);
+  // A world that is ready meanwhile is taken over at once: this is between two cycles.
+  while (trigger_.wait([this] {
+    if (scene_editor_) scene_editor_->adopt();
+  }) && ros::ok()) {
     try {
       health_.failure.empty() ? cycle() : idle(health_.failure);
     } catch (const std::exception& error) {
       NODELET_ERROR_THROTTLE(1.0, "A cycle was not checked: %s", error.what());
       idle(error.what());
     }
-    left = period - (ros::WallTime::now() - start).toSec();
-  }
-}
-
-/// A world that is ready meanwhile is taken over at once: this is between two cycles.
-bool CollisionMonitor::waitFor(double seconds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                          std::chrono::duration<double>(seconds));
-  std::unique_lock<std::mutex> lock(stop_mutex_);
-  for (;;) {
-    const bool is_asked = stop_asked_.wait_until(lock, end, [&] { return stop_ || !ros::ok() || world_is_ready_; });
-    if (stop_ || !ros::ok()) return false;
-    if (!is_asked) return true;
-    world_is_ready_ = false;
-    lock.unlock();
-    scene_editor_->adopt();
-    lock.lock();
   }
 }
 
@@ -141,7 +125,7 @@ void CollisionMonitor::readWhenThere() {
       NODELET_WARN_ONCE("Waiting: %s", missing.what());
       idle(std::string("waiting: ") + missing.what());
     }
-    if (!waitFor(kIdlePeriod)) throw Cancelled();
+    if (!trigger_.waitFor(kIdlePeriod) || !ros::ok()) throw Cancelled();
   }
 }
 
@@ -155,19 +139,13 @@ void CollisionMonitor::setUp() {
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(first_world_, described_, parameters_);
   proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity);
-  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, world_publisher_, *loop_,
+  outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, world_publisher_, *loop_, described_,
                                        parameters_.markers, *proximity_);
   listen();
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(first_world_, described_, parameters_, loop_->history());
   queries_->drawOn(getPrivateNodeHandle().advertise<visualization_msgs::MarkerArray>("planned", 2));
-  const auto wake = [this] {
-    {
-      const std::lock_guard<std::mutex> lock(stop_mutex_);
-      world_is_ready_ = true;
-    }
-    stop_asked_.notify_all();
-  };
+  const auto wake = [this] { trigger_.wake(); };
   scene_editor_ = std::make_unique<SceneEditor>(std::move(world_editor_), described_, parameters_,
                                                 SceneEditor::Parts{*loop_, *outputs_, *queries_}, wake,
                                                 [this](const CheckedWorld& world) { publishPlan(world); });
@@ -184,13 +162,14 @@ void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
   const ScenePlan plan = affordablePlan(described_, parameters_.scene);
   NODELET_INFO("Expected: %s", summary(*plan.expected).c_str());
-  const std::shared_ptr<const Scene> scene = buildDescribed(
-      described_, plan, parameters_.scene, [this](const std::string& body, double share) {
-    checkCancelled();
-    const std::string progress = "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
-    idle(progress);
-    logNowAndThen(progress);
-  });
+  const std::shared_ptr<const Scene> scene =
+      buildDescribed(described_, plan, parameters_.scene, [this](const std::string& body, double share) {
+        checkCancelled();
+        const std::string progress =
+            "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
+        idle(progress);
+        logNowAndThen(progress);
+      });
   checkCancelled();
   world_editor_ = std::make_unique<WorldEditor>(parameters_.scene);
   first_world_ = std::make_shared<const CheckedWorld>(world_editor_->begin(described_.scene, plan, *scene),
@@ -216,9 +195,9 @@ void CollisionMonitor::buildFields() {
   health_.wanted_rate = parameters_.rate;
   health_.max_error = parameters_.scene.max_error.value_or(0.0);
   health_.pairs = static_cast<int>(scene->pairs.size());
-  health_.pairs_left_out = static_cast<int>(
-      std::count_if(scene->left_out.begin(), scene->left_out.end(),
-                    [](const LeftOut& left_out) { return left_out.what.rfind("pair ", 0) == 0; }));
+  health_.pairs_left_out =
+      static_cast<int>(std::count_if(scene->left_out.begin(), scene->left_out.end(),
+                                     [](const LeftOut& left_out) { return left_out.what.rfind("pair ", 0) == 0; }));
   publishPlan(*first_world_);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
                described_.fixed_frame.c_str(), planTable(*scene).c_str());
@@ -265,7 +244,10 @@ void CollisionMonitor::listen() {
   ros::NodeHandle node(getNodeHandle());
   node.setCallbackQueue(&tf_queue_);
   const boost::function<void(const sensor_msgs::JointStateConstPtr&)> watch =
-      [this](const sensor_msgs::JointStateConstPtr& joints) { joint_watch_->add(*joints); };
+      [this](const sensor_msgs::JointStateConstPtr& joints) {
+        joint_watch_->add(*joints);
+        trigger_.onJointStates();
+      };
   joint_subscriber_ = node.subscribe<sensor_msgs::JointState>("joint_states", 10, watch);
   tf_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &tf_queue_);
   tf_spinner_->start();
@@ -277,6 +259,10 @@ void CollisionMonitor::take(const tf2_msgs::TFMessage& message, bool is_static) 
   try {
     history.watchClock(ros::Time::now());
     history.add(message, is_static);
+    if (!is_static) trigger_.onTransforms();
+    for (std::size_t i = 0; i < message.transforms.size() && trigger_.wantsFrames(); ++i) {
+      trigger_.onFrame(withoutLeadingSlash(message.transforms[i].child_frame_id));
+    }
   } catch (const std::exception& error) {
     NODELET_WARN_THROTTLE(10.0, "Transforms are dropped: %s", error.what());
   }
@@ -350,8 +336,20 @@ void CollisionMonitor::publishCycle() {
   health_.contradicted = contradicted();
   health_.out_of_order = loop_->history().outOfOrder();
   health_.bad_joints = joint_watch_->lines("joint_states");
+  warnOfMovingFrame();
   warnWhileUnchecked(!health_.missing.empty());
   diagnostics_->update(health_);
+}
+
+/// Once a second is often enough.
+void CollisionMonitor::warnOfMovingFrame() {
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - last_frame_check_).toSec() < kIdlePeriod) return;
+  last_frame_check_ = now;
+  const std::string warning = loop_->movingFixedFrame();
+  if (!warning.empty() && health_.moving_frame.empty()) NODELET_WARN("%s", warning.c_str());
+  // It says so from then on: also while the robot rests.
+  if (!warning.empty()) health_.moving_frame = warning;
 }
 
 /// Says on the console, now and then, why bodies are not checked.
@@ -430,6 +428,11 @@ bool CollisionMonitor::isReady(std::string& why_not) {
 bool CollisionMonitor::queryMotion(QueryMotion::Request& request, QueryMotion::Response& response) {
   answer(request, response);
   if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
+  return true;
+}
+
+bool CollisionMonitor::queryMotions(QueryMotions::Request& request, QueryMotions::Response& response) {
+  answer(request, response);
   return true;
 }
 

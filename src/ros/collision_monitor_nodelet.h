@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -42,6 +41,7 @@ namespace sdf_ccd {
 ///
 /// Serves, below the node's name:
 ///   query_motion  sdf_ccd/QueryMotion
+///   query_motions  sdf_ccd/QueryMotions
 ///   query_points  sdf_ccd/QueryPoints
 ///   update_scene  sdf_ccd/UpdateScene  changes the world's objects and the pairs, while the monitor runs
 ///   get_plan      sdf_ccd/GetPlan      what is checked now
@@ -60,7 +60,6 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   void run();
   void setUpThenCycle();
-  bool waitFor(double seconds);  ///< false, and at once, if the nodelet is being unloaded
   void readWhenThere();
   void setUp();
   void buildFields();
@@ -78,9 +77,11 @@ class CollisionMonitor : public nodelet::Nodelet {
   void forget(const std::string& reason);
   void publishCycle();
   void warnWhileUnchecked(bool is_unchecked);
+  void warnOfMovingFrame();
   std::string contradicted();
 
   bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
+  bool queryMotions(QueryMotions::Request& request, QueryMotions::Response& response);
   bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
   bool updateScene(UpdateScene::Request& request, UpdateScene::Response& response);
   bool getPlan(GetPlan::Request& request, GetPlan::Response& response);
@@ -106,13 +107,14 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   std::unique_ptr<Diagnostics> diagnostics_;
   MonitorHealth health_;
-  ros::WallTime last_cycle_;                      // when it was published
-  ros::WallTime last_step_;                       // of the loop that found anything
-  ros::WallTime last_idle_;                       // when it was said that nothing is checked; 0 after a cycle
-  ros::WallTime last_late_;                       // when transforms contradicted a cycle
-  std::string late_;                              // what was said of that
-  ros::WallTime last_log_;                        // of the progress of building
-  ros::WallTime last_static_;                     // when /tf_static was listened to
+  ros::WallTime last_cycle_;   // when it was published
+  ros::WallTime last_step_;    // of the loop that found anything
+  ros::WallTime last_idle_;    // when it was said that nothing is checked; 0 after a cycle
+  ros::WallTime last_late_;    // when transforms contradicted a cycle
+  std::string late_;           // what was said of that
+  ros::WallTime last_log_;     // of the progress of building
+  ros::WallTime last_static_;  // when /tf_static was listened to
+  ros::WallTime last_frame_check_;
   ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
 
   std::mutex plan_mutex_;
@@ -132,10 +134,8 @@ class CollisionMonitor : public nodelet::Nodelet {
   bool ready_ = false;  // guarded by ready_mutex_, as the reason
   std::string not_ready_ = "starting";
   std::atomic<bool> reset_asked_{false};
-  std::mutex stop_mutex_;
-  std::condition_variable stop_asked_;
-  bool world_is_ready_ = false;  // guarded by stop_mutex_
-  std::atomic<bool> stop_{false};  // set under stop_mutex_, for stop_asked_
+  std::atomic<bool> stop_{false};
+  CycleTrigger trigger_;
   std::thread thread_;
 };
 

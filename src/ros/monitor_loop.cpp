@@ -130,6 +130,30 @@ void MonitorLoop::trackContacts(const CycleRequest& request) {
   contacts_.update({*result_, cycle_.motion, cycle_.samples, std::chrono::nanoseconds(cycle_.origin.toNSec())});
 }
 
+std::string MonitorLoop::movingFixedFrame() const {
+  constexpr double kMoved = 0.02, kTurned = 0.02;  // more than what localisation makes of a robot that rests [m, rad]
+  const std::string& fixed = history_.fixedFrame();
+  const BodyList& bodies = scene().bodies;
+  const auto object = std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) {
+    return body.is_world && withoutLeadingSlash(body.frame) == fixed;
+  });
+  if (object == bodies.end()) return {};
+  for (const std::string& above : history_.framesAbove(fixed)) {
+    const TfSpan span = history_.span(above);
+    Isometry3d X_then, X_now;
+    std::string problem;
+    if (!span.problem.empty() || span.is_static || !history_.lookup(above, span.first, X_then, problem) ||
+        !history_.lookup(above, span.last, X_now, problem)) {
+      continue;
+    }
+    const double turned = Quaterniond(X_then.linear()).angularDistance(Quaterniond(X_now.linear()));
+    if (turned < kTurned && (X_now.inverse().translation() - X_then.inverse().translation()).norm() < kMoved) continue;
+    return "the fixed frame " + fixed + " moves in " + above + ", and objects of the world with it, as " +
+           object->name + ": set fixed_frame to " + above + ", or to another frame that rests";
+  }
+  return {};
+}
+
 const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
   return distances_->update(cycle_.motion, *result_, range);
 }

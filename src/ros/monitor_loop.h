@@ -53,6 +53,9 @@ class MonitorLoop {
   /// its times. Frees nothing.
   /// @param change  that prepare() made since the last adopt().
   void adopt(LoopChange& change);
+  /// A warning, if the fixed frame moves in tf, as the base of a mobile robot does, and objects of the world rest in
+  /// it: so they ride along. Empty else.
+  std::string movingFixedFrame() const;
 
   /// Forgets everything but the transforms; the next cycle begins with the next of them.
   void reset();

@@ -39,31 +39,35 @@ std::vector<int> samePairs(const Scene& before, const Scene& now) {
 }  // namespace
 
 Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world,
-                 const MonitorLoop& loop, const MarkerOptions& options, ProximityOutputs& proximity)
+                 MonitorLoop& loop, const DescribedScene& described, const MarkerOptions& options,
+                 ProximityOutputs& proximity)
     : node_(private_node),
       loop_(loop),
       proximity_(proximity),
       state_(state),
       world_publisher_(world),
+      torques_(described),
       drawer_(loop.fixedFrame(), options) {
   contacts_ = node_.advertise<ContactArray>("contacts", 100);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 10);
   links_ = node_.advertise<visualization_msgs::MarkerArray>("links", 10, true);
-  wrenches_ = std::move(*prepare(*loop.world()));
+  torques_.advertise(node_);
+  adopt(*prepare(*loop.world()));
   goOnWith(loop.world());
   worker_ = std::make_unique<OrderedWorker<Report>>(kWaiting, [this](Report& report) { send(report); });
 }
 
 Outputs::~Outputs() = default;
 
-std::unique_ptr<Outputs::LinkWrenches> Outputs::prepare(const CheckedWorld& next) {
-  auto wrenches = std::make_unique<LinkWrenches>();
+std::unique_ptr<Outputs::Change> Outputs::prepare(const CheckedWorld& next) {
+  auto change = std::make_unique<Change>();
+  change->link_of_body = torques_.linksOf(next.scene());
   const BodyList& bodies = next.scene().bodies;
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     if (bodies[body].is_world) continue;
     const std::string topic = wrenchTopic(bodies[body]);
-    const auto known = std::find_if(wrenches_.begin(), wrenches_.end(),
-                                    [&](const LinkWrench& link) { return link.topic == topic; });
+    const auto known =
+        std::find_if(wrenches_.begin(), wrenches_.end(), [&](const LinkWrench& link) { return link.topic == topic; });
     LinkWrench link{static_cast<int>(body), topic, {}, false, {}};
     if (known != wrenches_.end()) {
       link.publisher = known->publisher;
@@ -72,15 +76,20 @@ std::unique_ptr<Outputs::LinkWrenches> Outputs::prepare(const CheckedWorld& next
       link.publisher = node_.advertise<geometry_msgs::WrenchStamped>(topic, 100);
       link.messages = std::make_shared<MessagePool<geometry_msgs::WrenchStamped>>();
     }
-    wrenches->push_back(std::move(link));
+    change->wrenches.push_back(std::move(link));
   }
-  return wrenches;
+  return change;
+}
+
+void Outputs::adopt(Change& change) {
+  wrenches_.swap(change.wrenches);
+  torques_.swapLinks(change.link_of_body);
 }
 
 CycleRequest Outputs::request(int max_points) {
   lookForSubscribers();
   CycleRequest request;
-  request.wrenches = contacts_wanted_ || wrenches_wanted_ || state_wanted_;
+  request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || state_wanted_;
   request.contacts = contacts_wanted_ || markers_wanted_ || state_wanted_;
   request.max_points = contacts_wanted_ || markers_wanted_ ? max_points : 0;
   // The status, and the state, tell the clearance of all.
@@ -96,6 +105,7 @@ void Outputs::lookForSubscribers() {
   contacts_wanted_ = contacts_.getNumSubscribers() > 0;
   state_wanted_ = state_.getNumSubscribers() > 0;
   markers_wanted_ = markers_.getNumSubscribers() > 0;
+  torques_wanted_ = torques_.isWanted();
   links_wanted_ = links_.getNumSubscribers() > 0;
   wrenches_wanted_ = false;
   for (LinkWrench& link : wrenches_) {
@@ -104,12 +114,12 @@ void Outputs::lookForSubscribers() {
   }
 }
 
-void Outputs::publish(const boost::shared_ptr<MonitorState>& state,
-                      const boost::shared_ptr<DistanceArray>& distances) {
+void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost::shared_ptr<DistanceArray>& distances) {
   Report& report = worker_->next();
   report.is_unchecked = false;
   report.state = state;
   report.distances = distances;
+  if (torques_wanted_) report.torques = torques_.toMessage(loop_);
   report.draws_markers = markers_wanted_;
   report.draws_links = links_wanted_;
   if (contacts_wanted_) {
@@ -170,6 +180,7 @@ void Outputs::send(Report& report) {
     if (report.contacts) contacts_.publish(report.contacts);
     for (const auto& [publisher, wrench] : report.wrenches) publisher.publish(wrench);
     if (report.state) state_.publish(report.state);
+    if (report.torques) torques_.publish(report.torques);
     if (report.distances) proximity_.publishDistances(report.distances);
     draw(report);
   } catch (const std::exception& error) {
@@ -178,6 +189,7 @@ void Outputs::send(Report& report) {
   report.contacts.reset();
   report.state.reset();
   report.distances.reset();
+  report.torques.reset();
   report.wrenches.clear();
   report.world.reset();
   report.snapshot.release();

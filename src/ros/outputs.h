@@ -15,6 +15,7 @@
 #include "ros/message_pool.h"
 #include "ros/ordered_worker.h"
 #include "ros/proximity_outputs.h"
+#include "ros/torque_output.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/MonitorState.h"
 
@@ -26,6 +27,7 @@ namespace sdf_ccd {
 ///   contacts         sdf_ccd/ContactArray            every cycle, and once a second while there is none
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
 ///                                                    link's frame, about its origin [N, N·m]
+///   joint_torques    sensor_msgs/JointState          as TorqueOutput does
 ///   markers          visualization_msgs/MarkerArray  contacts and status to look at
 ///   world            visualization_msgs/MarkerArray  the world's objects as they are checked, again after changes, at
 ///                                                    most once a second; latched
@@ -40,8 +42,8 @@ class Outputs {
  public:
   /// @param state  publishes the states that are given.
   /// @param world  publishes the world's objects.
-  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world,
-          const MonitorLoop& loop, const MarkerOptions& options, ProximityOutputs& proximity);
+  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world, MonitorLoop& loop,
+          const DescribedScene& described, const MarkerOptions& options, ProximityOutputs& proximity);
 
   ~Outputs();
 
@@ -53,14 +55,19 @@ class Outputs {
     bool is_wanted = false;
     std::shared_ptr<MessagePool<geometry_msgs::WrenchStamped>> messages;
   };
-  using LinkWrenches = std::vector<LinkWrench>;
+
+  /// What another world needs; after adopt() what that of before needed.
+  struct Change {
+    std::vector<LinkWrench> wrenches;
+    std::vector<int> link_of_body;  ///< see TorqueOutput
+  };
 
   /// What another world needs, beside running cycles but not while adopt() runs: publishers of what is attached now.
-  std::unique_ptr<LinkWrenches> prepare(const CheckedWorld& next);
+  std::unique_ptr<Change> prepare(const CheckedWorld& next);
 
   /// Goes on with the loop's world, between two cycles. Frees nothing.
-  /// @param wrenches  that prepare() made; afterwards those of before, to be destroyed by a thread that has the time.
-  void adopt(LinkWrenches& wrenches) { wrenches_.swap(wrenches); }
+  /// @param change  that prepare() made since the last adopt(); to be destroyed by a thread that has the time.
+  void adopt(Change& change);
 
   /// The world is drawn once more, as after a jump of time, when rviz drops what it shows.
   void drawWorldAgain() { world_drawn_ = 0; }
@@ -86,6 +93,7 @@ class Outputs {
     boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
     boost::shared_ptr<MonitorState> state;
     boost::shared_ptr<DistanceArray> distances;
+    boost::shared_ptr<sensor_msgs::JointState> torques;
     std::vector<std::pair<ros::Publisher, WrenchMessage>> wrenches;
     CycleSnapshot snapshot;
     bool draws_markers = false, draws_links = false;  // of the snapshot
@@ -104,10 +112,11 @@ class Outputs {
   void goOnWith(const std::shared_ptr<const CheckedWorld>& world);
 
   ros::NodeHandle node_;
-  const MonitorLoop& loop_;
+  MonitorLoop& loop_;
   ProximityOutputs& proximity_;
   ros::Publisher state_, world_publisher_, contacts_, markers_, links_;
-  LinkWrenches wrenches_;
+  std::vector<LinkWrench> wrenches_;
+  TorqueOutput torques_;
   std::uint64_t world_drawn_ = 0;  // its version
   ros::WallTime world_drawn_at_;
 
@@ -120,7 +129,7 @@ class Outputs {
   MessagePool<ContactArray> contact_messages_;
 
   ros::WallTime looked_;  // for subscribers
-  bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false;
+  bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
   bool markers_wanted_ = false, links_wanted_ = false;
 
   std::atomic<bool> finishes_{false};

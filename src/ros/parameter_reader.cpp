@@ -148,8 +148,8 @@ Vector3d ParameterReader::vector(const std::string& key, const Vector3d& fallbac
 
 std::vector<double> ParameterReader::numbers(const std::string& key, std::size_t least, std::size_t most) {
   XmlRpcValue* value = find(key);
-  const std::string expected = "a list of " + std::to_string(least) +
-                               (least == most ? "" : " to " + std::to_string(most)) + " finite numbers";
+  const std::string expected =
+      "a list of " + std::to_string(least) + (least == most ? "" : " to " + std::to_string(most)) + " finite numbers";
   if (!value || value->getType() != XmlRpcValue::TypeArray) fail(key, expected);
   const auto size = static_cast<std::size_t>(value->size());
   if (size < least || size > most) fail(key, expected);
@@ -166,7 +166,8 @@ std::vector<std::string> ParameterReader::texts(const std::string& key) {
   if (value->getType() != XmlRpcValue::TypeArray) fail(key, "a list of texts");
   for (int i = 0; i < value->size(); ++i) {
     XmlRpcValue& text = (*value)[i];
-    if (text.getType() != XmlRpcValue::TypeString || static_cast<std::string>(text).empty()) fail(key, "a list of texts");
+    if (text.getType() != XmlRpcValue::TypeString || static_cast<std::string>(text).empty())
+      fail(key, "a list of texts");
     texts.push_back(static_cast<std::string>(text));
   }
   return texts;

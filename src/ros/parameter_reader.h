@@ -50,8 +50,10 @@ class ParameterReader {
   /// Finite ones, from `least` to `most` of them; fails if it is not set.
   std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
 
-  /// Of lists of two texts each; none if it is not set.
+  /// Of a list of texts, none of them empty; none if it is not set.
   std::vector<std::string> texts(const std::string& key);
+
+  /// Of lists of two texts each; none if it is not set.
   std::vector<std::pair<std::string, std::string>> textPairs(const std::string& key);
 
   ParameterReader group(const std::string& key);

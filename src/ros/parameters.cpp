@@ -1,5 +1,6 @@
 #include "ros/parameters.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "field/uniform/sparse_grid.h"
@@ -100,6 +101,19 @@ ProximityParameters readProximity(ParameterReader& reader) {
   return proximity;
 }
 
+TriggerOptions readTrigger(ParameterReader& reader, const MonitorParameters& parameters) {
+  TriggerOptions trigger;
+  trigger.kind = static_cast<TriggerKind>(reader.choice("trigger", {"timer", "tf", "joint_states", "frames"}, 0));
+  for (const std::string& frame : reader.texts("trigger_frames")) trigger.frames.push_back(withoutLeadingSlash(frame));
+  if (trigger.kind == TriggerKind::kFrames && trigger.frames.empty()) {
+    reader.fail("trigger_frames", "one frame or more, as trigger is frames");
+  }
+  trigger.period = 1.0 / parameters.rate;
+  // What the tracker says of frames that have ended must not wait for ever.
+  trigger.patience = std::min(0.1, parameters.tf.max_latency);
+  return trigger;
+}
+
 ContactOptions readContact(ParameterReader reader) {
   ContactOptions contact;
   contact.stiffness_per = static_cast<StiffnessPer>(
@@ -187,6 +201,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     if (reader.positive(key, 1.0) > kLongestCycle) reader.fail(key, "at most an hour");
   }
   parameters.rate = reader.positive("rate", 30.0);
+  parameters.trigger = readTrigger(reader, parameters);
 
   parameters.proximity = readProximity(reader);
   parameters.max_points = reader.integer("max_points", 20, 0);

@@ -9,6 +9,7 @@
 #include "model/pair_rules.h"
 #include "monitor/proximity.h"
 #include "monitor/velocity_scale.h"
+#include "ros/cycle_trigger.h"
 #include "ros/markers.h"
 #include "ros/parameter_reader.h"
 #include "ros/tf_tracker.h"
@@ -67,6 +68,7 @@ struct MonitorParameters {
   MarkerOptions markers;
   ProximityParameters proximity;
   double rate = 0.0;  ///< [Hz]
+  TriggerOptions trigger;
   int max_points = 0;
   std::vector<std::string> unknown;  ///< what nothing reads, with what may be meant; in groups it is refused
 };

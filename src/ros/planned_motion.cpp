@@ -55,6 +55,18 @@ void requireNamedOnce(const QueryMotion::Request& request) {
   }
 }
 
+/// On splines, as joint_trajectory_controller follows it.
+RobotTrajectory toSplines(const trajectory_msgs::JointTrajectory& trajectory, const ros::Duration& start,
+                          double tolerance) {
+  const std::vector<double> times = timesOf(trajectory.points, start, "the trajectory");
+  std::vector<JointWaypoint> points;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const trajectory_msgs::JointTrajectoryPoint& point = trajectory.points[i];
+    points.push_back({times[i], point.positions, point.velocities, point.accelerations});
+  }
+  return splined(trajectory.joint_names, points, tolerance);
+}
+
 RobotTrajectory toRobotTrajectory(const trajectory_msgs::JointTrajectory& trajectory, const ros::Duration& start) {
   RobotTrajectory result;
   result.times = timesOf(trajectory.points, start, "the trajectory");
@@ -109,7 +121,10 @@ RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const Plann
   const ros::Duration start = joints.empty() ? multi_dof.front().time_from_start : joints.front().time_from_start;
   RobotTrajectory named;
   if (!joints.empty()) {
-    named = toRobotTrajectory(request.trajectory, start);
+    const bool on_splines = request.interpolation == QueryMotion::Request::SPLINES;
+    // Joints' errors add up along a chain: a quarter of what samples of the motion may stray, each [rad, m].
+    named = on_splines ? toSplines(request.trajectory, start, 0.25 * planned.sampling.tolerance)
+                       : toRobotTrajectory(request.trajectory, start);
     for (RobotState& state : named.states) state.X_WR = planned.now.X_WR;
   }
   if (!multi_dof.empty()) {
@@ -273,9 +288,12 @@ std::string oldTransformsNote(const CurrentPoses& now, const ros::Time& time, do
 }
 
 PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& planned) {
+  if (request.interpolation > QueryMotion::Request::SPLINES) {
+    refuse("interpolation " + std::to_string(request.interpolation) + " is neither LINEAR nor SPLINES");
+  }
   const bool has_joints = !request.trajectory.points.empty() || !request.multi_dof_trajectory.points.empty();
   if (has_joints == !request.poses.empty()) refuse("give either a trajectory or poses of links");
-  return has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned);
+  return withMargin(has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned), request.margin);
 }
 
 }  // namespace sdf_ccd

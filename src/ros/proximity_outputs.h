@@ -1,8 +1,8 @@
 #pragma once
 
-#include <boost/shared_ptr.hpp>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <boost/shared_ptr.hpp>
 
 #include "monitor/proximity.h"
 #include "ros/message_pool.h"
@@ -16,7 +16,8 @@ namespace sdf_ccd {
 ///
 /// Publishes, below the node's name:
 ///   distances       sdf_ccd/DistanceArray  every cycle, if report_distance is set
-///   velocity_scale  std_msgs/Float64       every cycle, and as 0 while there is none, if velocity_scale/max_speed is set
+///   velocity_scale  std_msgs/Float64       every cycle, and as 0 while there is none, if velocity_scale/max_speed is
+///   set
 /// What has no subscriber, or no threshold, is not measured.
 class ProximityOutputs {
  public:

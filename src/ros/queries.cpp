@@ -16,6 +16,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kPointsPerPiece = 500;
+constexpr std::size_t kMotionsPerPiece = 16;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
@@ -102,13 +103,20 @@ void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response&
   if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
 }
 
-PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWorld& world) const {
+/// Where things are now, for a motion that says no more.
+/// @param plan_frame  that the plan's root poses are given in.
+PlannedScene Queries::planFromNow(const std::string& plan_frame, const CheckedWorld& world) const {
   CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, world.scene());
   posesAt(history_, world.bodies, ros::Time(), now.X_WB, now.missing);
-  const std::string frame = withoutLeadingSlash(request.multi_dof_trajectory.header.frame_id);
+  const std::string frame = withoutLeadingSlash(plan_frame);
   history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
-  PlannedMotion planned = toPlannedMotion(request, {world.scene(), *robot_, base_joint_, world.unreachable, now, sampling_});
-  const std::string old = ros::Time::isValid() ? oldTransformsNote(now, ros::Time::now(), max_age_) : "";
+  return {world.scene(), *robot_, base_joint_, world.unreachable, now, sampling_};
+}
+
+PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWorld& world) const {
+  const PlannedScene from_now = planFromNow(request.multi_dof_trajectory.header.frame_id, world);
+  PlannedMotion planned = toPlannedMotion(request, from_now);
+  const std::string old = ros::Time::isValid() ? oldTransformsNote(from_now.now, ros::Time::now(), max_age_) : "";
   if (!old.empty()) planned.notes += (planned.notes.empty() ? "" : "; ") + old;
   return planned;
 }
@@ -146,12 +154,75 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
     response.assumed_positions.push_back(joint.position);
   }
   response.verdict = static_cast<std::uint8_t>(result.verdict);
-  response.error_bound = result.error_bound;
+  response.error_bound = std::max(0.0, result.error_bound - request.margin);
   const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
   setPairContacts(result, context, response.pairs);
   if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
   response.not_checked = result.not_checked;
+}
+
+void Queries::answer(const QueryMotions::Request& request, QueryMotions::Response& response) {
+  answerWith([&] { checkMotions(request, response); }, response);
+}
+
+void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response) {
+  const std::size_t count = request.motions.size();
+  requireAtMost(limits_.motions, count, "motions");
+  std::size_t points = 0;
+  std::string frame;  // of all root poses: tf is asked once
+  for (const RobotMotion& motion : request.motions) {
+    points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
+    const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
+    if (!frame.empty() && !of_motion.empty() && of_motion != frame) {
+      refuse("root poses of all motions are to be in one frame, not in " + frame + " and " + of_motion);
+    }
+    if (!of_motion.empty()) frame = of_motion;
+  }
+  requireAtMost(limits_.points, points, "points of motions");
+  const std::shared_ptr<const CheckedWorld> world = this->world();
+  response.scene_version = world->version();
+  const Scene& scene = world->scene();
+  const PlannedScene from_now = planFromNow(frame, *world);
+  MotionsRequest wanted;
+  wanted.first_only = !request.all;
+  wanted.margin = request.margin;
+  double spent = 0.0;
+  for (std::size_t first = 0; first < count; first += kMotionsPerPiece) {
+    const Piece piece(*this, spent);
+    const CancelPoint cancel;
+    const auto motionOf = [&](std::size_t i, double tolerance) {
+      const CancelScope scope(cancel);  // it may be another thread
+      QueryMotion::Request one;
+      one.trajectory = request.motions[first + i].joint_trajectory;
+      one.multi_dof_trajectory = request.motions[first + i].multi_dof_joint_trajectory;
+      one.interpolation = request.interpolation;
+      one.other_joints = request.other_joints;
+      one.other_positions = request.other_positions;
+      one.allow_beyond_limits = request.allow_beyond_limits;
+      PlannedScene now = from_now;
+      now.sampling.tolerance = tolerance;
+      try {
+        return toPlannedMotion(one, now);
+      } catch (const std::invalid_argument& error) {
+        refuse("motion " + std::to_string(first + i) + ": " + error.what());
+      }
+    };
+    std::vector<MotionVerdict> verdicts;
+    arena_.execute([&] {
+      const CancelScope scope(cancel);
+      verdicts = sdf_ccd::checkMotions(world->snapshot->scene, options_, std::min(kMotionsPerPiece, count - first),
+                                       motionOf, wanted);
+    });
+    for (const MotionVerdict& verdict : verdicts) {
+      const PlannedPair* pair = verdict.pair < 0 ? nullptr : &scene.pairs[static_cast<std::size_t>(verdict.pair)];
+      response.verdicts.push_back(static_cast<std::uint8_t>(verdict.verdict));
+      response.error_bounds.push_back(verdict.error_bound);
+      response.bodies_a.push_back(pair ? scene.bodies[pair->body_a].name : "");
+      response.bodies_b.push_back(pair ? scene.bodies[pair->body_b].name : "");
+      response.times.push_back(ros::Duration(verdict.time));
+    }
+  }
 }
 
 void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response& response) {

@@ -13,6 +13,7 @@
 #include "ros/planned_motion.h"
 #include "ros/work_turns.h"
 #include "sdf_ccd/QueryMotion.h"
+#include "sdf_ccd/QueryMotions.h"
 #include "sdf_ccd/QueryPoints.h"
 
 namespace sdf_ccd {
@@ -20,14 +21,15 @@ namespace sdf_ccd {
 /// What one query may ask for, and how many there may be. What is more is refused, in the answer's message.
 struct QueryLimits {
   std::size_t waypoints = 2000;  ///< of all trajectories of a motion
-  std::size_t points = 20000;
-  double seconds = 2.0;  ///< of computing; the answer comes within milliseconds after
-  int queries = 4;       ///< at a time
+  std::size_t motions = 2000;    ///< of query_motions
+  std::size_t points = 20000;    ///< of query_points; or of all motions of query_motions
+  double seconds = 2.0;          ///< of computing; the answer comes within milliseconds after
+  int queries = 4;               ///< at a time
 };
 
-/// Answers query_motion and query_points, beside the cycles and of lower priority than these, on at most half of the
-/// cores. Several calls at a time take turns. A motion is followed piece by piece, so memory does not grow with its
-/// length.
+/// Answers query_motion, query_motions and query_points, beside the cycles and of lower priority than these, on at most
+/// half of the cores. Several calls at a time take turns. A motion is followed piece by piece, so memory does not grow
+/// with its length.
 ///
 /// What a CancelScope of the calling thread asks for ends an answer with Cancelled.
 class Queries {
@@ -44,6 +46,7 @@ class Queries {
   void drawOn(const ros::Publisher& publisher) { drawn_ = publisher; }
 
   void answer(const QueryMotion::Request& request, QueryMotion::Response& response);
+  void answer(const QueryMotions::Request& request, QueryMotions::Response& response);
   void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
 
  private:
@@ -53,7 +56,9 @@ class Queries {
   template <class Response, class Work>
   void answerWith(const Work& work, Response& response);
 
+  PlannedScene planFromNow(const std::string& plan_frame, const CheckedWorld& world) const;
   PlannedMotion plan(const QueryMotion::Request& request, const CheckedWorld& world) const;
+  void checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response);
   void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response);
   void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response);
 

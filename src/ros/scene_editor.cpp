@@ -72,7 +72,7 @@ bool SceneEditor::adopt() {
   if (!ready) return false;
   const std::shared_ptr<const CheckedWorld> world = ready->loop->world;
   parts_.loop.adopt(*ready->loop);
-  parts_.outputs.adopt(*ready->wrenches);
+  parts_.outputs.adopt(*ready->outputs);
   parts_.queries.setWorld(world);
   adopted_ = ready;
   return true;
@@ -92,12 +92,13 @@ bool SceneEditor::handOver(const std::shared_ptr<const CheckedWorld>& world) {
   withdraw();
   auto prepared = std::make_unique<PreparedWorld>();
   prepared->loop = parts_.loop.prepare(world);
-  prepared->wrenches = parts_.outputs.prepare(*world);
+  prepared->outputs = parts_.outputs.prepare(*world);
   given_ = std::move(prepared);
   offered_ = given_.get();
   wake_();
   const CancelPoint cancel;
-  for (const auto start = Clock::now(); adopted_ != given_.get() && Clock::now() - start < kPatience && !cancel.asked();)
+  for (const auto start = Clock::now();
+       adopted_ != given_.get() && Clock::now() - start < kPatience && !cancel.asked();)
     std::this_thread::sleep_for(kLook);
   const bool is_adopted = adopted_ == given_.get();
   if (is_adopted) withdraw();  // and frees what was before

@@ -19,7 +19,7 @@ namespace sdf_ccd {
 /// What a version of the world needs to be checked, ready to be taken over between two cycles.
 struct PreparedWorld {
   std::unique_ptr<LoopChange> loop;
-  std::unique_ptr<Outputs::LinkWrenches> wrenches;
+  std::unique_ptr<Outputs::Change> outputs;
 };
 
 /// The field of a mesh, made elsewhere.
@@ -44,9 +44,8 @@ class SceneEditor {
   /// @param world   the first version, of which `editor` is the editor.
   /// @param wake    called when a version is ready: the cycles' thread is to call adopt() soon.
   /// @param changed  called by the thread that has changed it, when the cycles have taken a version over, or will.
-  SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described,
-              const MonitorParameters& parameters, const Parts& parts, std::function<void()> wake,
-              std::function<void(const CheckedWorld&)> changed);
+  SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described, const MonitorParameters& parameters,
+              const Parts& parts, std::function<void()> wake, std::function<void(const CheckedWorld&)> changed);
   ~SceneEditor();
 
   /// Answers a request. Never throws but for Cancelled.
@@ -87,10 +86,10 @@ class SceneEditor {
   std::mutex last_mutex_;
   std::timed_mutex turn_;
   std::atomic<int> callers_{0};
-  ChangingScene scene_;                                // guarded by turn_, as all below
-  std::shared_ptr<const CheckedWorld> last_;           // that was made; also by last_mutex_
-  std::unique_ptr<PreparedWorld> given_;               // to the cycles' thread, last
-  std::atomic<PreparedWorld*> offered_{nullptr};       // until that takes it
+  ChangingScene scene_;                                 // guarded by turn_, as all below
+  std::shared_ptr<const CheckedWorld> last_;            // that was made; also by last_mutex_
+  std::unique_ptr<PreparedWorld> given_;                // to the cycles' thread, last
+  std::atomic<PreparedWorld*> offered_{nullptr};        // until that takes it
   std::atomic<const PreparedWorld*> adopted_{nullptr};  // when it has taken it over
 };
 

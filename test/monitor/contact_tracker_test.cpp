@@ -24,8 +24,9 @@ Scene named(const Pairs& pairs) {
   const auto indexOf = [&](const std::string& name) {
     const auto [found, is_new] = bodies.try_emplace(name, static_cast<int>(scene.bodies.size()));
     if (is_new) {
-      scene.bodies.emplace_back();
-      scene.bodies.back().name = name;
+      Body body;
+      body.name = name;
+      scene.bodies.push_back(std::move(body));
     }
     return found->second;
   };
@@ -281,7 +282,8 @@ TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
 }
 
 /// What the tracker must say, from all intervals at once: stays of each pair, joined where breaks are short.
-std::multiset<std::tuple<std::string, Time, Time>> joined(std::map<std::string, std::vector<std::pair<Time, Time>>> all) {
+std::multiset<std::tuple<std::string, Time, Time>> joined(
+    std::map<std::string, std::vector<std::pair<Time, Time>>> all) {
   std::multiset<std::tuple<std::string, Time, Time>> contacts;
   for (auto& [name, stays] : all) {
     std::sort(stays.begin(), stays.end());

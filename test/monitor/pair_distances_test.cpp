@@ -37,8 +37,7 @@ class PairDistancesTest : public ::testing::Test {
  protected:
   PairDistancesTest()
       : scene_(test::build({test::body("box", Primitive(Box{kBox})), test::body("block", Primitive(Box{kBlock}), true),
-                            test::body("ball", Primitive(Sphere{kRadius})),
-                            test::body("ground", test::ground(), true)},
+                            test::body("ball", Primitive(Sphere{kRadius})), test::body("ground", test::ground(), true)},
                            test::fine(0.005))),
         monitor_(scene_, test::soft()),
         distances_(scene_) {}

@@ -12,9 +12,10 @@ TEST(Proximity, RisesAtOnceAndFallsBehindTheHysteresis) {
   EXPECT_DOUBLE_EQ(thresholds.range(), 0.11);
   ProximityWatch watch;
   const std::vector<std::pair<double, Proximity>> told = {
-      {0.2, Proximity::kFree},     {0.105, Proximity::kFree}, {0.099, Proximity::kWarning}, {0.105, Proximity::kWarning},
-      {0.111, Proximity::kFree},   {0.0, Proximity::kStop},   {0.029, Proximity::kStop},    {0.031, Proximity::kWarning},
-      {0.025, Proximity::kWarning}, {0.019, Proximity::kStop}, {0.2, Proximity::kFree}};
+      {0.2, Proximity::kFree},      {0.105, Proximity::kFree},    {0.099, Proximity::kWarning},
+      {0.105, Proximity::kWarning}, {0.111, Proximity::kFree},    {0.0, Proximity::kStop},
+      {0.029, Proximity::kStop},    {0.031, Proximity::kWarning}, {0.025, Proximity::kWarning},
+      {0.019, Proximity::kStop},    {0.2, Proximity::kFree}};
   for (const auto& [distance, level] : told) EXPECT_EQ(watch.update(distance, thresholds), level) << distance;
 }
 

@@ -138,7 +138,7 @@ TEST(VelocityScale, WhatIsFarOrOpensIsNotSlowed) {
   pair.slab = ClosingGap{0.1, -0.5, 0.01};  // along it they part
   EXPECT_GT(velocityScale({pair}, 0.0, 0.0, promise), 0.25);
   EXPECT_EQ(velocityScale({}, 0.0, 0.0, promise), 1.0);
-  EXPECT_EQ(velocityScale({}, 0.0, promise.max_age + 1e-3, promise), 0.0);  // of some pair, and none was near
+  EXPECT_EQ(velocityScale({}, 0.0, promise.max_age + 1e-3, promise), 0.0);      // of some pair, and none was near
   EXPECT_EQ(velocityScale({pair}, promise.max_age + 1e-3, 0.0, promise), 0.0);  // nothing is known of it any more
   pair.any = *pair.slab = {0.0, 0.0, 0.01};
   EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
@@ -184,11 +184,10 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
     promise.period = 0.05;
     promise.stop_distance = 0.005;
     const TriangleMesh flyer = test::icosphere(0.08, 0), block = test::boxMesh({0.05, 0.3, 0.2});
-    const auto scene = test::build({test::body("flyer", test::meshShape(flyer)),
-                                    test::body("block", test::meshShape(block), true),
-                                    test::body("ball", Primitive(Sphere{0.1}), true),
-                                    test::body("ground", test::ground(), true)},
-                                   test::fine(0.01));
+    const auto scene =
+        test::build({test::body("flyer", test::meshShape(flyer)), test::body("block", test::meshShape(block), true),
+                     test::body("ball", Primitive(Sphere{0.1}), true), test::body("ground", test::ground(), true)},
+                    test::fine(0.01));
     const Isometry3d X_block = test::translation({0.4, 0.0, 0.3}), X_ball = test::translation({-0.3, 0.2, 0.3});
     Monitor monitor(scene, test::soft());
     PairDistances distances(scene);
@@ -202,8 +201,8 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       const double now = i * kStep;
       if (i % 40 == 0 && speed == 0.0) {
         // From rest another way: what it promises is about the speed of any point, so the way may be any.
-        const Vector3d aim = i % 80 == 0 ? Vector3d(X_block.translation() - X.translation()).normalized()
-                                         : Vector3d(direction(random));
+        const Vector3d aim =
+            i % 80 == 0 ? Vector3d(X_block.translation() - X.translation()).normalized() : Vector3d(direction(random));
         way = aim;
         spin = 2.0 * direction(random);
       }
@@ -218,7 +217,8 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       TriangleMesh point;  // the ball's middle
       point.vertices = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
       point.triangles = {{0, 1, 2}};
-      nearest = std::min({nearest, trueDistance(flyer, X, block, X_block), trueDistance(flyer, X, point, X_ball) - 0.1});
+      nearest =
+          std::min({nearest, trueDistance(flyer, X, block, X_block), trueDistance(flyer, X, point, X_ball) - 0.1});
       for (const Vector3d& p : flyer.vertices) nearest = std::min(nearest, (X * p).z());
       ASSERT_GE(nearest, promise.stop_distance - 0.001) << run << " " << i;
       if (i % 8 != 0) continue;
@@ -233,7 +233,8 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       }
       const CycleResult& result = monitor.run(motion, {false, 0});
       ASSERT_EQ(result.verdict, Verdict::kClear);
-      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise)), motion.times.back(), 0.0, promise));
+      robot.hear(
+          now, velocityScale(distances.update(motion, result, scaleRange(promise)), motion.times.back(), 0.0, promise));
       poses = {X};
       known = now;
     }

@@ -62,8 +62,7 @@ TEST(SurfaceDistance, IsThatOfAllPairsOfTrianglesWithPointsOnBothSurfaces) {
   SeparationMemory memory;
   for (int i = 0; i < 20; ++i) {
     const double radius = i % 3 == 0 ? 0.02 : 0.0;
-    const BoxTree a = treeOf(bumpySphere(random, 0.2, 1), radius),
-                  b = treeOf(bumpySphere(random, 0.1, 1));
+    const BoxTree a = treeOf(bumpySphere(random, 0.2, 1), radius), b = treeOf(bumpySphere(random, 0.1, 1));
     SeparationWitness witness;
     Isometry3d X_AB = test::pose(random, 3.0, 0.5);
     for (int k = 0; k < 4; ++k) {  // the witness of the last one helps, and tells nothing wrong
@@ -98,8 +97,7 @@ TEST(SurfaceDistance, ASlabHasEitherSurfaceOnItsOwnSide) {
   Random random(8);
   int found = 0;
   for (int i = 0; i < 60; ++i) {
-    const BoxTree a = treeOf(bumpySphere(random, 0.2, 1)),
-                  b = treeOf(bumpySphere(random, 0.1, 1));
+    const BoxTree a = treeOf(bumpySphere(random, 0.2, 1)), b = treeOf(bumpySphere(random, 0.1, 1));
     const Isometry3d X_AB = test::pose(random, 3.0, 0.7);
     SeparationWitness witness;
     SeparationMemory memory;

@@ -226,7 +226,7 @@ TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
 
 TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
   Scene broken = *scene();
-  broken.bodies[0].X_frame_B.linear() *= 1.1;  // no rotation
+  broken.bodies.edit(0).X_frame_B.linear() *= 1.1;  // no rotation
   MonitorParameters parameters;
   parameters.monitor = test::soft();
   loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), test::describedWorld(), parameters);
@@ -309,6 +309,24 @@ TEST_F(MonitorLoopTest, ResetsAndJumpsEndAllContacts) {
   EXPECT_TRUE(told.contacts[0].is_lost);
   touch(5.1);
   EXPECT_EQ(last().contacts[0].id, 3u);
+}
+
+TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
+  const auto driveTo = [&](double x) {
+    for (int i = 0; i < 30; ++i) {
+      const double now = 10.0 + i * kPeriod;
+      sendHand(now, 0.0);
+      sendFoot(now);
+      send(stampedTransform("odom", "world", now, x * i / 29.0));
+      step(now);
+    }
+    return loop_->movingFixedFrame();
+  };
+  EXPECT_EQ(driveTo(0.001), "");
+  begin();
+  const std::string warning = driveTo(0.5);
+  EXPECT_EQ(warning.find("the fixed frame world moves in odom, and objects of the world with it, as plate"), 0u)
+      << warning;
 }
 
 TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {

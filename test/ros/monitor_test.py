@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Drives the monitor through tf, as a robot would, and looks at what it says."""
+import math
 import signal
 import subprocess
 import sys
@@ -17,8 +18,10 @@ from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from visualization_msgs.msg import Marker, MarkerArray
 
-from sdf_ccd.msg import Contact, ContactArray, DistanceArray, LinkPoses, MonitorState, PairContact, Plan
-from sdf_ccd.srv import QueryMotion, QueryMotionRequest, QueryPoints
+from sdf_ccd.msg import (Contact, ContactArray, DistanceArray, LinkPoses, MonitorState, PairContact, Plan,
+                         RobotMotion)
+from sdf_ccd.srv import (QueryMotion, QueryMotionRequest, QueryMotionResponse, QueryMotions, QueryMotionsRequest,
+                         QueryPoints)
 
 PERIOD = 0.033  # [s]
 RADIUS, PLATE = 0.02, 0.4995  # of the balls, and x of the plate's face [m]
@@ -194,6 +197,7 @@ class MonitorTest(unittest.TestCase):
         self.assertAlmostEqual(pair.normal.x, 1.0, delta=1e-4)
         self.assertGreater(pair.closing_speed, 0.1)
         # Slowly towards it: warned of, slowed, and stopped.
+        scales.clear()
         for x, proximity in ((0.3, MonitorState.FREE), (0.42, MonitorState.WARNING), (0.47, MonitorState.STOP)):
             self.states.clear()
             for _ in range(4):
@@ -203,7 +207,7 @@ class MonitorTest(unittest.TestCase):
         self.assertIsNotNone(scales.find(lambda m: 0.0 < m.data < 1.0))
         scales.clear()
         for _ in range(15):
-            self.send(-1.5, -1.5)
+            self.send(-1.5, -0.3)  # nor is the other one near
         self.assertIsNotNone(scales.find(lambda m: m.data == 1.0))
         # Far away nothing is listed.
         distances.clear()
@@ -438,6 +442,51 @@ class MonitorTest(unittest.TestCase):
         self.assertEqual(self.query_motion(request).verdict, answer.NOT_CHECKED)
         for _ in range(30):
             self.send(0.0)
+
+    def test_query_motion_on_splines_and_with_a_margin(self):
+        for _ in range(3):
+            self.send(0.3)
+        request = trajectory('slide', [0.3, 0.3])
+        for point, velocity in zip(request.trajectory.points, (1.0, -1.0)):
+            point.velocities = [velocity]
+        self.assertEqual(self.query_motion(request).verdict, QueryMotionResponse.CLEAR)
+        request.interpolation = QueryMotionRequest.SPLINES  # up to 0.55
+        answer = self.query_motion(request)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        enter = 0.5 - math.sqrt(0.25 - (PLATE - RADIUS - 0.3))
+        self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), enter, delta=0.01)
+        request = trajectory('slide', [0.0, 0.3])
+        request.other_joints, request.other_positions = ['other_slide'], [0.0]
+        for margin, verdict in ((0.15, answer.CLEAR), (0.2, answer.UNCERTAIN)):
+            request.margin = margin
+            answer = self.query_motion(request)
+            self.assertEqual(answer.verdict, verdict)
+            self.assertLess(answer.error_bound, 0.01)
+        request.margin = -1.0
+        self.assertFalse(self.query_motion(request).success)
+        request.margin, request.interpolation = 0.0, 7
+        self.assertFalse(self.query_motion(request).success)
+
+    def test_query_many_motions(self):
+        query = rospy.ServiceProxy('/collision_monitor/query_motions', QueryMotions)
+        motions = [RobotMotion(joint_trajectory=trajectory('slide', positions).trajectory)
+                   for positions in [[0.0, 0.3], [0.0, 1.0]] * 20]
+        request = QueryMotionsRequest(motions=motions, other_joints=['other_slide'], other_positions=[0.0])
+        answer = query(request)
+        self.assertTrue(answer.success, answer.message)
+        verdicts = list(bytearray(answer.verdicts))
+        self.assertEqual(verdicts, [QueryMotionResponse.CLEAR, QueryMotionResponse.CONTACT] * 20)
+        self.assertEqual({answer.bodies_a[1], answer.bodies_b[1]}, {'ball', 'plate'})
+        self.assertEqual(answer.bodies_a[0], '')
+        self.assertEqual(answer.times[0].to_sec(), -1.0)
+        self.assertAlmostEqual(answer.times[1].to_sec(), PLATE - RADIUS, delta=0.05)
+        request.margin = 0.2
+        self.assertEqual(list(bytearray(query(request).verdicts))[0], QueryMotionResponse.UNCERTAIN)
+        request.motions[3].joint_trajectory.points[1].positions = [5.0]
+        answer = query(request)
+        self.assertFalse(answer.success)
+        self.assertIn('motion 3: joint slide: position 5 is beyond its limits', answer.message)
 
     def test_query_points(self):
         answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(0.5, 0.25, 0.0)])

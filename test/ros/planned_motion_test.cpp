@@ -26,7 +26,7 @@ class PlannedMotionTest : public ::testing::Test {
     wall.name = "wall";
     wall.is_world = true;
     for (Body* body : {&rod, &wall}) body->X_frame_B.setIdentity();
-    scene_.bodies = {rod, wall};
+    scene_.bodies = BodyList({rod, wall});
     now_.X_WR = Eigen::Translation3d(2.0, 0.0, 0.0);
     now_.X_WB = {Isometry3d::Identity(), Isometry3d(Eigen::Translation3d(0.0, 5.0, 0.0))};
     now_.missing = {"no transform", ""};

@@ -54,6 +54,10 @@ class Arm {
       setContactArray(*loop_, *contacts);
       const boost::shared_ptr<MonitorState> state = states_.take();
       setMonitorState(*loop_, now, *state);
+      loop_->measureDistances(0.5);
+      const boost::shared_ptr<DistanceArray> distances = distances_.take();
+      setDistanceArray(*loop_, 0.5, *distances);
+      EXPECT_FALSE(distances->distances.empty());
       ++cycles_[contacts->verdict];
     }
   }
@@ -67,6 +71,7 @@ class Arm {
   tf2_msgs::TFMessage message_;
   MessagePool<ContactArray> contacts_;
   MessagePool<MonitorState> states_;
+  MessagePool<DistanceArray> distances_;
   long now_ = 0;
   int cycles_[4] = {0, 0, 0, 0};
 };

@@ -46,4 +46,9 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
 PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
                           const std::vector<UnreachablePair>& unreachable);
 
+/// The same motion, so that only what stays farther apart than the margin is CLEAR: it counts as motion error, in the
+/// errors' bound too. What comes nearer is UNCERTAIN, and so is a contact that is less deep.
+/// @throws std::invalid_argument if the margin [m] is negative or not finite.
+PlannedMotion withMargin(PlannedMotion motion, double margin);
+
 }  // namespace sdf_ccd

@@ -21,7 +21,23 @@ struct RobotState {
 struct RobotTrajectory {
   std::vector<double> times;       ///< [s], increasing
   std::vector<RobotState> states;  ///< one per time; all name the same joints
+  double joint_error = 0.0;        ///< no joint that has a position is farther than this from there [rad, m]
 };
+
+/// What a trajectory message gives of its joints at one time; velocities and accelerations may be left empty.
+struct JointWaypoint {
+  double time = 0.0;  ///< [s]
+  std::vector<double> positions, velocities, accelerations;
+};
+
+/// A trajectory as ros_control's joint_trajectory_controller follows it: on quintic splines between points that both
+/// have velocities and accelerations, on cubic ones between those that have velocities, else linearly. The splines are
+/// cut into pieces on which joints move linearly, no farther off than the tolerance: that is the joint_error.
+/// @param points     two or more, of increasing times.
+/// @param tolerance  positive [rad, m].
+/// @throws std::invalid_argument if sizes do not fit, or it would take more than 100,000 pieces.
+RobotTrajectory splined(const std::vector<std::string>& joints, const std::vector<JointWaypoint>& points,
+                        double tolerance);
 
 /// Where the robot is at a time from the first to the last. @throws std::out_of_range if two states name other joints.
 RobotState stateAt(const RobotTrajectory& trajectory, double time);

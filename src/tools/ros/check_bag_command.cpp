@@ -126,8 +126,9 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
   }
   is_complete &= areAllMade(scene);
   if (statistics.neverChecked() > 0) {
-    std::cerr << "sdf_ccd: " << statistics.neverChecked() << " bodies, or pairs of others, were checked in no cycle, as "
-              << statistics.whyNotChecked() << std::endl;
+    std::cerr << "sdf_ccd: " << statistics.neverChecked()
+              << " bodies, or pairs of others, were checked in no cycle, as " << statistics.whyNotChecked()
+              << std::endl;
     is_complete = false;
   }
   return is_complete;
@@ -153,7 +154,9 @@ void run(const Arguments& arguments) {
   }
   MonitorLoop loop(scene, described, parameters);
   const double took = check(motion, parameters, described, loop, files);
-  for (const std::string& warning : motion.warnings()) {
+  std::vector<std::string> of_motion = motion.warnings();
+  if (!loop.movingFixedFrame().empty()) of_motion.push_back(loop.movingFixedFrame());
+  for (const std::string& warning : of_motion) {
     std::cerr << "sdf_ccd: warning: " << warning << std::endl;
     warnings.push_back(warning);
   }

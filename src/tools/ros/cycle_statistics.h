@@ -24,7 +24,8 @@ class CycleStatistics {
   /// Whether some cycle was checked as a whole, its verdict being another than NOT_CHECKED.
   bool hasCheckedCycle() const;
 
-  /// "body: reason" or "body - body: reason", an example of the reason for which most was not checked; empty if all was.
+  /// "body: reason" or "body - body: reason", an example of the reason for which most was not checked; empty if all
+  /// was.
   std::string whyNotChecked() const;
 
   /// Cycles by verdict, what was checked, pairs in contact and in doubt, run times and error bounds.

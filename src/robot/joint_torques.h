@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sdf_ccd/contact/penalty.h"
+#include "sdf_ccd/robot/robot_model.h"
+
+namespace sdf_ccd {
+
+/// What wrenches on a robot's links do at its joints: the generalised forces τ = Σ Jᵀ F of the joints that turn about
+/// an axis or slide along one. Their product with the joints' rates is the power of the wrenches, as long as the root
+/// rests: motors that hold the robot against them have to exert −τ.
+///
+/// A joint that mimics another has none of its own: its part counts for that one, times its multiplier.
+class JointTorques {
+ public:
+  explicit JointTorques(const RobotModel& robot);
+
+  /// The joints, in the order of RobotModel::links() below them.
+  const std::vector<std::string>& joints() const { return joints_; }
+
+  /// Links whose poses are needed, by their indices in RobotModel::links(): those right below a joint that moves.
+  const std::vector<int>& links() const { return below_; }
+
+  /// Of links(): each with the joint, by its index in joints(), that the one above it counts for.
+  const std::vector<std::pair<int, int>>& jointsBelow() const { return joints_below_; }
+
+  /// @param X_WL      per link: its pose; of links() they must be set.
+  /// @param wrenches  per link: on it, about its origin, in the world's axes [N, N·m]; X_WL must be set where it is not
+  ///                  zero.
+  /// @param torques   per joint [N·m], of those that slide forces [N]; memory used again.
+  void compute(const std::vector<Isometry3d>& X_WL, const std::vector<Wrench>& wrenches,
+               std::vector<double>& torques) const;
+
+ private:
+  /// A joint, or one that mimics it.
+  struct Part {
+    int joint;  // in joints()
+    double multiplier;
+    bool turns;       // else it slides
+    Vector3d axis_L;  // in the frame of the link below it, unit
+  };
+
+  std::vector<std::string> joints_;
+  std::vector<int> below_;  // per part: the link below it
+  std::vector<Part> parts_;
+  std::vector<std::pair<int, int>> joints_below_;
+  std::vector<int> parent_;  // per link: −1 of the root
+};
+
+}  // namespace sdf_ccd

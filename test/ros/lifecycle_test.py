@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""A monitor through what happens to a robot's nodes: a clock that does not run, bags that loop, a master that dies.
+
+usage: lifecycle_test.py SOURCE_DIRECTORY
+"""
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import rosbag
+import rospy
+from geometry_msgs.msg import TransformStamped
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+
+from sdf_ccd.msg import Contact, ContactArray, MonitorState
+
+SOURCE = os.path.abspath(sys.argv.pop())
+RATE, SECONDS = 50.0, 3.0  # of the bag
+PATIENCE = 60.0            # [s]
+
+
+def free_port():
+    with socket.socket() as s:
+        s.bind(('', 0))
+        return s.getsockname()[1]
+
+
+def transforms(stamp, x):
+    message = TFMessage()
+    for frame, at, y in (('ball', x, 0.0), ('other', 0.0, 0.5)):
+        transform = TransformStamped(header=Header(stamp=stamp, frame_id='base'), child_frame_id=frame)
+        transform.transform.translation.x, transform.transform.translation.y = at, y
+        transform.transform.rotation.w = 1.0
+        message.transforms.append(transform)
+    return message
+
+
+def write_bag(path):
+    """The ball goes through the plate once, between two transforms."""
+    with rosbag.Bag(path, 'w') as bag:
+        for i in range(int(RATE * SECONDS)):
+            stamp = rospy.Time(1000) + rospy.Duration(i / RATE)
+            bag.write('/tf', transforms(stamp, 0.3 if i < RATE * SECONDS / 2 else 0.7), stamp)
+
+
+class Listener:
+    """Keeps what comes, whatever the clock does."""
+
+    def __init__(self, topic, kind):
+        self.condition, self.messages = threading.Condition(), []
+        self.subscriber = rospy.Subscriber(topic, kind, self.add, queue_size=1000)
+
+    def add(self, message):
+        with self.condition:
+            self.messages.append(message)
+            self.condition.notify_all()
+
+    def wait(self, test, timeout=PATIENCE):
+        """Until the test holds of all messages so far."""
+        end = time.monotonic() + timeout
+        with self.condition:
+            while not test(self.messages):
+                left = end - time.monotonic()
+                if left <= 0.0 or not self.condition.wait(left):
+                    return test(self.messages)
+        return True
+
+    def clear(self):
+        with self.condition:
+            self.messages.clear()
+
+
+class Lifecycle(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.port = free_port()
+        os.environ.update(ROS_HOME=cls.folder.name, ROS_IP='127.0.0.1',
+                          ROS_MASTER_URI='http://127.0.0.1:%d' % cls.port)
+        cls.bag = os.path.join(cls.folder.name, 'ball.bag')
+        write_bag(cls.bag)
+        cls.children = []
+        cls.start_master()
+        with open(SOURCE + '/test/ros/sliders.urdf') as urdf:
+            rospy.set_param('/robot_description', urdf.read())
+        subprocess.check_call(['rosparam', 'load', SOURCE + '/test/ros/monitor.yaml', '/collision_monitor'])
+        rospy.set_param('/use_sim_time', True)
+        rospy.init_node('lifecycle_test', disable_signals=True)
+        cls.states = Listener('/collision_monitor/state', MonitorState)
+        cls.contacts = Listener('/collision_monitor/contacts', ContactArray)
+        cls.monitor = cls.start('rosrun', 'sdf_ccd', 'collision_monitor', '__name:=collision_monitor')
+
+    @classmethod
+    def start(cls, *command):
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        cls.children.append(child)
+        return child
+
+    @classmethod
+    def start_master(cls):
+        cls.master = cls.start('rosmaster', '--core', '-p', str(cls.port))
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            try:
+                with socket.create_connection(('127.0.0.1', cls.port), 1.0):
+                    return
+            except OSError:
+                time.sleep(0.1)
+        raise RuntimeError('no master')
+
+    @classmethod
+    def tearDownClass(cls):
+        for child in reversed(cls.children):
+            if child.poll() is None:
+                child.kill()
+            child.wait()
+        cls.folder.cleanup()
+
+    def play(self, *options):
+        subprocess.run(['rosbag', 'play', '--quiet', '--clock', '--hz=100', *options, self.bag], timeout=PATIENCE,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    @staticmethod
+    def ended(messages):
+        return [contact for message in messages for contact in message.contacts if contact.ends]
+
+    def test_1_a_clock_that_does_not_run_is_said(self):
+        self.assertTrue(self.states.wait(lambda all: any('transforms' in m.reason for m in all)))
+        self.assertTrue(all(m.verdict == MonitorState.NOT_CHECKED for m in self.states.messages))
+        self.assertIsNone(self.monitor.poll())
+
+    def test_2_a_bag_at_its_own_speed_and_ten_times_as_fast(self):
+        for options in ((), ('-r', '10')):
+            self.contacts.clear()
+            self.play(*options)
+            self.assertTrue(self.contacts.wait(lambda all: len(self.ended(all)) == 1), options)
+            contact, = self.ended(self.contacts.messages)
+            self.assertEqual({contact.body_a, contact.body_b}, {'ball', 'plate'})
+            self.assertEqual(contact.verdict, Contact.CONTACT)
+            self.assertFalse(contact.seen_at_samples)
+            self.assertFalse(contact.is_lost)
+            self.assertAlmostEqual(contact.begin.to_sec(), 1000 + SECONDS / 2 - 0.5 / RATE, delta=0.5 / RATE)
+
+    def test_3_a_bag_that_loops(self):
+        self.contacts.clear()
+        self.states.clear()
+        player = self.start('rosbag', 'play', '--quiet', '--clock', '--loop', '--hz=100', '-r', '3', self.bag)
+        self.assertTrue(self.contacts.wait(lambda all: len(self.ended(all)) >= 4))
+        player.send_signal(signal.SIGINT)
+        player.wait(PATIENCE)
+        contacts = self.ended(self.contacts.messages)
+        self.assertEqual(len({contact.id for contact in contacts}), len(contacts))  # each its own
+        self.assertEqual(len({contact.begin.to_nsec() for contact in contacts}), 1)  # all the same
+        self.assertTrue(any(m.reason == 'time has jumped back' for m in self.states.messages))
+
+    def test_4_a_publisher_that_dies_and_one_that_takes_its_place(self):
+        self.contacts.clear()
+        for _ in range(2):
+            player = self.start('rosbag', 'play', '--quiet', '--clock', '--hz=100', self.bag)
+            self.assertTrue(self.contacts.wait(lambda all: any(m.verdict == ContactArray.CLEAR for m in all)))
+            player.kill()
+            player.wait()
+            self.contacts.clear()
+        self.play()
+        self.assertTrue(self.contacts.wait(lambda all: len(self.ended(all)) >= 1))
+
+    def test_5_a_master_that_dies_and_comes_back(self):
+        clock = rospy.Publisher('/clock', Clock, queue_size=10)
+        tf = rospy.Publisher('/tf', TFMessage, queue_size=10)
+        end = time.monotonic() + PATIENCE
+        while (not clock.get_num_connections() or not tf.get_num_connections()) and time.monotonic() < end:
+            time.sleep(0.1)
+        self.master.kill()
+        self.master.wait()
+        for _ in range(2):
+            self.contacts.clear()
+            begin = 2000.0
+            for i in range(100):
+                stamp = rospy.Time(begin + 0.02 * i)
+                clock.publish(Clock(clock=stamp))
+                tf.publish(transforms(stamp, 0.3 if i < 50 else 0.7))
+                time.sleep(0.02)
+            # Who is connected needs no master.
+            self.assertTrue(self.contacts.wait(lambda all: any(m.verdict == ContactArray.CONTACT for m in all)))
+            self.assertIsNone(self.monitor.poll())
+            if self.master.poll() is not None:
+                self.start_master()
+
+    def test_6_it_ends_as_it_should(self):
+        self.monitor.send_signal(signal.SIGINT)
+        self.assertEqual(self.monitor.wait(PATIENCE), 0)
+        self.assertTrue(self.states.wait(lambda all: any(m.reason == 'the monitor has ended' for m in all)))
+
+
+if __name__ == '__main__':
+    unittest.main()
