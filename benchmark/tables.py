@@ -17,6 +17,7 @@ import planning_tables
 import precision_tables
 import robots_tables
 import separation_tables
+import world_tables
 from results import Results, number
 
 SEGMENT_SYSTEMS = ['paper_uniform', 'paper_octree', 'sdf_ccd', 'sdf_ccd_batch', 'openvdb', 'embree', 'embree16',
@@ -177,7 +178,7 @@ TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
               **meshes_tables.TABLES, **monitor_tables.TABLES,
-              **planning_tables.TABLES, **separation_tables.TABLES}.items()}}
+              **planning_tables.TABLES, **separation_tables.TABLES, **world_tables.TABLES}.items()}}
 
 
 def main():

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <unordered_set>
 
 #include "common/number_text.h"
 #include "common/parallel_for.h"
@@ -109,6 +110,7 @@ void VoxelGrid::addOctree(const std::int8_t* data, std::size_t bytes, const std:
 
 /// A tile as it was made.
 struct VoxelMap::Built {
+  VoxelGrid::Bits own;  // without the voxels around it
   VoxelBlock block;
 };
 
@@ -244,6 +246,22 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
   if (keys.size() > options_.max_tiles)
     throw std::runtime_error("a map of more than " + std::to_string(options_.max_tiles) + " tiles");
   std::sort(keys.begin(), keys.end());
+  std::unordered_set<std::uint64_t> changed;
+  for (const std::uint64_t key : keys) {
+    const auto known = tiles_.find(key);
+    if (is_another || known == tiles_.end() || known->second->own != occupied.at(key)) changed.insert(key);
+  }
+  for (const auto& [key, built] : tiles_) {
+    const auto now = occupied.find(key);
+    if (now == occupied.end() || now->second.none()) changed.insert(key);
+  }
+  const auto isNearChange = [&](const Vector3i& tile) {
+    for (int i = 0; i < 27; ++i) {
+      const Vector3i other = tile + Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (other.minCoeff() >= 0 && changed.count(VoxelGrid::keyOf(other)) > 0) return true;
+    }
+    return false;
+  };
   struct Made {
     std::shared_ptr<const Built> built;
     BodyDescription body;
@@ -254,9 +272,14 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
   parallelFor(std::size_t{0}, keys.size(), [&](std::size_t k) {
     cancel.check();
     const Vector3i tile = VoxelGrid::tileOf(keys[k]);
-    auto built = std::make_shared<Built>();
-    built->block = blockOf(tile, occupied, VoxelGrid::keyOf);
     const auto known = tiles_.find(keys[k]);
+    if (!isNearChange(tile)) {
+      made[k].built = known->second;
+      return;
+    }
+    auto built = std::make_shared<Built>();
+    built->own = occupied.at(keys[k]);
+    built->block = blockOf(tile, occupied, VoxelGrid::keyOf);
     if (!is_another && known != tiles_.end() && known->second->block.occupied == built->block.occupied) {
       made[k].built = known->second;
       return;

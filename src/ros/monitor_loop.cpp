@@ -46,7 +46,8 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   auto change = std::make_unique<LoopChange>();
   const Scene& scene = next->scene();
   std::set<std::string> frames;
-  for (const Body& body : scene.bodies) frames.insert(withoutLeadingSlash(body.frame));
+  for (const BodyList* bodies : {&scene.bodies, &monitor_.scene().bodies})  // until then the cycles need theirs
+    for (const Body& body : *bodies) frames.insert(withoutLeadingSlash(body.frame));
   history_.wantBesides({frames.begin(), frames.end()});
 
   const SceneDifference difference(monitor_.scene(), scene);

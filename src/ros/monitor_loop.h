@@ -46,7 +46,7 @@ class MonitorLoop {
   TfTracker::Step step(const ros::Time& now, const CycleRequest& request);
 
   /// Makes what another world needs, beside running cycles but not while adopt() runs. Its frames are followed from now
-  /// on, those of earlier ones no longer.
+  /// on, those of worlds before the last one no longer.
   std::unique_ptr<LoopChange> prepare(std::shared_ptr<const CheckedWorld> next);
 
   /// Goes on with another world, between two cycles: result() is valid again after the next one, and cycle() has but
