@@ -52,6 +52,7 @@ class DistanceQuery {
     best_ = distance;
     const Vector3d way = closest.on_b - closest.on_a;
     const Vector3d n = length > 0.0 ? Vector3d(way / length) : Vector3d(Vector3d::UnitZ());
+    boxes_.setDirection(n);  // along which boxes are mostly farthest apart
     const double from_a = std::min(t_a.radius, length), from_b = std::min(t_b.radius, length - from_a);
     found_ = SurfaceDistance{distance, closest.on_a + from_a * n, closest.on_b - from_b * n};
   }

@@ -21,7 +21,8 @@ struct SurfaceDistance {
 /// @param max_distance  surfaces that are farther apart need not be told [m].
 /// @param witness       as in separation(); where to look first, which tells nothing about the result.
 /// @return nothing if the surfaces are farther apart than max_distance.
-/// Cost: of bodies that moved little since the last query some 1 to 5 µs.
+/// Cost: of two bumpy balls of 320 triangles half a radius apart, all of whose near sides are about as near, 60 to 90 µs,
+/// of 5120 triangles 0.2 ms, on a loaded computer; less where one place is nearest.
 std::optional<SurfaceDistance> surfaceDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
                                                double max_distance, SeparationWitness& witness,
                                                SeparationMemory& memory);
