@@ -39,7 +39,7 @@ class SmallMonitor {
       const char* parent = std::string(link) == "hand" ? "arm" : "base";
       loop_->history().add(test::message({test::stampedTransform(parent, link, kStart, 0.2)}), false);
     }
-    queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
+    queries_ = std::make_unique<Queries>(loop_->world(), described_, parameters_, loop_->history());
   }
 
   MonitorLoop& loop() { return *loop_; }
