@@ -13,6 +13,7 @@ void CycleSnapshot::take(const MonitorLoop& loop) {
   result_.error = result.error;
   result_.checked = result.checked;
   result_.skipped = result.skipped;
+  result_.postponed = result.postponed;
   result_.not_checked = result.not_checked;
   result_.delayed = result.delayed;
   result_.run_time = result.run_time;
