@@ -4,7 +4,6 @@
 usage: bag_launch_test.py SOURCE_DIRECTORY
 """
 import os
-import socket
 import subprocess
 import sys
 import tempfile
@@ -14,17 +13,12 @@ import rosbag
 import rospy
 from sensor_msgs.msg import JointState
 
+from own_master import use_own_master
 from sdf_ccd.msg import ContactArray
 
 SOURCE = os.path.abspath(sys.argv.pop())
 RATE, SECONDS = 50.0, 4.0  # of the bag
 PATIENCE = 120.0           # [s]
-
-
-def free_port():
-    with socket.socket() as s:
-        s.bind(('', 0))
-        return s.getsockname()[1]
 
 
 def write_bag(path):
@@ -47,13 +41,12 @@ class BagLaunch(unittest.TestCase):
             with open(SOURCE + '/config/demo/world.yaml') as world, open(config, 'w') as out:
                 out.write(world.read() + 'field: {cell_size: 0.006}\nshell: {spacing: 0.003}\n'
                           'cache_directory: %s/cache\n' % folder)
-            environment = dict(os.environ, ROS_HOME=folder, ROS_IP='127.0.0.1',
-                               ROS_MASTER_URI='http://127.0.0.1:%d' % free_port())
+            use_own_master(ROS_HOME=folder)
             for start in ('first', 'second'):
                 ended = subprocess.run(
                     ['roslaunch', 'sdf_ccd', 'bag.launch', 'bag:=' + bag, 'urdf:=' + SOURCE + '/config/demo/arm.urdf',
                      'config:=' + config, 'rviz:=false', 'player_required:=true', 'record:=' + record],
-                    env=environment, timeout=PATIENCE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                    timeout=PATIENCE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
                 log = ended.stdout
                 with rosbag.Bag(record) as contacts:
                     verdicts = [message.verdict for _, message, _ in

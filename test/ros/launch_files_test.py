@@ -5,16 +5,15 @@ usage: launch_files_test.py SOURCE_DIRECTORY
 """
 import os
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
-import rosgraph
 import rospy
 
+from monitor_case import Recorder
+from own_master import start_master, use_own_master
 from sdf_ccd.msg import MonitorState
 
 SOURCE = os.path.abspath(sys.argv.pop())
@@ -22,23 +21,11 @@ ARM = SOURCE + '/config/demo/arm.urdf'
 PATIENCE = 60.0  # [s]
 
 
-def free_port():
-    with socket.socket() as s:
-        s.bind(('', 0))
-        return s.getsockname()[1]
-
-
 class LaunchFiles(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp()
-        port = free_port()
-        os.environ.update(ROS_HOME=cls.folder, ROS_IP='127.0.0.1', ROS_MASTER_URI='http://127.0.0.1:%d' % port)
-        cls.core = subprocess.Popen(['roscore', '-p', str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        end = time.monotonic() + PATIENCE
-        while not rosgraph.is_master_online():
-            assert time.monotonic() < end
-            time.sleep(0.1)
+        cls.master = start_master(use_own_master(ROS_HOME=cls.folder), PATIENCE)
         rospy.init_node('launch_files_test')
         cls.config = cls.folder + '/config.yaml'
         with open(cls.config, 'w') as config:
@@ -47,30 +34,27 @@ class LaunchFiles(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         rospy.signal_shutdown('done')
-        cls.core.terminate()
-        cls.core.wait()
+        cls.master.terminate()
+        cls.master.wait()
         shutil.rmtree(cls.folder, ignore_errors=True)
 
     def launch(self, *arguments, ns=None):
-        """Starts a monitor, and returns the fixed frame and the reason of its first state about the robot."""
+        """Starts a monitor. Returns the fixed frame of its first state about the robot, all parameters, and the log."""
         environment = dict(os.environ)
         if ns:
             environment['ROS_NAMESPACE'] = ns
         name = next((a[6:] for a in arguments if a.startswith('name:=')), 'collision_monitor')
         topic = '/'.join(['', *([ns] if ns else []), name, 'state'])
-        states = []
-        subscriber = rospy.Subscriber(topic, MonitorState, states.append)
+        states = Recorder(topic, MonitorState, PATIENCE)
         started = subprocess.Popen(['roslaunch', 'sdf_ccd', 'monitor.launch', 'config:=' + self.config, *arguments],
                                    env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        end = time.monotonic() + PATIENCE
-        while not any(state.header.frame_id for state in states) and time.monotonic() < end:
-            time.sleep(0.1)
+        of_robot = states.find(lambda state: state.header.frame_id)
         parameters = rospy.get_param('/')
-        subscriber.unregister()
+        states.close()
         started.terminate()
         log = started.communicate()[0]
-        self.assertTrue(any(state.header.frame_id for state in states), log)
-        return next(state.header.frame_id for state in states if state.header.frame_id), parameters, log
+        self.assertIsNotNone(of_robot, log)
+        return of_robot.header.frame_id, parameters, log
 
     def test_a_description_is_the_monitors_alone(self):
         with open(ARM) as arm:

@@ -5,21 +5,19 @@ usage: lifecycle_test.py SOURCE_DIRECTORY
 """
 import os
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 
 import rosbag
 import rospy
-from geometry_msgs.msg import TransformStamped
 from rosgraph_msgs.msg import Clock
-from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
+from monitor_case import Recorder, ball_transforms
+from own_master import start_master, use_own_master
 from sdf_ccd.msg import Contact, ContactArray, MonitorState
 
 SOURCE = os.path.abspath(sys.argv.pop())
@@ -27,64 +25,19 @@ RATE, SECONDS = 50.0, 3.0  # of the bag
 PATIENCE = 60.0            # [s]
 
 
-def free_port():
-    with socket.socket() as s:
-        s.bind(('', 0))
-        return s.getsockname()[1]
-
-
-def transforms(stamp, x):
-    message = TFMessage()
-    for frame, at, y in (('ball', x, 0.0), ('other', 0.0, 0.5)):
-        transform = TransformStamped(header=Header(stamp=stamp, frame_id='base'), child_frame_id=frame)
-        transform.transform.translation.x, transform.transform.translation.y = at, y
-        transform.transform.rotation.w = 1.0
-        message.transforms.append(transform)
-    return message
-
-
 def write_bag(path):
     """The ball goes through the plate once, between two transforms."""
     with rosbag.Bag(path, 'w') as bag:
         for i in range(int(RATE * SECONDS)):
             stamp = rospy.Time(1000) + rospy.Duration(i / RATE)
-            bag.write('/tf', transforms(stamp, 0.3 if i < RATE * SECONDS / 2 else 0.7), stamp)
-
-
-class Listener:
-    """Keeps what comes, whatever the clock does."""
-
-    def __init__(self, topic, kind):
-        self.condition, self.messages = threading.Condition(), []
-        self.subscriber = rospy.Subscriber(topic, kind, self.add, queue_size=1000)
-
-    def add(self, message):
-        with self.condition:
-            self.messages.append(message)
-            self.condition.notify_all()
-
-    def wait(self, test, timeout=PATIENCE):
-        """Until the test holds of all messages so far."""
-        end = time.monotonic() + timeout
-        with self.condition:
-            while not test(self.messages):
-                left = end - time.monotonic()
-                if left <= 0.0 or not self.condition.wait(left):
-                    return test(self.messages)
-        return True
-
-    def clear(self):
-        with self.condition:
-            self.messages.clear()
+            bag.write('/tf', ball_transforms(stamp, 0.3 if i < RATE * SECONDS / 2 else 0.7), stamp)
 
 
 class Lifecycle(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.port = free_port()
-        os.environ.update(ROS_HOME=cls.folder.name, ROS_IP='127.0.0.1',
-                          ROS_MASTER_URI='http://127.0.0.1:%d' % cls.port)
+        cls.port = use_own_master(ROS_HOME=cls.folder.name)
         cls.bag = os.path.join(cls.folder.name, 'ball.bag')
         write_bag(cls.bag)
         cls.children = []
@@ -94,8 +47,8 @@ class Lifecycle(unittest.TestCase):
         subprocess.check_call(['rosparam', 'load', SOURCE + '/test/ros/monitor.yaml', '/collision_monitor'])
         rospy.set_param('/use_sim_time', True)
         rospy.init_node('lifecycle_test', disable_signals=True)
-        cls.states = Listener('/collision_monitor/state', MonitorState)
-        cls.contacts = Listener('/collision_monitor/contacts', ContactArray)
+        cls.states = Recorder('/collision_monitor/state', MonitorState, PATIENCE)
+        cls.contacts = Recorder('/collision_monitor/contacts', ContactArray, PATIENCE)
         cls.monitor = cls.start('rosrun', 'sdf_ccd', 'collision_monitor', '__name:=collision_monitor')
 
     @classmethod
@@ -106,15 +59,8 @@ class Lifecycle(unittest.TestCase):
 
     @classmethod
     def start_master(cls):
-        cls.master = cls.start('rosmaster', '--core', '-p', str(cls.port))
-        end = time.monotonic() + PATIENCE
-        while time.monotonic() < end:
-            try:
-                with socket.create_connection(('127.0.0.1', cls.port), 1.0):
-                    return
-            except OSError:
-                time.sleep(0.1)
-        raise RuntimeError('no master')
+        cls.master = start_master(cls.port, PATIENCE)
+        cls.children.append(cls.master)
 
     @classmethod
     def tearDownClass(cls):
@@ -133,7 +79,7 @@ class Lifecycle(unittest.TestCase):
         return [contact for message in messages for contact in message.contacts if contact.ends]
 
     def test_1_a_clock_that_does_not_run_is_said(self):
-        self.assertTrue(self.states.wait(lambda all: any('transforms' in m.reason for m in all)))
+        self.assertIsNotNone(self.states.find(lambda m: 'transforms' in m.reason))
         self.assertTrue(all(m.verdict == MonitorState.NOT_CHECKED for m in self.states.messages))
         self.assertIsNone(self.monitor.poll())
 
@@ -165,7 +111,7 @@ class Lifecycle(unittest.TestCase):
         self.contacts.clear()
         for _ in range(2):
             player = self.start('rosbag', 'play', '--quiet', '--clock', '--hz=100', self.bag)
-            self.assertTrue(self.contacts.wait(lambda all: any(m.verdict == ContactArray.CLEAR for m in all)))
+            self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
             player.kill()
             player.wait()
             self.contacts.clear()
@@ -186,10 +132,10 @@ class Lifecycle(unittest.TestCase):
             for i in range(100):
                 stamp = rospy.Time(begin + 0.02 * i)
                 clock.publish(Clock(clock=stamp))
-                tf.publish(transforms(stamp, 0.3 if i < 50 else 0.7))
+                tf.publish(ball_transforms(stamp, 0.3 if i < 50 else 0.7))
                 time.sleep(0.02)
             # Who is connected needs no master.
-            self.assertTrue(self.contacts.wait(lambda all: any(m.verdict == ContactArray.CONTACT for m in all)))
+            self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CONTACT))
             self.assertIsNone(self.monitor.poll())
             if self.master.poll() is not None:
                 self.start_master()
@@ -197,7 +143,7 @@ class Lifecycle(unittest.TestCase):
     def test_6_it_ends_as_it_should(self):
         self.monitor.send_signal(signal.SIGINT)
         self.assertEqual(self.monitor.wait(PATIENCE), 0)
-        self.assertTrue(self.states.wait(lambda all: any(m.reason == 'the monitor has ended' for m in all)))
+        self.assertIsNotNone(self.states.find(lambda m: m.reason == 'the monitor has ended'))
 
 
 if __name__ == '__main__':

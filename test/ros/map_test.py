@@ -6,65 +6,29 @@ import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 
-import genpy.dynamic
 import rosbag
 import rospy
 import rostest
-from geometry_msgs.msg import TransformStamped
 from std_msgs.msg import Header
-from tf2_msgs.msg import TFMessage
 
+from monitor_case import MovingBalls, Recorder, wait_for_service
 from sdf_ccd.msg import ContactArray
 from sdf_ccd.srv import GetPlan
 
-PERIOD, SIZE = 0.02, 0.05  # [s], of a voxel [m]
-DEFINITION = """Header header
-bool binary
-string id
-float64 resolution
-int8[] data
-================================================================================
-MSG: std_msgs/Header
-uint32 seq
-time stamp
-string frame_id
-"""
-Octomap = genpy.dynamic.generate_dynamic('octomap_msgs/Octomap', DEFINITION)['octomap_msgs/Octomap']
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)) + '/../../scripts')
+from octomap_message import Octomap, binary_data, octomap, octree  # noqa: E402
+
+SIZE = 0.05  # of a voxel [m]
 
 
-def grouped(voxels, level):
-    children = [{} for _ in range(8)]
-    half = 1 << (level - 1)
-    for (x, y, z), occupied in voxels.items():
-        i = (x >= half) + 2 * (y >= half) + 4 * (z >= half)
-        children[i][(x % half, y % half, z % half)] = occupied
-    return children
-
-
-def binary(voxels, level=16):
-    """As OcTree::writeBinaryData()."""
-    children = grouped(voxels, level)
-    bits, rest = 0, b''
-    for i, child in enumerate(children):
-        if child and level == 1:
-            bits |= (2 if child[(0, 0, 0)] else 1) << 2 * i
-        elif child:
-            bits |= 3 << 2 * i
-            rest += binary(child, level - 1)
-    return struct.pack('<H', bits) + rest
-
-
-def full(voxels, level=16):
+def full_data(tree):
     """As OcTree::writeData()."""
-    if level == 0:
-        return struct.pack('<fB', 0.85 if voxels[(0, 0, 0)] else -0.4, 0)
-    children = grouped(voxels, level)
-    mask = sum(1 << i for i, child in enumerate(children) if child)
-    return struct.pack('<fB', 0.85, mask) + b''.join(full(child, level - 1) for child in children if child)
+    if not isinstance(tree, dict):
+        return struct.pack('<fB', 0.85 if tree else -0.4, 0)
+    return struct.pack('<fB', 0.85, sum(1 << child for child in tree)) + b''.join(map(full_data, tree.values()))
 
 
 def voxels_near(x, y, z, radius):
@@ -81,58 +45,20 @@ def voxels_near(x, y, z, radius):
     return near
 
 
-def message(voxels, is_binary=True, frame='base'):
-    data = binary(voxels) if is_binary else full(voxels)
-    return Octomap(header=Header(stamp=rospy.Time.now(), frame_id=frame), binary=is_binary, id='OcTree',
-                   resolution=SIZE, data=list(struct.unpack('%db' % len(data), data)))
+def message(voxels, is_binary=True):
+    data = (binary_data if is_binary else full_data)(octree(voxels))
+    return octomap(Header(stamp=rospy.Time.now(), frame_id='base'), SIZE, data, is_binary)
 
 
 class MapTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.condition, cls.contacts = threading.Condition(), []
-        cls.place = 0.0
-        cls.tf = rospy.Publisher('/tf', TFMessage, queue_size=1000)
+        cls.robot = MovingBalls()
         cls.maps = rospy.Publisher('/octomap', Octomap, queue_size=1, latch=True)
-        rospy.Subscriber('/collision_monitor/contacts', ContactArray, cls.keep, queue_size=1000)
-        rospy.wait_for_service('/collision_monitor/get_plan', 60.0)
-        cls.get_plan = rospy.ServiceProxy('/collision_monitor/get_plan', GetPlan)
-        threading.Thread(target=cls.move, daemon=True).start()
-        assert cls.find(lambda m: m.complete_until == m.header.stamp and m.reason == '' or m.pairs == [], 60.0)
-
-    @classmethod
-    def keep(cls, message):
-        with cls.condition:
-            cls.contacts.append(message)
-            cls.condition.notify_all()
-
-    @classmethod
-    def move(cls):
-        while not rospy.is_shutdown():
-            transforms = TFMessage()
-            for frame, x, y in (('ball', cls.place, 0.0), ('other', 0.0, 0.5)):
-                transform = TransformStamped(header=Header(stamp=rospy.Time.now(), frame_id='base'),
-                                             child_frame_id=frame)
-                transform.transform.translation.x, transform.transform.translation.y = x, y
-                transform.transform.rotation.w = 1.0
-                transforms.transforms.append(transform)
-            cls.tf.publish(transforms)
-            time.sleep(PERIOD)
-
-    @classmethod
-    def find(cls, test, timeout=8.0):
-        """The first message from now on that passes the test; None if none comes in time."""
-        end = time.monotonic() + timeout
-        with cls.condition:
-            del cls.contacts[:]
-            seen = 0
-            while True:
-                for said in cls.contacts[seen:]:
-                    if test(said):
-                        return said
-                seen = len(cls.contacts)
-                if not cls.condition.wait(max(0.0, end - time.monotonic())):
-                    return None
+        cls.contacts = Recorder('/collision_monitor/contacts', ContactArray, 8.0)
+        cls.get_plan = wait_for_service('/collision_monitor/get_plan', GetPlan)
+        assert cls.contacts.find_new(
+            lambda m: m.complete_until == m.header.stamp and m.reason == '' or m.pairs == [], 60.0)
 
     def version(self):
         return self.get_plan().plan.scene_version
@@ -141,42 +67,47 @@ class MapTest(unittest.TestCase):
         """Until the cycles have it."""
         before = self.version()
         self.maps.publish(sent)
-        found = self.find(lambda m: m.scene_version > before)
+        found = self.contacts.find_new(lambda m: m.scene_version > before)
         self.assertIsNotNone(found, 'the map is not taken')
         return found.scene_version
 
     def setUp(self):
-        MapTest.place = 0.0
+        self.robot.ball = 0.0
         time.sleep(0.3)
 
-    def touches_map(self, m):
-        return any(p.verdict == p.CONTACT and 'ball' in (p.body_a, p.body_b) and
-                   any(b.startswith('octomap/') for b in (p.body_a, p.body_b)) for p in m.pairs)
+    def find_clear(self, version):
+        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == m.CLEAR)
+
+    def find_touching_map(self):
+        def touches_map(m):
+            return any(p.verdict == p.CONTACT and 'ball' in (p.body_a, p.body_b) and
+                       any(b.startswith('octomap/') for b in (p.body_a, p.body_b)) for p in m.pairs)
+        return self.contacts.find_new(touches_map)
 
     def test_a_map_is_checked_and_its_next_one_too(self):
         version = self.send(message(voxels_near(0.5, 0.0, 0.0, 0.1)))
-        self.assertIsNotNone(self.find(lambda m: m.scene_version == version and m.verdict == m.CLEAR))
-        MapTest.place = 0.5
-        self.assertIsNotNone(self.find(self.touches_map))
+        self.assertIsNotNone(self.find_clear(version))
+        self.robot.ball = 0.5
+        self.assertIsNotNone(self.find_touching_map())
         # It is gone from there, and elsewhere.
         version = self.send(message(voxels_near(0.0, -0.5, 0.0, 0.1)))
-        self.assertIsNotNone(self.find(lambda m: m.scene_version == version and m.verdict == m.CLEAR))
+        self.assertIsNotNone(self.find_clear(version))
 
     def test_what_the_robot_fills_does_not_count(self):
-        MapTest.place = 0.9
+        self.robot.ball = 0.9
         time.sleep(0.3)
         picture = voxels_near(0.0, 0.0, 0.0, 0.05)
         self.send(message(picture))  # nobody is there
-        MapTest.place = 0.0
-        self.assertIsNotNone(self.find(self.touches_map))
+        self.robot.ball = 0.0
+        self.assertIsNotNone(self.find_touching_map())
         time.sleep(0.3)
         version = self.send(message({**picture, **voxels_near(0.5, 0.0, 0.0, 0.05)}))
-        self.assertIsNotNone(self.find(lambda m: m.scene_version == version and m.verdict == m.CLEAR))
+        self.assertIsNotNone(self.find_clear(version))
 
     def test_the_full_format(self):
         self.send(message(voxels_near(0.3, 0.0, 0.0, 0.1), is_binary=False))
-        MapTest.place = 0.3
-        self.assertIsNotNone(self.find(self.touches_map))
+        self.robot.ball = 0.3
+        self.assertIsNotNone(self.find_touching_map())
 
     def test_a_map_from_a_bag(self):
         file = os.path.join(tempfile.mkdtemp(), 'map.bag')
@@ -185,9 +116,9 @@ class MapTest(unittest.TestCase):
         before = self.version()
         subprocess.check_call(['rosbag', 'play', '-q', '-d', '1', '--wait-for-subscribers', '--topics', '/octomap',
                                '--bags', file], stdout=subprocess.DEVNULL)
-        self.assertIsNotNone(self.find(lambda m: m.scene_version > before))
-        MapTest.place = 0.7
-        self.assertIsNotNone(self.find(self.touches_map))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.scene_version > before))
+        self.robot.ball = 0.7
+        self.assertIsNotNone(self.find_touching_map())
 
     def test_a_damaged_map_changes_nothing(self):
         self.send(message(voxels_near(0.5, 0.0, 0.0, 0.1)))
@@ -200,8 +131,8 @@ class MapTest(unittest.TestCase):
             self.maps.publish(bad)
             time.sleep(0.2)
         self.assertEqual(self.version(), before)
-        MapTest.place = 0.5
-        self.assertIsNotNone(self.find(self.touches_map))
+        self.robot.ball = 0.5
+        self.assertIsNotNone(self.find_touching_map())
 
 
 if __name__ == '__main__':

@@ -9,15 +9,13 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped
+from geometry_msgs.msg import Point, Pose, Quaternion
 from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import Header
-from tf2_msgs.msg import TFMessage
 
+from monitor_case import MovingBalls, Recorder, touches, wait_for_service
 from sdf_ccd.msg import ContactArray, MonitorState, Plan, SceneChange
 from sdf_ccd.srv import GetPlan, QueryPoints, UpdateScene
-
-PERIOD = 0.02  # [s]
 
 
 def pose(x=0.0, y=0.0, z=0.0):
@@ -32,55 +30,14 @@ def box(name, where, size=(0.1, 0.1, 0.1), frame=''):
 class WorldTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.condition, cls.contacts, cls.states, cls.plans = threading.Condition(), [], [], []
-        cls.place = [0.0, 0.0]
-        cls.tf = rospy.Publisher('/tf', TFMessage, queue_size=1000)
-        for topic, kind, kept in (('contacts', ContactArray, cls.contacts), ('state', MonitorState, cls.states),
-                                  ('plan', Plan, cls.plans)):
-            rospy.Subscriber('/collision_monitor/' + topic, kind, lambda m, kept=kept: cls.keep(m, kept),
-                             queue_size=1000)
-        rospy.wait_for_service('/collision_monitor/update_scene', 60.0)
-        cls.update = rospy.ServiceProxy('/collision_monitor/update_scene', UpdateScene)
-        cls.points = rospy.ServiceProxy('/collision_monitor/query_points', QueryPoints)
-        cls.get_plan = rospy.ServiceProxy('/collision_monitor/get_plan', GetPlan)
-        threading.Thread(target=cls.move, daemon=True).start()
-        end = time.monotonic() + 60.0
-        while not cls.find(cls.contacts, lambda m: m.verdict == ContactArray.CLEAR, 1.0):
-            assert time.monotonic() < end, 'no complete cycle'
-
-    @classmethod
-    def keep(cls, message, kept):
-        with cls.condition:
-            kept.append(message)
-            cls.condition.notify_all()
-
-    @classmethod
-    def move(cls):
-        while not rospy.is_shutdown():
-            message = TFMessage()
-            for frame, x, y in (('ball', cls.place[0], 0.0), ('other', cls.place[1], 0.5), ('belt', 0.3, 3.0)):
-                transform = TransformStamped(header=Header(stamp=rospy.Time.now(), frame_id='base'),
-                                             child_frame_id=frame)
-                transform.transform.translation.x, transform.transform.translation.y = x, y
-                transform.transform.rotation.w = 1.0
-                message.transforms.append(transform)
-            cls.tf.publish(message)
-            time.sleep(PERIOD)
-
-    @classmethod
-    def find(cls, kept, test, timeout=5.0):
-        """The first message from now on that passes the test; None if none comes in time."""
-        end = time.monotonic() + timeout
-        with cls.condition:
-            del kept[:]
-            seen = 0
-            while True:
-                for message in kept[seen:]:
-                    if test(message):
-                        return message
-                seen = len(kept)
-                if not cls.condition.wait(max(0.0, end - time.monotonic())):
-                    return None
+        cls.robot = MovingBalls(belt=(0.3, 3.0))
+        cls.contacts, cls.states, cls.plans = (
+            Recorder('/collision_monitor/' + topic, kind, 5.0)
+            for topic, kind in (('contacts', ContactArray), ('state', MonitorState), ('plan', Plan)))
+        cls.update = wait_for_service('/collision_monitor/update_scene', UpdateScene)
+        cls.points = wait_for_service('/collision_monitor/query_points', QueryPoints)
+        cls.get_plan = wait_for_service('/collision_monitor/get_plan', GetPlan)
+        assert cls.contacts.find_new(lambda m: m.verdict == ContactArray.CLEAR, 60.0), 'no complete cycle'
 
     def change(self, *changes, **more):
         answer = self.update(changes=list(changes), **more)
@@ -89,15 +46,14 @@ class WorldTest(unittest.TestCase):
         return answer
 
     def setUp(self):
-        self.place[:] = [0.0, 0.0]
+        self.robot.ball = 0.0
         self.change(SceneChange(type=SceneChange.CLEAR), SceneChange(type=SceneChange.FORGET_RULES))
 
     def touching(self, a, b, version):
-        return self.find(self.contacts, lambda m: m.scene_version == version and any(
-            {p.body_a, p.body_b} == {a, b} and p.verdict == p.CONTACT for p in m.pairs))
+        return self.contacts.find_new(lambda m: m.scene_version == version and touches(m, a, b))
 
     def clear(self, version):
-        return self.find(self.contacts, lambda m: m.scene_version == version and m.verdict == m.CLEAR)
+        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == m.CLEAR)
 
     def test_an_object_comes_moves_and_goes(self):
         before = self.change().scene_version
@@ -110,13 +66,13 @@ class WorldTest(unittest.TestCase):
         self.assertEqual(moved.prepared, 0)
         gone = self.change(SceneChange(type=SceneChange.REMOVE, object='box'))
         self.assertEqual(gone.objects, [])
-        self.assertIsNotNone(self.find(self.states, lambda m: m.scene_version == gone.scene_version))
+        self.assertIsNotNone(self.states.find_new(lambda m: m.scene_version == gone.scene_version))
 
     def test_an_object_follows_its_frame(self):
         answer = self.change(box('box', pose(-0.3, -3.0), frame='belt'))
         self.assertIsNotNone(self.touching('ball', 'box', answer.scene_version))
         lost = self.change(box('box', pose(), frame='nowhere'))
-        found = self.find(self.states, lambda m: m.scene_version == lost.scene_version and any(
+        found = self.states.find_new(lambda m: m.scene_version == lost.scene_version and any(
             'nowhere' in line for line in m.missing))
         self.assertIsNotNone(found)
         self.assertEqual(found.verdict, MonitorState.NOT_CHECKED)
@@ -125,13 +81,13 @@ class WorldTest(unittest.TestCase):
         self.change(box('part', pose(0.06, 0.0, 0.0)), box('shelf', pose(1.0, 0.0), (0.2, 1.0, 1.0)))
         grasped = self.change(SceneChange(type=SceneChange.ATTACH, object='part', link='ball'))
         self.assertIsNotNone(self.clear(grasped.scene_version))  # ball and part touch, and may
-        self.place[0] = 0.8
+        self.robot.ball = 0.8
         self.assertIsNotNone(self.touching('part', 'shelf', grasped.scene_version))
-        self.place[0] = 0.3
+        self.robot.ball = 0.3
         self.assertIsNotNone(self.clear(grasped.scene_version))
         time.sleep(0.3)
         put = self.change(SceneChange(type=SceneChange.DETACH, object='part'))
-        self.place[0] = -0.5
+        self.robot.ball = -0.5
         self.assertIsNotNone(self.clear(put.scene_version))
         answer = self.points(header=Header(), points=[Point(0.36, 0.0, 0.0)])
         self.assertEqual(answer.bodies, ['part'])
@@ -147,8 +103,7 @@ class WorldTest(unittest.TestCase):
         left_out = {(plan.names[a], plan.names[b]): plan.reasons[r]
                     for a, b, r in zip(plan.left_out_a, plan.left_out_b, plan.left_out_reason)}
         self.assertEqual(left_out[('ball', 'box')], 'update_scene: b?x - *')
-        self.assertTrue(any(p.scene_version == allowed.scene_version for p in list(self.plans)) or
-                        self.find(self.plans, lambda m: m.scene_version == allowed.scene_version))
+        self.assertIsNotNone(self.plans.find(lambda m: m.scene_version == allowed.scene_version))
         checked = self.change(SceneChange(type=SceneChange.CHECK, body_a='box', body_b='ball'))
         self.assertIsNotNone(self.touching('ball', 'box', checked.scene_version))
 
@@ -201,19 +156,16 @@ class WorldTest(unittest.TestCase):
         thread = threading.Thread(target=churn)
         thread.start()
         time.sleep(1.0)
-        with self.condition:
-            del self.contacts[:]
+        self.contacts.clear()
         time.sleep(3.0)
-        with self.condition:
-            heard = list(self.contacts)
+        heard = self.contacts.messages
         stop.set()
         thread.join()
         self.assertEqual(errors, [])
         self.assertGreater(heard[-1].scene_version, answer.scene_version + 20)
         self.assertGreater(len(heard), 40)
         for message in heard:
-            self.assertTrue(any({p.body_a, p.body_b} == {'ball', 'wall'} and p.verdict == p.CONTACT
-                                for p in message.pairs), message)
+            self.assertTrue(touches(message, 'ball', 'wall'), message)
         ends = [m.header.stamp for m in heard]
         for earlier, later in zip(heard, heard[1:]):
             self.assertEqual(earlier.header.stamp, later.cycle_start)  # no time is left out

@@ -15,7 +15,6 @@ import random
 import resource
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -24,6 +23,9 @@ import time
 from faults_inputs import write_inputs
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, ROOT + '/test/ros')
+from own_master import start_master, use_own_master  # noqa: E402
+
 TIME_LIMIT = 120.0  # [s] of one undisturbed run, on a loaded computer
 
 
@@ -187,12 +189,7 @@ def kill_check_bag(bench, rounds):
 
 
 def kill_monitor(bench, rounds):
-    with socket.socket() as free:
-        free.bind(('', 0))
-        port = free.getsockname()[1]
-    os.environ.update(ROS_MASTER_URI='http://127.0.0.1:%d' % port, ROS_IP='127.0.0.1', ROS_LOG_DIR=bench.fresh('log'))
-    os.environ.pop('ROS_HOSTNAME', None)
-    master = subprocess.Popen(['roscore', '-p', str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    master = start_master(use_own_master(ROS_LOG_DIR=bench.fresh('log')))
     try:
         return kill_monitor_beside(bench, rounds)
     finally:
@@ -201,11 +198,8 @@ def kill_monitor(bench, rounds):
 
 
 def kill_monitor_beside(bench, rounds):
-    import rosgraph
     import rospy
     from sdf_ccd.msg import Plan
-    while not rosgraph.is_master_online():
-        time.sleep(0.1)
     cache = bench.fresh('monitor_cache')
     with open(bench.inputs.urdf) as urdf:
         rospy.set_param('robot_description', urdf.read())

@@ -1,0 +1,140 @@
+"""What the tests of a running monitor share: where the robot is, what the monitor says, and what it is asked."""
+import threading
+import time
+import unittest
+
+import rospy
+from geometry_msgs.msg import TransformStamped
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from sdf_ccd.msg import ContactArray, Plan
+from sdf_ccd.srv import QueryMotion, QueryMotionRequest
+
+RADIUS, PLATE = 0.02, 0.4995         # of the balls of sliders.urdf, and x of the plate's face [m]
+PERIOD, SAMPLE_PERIOD = 0.02, 0.033  # of MovingBalls and of MonitorCase [s]
+
+
+def wait_for_service(name, kind, patience=60.0):
+    """The proxy of a service, once that is there."""
+    rospy.wait_for_service(name, patience)
+    return rospy.ServiceProxy(name, kind)
+
+
+class Recorder:
+    """Keeps all messages of a topic. Who looks for some waits up to `patience` [s], whatever the clock of ROS does."""
+
+    def __init__(self, topic, kind, patience=20.0):
+        self.condition, self.kept, self.patience = threading.Condition(), [], patience
+        self.subscriber = rospy.Subscriber(topic, kind, self.keep, queue_size=1000)
+
+    def keep(self, message):
+        with self.condition:
+            self.kept.append(message)
+            self.condition.notify_all()
+
+    @property
+    def messages(self):
+        """Those so far."""
+        with self.condition:
+            return list(self.kept)
+
+    def clear(self):
+        with self.condition:
+            self.kept.clear()
+
+    def find(self, test, patience=None):
+        """The first message that passes the test, among those that are there or come in time; else None."""
+        end = time.monotonic() + (self.patience if patience is None else patience)
+        with self.condition:
+            seen = 0
+            while True:
+                for message in self.kept[seen:]:
+                    if test(message):
+                        return message
+                seen = len(self.kept)
+                if not self.condition.wait(max(0.0, end - time.monotonic())):
+                    return None
+
+    def find_new(self, test, patience=None):
+        """The first message from now on that passes the test; None if none comes in time."""
+        self.clear()
+        return self.find(test, patience)
+
+    def wait(self, test):
+        """Whether the test holds of the list of all messages so far, or comes to hold in time."""
+        with self.condition:
+            return self.condition.wait_for(lambda: test(self.kept), self.patience)
+
+    def close(self):
+        self.subscriber.unregister()
+
+
+def pair_of(message, a, b):
+    """What the message says of two bodies; None if it says nothing."""
+    return next((pair for pair in message.pairs if {pair.body_a, pair.body_b} == {a, b}), None)
+
+
+def touches(message, a, b):
+    pair = pair_of(message, a, b)
+    return pair is not None and pair.verdict == pair.CONTACT
+
+
+def transform(stamp, frame, x, y=0.0, parent='base'):
+    """Of a frame that is not turned against its parent."""
+    sent = TransformStamped(header=Header(stamp=stamp, frame_id=parent), child_frame_id=frame)
+    sent.transform.translation.x, sent.transform.translation.y, sent.transform.rotation.w = x, y, 1.0
+    return sent
+
+
+def ball_transforms(stamp, ball, other=0.0):
+    """Where the two balls of sliders.urdf are along x [m]; None leaves one out."""
+    return TFMessage([transform(stamp, frame, x, y) for frame, x, y in (('ball', ball, 0.0), ('other', other, 0.5))
+                      if x is not None])
+
+
+class MovingBalls:
+    """Sends, from now on, where the balls of sliders.urdf are: `ball` is to be set. Other frames rest at (x, y) [m]."""
+
+    def __init__(self, **frames):
+        self.ball, self.frames = 0.0, frames
+        self.tf = rospy.Publisher('/tf', TFMessage, queue_size=1000)
+        threading.Thread(target=self.send, daemon=True).start()
+
+    def send(self):
+        while not rospy.is_shutdown():
+            frames = {'ball': (self.ball, 0.0), 'other': (0.0, 0.5), **self.frames}
+            # Each with a stamp of its own, as from several nodes.
+            self.tf.publish(TFMessage([transform(rospy.Time.now(), frame, x, y) for frame, (x, y) in frames.items()]))
+            time.sleep(PERIOD)
+
+
+def trajectory(joint, positions):
+    """A request to query_motion, with a second from each position to the next."""
+    points = [JointTrajectoryPoint(positions=[p], time_from_start=rospy.Duration(float(i)))
+              for i, p in enumerate(positions)]
+    return QueryMotionRequest(trajectory=JointTrajectory(joint_names=[joint], points=points))
+
+
+class MonitorCase(unittest.TestCase):
+    """A monitor of sliders.urdf that is ready, and that learns of its balls by one sample after the other."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.tf = rospy.Publisher('/tf', TFMessage, queue_size=1000)
+        cls.contacts = Recorder('/collision_monitor/contacts', ContactArray)
+        cls.query_motion = wait_for_service('/collision_monitor/query_motion', QueryMotion)
+        cls.stamp = rospy.Time.now()
+        assert Recorder('/collision_monitor/plan', Plan).find(lambda m: 'plate' in m.names, 60.0), 'no plan'
+        end = time.monotonic() + 30.0
+        while cls.contacts.find(lambda m: m.verdict == ContactArray.CLEAR, 0.0) is None:
+            assert time.monotonic() < end, 'no complete cycle'
+            cls.send(0.0)
+
+    @classmethod
+    def send(cls, ball, other=0.0):
+        """One sample, as ball_transforms()."""
+        cls.stamp = max(cls.stamp + rospy.Duration(SAMPLE_PERIOD), rospy.Time.now() - rospy.Duration(0.1))
+        cls.tf.publish(ball_transforms(cls.stamp, ball, other))
+        rospy.sleep(SAMPLE_PERIOD)

@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""Asks a running monitor about motions and points."""
+import math
+import sys
+
+import rospy
+import rostest
+from geometry_msgs.msg import Point, Pose
+from std_msgs.msg import Header
+
+from monitor_case import PLATE, RADIUS, MonitorCase, pair_of, trajectory, wait_for_service
+from sdf_ccd.msg import ContactArray, LinkPoses, PairContact, RobotMotion
+from sdf_ccd.srv import QueryMotionRequest, QueryMotionResponse, QueryMotions, QueryMotionsRequest, QueryPoints
+
+
+class QueriesTest(MonitorCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.query_points = wait_for_service('/collision_monitor/query_points', QueryPoints)
+        super().setUpClass()
+
+    def setUp(self):
+        for _ in range(3):
+            self.send(0.0)
+        self.contacts.clear()
+
+    def test_query_motion(self):
+        self.send(0.0)
+        answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CLEAR)
+        answer = self.query_motion(trajectory('slide', [0.0, 1.0, 0.0]))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(len(answer.pairs), 1)
+        self.assertEqual(len(answer.pairs[0].intervals), 2)
+        self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), PLATE - RADIUS, delta=0.003)
+        answer = self.query_motion(trajectory('glide', [0.0, 1.0]))
+        self.assertFalse(answer.success)
+        self.assertIn('glide', answer.message)
+        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+
+        request = QueryMotionRequest(links=['ball'])
+        for i, x in enumerate((0.0, 1.0)):
+            pose = Pose()
+            pose.position.x, pose.orientation.w = x, 1.0
+            request.poses.append(LinkPoses(time_from_start=rospy.Duration(float(i)), poses=[pose]))
+        answer = self.query_motion(request)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+
+    def test_query_motion_starts_from_the_current_state(self):
+        for _ in range(3):
+            self.send(0.0, PLATE)  # the other ball is in the plate
+        answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'other', 'plate'})
+        self.assertEqual(answer.assumed_joints, ['other_slide'])
+        self.assertAlmostEqual(answer.assumed_positions[0], PLATE, delta=1e-9)
+        self.assertIn('1 joints', answer.message)
+        request = trajectory('slide', [0.0, 0.3])
+        request.other_joints, request.other_positions = ['other_slide'], [0.0]
+        answer = self.query_motion(request)
+        self.assertEqual(answer.verdict, answer.CLEAR)
+        self.assertEqual(answer.assumed_joints, [])
+        request = trajectory('slide', [0.0, 2.5])
+        answer = self.query_motion(request)
+        self.assertFalse(answer.success)
+        self.assertIn('joint slide: position 2.5 is beyond its limits [-2, 2]', answer.message)
+
+    def test_joint_beyond_its_limits_makes_pairs_that_were_out_of_reach_unchecked(self):
+        def beyond(message):
+            pair = pair_of(message, 'ball', 'far')
+            return (pair is not None and pair.verdict == PairContact.NOT_CHECKED and
+                    'out of reach only while joint slide' in pair.reason)
+
+        for _ in range(5):
+            self.send(2.3)  # within the margin
+        self.assertIsNone(self.contacts.find(beyond, 0.0))
+        self.contacts.clear()
+        for _ in range(5):
+            self.send(2.5)
+        message = self.contacts.find(beyond)
+        self.assertIsNotNone(message)
+        self.assertEqual(message.verdict, ContactArray.NOT_CHECKED)
+        self.assertIsNone(pair_of(message, 'other', 'far'))
+
+        request = trajectory('slide', [1.0, 2.9])
+        request.allow_beyond_limits = True
+        answer = self.query_motion(request)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+        self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'ball', 'far'})
+        request = QueryMotionRequest(links=['ball'])
+        for i in range(2):
+            pose = Pose()
+            pose.position.x, pose.orientation.w = 2.9 + 0.1 * i, 1.0
+            request.poses.append(LinkPoses(time_from_start=rospy.Duration(float(i)), poses=[pose]))
+        self.assertEqual(self.query_motion(request).verdict, answer.NOT_CHECKED)
+        for _ in range(30):
+            self.send(0.0)
+
+    def test_query_motion_on_splines_and_with_a_margin(self):
+        for _ in range(3):
+            self.send(0.3)
+        request = trajectory('slide', [0.3, 0.3])
+        for point, velocity in zip(request.trajectory.points, (1.0, -1.0)):
+            point.velocities = [velocity]
+        self.assertEqual(self.query_motion(request).verdict, QueryMotionResponse.CLEAR)
+        request.interpolation = QueryMotionRequest.SPLINES  # up to 0.55
+        answer = self.query_motion(request)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        enter = 0.5 - math.sqrt(0.25 - (PLATE - RADIUS - 0.3))
+        self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), enter, delta=0.01)
+        request = trajectory('slide', [0.0, 0.3])
+        request.other_joints, request.other_positions = ['other_slide'], [0.0]
+        for margin, verdict in ((0.15, answer.CLEAR), (0.2, answer.UNCERTAIN)):
+            request.margin = margin
+            answer = self.query_motion(request)
+            self.assertEqual(answer.verdict, verdict)
+            self.assertLess(answer.error_bound, 0.01)
+        request.margin = -1.0
+        self.assertFalse(self.query_motion(request).success)
+        request.margin, request.interpolation = 0.0, 7
+        self.assertFalse(self.query_motion(request).success)
+
+    def test_query_many_motions(self):
+        query = wait_for_service('/collision_monitor/query_motions', QueryMotions)
+        motions = [RobotMotion(joint_trajectory=trajectory('slide', positions).trajectory)
+                   for positions in [[0.0, 0.3], [0.0, 1.0]] * 20]
+        request = QueryMotionsRequest(motions=motions, other_joints=['other_slide'], other_positions=[0.0])
+        answer = query(request)
+        self.assertTrue(answer.success, answer.message)
+        verdicts = list(bytearray(answer.verdicts))
+        self.assertEqual(verdicts, [QueryMotionResponse.CLEAR, QueryMotionResponse.CONTACT] * 20)
+        self.assertEqual({answer.bodies_a[1], answer.bodies_b[1]}, {'ball', 'plate'})
+        self.assertEqual(answer.bodies_a[0], '')
+        self.assertEqual(answer.times[0].to_sec(), -1.0)
+        self.assertAlmostEqual(answer.times[1].to_sec(), PLATE - RADIUS, delta=0.05)
+        request.margin = 0.2
+        self.assertEqual(list(bytearray(query(request).verdicts))[0], QueryMotionResponse.UNCERTAIN)
+        request.motions[3].joint_trajectory.points[1].positions = [5.0]
+        answer = query(request)
+        self.assertFalse(answer.success)
+        self.assertIn('motion 3: joint slide: position 5 is beyond its limits', answer.message)
+
+    def test_query_points(self):
+        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(0.5, 0.25, 0.0)])
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(list(answer.bodies), ['plate', 'plate'])
+        self.assertAlmostEqual(answer.distances[0], PLATE - 0.45, delta=1e-6)
+        self.assertAlmostEqual(answer.distances[1], -0.0005, delta=1e-6)
+        self.assertAlmostEqual(answer.gradients[0].x, -1.0, delta=1e-6)
+        answer = self.query_points(Header(frame_id='nowhere'), [Point(0.45, 0.0, 0.0)])
+        self.assertFalse(answer.success)
+        self.assertIn('nowhere', answer.message)
+
+    def test_queries_have_limits_that_they_say(self):
+        answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 1001))
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+        self.assertIn('2002 waypoints, at most 2000', answer.message)
+        answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 1000))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.verdict, answer.CLEAR)
+        answer = self.query_motion(trajectory('slide', [0.0, 1.0] * 50))
+        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(len(answer.pairs[0].intervals), 99)
+        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0)] * 20001)
+        self.assertFalse(answer.success)
+        self.assertIn('20001 points, at most 20000', answer.message)
+        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(1e300, 0.0, 0.0)])
+        self.assertFalse(answer.success)
+        self.assertEqual(len(answer.distances), 0)
+        self.assertIn('point 1 is more than 1e+08 m', answer.message)
+
+
+if __name__ == '__main__':
+    rospy.init_node('queries_test')
+    rostest.rosrun('sdf_ccd', 'queries_test', QueriesTest, sys.argv)
