@@ -1,10 +1,7 @@
 """Tables of the study `monitor`."""
+from results import number
 
 SYSTEMS = ['sdf_ccd', 'sdf_ccd_wrench', 'fcl', 'fcl_distance', 'bullet_cast']
-
-
-def number(value):
-    return '-' if value is None else '%.3g' % value
 
 
 def cycles(results):

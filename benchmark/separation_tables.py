@@ -1,11 +1,8 @@
 """Tables of the study `separation`."""
+from results import number
 
 SYSTEMS = ['separation', 'separation_again', 'fcl_collide', 'fcl_distance']
 TRIANGLES = ['planes', 'closest', 'closest_one_by_one', 'fcl']
-
-
-def number(value):
-    return '-' if value is None else '%.3g' % value
 
 
 def surfaces(results):

@@ -1,8 +1,5 @@
 """Tables of the study `world`."""
-
-
-def number(value):
-    return '-' if value is None else '%.3g' % value
+from results import number
 
 
 def changes(results):
