@@ -10,6 +10,7 @@
 
 #include "fcl_model.h"
 #include "oracle/random.h"
+#include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
 #include "query/separation.h"
 #include "query/triangle_pairs_scalar.h"
@@ -27,17 +28,11 @@ struct Placement {
 const std::vector<Placement> kPlacements = {
     {"apart_30%", 0.3}, {"apart_1%", 0.01}, {"apart_0.1%", 0.001}, {"crossing", -0.02}};
 
-std::unique_ptr<BoxTree> treeOf(const TriangleMesh& mesh) {
-  std::vector<RoundedTriangle> triangles;
-  for (int i = 0; i < static_cast<int>(mesh.triangles.size()); ++i) triangles.push_back({cornersOf(mesh, i), 0.0});
-  return std::make_unique<BoxTree>(std::move(triangles));
-}
-
 /// Two copies of a mesh, A at rest.
 class Surfaces {
  public:
   explicit Surfaces(const TriangleMesh& mesh)
-      : tree(treeOf(mesh)), model(fclModel(mesh)), side(boundingBox(mesh).sizes().maxCoeff()) {}
+      : tree(test::treeOf(mesh)), model(fclModel(mesh)), side(boundingBox(mesh).sizes().maxCoeff()) {}
 
   bool touch(const Isometry3d& X_AB) const {
     fcl::CollisionResultd result;
@@ -52,7 +47,7 @@ class Surfaces {
   Isometry3d place(double gap, test::Random& random) const {
     const Vector3d from = test::direction(random);
     Isometry3d X_AB = test::pose(random, 3.0, 0.0);
-    X_AB.translation() = 4.0 * side * from + tree->origin() - X_AB.linear() * tree->origin();
+    X_AB.translation() = 4.0 * side * from + tree.origin() - X_AB.linear() * tree.origin();
     const double wanted = std::max(gap, 1e-4) * side;
     for (double free = side; free > 1e-5 * side && X_AB.translation().dot(from) > -4.0 * side;) {
       free = distance(X_AB) - wanted;
@@ -62,7 +57,7 @@ class Surfaces {
     return X_AB;
   }
 
-  std::unique_ptr<BoxTree> tree;
+  BoxTree tree;
   std::unique_ptr<FclModel> model;
   double side;  // [m]
 };
@@ -71,7 +66,7 @@ class Surfaces {
 struct Cycle {
   Cycle(const Surfaces& surfaces, const Placement& placement, test::Random& random)
       : X_WA(Isometry3d::Identity(), Isometry3d::Identity()), X_WB(motionOf(surfaces, placement, random)) {
-    const BoundingBall& ball = surfaces.tree->ball();
+    const BoundingBall& ball = surfaces.tree.ball();
     acceleration = relativeMotionBounds(worldTwist(X_WA, ball), worldTwist(X_WB, ball)).acceleration;
   }
 
@@ -84,7 +79,7 @@ struct Cycle {
   }
 
   Separation run(const Surfaces& surfaces, SeparationWitness& kept) const {
-    return separation(*surfaces.tree, *surfaces.tree, {0.0, 1e-3, X_WA, X_WB, acceleration}, {}, kept, memory());
+    return separation(surfaces.tree, surfaces.tree, {0.0, 1e-3, X_WA, X_WB, acceleration}, {}, kept, memory());
   }
 
   static SeparationMemory& memory() {

@@ -5,22 +5,16 @@
 #include <set>
 
 #include "oracle/random.h"
+#include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
-#include "oracle/triangle_distance.h"
 
 namespace sdf_ccd {
 namespace {
 
+using test::distance;
 using test::Random;
 using test::Real;
-using test::Triangle3r;
 using test::Vector3r;
-
-std::vector<RoundedTriangle> trianglesOf(const TriangleMesh& mesh, double radius = 0.0) {
-  std::vector<RoundedTriangle> all;
-  for (int i = 0; i < int(mesh.triangles.size()); ++i) all.push_back({cornersOf(mesh, i), radius});
-  return all;
-}
 
 /// Triangles of all shapes: some without area, some mere points.
 std::vector<RoundedTriangle> drawn(Random& random, int count, double size, const Vector3d& offset) {
@@ -35,15 +29,6 @@ std::vector<RoundedTriangle> drawn(Random& random, int count, double size, const
     all.push_back(t);
   }
   return all;
-}
-
-Real distance(const RoundedTriangle& a, const RoundedTriangle& b) {
-  Triangle3r c, d;
-  for (int k = 0; k < 3; ++k) {
-    c[k] = a.corners[k].cast<Real>();
-    d[k] = b.corners[k].cast<Real>();
-  }
-  return test::triangleDistance(c, d) - a.radius - b.radius;
 }
 
 /// Visits the boxes of a tree with the triangles below them.
@@ -179,7 +164,7 @@ TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
 }
 
 TEST(BoxTree, OfALargeMeshIsMadeInNoTimeAndSmall) {
-  const BoxTree tree(trianglesOf(test::torusMesh(0.5, 0.1, 200, 50)));
+  const BoxTree tree(test::roundedTriangles(test::torusMesh(0.5, 0.1, 200, 50)));
   EXPECT_EQ(tree.size(), 20000U);
   EXPECT_LT(tree.bytes(), 20000U * 400U);
 }

@@ -21,15 +21,10 @@ constexpr double kRange = 0.3;
 double boxDistance(const Vector3d& half_a, const Isometry3d& X_WA, const Vector3d& half_b, const Isometry3d& X_WB) {
   const TriangleMesh a = test::boxMesh(half_a), b = test::boxMesh(half_b);
   Real least = 1e300L;
-  const auto placed = [](const TriangleMesh& mesh, int i, const Isometry3d& X) {
-    test::Triangle3r t;
-    const Corners corners = cornersOf(mesh, i);
-    for (int k = 0; k < 3; ++k) t[k] = (X * corners[k]).cast<Real>();
-    return t;
-  };
   for (int i = 0; i < int(a.triangles.size()); ++i)
     for (int k = 0; k < int(b.triangles.size()); ++k)
-      least = std::min(least, test::triangleDistance(placed(a, i, X_WA), placed(b, k, X_WB)));
+      least = std::min(
+          least, test::triangleDistance(test::exact(cornersOf(a, i), X_WA), test::exact(cornersOf(b, k), X_WB)));
   return static_cast<double>(least);
 }
 

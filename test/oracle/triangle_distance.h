@@ -14,6 +14,14 @@ using Real = long double;
 using Vector3r = Eigen::Matrix<Real, 3, 1>;
 using Triangle3r = std::array<Vector3r, 3>;
 
+/// A triangle in frame B, in frame A.
+inline Triangle3r exact(const std::array<Vector3d, 3>& corners_B, const Isometry3d& X_AB = Isometry3d::Identity()) {
+  Triangle3r corners_A;
+  for (int k = 0; k < 3; ++k)
+    corners_A[k] = X_AB.linear().cast<Real>() * corners_B[k].cast<Real>() + X_AB.translation().cast<Real>();
+  return corners_A;
+}
+
 inline Real segmentDistance2(const Vector3r& a, const Vector3r& b, const Vector3r& c, const Vector3r& d) {
   const Vector3r u = b - a, v = d - c, w = a - c;
   const Real uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), determinant = uu * vv - uv * uv;

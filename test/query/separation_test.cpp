@@ -4,8 +4,8 @@
 
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
+#include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
-#include "oracle/triangle_distance.h"
 
 namespace sdf_ccd {
 namespace {
@@ -14,14 +14,9 @@ using test::LongPose;
 using test::LongScrew;
 using test::Random;
 using test::Real;
+using test::treeOf;
 using test::Triangle3r;
 using test::Vector3r;
-
-BoxTree treeOf(const TriangleMesh& mesh, double radius = 0.0) {
-  std::vector<RoundedTriangle> all;
-  for (int i = 0; i < int(mesh.triangles.size()); ++i) all.push_back({cornersOf(mesh, i), radius});
-  return BoxTree(std::move(all));
-}
 
 /// Two trees and how they move, with the truth in long double.
 struct Case {
@@ -49,8 +44,8 @@ struct Case {
     const auto placed = [](const BoxTree& tree, const LongPose& X) {
       std::vector<Triangle3r> all;
       for (int i = 0; i < int(tree.size()); ++i) {
-        Triangle3r t;
-        for (int k = 0; k < 3; ++k) t[k] = X * tree.triangle(i).corners[k].cast<Real>();
+        Triangle3r t = test::exact(tree.triangle(i).corners);
+        for (Vector3r& p : t) p = X * p;
         all.push_back(t);
       }
       return all;

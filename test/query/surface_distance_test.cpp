@@ -3,22 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "oracle/random.h"
+#include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
-#include "oracle/triangle_distance.h"
 
 namespace sdf_ccd {
 namespace {
 
 using test::Random;
 using test::Real;
+using test::treeOf;
 using test::Triangle3r;
 using test::Vector3r;
-
-BoxTree treeOf(const TriangleMesh& mesh, double radius = 0.0) {
-  std::vector<RoundedTriangle> all;
-  for (int i = 0; i < int(mesh.triangles.size()); ++i) all.push_back({cornersOf(mesh, i), radius});
-  return BoxTree(std::move(all));
-}
 
 /// No part of it is flat, and it is not convex.
 TriangleMesh bumpySphere(Random& random, double radius, int subdivisions) {
@@ -29,18 +24,10 @@ TriangleMesh bumpySphere(Random& random, double radius, int subdivisions) {
 
 /// Over all pairs of triangles, in long double.
 Real trueDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB) {
-  const Eigen::Matrix<Real, 3, 3> R = X_AB.linear().cast<Real>();
-  const Vector3r t = X_AB.translation().cast<Real>();
   Real least = 1e300L;
-  for (int i = 0; i < int(a.size()); ++i) {
-    Triangle3r in_a;
-    for (int k = 0; k < 3; ++k) in_a[k] = a.triangle(i).corners[k].cast<Real>();
-    for (int j = 0; j < int(b.size()); ++j) {
-      Triangle3r in_b;
-      for (int k = 0; k < 3; ++k) in_b[k] = R * b.triangle(j).corners[k].cast<Real>() + t;
-      least = std::min(least, test::triangleDistance(in_a, in_b) - a.triangle(i).radius - b.triangle(j).radius);
-    }
-  }
+  for (int i = 0; i < int(a.size()); ++i)
+    for (int j = 0; j < int(b.size()); ++j)
+      least = std::min(least, test::distance(a.triangle(i), b.triangle(j), X_AB));
   return std::max<Real>(least, 0);
 }
 
@@ -49,8 +36,7 @@ Real distanceFrom(const BoxTree& tree, const Vector3d& p) {
   Real least = 1e300L;
   const Vector3r q = p.cast<Real>();
   for (int i = 0; i < int(tree.size()); ++i) {
-    Triangle3r t;
-    for (int k = 0; k < 3; ++k) t[k] = tree.triangle(i).corners[k].cast<Real>();
+    const Triangle3r t = test::exact(tree.triangle(i).corners);
     least = std::min(least, std::abs(test::triangleDistance(t, {q, q, q}) - tree.triangle(i).radius));
   }
   return least;

@@ -9,13 +9,10 @@
 namespace sdf_ccd {
 namespace {
 
+using test::exact;
 using test::Random;
 using test::Real;
 using test::Triangle3r;
-
-Triangle3r exact(const Corners& t) {
-  return {t[0].cast<Real>(), t[1].cast<Real>(), t[2].cast<Real>()};
-}
 
 enum class Kind { kGeneral, kWhole, kNear, kThin, kParallel };
 
@@ -135,10 +132,8 @@ TEST(TrianglePair, LanesGapsHoldAtBothEnds) {
       for (int i = 0; i < pairs.size; ++i) {
         if (pairs.gap[i] < 0.0) continue;
         for (const Isometry3d& X : {poses.X_AB_start, poses.X_AB_end}) {
-          Triangle3r b;
-          for (int k = 0; k < 3; ++k)
-            b[k] = X.linear().cast<Real>() * drawn[i].second[k].cast<Real>() + X.translation().cast<Real>();
-          ASSERT_LE(pairs.gap[i], test::triangleDistance(exact(drawn[i].first), b) + 32 * 2.3e-16L * 4);
+          const Triangle3r a = exact(drawn[i].first), b = exact(drawn[i].second, X);
+          ASSERT_LE(pairs.gap[i], test::triangleDistance(a, b) + 32 * 2.3e-16L * 4);
         }
       }
     }

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "geometry/box_tree.h"
+#include "geometry/triangle_cut.h"
+#include "oracle/triangle_distance.h"
+
+/// Surfaces of rounded triangles, and how far they are apart by brute force.
+namespace sdf_ccd::test {
+
+inline std::vector<RoundedTriangle> roundedTriangles(const TriangleMesh& mesh, double radius = 0.0) {
+  std::vector<RoundedTriangle> all;
+  for (int i = 0; i < int(mesh.triangles.size()); ++i) all.push_back({cornersOf(mesh, i), radius});
+  return all;
+}
+
+inline BoxTree treeOf(const TriangleMesh& mesh, double radius = 0.0) {
+  return BoxTree(roundedTriangles(mesh, radius));
+}
+
+/// Of two triangles; negative as far as their balls overlap.
+inline Real distance(const RoundedTriangle& a, const RoundedTriangle& b,
+                     const Isometry3d& X_AB = Isometry3d::Identity()) {
+  return triangleDistance(exact(a.corners), exact(b.corners, X_AB)) - a.radius - b.radius;
+}
+
+}  // namespace sdf_ccd::test
