@@ -12,7 +12,7 @@ namespace sdf_ccd::test {
 
 inline std::string text(const Vector3d& p) {
   std::ostringstream out;
-  out.precision(9);
+  out.precision(17);
   out << p.x() << " " << p.y() << " " << p.z();
   return out.str();
 }

@@ -12,6 +12,10 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/files.h"
+#include "oracle/mesh_bytes.h"
+#include "oracle/shapes.h"
+
 namespace sdf_ccd::test {
 
 namespace fs = std::filesystem;
@@ -26,11 +30,6 @@ struct ToolRun {
   std::string error;
 };
 
-inline std::string readText(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// What was said on stderr, but for the progress of work that takes over a second, as on a loaded computer.
 inline std::string withoutProgress(const std::string& text) {
   std::istringstream lines(text);
@@ -44,14 +43,8 @@ inline std::string withoutProgress(const std::string& text) {
 /// Runs the tool in a directory of its own, which goes with the test.
 class ToolTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("sdf_ccd_tool_" + std::to_string(::getpid()));
-    fs::create_directories(directory_ / "work");
-  }
-  void TearDown() override {
-    fs::permissions(directory_ / "work", fs::perms::owner_all);
-    fs::remove_all(directory_);
-  }
+  void SetUp() override { fs::create_directories(directory_ / "work"); }
+  void TearDown() override { fs::permissions(directory_ / "work", fs::perms::owner_all); }
 
   /// Runs the tool in the work directory.
   ToolRun run(const std::string& arguments) {
@@ -78,11 +71,19 @@ class ToolTest : public ::testing::Test {
   }
 
   fs::path path(const std::string& name) const { return directory_ / "work" / name; }
-  void write(const std::string& name, const std::string& bytes) {
-    std::ofstream(path(name), std::ios::binary) << bytes;
-  }
+  void write(const std::string& name, const std::string& bytes) { writeText(path(name), bytes); }
 
-  fs::path directory_;
+  const TemporaryDirectory directory_;
+};
+
+/// With a ball's mesh in its work directory, and three segments, of which the second one misses it.
+class ToolWithBall : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    write("ball.off", off(icosphere(0.5, 3)));
+    write("in.csv", "ox,oy,oz,ex,ey,ez\n-1,0,0,1,0,0\n-1,2,0,1,2,0\n0,0,0,0,0,1\n");
+  }
 };
 
 }  // namespace sdf_ccd::test
