@@ -1,11 +1,8 @@
-#include <stdlib.h>
-
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <stdexcept>
 
 #include "adversarial/drawn.h"
+#include "oracle/files.h"
 #include "oracle/shapes.h"
 
 /// Bodies as people draw them, in every pairing: wholly inside, through thin walls, near the surface.
@@ -31,25 +28,6 @@ std::vector<Pairing> pairings(const std::vector<Actor>& actors, Random& random) 
   std::shuffle(all.begin() + kSurePairs, all.end(), random);
   return all;
 }
-
-/// For the fields and shells of a body that meets many others.
-class ScratchDirectory {
- public:
-  ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "sdf_ccd_topology_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error(name + ": cannot be made");
-    path_ = name;
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 /// @param coarse  1: as fine as a robot is checked; more: larger errors, which are as hard to keep and cheaper.
 Duel makeDuel(const Actor& a, const Actor& b, double coarse, const std::string& cache) {
@@ -119,7 +97,7 @@ Tally topology(std::uint64_t seed, long cases) {
   const std::vector<Actor> actors = drawnActors();
   const std::vector<Pairing> all = pairings(actors, random);
   const long used = std::min(long(all.size()), std::max(1L, cases / kCasesPerPair));
-  const ScratchDirectory cache;
+  const TemporaryDirectory cache;  // for the fields and shells of a body that meets many others
   Tally tally;
   for (long i = 0; i < used; ++i) {
     const auto [a, b] = all[std::size_t(i)];

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "oracle/failure.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/sdf_ccd.h"
 
@@ -72,12 +73,8 @@ TEST(PrepareBody, RefusesPosesThatAreNone) {
   Isometry3d X_BG = Isometry3d::Identity();
   X_BG.linear() *= 2.0;
   scaled.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.1}}), X_BG, "box"});
-  try {
-    prepareBody(scaled, kMillimetre);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "scaled: the pose of box's rotation is not orthonormal");
-  }
+  EXPECT_EQ(test::failureOf<std::invalid_argument>([&] { prepareBody(scaled, kMillimetre); }),
+            "scaled: the pose of box's rotation is not orthonormal");
   scaled.geometry[0].X_BG.setIdentity();
   scaled.X_frame_B.translation().x() = NAN;
   EXPECT_THROW(prepareBody(scaled, kMillimetre), std::invalid_argument);

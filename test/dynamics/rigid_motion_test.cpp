@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/bodies.h"
+#include "oracle/failure.h"
 #include "oracle/random.h"
 
 namespace sdf_ccd {
@@ -62,12 +63,7 @@ TEST(RigidMotion, WhatCannotBeComputedNamesBodyStepAndReason) {
   StepMotion motion;
   const auto messageOf = [&](const Vector3d& velocity, const Vector3d& spin) {
     std::vector<BodyState> states = {at(Vector3d::Zero(), velocity, spin)};
-    try {
-      drift(world, {velocity}, 1.0, 42, states, motion);
-    } catch (const SimulationError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return failureOf<SimulationError>([&] { drift(world, {velocity}, 1.0, 42, states, motion); });
   };
   EXPECT_NE(messageOf({1e10, 0, 0}, Vector3d::Zero()).find("body `runaway`, step 42: it would move 1e+10 m"),
             std::string::npos);

@@ -1,4 +1,3 @@
-#include "oracle/parameter_name.h"
 #include "sdf_ccd/dynamics/simulation.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+
+#include "oracle/failure.h"
+#include "oracle/files.h"
+#include "oracle/parameter_name.h"
 
 namespace sdf_ccd {
 namespace {
@@ -65,12 +68,8 @@ TEST(SimulationFile, RepeatMakesCopiesThatShareAShape) {
 
 TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   const auto reasonOf = [](const std::string& what, const std::string& with) {
-    try {
-      started(parseSimulation(replaced(placedAt("0", "0", "0.0625"), what, with), "/nowhere"));
-    } catch (const std::exception& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test::failureOf<std::exception>(
+        [&] { started(parseSimulation(replaced(placedAt("0", "0", "0.0625"), what, with), "/nowhere")); });
   };
   const auto holds = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -112,12 +111,7 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
 
 TEST(SimulationFile, ShapesAreAMapAndBodiesAList) {
   const auto reasonOf = [](const std::string& rest) {
-    try {
-      parseSimulation("step: 0.001\nduration: 1\n" + rest, ".");
-    } catch (const std::exception& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test::failureOf<std::exception>([&] { parseSimulation("step: 0.001\nduration: 1\n" + rest, "."); });
   };
   EXPECT_EQ(reasonOf("shapes: [1, 2]\nbodies: []"), "line 3, shapes: a map is wanted");
   for (const char* bodies : {"[]", "", "3", "{name: ball}"}) {
@@ -129,7 +123,8 @@ TEST(SimulationFile, ShapesAreAMapAndBodiesAList) {
 
 /// A cube of 1 m without its lid.
 TEST(SimulationFile, AnOpenMeshHasNoMassOfItsOwnAndIsWarnedOf) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "sdf_ccd_open_cube.off";
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "open_cube.off";
   std::ofstream(file) << "OFF\n8 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
                          "4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
   const auto scene = [&](const std::string& more) {
@@ -137,20 +132,14 @@ TEST(SimulationFile, AnOpenMeshHasNoMassOfItsOwnAndIsWarnedOf) {
                                "}}\nbodies: [{name: cup, shape: cup, " + more + "}]",
                            ".");
   };
-  try {
-    scene("density: 1000");
-    ADD_FAILURE() << "accepted";
-  } catch (const SimulationError& error) {
-    EXPECT_NE(std::string(error.what()).find("body `cup`, step 0: its shape is not closed"), std::string::npos)
-        << error.what();
-  }
+  const std::string failure = test::failureOf<SimulationError>([&] { scene("density: 1000"); });
+  EXPECT_NE(failure.find("body `cup`, step 0: its shape is not closed"), std::string::npos) << failure;
   for (const char* more : {"fixed: true", "mass: 1, inertia: [1, 1, 1]"}) {
     const SimulationSetup setup = scene(more);
     ASSERT_EQ(setup.warnings.size(), 1u) << more;
     EXPECT_NE(setup.warnings[0].find("body `cup`"), std::string::npos);
   }
   EXPECT_EQ(scene("mass: 1, inertia: [1, 1, 1]").world.bodies[0].mass, 1.0);
-  std::filesystem::remove(file);
 }
 
 /// The scenes that are shipped: they load, action equals reaction, and energy never rises.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "oracle/bodies.h"
+#include "oracle/failure.h"
 
 namespace sdf_ccd {
 namespace {
@@ -56,12 +57,7 @@ TEST(Simulation, WhatCannotBeSimulatedIsRefusedByName) {
     std::vector<BodyState> states = {at(Vector3d::Zero()), tumbling(0.1)};
     double step = 1e-3;
     spoil(world, states, step);
-    try {
-      Simulation(world, states, Scheme::kImplicit, step);
-    } catch (const std::exception& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return failureOf<std::exception>([&] { Simulation(world, states, Scheme::kImplicit, step); });
   };
   for (const double bad : {0.0, -1.0, kInfinity, std::nan("")}) {
     EXPECT_NE(reasonOf([&](RigidWorld& w, auto&, double&) { w.bodies[1].mass = bad; }).find("`box`, step 0: mass"),

@@ -15,6 +15,8 @@
 #include "field/field_cache.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
+#include "oracle/failure.h"
+#include "oracle/files.h"
 #include "oracle/mended_file.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
@@ -28,25 +30,14 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kVersion = 7;  // of a uniform field's file
 
-/// A directory of this test's own.
 class FieldFile : public testing::Test {
  protected:
-  FieldFile() {
-    std::string name = (fs::temp_directory_path() / "sdf_ccd_test_XXXXXX").string();
-    directory_ = mkdtemp(&name[0]);
-    options_.cells = 24;
-  }
-  ~FieldFile() override { fs::remove_all(directory_); }
+  FieldFile() { options_.cells = 24; }
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
-  std::string read(const std::string& file) const {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+  std::size_t fileCount() const {
+    return std::distance(fs::directory_iterator(directory_.path()), fs::directory_iterator());
   }
-  void write(const std::string& file, const std::string& bytes) const {
-    std::ofstream(file, std::ios::binary) << bytes;
-  }
-  std::size_t fileCount() const { return std::distance(fs::directory_iterator(directory_), fs::directory_iterator()); }
 
   FieldOptions adaptive() const {
     FieldOptions options;
@@ -55,7 +46,7 @@ class FieldFile : public testing::Test {
   }
   void expectDamageIsNoticed(const FieldOptions& options) const;
 
-  fs::path directory_;
+  const test::TemporaryDirectory directory_;
   FieldOptions options_;
   TriangleMesh mesh_ = test::torusMesh(0.2, 0.08, 32, 16);
 };
@@ -162,7 +153,7 @@ TEST_F(FieldFile, AdaptiveFileOfAnotherVersionIsRefused) {
 
 void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
   saveField(buildField(mesh_, options), path("a.field"));
-  const std::string good = read(path("a.field"));
+  const std::string good = test::readText(path("a.field"));
   test::Random random(2);
   for (int i = 0; i < 300; ++i) {
     std::string bad = good;
@@ -173,13 +164,9 @@ void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
     } else {
       bad[random() % 200] ^= char(1 + random() % 255);
     }
-    write(path("b.field"), bad);
-    try {
-      loadField(path("b.field"));
-      ADD_FAILURE() << "damage " << i << " was not noticed";
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find("b.field"), std::string::npos);
-    }
+    test::writeText(path("b.field"), bad);
+    const std::string failure = test::failureOf([&] { loadField(path("b.field")); });
+    EXPECT_NE(failure.find("b.field"), std::string::npos) << "damage " << i << ": \"" << failure << "\"";
   }
 }
 
@@ -255,29 +242,22 @@ TEST_F(FieldFile, DamageOfLargeFilesIsNoticed) {
   std::size_t count = 0;
   const char* read_back = file->section<char>(1, count);
   EXPECT_EQ(std::vector<char>(read_back, read_back + count), second);
-  const std::string good = read(path("large"));
+  const std::string good = test::readText(path("large"));
   for (std::size_t at = 100; at < good.size(); at += 200'000) {
     std::string bad = good;
     bad[at] ^= 1;
-    write(path("bad"), bad);
+    test::writeText(path("bad"), bad);
     EXPECT_THROW(CheckedFile::open(path("bad"), {"test", 1}), std::runtime_error) << at;
   }
 }
 
 TEST_F(FieldFile, SaysWhatIsWrong) {
-  const auto reason = [&](const std::string& file) -> std::string {
-    try {
-      loadField(file);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto reason = [](const std::string& file) { return test::failureOf([&] { loadField(file); }); };
   EXPECT_NE(reason(path("none")).find("No such file"), std::string::npos);
   EXPECT_NE(reason(directory_.string()).find("not a regular file"), std::string::npos);
-  write(path("empty"), "");
+  test::writeText(path("empty"), "");
   EXPECT_NE(reason(path("empty")).find("truncated"), std::string::npos);
-  write(path("text"), std::string(1000, 'x'));
+  test::writeText(path("text"), std::string(1000, 'x'));
   EXPECT_NE(reason(path("text")).find("not a file of sdf_ccd"), std::string::npos);
   const int value = 7;
   writeCheckedFile(path("other"), {"shell", 1}, {{&value, sizeof value}});
@@ -302,9 +282,9 @@ TEST_F(FieldFile, CacheBuildsOnceAndRebuildsDamage) {
   expectSame(first.field, second.field);
 
   const std::string file = path("cache/") + fieldFileName(mesh_, options_);
-  std::string bytes = read(file);
+  std::string bytes = test::readText(file);
   bytes[bytes.size() / 2] ^= 1;
-  write(file, bytes);
+  test::writeText(file, bytes);
   const CachedField third = cachedField(cache, mesh_, options_);
   EXPECT_FALSE(third.outcome.from_cache);
   EXPECT_NE(third.outcome.warning.find("damaged"), std::string::npos);
@@ -315,7 +295,7 @@ TEST_F(FieldFile, CacheBuildsOnceAndRebuildsDamage) {
 /// Names are what tells one file of a cache from another: who swaps two gets neither.
 TEST_F(FieldFile, CachedFilesUnderOthersNamesAreMadeAgain) {
   const TriangleMesh box = test::boxMesh({0.2, 0.1, 0.1});
-  const FileCache cache(directory_);
+  const FileCache cache(directory_.string());
   for (const FieldOptions& options : {options_, adaptive()}) {
     const CachedField ring = cachedField(cache, mesh_, options);
     const std::string names[] = {fieldFileName(mesh_, options), fieldFileName(box, options)};
@@ -350,7 +330,7 @@ TEST_F(FieldFile, CacheKeyIsTheContent) {
 }
 
 TEST_F(FieldFile, CacheThatCannotBeWrittenCostsOnlyTheSaving) {
-  write(path("file"), "in the way");
+  test::writeText(path("file"), "in the way");
   const CachedField field = cachedField(FileCache(path("file/below")), mesh_, options_);
   EXPECT_FALSE(field.outcome.from_cache);
   EXPECT_NE(field.outcome.warning.find("cache not used"), std::string::npos);
@@ -369,7 +349,7 @@ TEST_F(FieldFile, NothingStaysOfWhoeverIsKilledWhileWriting) {
     usleep(1000 * (3 + i));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    for (const auto& entry : fs::directory_iterator(directory_)) {
+    for (const auto& entry : fs::directory_iterator(directory_.path())) {
       EXPECT_EQ(entry.path().extension(), "") << entry.path() << " was left";
       EXPECT_NO_THROW(CheckedFile::open(entry.path(), {"field", kVersion}));
       fs::remove(entry.path());

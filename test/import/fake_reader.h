@@ -4,29 +4,22 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "oracle/files.h"
 
 namespace sdf_ccd::test {
 
 /// Puts a shell script in the place of the program that reads meshes.
 class FakeReader : public ::testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = std::filesystem::temp_directory_path() / ("sdf_ccd_reader_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(directory_);
-  }
-  void TearDown() override {
-    ::unsetenv("SDF_CCD_READER");
-    std::filesystem::remove_all(directory_);
-  }
+  void TearDown() override { ::unsetenv("SDF_CCD_READER"); }
 
   std::string write(const std::string& name, const std::string& bytes) {
     const std::string path = (directory_ / name).string();
-    std::ofstream(path, std::ios::binary) << bytes;
+    writeText(path, bytes);
     return path;
   }
 
@@ -36,7 +29,7 @@ class FakeReader : public ::testing::Test {
     ::setenv("SDF_CCD_READER", path.c_str(), 1);
   }
 
-  std::filesystem::path directory_;
+  const TemporaryDirectory directory_;
 };
 
 }  // namespace sdf_ccd::test

@@ -1,12 +1,12 @@
 #include "sdf_ccd/import/mesh_file.h"
 
-#include <functional>
 #include <ostream>
 #include <random>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "oracle/failure.h"
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/parameter_name.h"
@@ -18,6 +18,7 @@ namespace sdf_ccd {
 namespace {
 
 using test::dae;
+using test::failureOf;
 using test::kDaeInstance;
 
 const TriangleMesh kBox = test::translated(test::boxMesh({1, 2, 3}), {0.25, 0.5, 1});
@@ -26,15 +27,6 @@ void expectBox(const TriangleMesh& mesh, const Vector3d& low, const Vector3d& hi
   const AlignedBox3d box = boundingBox(mesh);
   EXPECT_TRUE(box.min().isApprox(low, 1e-6)) << box.min().transpose();
   EXPECT_TRUE(box.max().isApprox(high, 1e-6)) << box.max().transpose();
-}
-
-std::string errorOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(MeshFile, EveryFormatGivesTheSameBox) {
@@ -97,7 +89,7 @@ TEST(MeshFile, PolygonsAreTriangulated) {
 TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
   const std::string stl = test::binaryStl(kBox, "binary");
   const auto error = [](const std::string& bytes, const std::string& name) {
-    return errorOf([&] { parseMesh(bytes, name); });
+    return failureOf([&] { parseMesh(bytes, name); });
   };
   EXPECT_EQ(error("", "link.stl"), "link.stl: empty");
   EXPECT_EQ(error(stl, "link"), "link: no file name ending, which would tell the format");
@@ -110,8 +102,8 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
                 .find("unit meter=\"-1\""),
             std::string::npos);
   EXPECT_NE(error(dae(kBox, "", "<node/>"), "a.dae"), "");
-  EXPECT_EQ(errorOf([] { loadMesh("/nonexistent/link.stl"); }), "/nonexistent/link.stl: cannot be opened");
-  EXPECT_NE(errorOf([] { loadMesh("/"); }), "");
+  EXPECT_EQ(failureOf([] { loadMesh("/nonexistent/link.stl"); }), "/nonexistent/link.stl: cannot be opened");
+  EXPECT_NE(failureOf([] { loadMesh("/"); }), "");
 
   TriangleMesh bad = kBox;
   bad.vertices[3].x() = std::numeric_limits<double>::quiet_NaN();
@@ -127,7 +119,7 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
 TEST(MeshFile, AnnouncingMoreThanThereIsCostsNoMemory) {
   std::string stl = test::binaryStl(kBox, "lies");
   stl[80] = stl[81] = stl[82] = stl[83] = '\xff';
-  EXPECT_NE(errorOf([&] { parseMesh(stl, "lies.stl"); }).find("4294967295 triangles"), std::string::npos);
+  EXPECT_NE(failureOf([&] { parseMesh(stl, "lies.stl"); }).find("4294967295 triangles"), std::string::npos);
 }
 
 TEST(MeshFile, CountsAndReferencesThatLieAreRefused) {
@@ -136,7 +128,7 @@ TEST(MeshFile, CountsAndReferencesThatLieAreRefused) {
     return bytes.replace(bytes.find(from), from.size(), to);
   };
   const auto error = [](const std::string& bytes, const std::string& name) {
-    return errorOf([&] { parseMesh(bytes, name); });
+    return failureOf([&] { parseMesh(bytes, name); });
   };
   EXPECT_NE(error(damaged(good, "<p>0 4 6", "<p>0 q 6"), "a.dae").find("<p>"), std::string::npos);
   EXPECT_NE(error(damaged(good, "count=\"24\"", "count=\"21\""), "a.dae").find("reads beyond"), std::string::npos);
@@ -161,7 +153,7 @@ TEST(MeshFile, TruncatedTextIsRefusedWhereverItEnds) {
     }
   }
   const std::string off = test::off(kBox);
-  EXPECT_EQ(errorOf([&] { parseMesh(off.substr(0, off.size() - 4), "a.off"); }),
+  EXPECT_EQ(failureOf([&] { parseMesh(off.substr(0, off.size() - 4), "a.off"); }),
             "a.off: truncated or damaged: 12 of element face are announced, 11 are whole");
   // Comments, blank lines and colours count for nothing, and a list need not stand on one line of a PLY file.
   const std::string odd = "OFF # made by hand\n\n3 1 0\n# corners\n0 0 0\n1 0 0 # right\n\n0 1 0\n3 0 1 2 255 0 0\n";
@@ -210,7 +202,8 @@ TEST(MeshFile, DamagedFilesThrowOrGiveAValidMesh) {
 
 TEST(MeshFile, HostileFilesAreRefusedAndTheirNeighbourIsRead) {
   for (const std::string& name : test::hostileMeshes()) {
-    EXPECT_EQ(errorOf([&] { loadMesh(test::hostilePath(name)); }).rfind(test::hostilePath(name) + ": ", 0), 0u) << name;
+    const std::string path = test::hostilePath(name);
+    EXPECT_EQ(failureOf([&] { loadMesh(path); }).rfind(path + ": ", 0), 0u) << name;
   }
   const MeshQuality quality = orientOutward(loadMesh(test::hostilePath("prism_12.off"))).quality;
   EXPECT_NEAR(quality.volume, 3.0, 0.2);  // its corners are not quite those of a regular one

@@ -1,14 +1,13 @@
 #include "sdf_ccd/import/mesh_file.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <vector>
 
+#include "oracle/failure.h"
+#include "oracle/files.h"
 #include "oracle/test_data.h"
 
 namespace sdf_ccd {
@@ -33,34 +32,26 @@ bool edgesBalance(const TriangleMesh& mesh) {
 class OctomapFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() / ("sdf_ccd_octomap_" + std::to_string(::getpid()) + ".bt");
     double resolution = 0.0;
-    try {
-      loadOctomapSurface(write({}), resolution);
-    } catch (const std::runtime_error& error) {
-      if (std::string(error.what()).find("has no OctoMap") != std::string::npos) GTEST_SKIP() << error.what();
-    }
+    const std::string failed = test::failureOf([&] { loadOctomapSurface(write({}), resolution); });
+    if (failed.find("has no OctoMap") != std::string::npos) GTEST_SKIP() << failed;
   }
-  void TearDown() override { std::filesystem::remove(path_); }
 
   std::string write(const std::string& bytes) {
-    std::ofstream(path_, std::ios::binary) << bytes;
+    test::writeText(path_, bytes);
     return path_.string();
   }
 
   /// The reason of the failure to load.
   std::string failure(const std::string& bytes) {
     double resolution = 0.0;
-    try {
-      loadOctomapSurface(write(bytes), resolution);
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(path_.string()), std::string::npos);
-      return error.what();
-    }
-    return "loaded";
+    const std::string failure = test::failureOf([&] { loadOctomapSurface(write(bytes), resolution); });
+    EXPECT_NE(failure.find(path_.string()), std::string::npos) << failure;
+    return failure;
   }
 
-  std::filesystem::path path_;
+  const test::TemporaryDirectory directory_;
+  const std::filesystem::path path_ = directory_ / "map.bt";
 };
 
 std::string head(int nodes, const std::string& resolution = "0.25") {
@@ -143,7 +134,7 @@ TEST_F(OctomapFile, FormatOf2010NeedsNoHeader) {
 TEST_F(OctomapFile, DamagedFilesAreRefusedWithTheReason) {
   const std::string good = head(17) + branch(node({2, 0, 0, 0, 0, 0, 0, 0}), 16);
   for (std::size_t bytes = 0; bytes < good.size(); ++bytes) {
-    EXPECT_NE(failure(good.substr(0, bytes)), "loaded") << bytes;
+    EXPECT_NE(failure(good.substr(0, bytes)), "") << bytes;
   }
   EXPECT_NE(failure("solid nothing").find("not an OctoMap file"), std::string::npos);
   EXPECT_NE(failure(head(1) + std::string(100000, '\xff')).find("more than 16 levels"), std::string::npos);

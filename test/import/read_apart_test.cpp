@@ -12,6 +12,7 @@
 
 #include "import/fake_reader.h"
 #include "import/read_answer.h"
+#include "oracle/failure.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/common/cancel.h"
@@ -24,17 +25,8 @@ using Clock = std::chrono::steady_clock;
 
 const std::string kBox = test::binaryStl(test::boxMesh({1, 2, 3}), "box");
 
-std::string failure(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "read";
-}
-
 std::string failureOf(const std::string& format, const std::string& bytes) {
-  return failure([&] { readApart(format, bytes); });
+  return test::failureOf([&] { readApart(format, bytes); });
 }
 
 double secondsSince(Clock::time_point start) {
@@ -113,7 +105,7 @@ TEST_F(ReadApart, WhateverEndsTheReaderIsAnErrorThatSaysSo) {
 TEST_F(ReadApart, WithoutTheProgramNothingIsRead) {
   ::setenv("SDF_CCD_READER", "/no/such/reader", 1);
   EXPECT_EQ(failureOf("stl", kBox), "/no/such/reader cannot be started: No such file or directory");
-  EXPECT_EQ(failure([] { parseMesh(kBox, "a.stl"); }),
+  EXPECT_EQ(test::failureOf([] { parseMesh(kBox, "a.stl"); }),
             "a.stl: /no/such/reader cannot be started: No such file or directory");
 }
 
@@ -131,7 +123,7 @@ TEST_F(ReadApart, AnswersAreNotBelieved) {
   ReadAnswer head;
   head.vertices = 3;
   head.triangles = 1;
-  EXPECT_EQ(answer(head, bytesOf(corners) + bytesOf(triangle)), "read");
+  EXPECT_EQ(answer(head, bytesOf(corners) + bytesOf(triangle)), "");
   EXPECT_NE(answer(head, bytesOf(corners)).find("without an answer"), std::string::npos);
   EXPECT_NE(answer({}, "").find("no triangle"), std::string::npos);
   for (const std::int32_t bad : {3, -1, std::numeric_limits<std::int32_t>::max()}) {

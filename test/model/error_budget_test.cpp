@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "oracle/failure.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -39,11 +41,8 @@ TEST(ErrorBudget, WhatCannotBeKeptIsRefused) {
   EXPECT_THROW(shareOut(0.001, {{}, 0.0005, 0.0002}), std::invalid_argument);
   EXPECT_THROW(shareOut(0.001, {0.0005, 0.0005, 0.0001}), std::invalid_argument);
   EXPECT_THROW(shareOut(0.001, {{}, -0.0005, {}}), std::invalid_argument);
-  try {
-    shareOut(0.001, {0.002, {}, {}});
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "a max_error of 0.001 m cannot be kept: what is given takes 0.002 m of it");
-  }
+  EXPECT_EQ(test::failureOf<std::invalid_argument>([] { shareOut(0.001, {0.002, {}, {}}); }),
+            "a max_error of 0.001 m cannot be kept: what is given takes 0.002 m of it");
 }
 
 }  // namespace

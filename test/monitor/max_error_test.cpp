@@ -9,6 +9,7 @@
 #include "model/error_budget.h"
 #include "monitor/scene_case.h"
 #include "monitor/scene_cost.h"
+#include "oracle/failure.h"
 
 namespace sdf_ccd {
 namespace {
@@ -196,12 +197,7 @@ SceneCost affordable(const SceneDescription& description, const BodyOptions& opt
 
 /// What affordableCost() says against it; empty if it does not.
 std::string refusal(const SceneDescription& description, const BodyOptions& options) {
-  try {
-    affordable(description, options);
-  } catch (const std::logic_error& error) {
-    return error.what();
-  }
-  return "";
+  return failureOf<std::logic_error>([&] { affordable(description, options); });
 }
 
 TEST(MaxError, WhatCannotBeMeantOrAffordedIsRefusedBeforeItIsBuilt) {

@@ -4,11 +4,11 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include "monitor/scene_case.h"
+#include "oracle/files.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/monitor/world.h"
@@ -27,6 +27,14 @@ VoxelGrid gridOf(const Voxels& voxels, const VoxelMapOptions& options) {
   VoxelGrid grid(kSize, options);
   for (const auto& v : voxels) grid.add(Vector3i(kMiddle + v[0], kMiddle + v[1], kMiddle + v[2]), 1, true);
   return grid;
+}
+
+VoxelMask ballMask(const Vector3d& center, double radius) {
+  VoxelMask mask;
+  mask.center_M = center;
+  mask.radius = radius;
+  mask.distance = [=](const Vector3d& p) { return (p - center).norm() - radius; };
+  return mask;
 }
 
 /// A map as it is known from its changes.
@@ -114,10 +122,7 @@ TEST(VoxelMap, WhatTheRobotFillsDoesNotCount) {
       for (int z = -10; z < 10; ++z) voxels.insert({x, y, z});
   VoxelMapOptions options;
   options.padding = 0.04;
-  VoxelMask ball;
-  ball.center_M = Vector3d(0.1, 0.0, 0.0);
-  ball.radius = 0.2;
-  ball.distance = [&](const Vector3d& p) { return (p - ball.center_M).norm() - ball.radius; };
+  const VoxelMask ball = ballMask({0.1, 0.0, 0.0}, 0.2);
   VoxelMap map("map", "world", options);
   Kept kept;
   const VoxelMap::Change change = map.take(gridOf(voxels, options), {ball});
@@ -152,10 +157,7 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
 
   options.unknown = UnknownSpace::kOccupiedNear;
   options.near_distance = 0.3;
-  VoxelMask ball;
-  ball.center_M = Vector3d(0.75, 0.4, 0.4);
-  ball.radius = 0.1;
-  ball.distance = [&](const Vector3d& p) { return (p - ball.center_M).norm() - ball.radius; };
+  const VoxelMask ball = ballMask({0.75, 0.4, 0.4}, 0.1);
   VoxelMap near("map", "world", options);
   Kept kept_near;
   kept_near.take(near.take(gridOfFree(), {ball}));
@@ -185,8 +187,7 @@ TEST(VoxelMap, RefusesWhatIsTooLarge) {
 TEST(VoxelMap, ARealMapIsAWorld) {
   const std::string file = SDF_CCD_TEST_DATA "/octomaps/geb079.bt";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  const std::string bytes = readText(file);
   const std::size_t at = bytes.find("data\n") + 5;
   VoxelMapOptions options;
   options.band = 0.08;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "oracle/failure.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -24,12 +26,7 @@ MotionShape shapeOfTwo() {
 
 /// Why a motion is refused; empty if it is not.
 std::string refusal(const CycleMotion& motion, const MotionShape& shape = shapeOfTwo()) {
-  try {
-    validate(motion, shape, "motion");
-    return "";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
+  return test::failureOf<std::invalid_argument>([&] { validate(motion, shape, "motion"); });
 }
 
 TEST(ValidateMotion, TakesWhatFits) {

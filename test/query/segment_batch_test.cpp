@@ -12,6 +12,7 @@
 #ifdef SDF_CCD_HIGHWAY
 #include <hwy/targets.h>
 
+#include "oracle/failure.h"
 #include "query/lanes/segment_lanes.h"
 #endif
 
@@ -344,12 +345,9 @@ TEST(SegmentBatch, NamesTheSegmentThatItRefuses) {
         std::vector<Segment> segments(40, Segment{Vector3d::Zero(), Vector3d::Constant(0.01)});
         (k < 3 ? segments[21].start : segments[21].end)[k % 3] = bad;
         BatchResult result;
-        try {
-          segmentIntervals(field, segments.data(), segments.size(), {}, result);
-          ADD_FAILURE() << bad << " at " << k;
-        } catch (const std::invalid_argument& error) {
-          EXPECT_NE(std::string(error.what()).find("segment 21 "), std::string::npos) << error.what();
-        }
+        const std::string failure = test::failureOf<std::invalid_argument>(
+            [&] { segmentIntervals(field, segments.data(), segments.size(), {}, result); });
+        EXPECT_NE(failure.find("segment 21 "), std::string::npos) << bad << " at " << k << ": \"" << failure << "\"";
       }
     }
   }

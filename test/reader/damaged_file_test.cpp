@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/files.h"
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
@@ -96,8 +97,7 @@ TEST(DamagedFile, EveryFormatReadsEveryOther) {
   std::vector<std::string> contents;
   for (const File& file : files()) contents.push_back(file.bytes);
   for (const std::string& name : test::hostileMeshes()) {
-    std::ifstream stream(test::hostilePath(name), std::ios::binary);
-    contents.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    contents.push_back(test::readText(test::hostilePath(name)));
     EXPECT_FALSE(contents.back().empty()) << name;
   }
   for (const std::string& bytes : contents) {

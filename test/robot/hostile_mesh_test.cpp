@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/files.h"
 #include "oracle/hostile_files.h"
 #include "oracle/parameter_name.h"
-#include "robot/read_text.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/monitor/scene_plan.h"
 #include "sdf_ccd/robot/robot_scene.h"

@@ -1,9 +1,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "oracle/files.h"
 #include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
-#include "robot/read_text.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {

@@ -5,10 +5,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+
+#include "oracle/failure.h"
+#include "oracle/files.h"
 
 namespace sdf_ccd {
 namespace {
@@ -18,7 +20,6 @@ namespace fs = std::filesystem;
 class ResourceFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("sdf_ccd_resource_" + std::to_string(::getpid()));
     write("a/b/c_folder/package.xml",
           "<package format=\"2\">\n <!-- -- -->\n <name> arm_description </name></package>");
     write("a/b/c_folder/Meshes/Link.STL", "steel");
@@ -36,26 +37,21 @@ class ResourceFiles : public ::testing::Test {
     find_ = packagesFromEnvironment();
   }
   void TearDown() override {
-    fs::remove_all(directory_);
     ::unsetenv("ROS_PACKAGE_PATH");
   }
 
   void write(const std::string& name, const std::string& text) {
     fs::create_directories((directory_ / name).parent_path());
-    std::ofstream(directory_ / name, std::ios::binary) << text;
+    test::writeText(directory_ / name, text);
   }
 
   std::string failure(const std::string& uri) {
-    try {
-      loadLocalResource(uri, find_, directory_.string());
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(uri), std::string::npos);
-      return error.what();
-    }
-    return "loaded";
+    const std::string failure = test::failureOf([&] { loadLocalResource(uri, find_, directory_.string()); });
+    EXPECT_NE(failure.find(uri), std::string::npos) << failure;
+    return failure;
   }
 
-  fs::path directory_;
+  const test::TemporaryDirectory directory_;
   PackageFinder find_;
 };
 
@@ -108,13 +104,10 @@ TEST_F(ResourceFiles, FailuresNameTheUriAndTheReason) {
     for (const char* part : {"a", "a/", "../", "./", "\033\n"}) {
       std::string uri = start;
       while (uri.size() < 1'000'000) uri += part;
-      try {
-        loadLocalResource(uri, find_, directory_.string());
-        ADD_FAILURE() << start << part;
-      } catch (const std::runtime_error& error) {
-        EXPECT_LT(std::string(error.what()).size(), 1000u);
-        EXPECT_EQ(std::string(error.what()).find_first_of("\n\033"), std::string::npos);
-      }
+      const std::string failure = test::failureOf([&] { loadLocalResource(uri, find_, directory_.string()); });
+      EXPECT_NE(failure, "") << start << part;
+      EXPECT_LT(failure.size(), 1000u);
+      EXPECT_EQ(failure.find_first_of("\n\033"), std::string::npos);
     }
   }
   EXPECT_NE(failure("http://example.org/x.stl").find("http:// is not supported"), std::string::npos);

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "oracle/failure.h"
+#include "oracle/files.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
-#include "robot/read_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -44,12 +45,7 @@ Isometry3d poseOf(const RobotModel& robot, const std::string& link, const JointP
 }
 
 std::string failure(const std::string& xml, const std::string& source = {}) {
-  try {
-    RobotModel robot(xml, source);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "parsed";
+  return test::failureOf([&] { RobotModel(xml, source); });
 }
 
 std::string twoLinks(const std::string& joint) {
@@ -264,21 +260,12 @@ TEST(RobotModel, JointsWithoutKinematicsAreRefused) {
   EXPECT_NE(failure(joint("<mimic joint='j'/>")).find("mimics itself"), std::string::npos);
 }
 
-std::string failureOf(const std::string& urdf) {
-  try {
-    RobotModel model(urdf);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
   const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
     return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child +
            "'/></joint>";
   };
-  const auto refusal = [](const std::string& content) { return failureOf("<robot name='r'>" + content + "</robot>"); };
+  const auto refusal = [](const std::string& content) { return failure("<robot name='r'>" + content + "</robot>"); };
   const std::string links = "<link name='a'/><link name='b'/><link name='c'/>";
   // urdfdom takes c for the root, and forgets the others.
   EXPECT_EQ(refusal(links + joint("there", "a", "b") + joint("back", "b", "a")),
@@ -296,27 +283,27 @@ TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
 
 TEST(RobotModel, TextThatIsCutShortOrBrokenIsRefused) {
   const std::string urdf = kArm;
-  for (std::size_t size = 0; size < urdf.size() - 20; ++size) EXPECT_NE(failureOf(urdf.substr(0, size)), "") << size;
+  for (std::size_t size = 0; size < urdf.size() - 20; ++size) EXPECT_NE(failure(urdf.substr(0, size)), "") << size;
   // Bytes that begin a longer character, at the end and elsewhere: urdfdom's reader went on behind the end for them.
   for (const char byte : {'\xC3', '\xEF', '\xF4', '\xB5', '\0'}) {
     for (std::size_t size = 0; size < urdf.size() - 20; size += 13) {
-      EXPECT_NE(failureOf(urdf.substr(0, size) + byte), "") << size;
+      EXPECT_NE(failure(urdf.substr(0, size) + byte), "") << size;
       std::string broken = urdf;
       broken[size] = byte;
-      failureOf(broken);
+      failure(broken);
     }
   }
-  EXPECT_NE(failureOf(test::readText(SDF_CCD_SOURCE_DIR "/test/data/hostile/urdf_tinyxml_overread_130f7.urdf")), "");
+  EXPECT_NE(failure(test::readText(SDF_CCD_SOURCE_DIR "/test/data/hostile/urdf_tinyxml_overread_130f7.urdf")), "");
 }
 
 TEST(RobotModel, CommentsMayHoldOtherEncodings) {
-  EXPECT_EQ(failureOf("<!-- caf\xE9 --><robot name=\"r\"><link name=\"a\"/></robot>"), "");
+  EXPECT_EQ(failure("<!-- caf\xE9 --><robot name=\"r\"><link name=\"a\"/></robot>"), "");
 }
 
 TEST(RobotModel, DeepAndLargeTextsAreRefused) {
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
-  EXPECT_NE(failureOf(deep), "");
+  EXPECT_NE(failure(deep), "");
   std::string many = "<robot name=\"r\">";
   for (int i = 0; i < 20'000; ++i) {
     const std::string link = "l" + std::to_string(i), next = "l" + std::to_string(i + 1);
@@ -324,8 +311,8 @@ TEST(RobotModel, DeepAndLargeTextsAreRefused) {
             "\"/><child link=\"" + next + "\"/></joint>";
   }
   many += "<link name=\"l20000\"/></robot>";
-  EXPECT_NE(failureOf(many).find("more than 10000"), std::string::npos) << failureOf(many);
-  EXPECT_NE(failureOf("<robot>" + std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"),
+  EXPECT_NE(failure(many).find("more than 10000"), std::string::npos) << failure(many);
+  EXPECT_NE(failure("<robot>" + std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"),
             std::string::npos);
 }
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "oracle/files.h"
 #include "oracle/test_data.h"
-#include "robot/read_text.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {

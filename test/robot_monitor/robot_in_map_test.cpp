@@ -8,10 +8,10 @@
 
 #include <octomap/OcTree.h>
 
+#include "oracle/files.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "robot/read_text.h"
 #include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include <unistd.h>
-
+#include "oracle/failure.h"
+#include "oracle/files.h"
 #include "ros/moveit_scene.h"
 #include "ros/tf_messages.h"
 
@@ -21,9 +21,7 @@ constexpr double kNow = 100.0;  // [s]
 class ChangingSceneTest : public ::testing::Test {
  protected:
   ChangingSceneTest()
-      : folder_(std::filesystem::temp_directory_path() / ("sdf_ccd_changes_" + std::to_string(getpid()))),
-        history_("base") {
-    std::filesystem::create_directories(folder_);
+      : history_("base") {
     parameters_ = parseParameters({}, "~");
     parameters_.urdf = R"(<robot name="r"><link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
       <link name="arm"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
@@ -46,7 +44,6 @@ class ChangingSceneTest : public ::testing::Test {
                           stampedTransform("tool", "tip", kNow, 0.5), stampedTransform("base", "belt", kNow, 7.0)}),
                  false);
   }
-  ~ChangingSceneTest() override { std::filesystem::remove_all(folder_); }
 
   void apply(const SceneChange& change) { apply(std::vector<SceneChange>{change}); }
   void apply(const std::vector<SceneChange>& changes) {
@@ -56,12 +53,7 @@ class ChangingSceneTest : public ::testing::Test {
     *scene_ = next;
   }
   std::string refusal(const SceneChange& change) {
-    try {
-      apply(change);
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return "";
+    return test::failureOf<std::exception>([&] { apply(change); });
   }
   SceneDescription description() const { return scene_->description(limits_); }
   BodyDescription body(const std::string& name) const {
@@ -98,7 +90,7 @@ class ChangingSceneTest : public ::testing::Test {
     return made;
   }
 
-  std::filesystem::path folder_;
+  const test::TemporaryDirectory folder_;
   TfHistory history_;
   MonitorParameters parameters_;
   DescribedScene described_;

@@ -6,6 +6,7 @@
 #include <rosbag/view.h>
 
 #include "ros/check_bag_case.h"
+#include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/MonitorState.h"
 
@@ -146,16 +147,8 @@ TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
   ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
   {
     rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Append);
-    tf2_msgs::TFMessage message;
-    message.transforms.resize(1);
-    geometry_msgs::TransformStamped& transform = message.transforms[0];
-    transform.header.frame_id = "/odom";
-    transform.child_frame_id = "/base";
-    transform.transform.rotation.w = 1.0;
-    for (double time = kBegin; time < kBegin + 2.0; time += kPeriod) {
-      transform.header.stamp = ros::Time(time);
-      bag.write("/tf", transform.header.stamp, message);
-    }
+    for (double time = kBegin; time < kBegin + 2.0; time += kPeriod)
+      bag.write("/tf", ros::Time(time), message({stampedTransform("/odom", "/base", time, 0.0)}));
     bag.write("/controller/joint_states", ros::Time(kBegin), sensor_msgs::JointState());  // not the robot's
   }
   write("odom.yaml", readText(path("arm.yaml")) + "fixed_frame: odom\n");
@@ -239,14 +232,8 @@ TEST_F(CheckBag, TransformsThatComeLateAreNamed) {
   ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
   {
     rosbag::Bag bag(path("made/checked.bag").string(), rosbag::bagmode::Append);
-    tf2_msgs::TFMessage message;
-    message.transforms.resize(1);
-    geometry_msgs::TransformStamped& transform = message.transforms[0];
-    transform.header.frame_id = "base";
-    transform.child_frame_id = "turret";
-    transform.header.stamp = ros::Time(kBegin + 10.5 * kPeriod);
-    transform.transform.rotation.z = 1.0;  // far from where it was
-    bag.write("/tf", ros::Time(kBegin + 13.2 * kPeriod), message);
+    const auto late = stampedTransform("base", "turret", kBegin + 10.5 * kPeriod, 0.0, M_PI);  // far from where it was
+    bag.write("/tf", ros::Time(kBegin + 13.2 * kPeriod), message({late}));
   }
   const ToolRun result = run(check("made/checked.bag", "again"));
   EXPECT_NE(result.out.find("late transforms  in 1 cycles"), std::string::npos) << result.out;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/failure.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -22,12 +24,7 @@ XmlRpc::XmlRpcValue tree() {
 
 template <class Read>
 std::string errorOf(const Read& read) {
-  try {
-    read();
-  } catch (const ParameterError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::failureOf<ParameterError>(read);
 }
 
 TEST(ParameterReader, ReadsNumbersGroupsAndLists) {

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <filesystem>
 #include <map>
 
 #include <rosbag/view.h>
+
+#include "oracle/files.h"
 
 namespace sdf_ccd {
 namespace {
@@ -17,7 +18,8 @@ TEST(SimulationBag, HoldsEveryBodysPosesAndMarkersLockedToThem) {
       "plane}}\n"
       "bodies: [{name: ground, shape: ground, fixed: true}, {name: ball, shape: ball, xyz: [0.5, 0, 0.25]}]",
       ".");
-  const std::string path = (std::filesystem::temp_directory_path() / "sdf_ccd_simulation_test.bag").string();
+  const test::TemporaryDirectory directory;
+  const std::string path = (directory / "simulation.bag").string();
   {
     BagWriter writer(path, path);
     SimulationBag bag(writer, setup);
@@ -47,7 +49,6 @@ TEST(SimulationBag, HoldsEveryBodysPosesAndMarkersLockedToThem) {
   EXPECT_EQ(counts["/tf_static"], 1);
   EXPECT_EQ(counts["/simulation/bodies"], 8);  // at 0, 0.1 … 0.5, 1.5 and 2.5 s
   bag.close();
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 
+#include "oracle/files.h"
 #include "sdf_ccd/MonitorState.h"
 
 namespace sdf_ccd {
@@ -43,8 +44,6 @@ double residentMemory() {
 class UnloadTest : public ::testing::Test {
  protected:
   UnloadTest() {
-    char name[] = "/tmp/unload_test.XXXXXX";
-    cache_ = mkdtemp(name);
     states_ =
         node_.subscribe<MonitorState>(std::string(kName) + "/state", 100, [this](const MonitorState::ConstPtr& state) {
           const std::lock_guard<std::mutex> lock(mutex_);
@@ -52,7 +51,6 @@ class UnloadTest : public ::testing::Test {
           changed_.notify_all();
         });
   }
-  ~UnloadTest() override { fs::remove_all(cache_); }
 
   void load(double max_error) {  // 0: the settings as they stand
     {
@@ -86,7 +84,8 @@ class UnloadTest : public ::testing::Test {
   ros::NodeHandle node_;
   ros::Subscriber states_;
   nodelet::Loader loader_{false};
-  std::string cache_;
+  const test::TemporaryDirectory temporary_;
+  const std::string cache_ = temporary_.string();
   std::mutex mutex_;
   std::condition_variable changed_;
   std::string reasons_;  // that were said, a line each

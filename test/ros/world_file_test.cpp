@@ -1,12 +1,11 @@
 #include "ros/world_file.h"
 
 #include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
+#include "oracle/failure.h"
+#include "oracle/files.h"
 #include "oracle/test_data.h"
 #include "ros/moveit_scene.h"
 
@@ -14,19 +13,14 @@ namespace sdf_ccd {
 namespace {
 
 std::string written(const std::string& ending, const std::string& text) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("sdf_ccd_world_" + std::to_string(getpid()) + ending);
-  std::ofstream(file) << text;
+  static const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / ("world" + ending);
+  test::writeText(file, text);
   return file.string();
 }
 
 std::string errorOf(const std::string& ending, const std::string& text) {
-  try {
-    loadWorldFile(written(ending, text));
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::failureOf<std::exception>([&] { loadWorldFile(written(ending, text)); });
 }
 
 template <class Shape>
@@ -119,7 +113,7 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
   EXPECT_NE(errorOf(".scene", "name\nbox").find("line 2: * and an object's name"), std::string::npos);
   EXPECT_NE(errorOf(".txt", "").find("must end in .yaml, .yml or .scene"), std::string::npos);
   for (std::size_t end = 0; end < std::string(kScene).size() - 2; ++end)
-    ASSERT_NE(errorOf(".scene", std::string(kScene).substr(0, end)), "no error") << end;
+    ASSERT_NE(errorOf(".scene", std::string(kScene).substr(0, end)), "") << end;
 }
 
 TEST(WorldFile, OurYamlAndMoveits) {

@@ -1,31 +1,25 @@
 #include "ros/yaml_parameters.h"
 
 #include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
+#include "oracle/failure.h"
+#include "oracle/files.h"
 #include "ros/parameters.h"
 
 namespace sdf_ccd {
 namespace {
 
 XmlRpc::XmlRpcValue load(const std::string& text) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("sdf_ccd_" + std::to_string(getpid()) + "_test.yaml");
-  std::ofstream(file) << text;
+  const test::TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a_test.yaml";
+  test::writeText(file, text);
   return loadYamlParameters(file.string());
 }
 
 std::string errorOf(const std::string& text) {
-  try {
-    parseParameters(load(text), "~");
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::failureOf<std::exception>([&] { parseParameters(load(text), "~"); });
 }
 
 TEST(YamlParameters, ScalarsAreWhatRosparamTakesThemFor) {

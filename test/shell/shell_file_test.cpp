@@ -1,14 +1,12 @@
 #include "sdf_ccd/shell/point_shell.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+
+#include "oracle/files.h"
 
 namespace sdf_ccd {
 namespace {
@@ -16,7 +14,6 @@ namespace {
 class ShellFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() / ("sdf_ccd_shell_" + std::to_string(::getpid()) + ".shell");
     shell_.points = {{1, 2, 3}, {4, 5, 6}};
     shell_.normals = {{1, 0, 0}, {0, 1, 0}};
     shell_.areas = {0.1, 0.2};
@@ -24,9 +21,9 @@ class ShellFile : public ::testing::Test {
     shell_.edge_radius = 0.001;
     shell_.flatness = 0.0001;
   }
-  void TearDown() override { std::filesystem::remove(path_); }
 
-  std::filesystem::path path_;
+  const test::TemporaryDirectory directory_;
+  const std::filesystem::path path_ = directory_ / "two_points.shell";
   PointShell shell_;
 };
 
@@ -78,10 +75,9 @@ TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
 
 TEST_F(ShellFile, EveryTruncationIsRefused) {
   saveShell(shell_, path_.string());
-  std::ifstream stream(path_, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = test::readText(path_);
   for (std::size_t size = 0; size < bytes.size(); size += 7) {
-    std::ofstream(path_, std::ios::binary) << bytes.substr(0, size);
+    test::writeText(path_, bytes.substr(0, size));
     EXPECT_THROW(loadShell(path_.string()), std::runtime_error) << size;
   }
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "oracle/files.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -21,21 +22,17 @@ namespace {
 class FileCacheTest : public ::testing::Test {
  protected:
   FileCacheTest() {
-    char name[] = "/tmp/file_cache_test.XXXXXX";
-    directory_ = mkdtemp(name);
     lock_ = ::open((directory_ + "/thing.lock").c_str(), O_RDWR | O_CREAT, 0644);
     flock(lock_, LOCK_EX);
   }
-  ~FileCacheTest() override {
-    ::close(lock_);
-    std::filesystem::remove_all(directory_);
-  }
+  ~FileCacheTest() override { ::close(lock_); }
 
   FileCache::Actions actions() {
     return {[](const std::string&) {}, [this] { is_made_ = true; }, [this](const std::string&) { is_saved_ = true; }};
   }
 
-  std::string directory_;
+  const test::TemporaryDirectory temporary_;
+  const std::string directory_ = temporary_.string();
   int lock_;
   bool is_made_ = false, is_saved_ = false;
 };
@@ -98,13 +95,6 @@ TEST_F(FileCacheTest, ALockThatIsFreedInTimeIsTaken) {
 /// A cache of its own, whose files are text.
 class TextCacheTest : public ::testing::Test {
  protected:
-  TextCacheTest() {
-    char name[] = "/tmp/file_cache_test.XXXXXX";
-    base_ = mkdtemp(name);
-    directory_ = base_ + "/cache";
-  }
-  ~TextCacheTest() override { std::filesystem::remove_all(base_); }
-
   CacheOutcome get(const std::string& name, std::size_t max_bytes = FileCache::kMaxBytes) {
     made_ = false;
     return FileCache(directory_, 1.0, max_bytes)
@@ -117,7 +107,8 @@ class TextCacheTest : public ::testing::Test {
                                      std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
   }
 
-  std::string base_, directory_;
+  const test::TemporaryDirectory temporary_;
+  const std::string base_ = temporary_.string(), directory_ = base_ + "/cache";
   bool made_ = false;
 };
 

@@ -8,22 +8,14 @@
 #include <cstring>
 
 #include "import/fake_reader.h"
+#include "oracle/failure.h"
 #include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
 namespace {
 
+using test::failureOf;
 using RegularFile = test::FakeReader;
-
-template <class Action>
-std::string failure(const Action& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "read";
-}
 
 TEST_F(RegularFile, IsReadWhole) {
   for (const std::size_t size :
@@ -46,24 +38,24 @@ TEST_F(RegularFile, NothingElseIsOpened) {
   ::symlink("/dev/zero", (directory_ / "link.stl").c_str());
   for (const std::string& path :
        {fifo, socket_path, std::string("/dev/zero"), std::string("/dev/null"), (directory_ / "link.stl").string()}) {
-    EXPECT_EQ(failure([&] { readRegularFile(path); }), "is not a regular file") << path;
+    EXPECT_EQ(failureOf([&] { readRegularFile(path); }), "is not a regular file") << path;
     double resolution = 0.0;
-    EXPECT_EQ(failure([&] { loadMesh(path); }), path + ": is not a regular file");
-    EXPECT_EQ(failure([&] { loadOctomapSurface(path, resolution); }), path + ": is not a regular file");
+    EXPECT_EQ(failureOf([&] { loadMesh(path); }), path + ": is not a regular file");
+    EXPECT_EQ(failureOf([&] { loadOctomapSurface(path, resolution); }), path + ": is not a regular file");
   }
   ::close(server);
-  EXPECT_EQ(failure([&] { readRegularFile(directory_.string()); }), "is a directory");
-  EXPECT_EQ(failure([&] { readRegularFile("/no/such/file"); }), "cannot be opened");
-  EXPECT_EQ(failure([&] { readRegularFile(std::string(100000, 'x')); }), "cannot be opened");
+  EXPECT_EQ(failureOf([&] { readRegularFile(directory_.string()); }), "is a directory");
+  EXPECT_EQ(failureOf([&] { readRegularFile("/no/such/file"); }), "cannot be opened");
+  EXPECT_EQ(failureOf([&] { readRegularFile(std::string(100000, 'x')); }), "cannot be opened");
 }
 
 TEST_F(RegularFile, SizeIsBounded) {
   const std::string path = write("file", std::string(3 << 20, 'x'));
   EXPECT_EQ(readRegularFile(path, 3 << 20).size(), 3u << 20);
-  EXPECT_EQ(failure([&] { readRegularFile(path, 2 << 20); }), "larger than 2 MiB");
+  EXPECT_EQ(failureOf([&] { readRegularFile(path, 2 << 20); }), "larger than 2 MiB");
   const std::string sparse = write("sparse.stl", "");
   ASSERT_EQ(::truncate(sparse.c_str(), off_t{1} << 40), 0);
-  EXPECT_EQ(failure([&] { loadMesh(sparse); }), sparse + ": larger than 1024 MiB");
+  EXPECT_EQ(failureOf([&] { loadMesh(sparse); }), sparse + ": larger than 1024 MiB");
 }
 
 }  // namespace
