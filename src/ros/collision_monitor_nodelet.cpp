@@ -175,7 +175,7 @@ void CollisionMonitor::buildFields() {
     NODELET_WARN("%s", warning.c_str());
     health_.warnings.push_back(warning);
   }
-  const std::string over = overBudget(*scene_, parameters_.scene);
+  const std::string over = overBudget(*scene_);
   if (!over.empty()) {
     NODELET_WARN("%s", over.c_str());
     health_.warnings.push_back(over);
@@ -304,6 +304,7 @@ void CollisionMonitor::publishCycle() {
   health_.latency = state->latency;
   health_.run_time = state->run_time;
   health_.error = loop_->result().error;
+  health_.contact_error = loop_->result().contact_error;
   health_.missing = missingBodies(*loop_);
   health_.pairs_delayed = loop_->result().delayed;
   health_.contradicted = contradicted();

@@ -19,7 +19,8 @@ struct MonitorHealth {
   double latency = 0.0;      ///< of the last cycle [s]
   double run_time = 0.0;     ///< of the last check [s]
   ErrorBound error;          ///< of the last cycle's pair where it is largest
-  double max_error = 0.0;    ///< wanted [m]; 0: none
+  double contact_error = 0.0;  ///< CycleResult::contact_error of the last cycle [m]
+  double max_error = 0.0;      ///< wanted [m]; 0: none
   int pairs = 0;             ///< to be checked in each cycle
   int pairs_left_out = 0;
   std::vector<std::string> missing;     ///< "body: reason" of the last cycle
