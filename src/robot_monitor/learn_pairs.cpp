@@ -12,7 +12,6 @@
 #include "monitor/scene_cost.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
-#include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
 #include "state_verdicts.h"
 
@@ -236,7 +235,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   const auto built = Clock::now();
   const std::vector<Seen> seen = testPairs(robot, scene, options);
   for (std::size_t p = 0; p < seen.size(); ++p) sortOut(scene.pairs[p], seen[p], scene, options, pairs);
-  pairs.error_bound = std::max(scene.bound.total(), MonitorOptions().max_error);
+  pairs.error_bound = scene.contact_bound.total();
   pairs.build_seconds = std::chrono::duration<double>(built - start).count();
   pairs.test_seconds = std::chrono::duration<double>(Clock::now() - built).count();
   return pairs;
