@@ -127,7 +127,8 @@ class BodyBuilder {
     std::string warning;
     const auto make = [&](double tried) {
       setFineness(tried, options);
-      if (needs.edges_only) return sampleEdges(tessellate(primitive, tried), options);  // a box, which is its tessellation
+      if (needs.edges_only)
+        return sampleEdges(tessellate(primitive, tried), options);  // a box, which is its tessellation
       return sampleSurface(primitive, options);
     };
     PointShell shell = makeCoarser(finenessOf(options), mayBeCoarser(options_), make, warning);

@@ -6,8 +6,8 @@
 
 namespace sdf_ccd {
 
-/// The options of one element's shell and field, of a surface of this area [m²]: BodyOptions::shell and field, or, where
-/// they follow the element's size, finer.
+/// The options of one element's shell and field, of a surface of this area [m²]: BodyOptions::shell and field, or,
+/// where they follow the element's size, finer.
 /// @param is_large  whether the points of a large element may be farther apart than shell.spacing, too.
 ShellOptions shellOptionsFor(const BodyOptions& options, double area, bool is_large = false);
 FieldOptions fieldOptionsFor(const BodyOptions& options, double area);

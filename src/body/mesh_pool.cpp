@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "coarsen.h"
-#include "element_options.h"
 #include "common/number_text.h"
+#include "element_options.h"
 #include "field/field_cache.h"
 #include "field/uniform/sparse_grid.h"
 #include "shell/shell_cache.h"
@@ -55,8 +55,7 @@ FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
   if (options.cell_size) cell = *options.cell_size;
   if (options.max_error) cell = *options.max_error / kHalfSqrt3;
   const ShellOptions shell = shellOptions(mesh);
-  const double gap =
-      !mesh.voxels && shell.edge_gap > 0.0 ? std::min(shell.edge_gap, shell.spacing) : shell.spacing;
+  const double gap = !mesh.voxels && shell.edge_gap > 0.0 ? std::min(shell.edge_gap, shell.spacing) : shell.spacing;
   const double margin = 1.1 * (gap + kHalfSqrt3 * cell + options_.motion_margin);
   options.band = std::max(options.band, std::min(margin, kWidestBand * cell));
   return options;

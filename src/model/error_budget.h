@@ -15,8 +15,8 @@ struct ErrorBudget {
   static constexpr double kChords = 3.0;
 };
 
-/// Shares `max_error` [m] out to field, edges and chords as 55 : 35 : 9. Their sum is 1 % short of it, for contact times
-/// and rounding.
+/// Shares `max_error` [m] out to field, edges and chords as 55 : 35 : 9. Their sum is 1 % short of it, for contact
+/// times and rounding.
 ///
 /// Why these: with both shares at 0.25, 0.5 or 1 mm, on nine links of Panda and UR5, a field's time goes as e^-1 to
 /// e^-1.7 and a shell's as 1/e. At equal shares of 0.5 mm a link's field takes 0.07 to 0.4 s and its shell 0.03 to 1 s

@@ -16,18 +16,18 @@ struct TrackedContact {
 
   std::uint64_t id = 0;  ///< from 1, in the order in which contacts begin; never used again
   std::string body_a, body_b;
-  bool begins = false;   ///< in the last cycle
-  bool ends = false;     ///< the same; both if it lasted for a part of it
-  bool is_lost = false;  ///< it ends as nothing is known of the pair any more: it may go on
+  bool begins = false;                    ///< in the last cycle
+  bool ends = false;                      ///< the same; both if it lasted for a part of it
+  bool is_lost = false;                   ///< it ends as nothing is known of the pair any more: it may go on
   Verdict verdict = Verdict::kUncertain;  ///< kContact if the pair's was, in a cycle, for this
   Time begin{0};                          ///< from when on it was seen
   Time end{0};                            ///< up to when, until now
   ContactPoint deepest;                   ///< of all cycles; its times count from `deepest_origin`
   Time deepest_origin{0};
-  double error_bound = 0.0;     ///< of the verdict, largest of its cycles [m]
-  double contact_error = 0.0;   ///< of times and depths, largest of its cycles [m]
-  double max_force = 0.0;       ///< largest of its cycles' mean forces while it touched [N]; 0 if wrenches are not known
-  std::uint32_t cycles = 0;     ///< in which it was seen
+  double error_bound = 0.0;    ///< of the verdict, largest of its cycles [m]
+  double contact_error = 0.0;  ///< of times and depths, largest of its cycles [m]
+  double max_force = 0.0;      ///< largest of its cycles' mean forces while it touched [N]; 0 if wrenches are not known
+  std::uint32_t cycles = 0;    ///< in which it was seen
   bool seen_at_samples = false;  ///< by a check at the recorded poses alone
 };
 
@@ -96,7 +96,7 @@ class ContactTracker {
   void list(int slot);
 
   std::vector<std::pair<std::string, std::string>> names_;  // per pair of the scene
-  std::vector<int> last_;                                    // per pair: slot of its last contact; −1: none
+  std::vector<int> last_;                                   // per pair: slot of its last contact; −1: none
   std::vector<Slot> contacts_;
   std::vector<int> free_;
   std::vector<int> listed_;

@@ -85,7 +85,7 @@ struct Monitor::Impl {
   std::vector<int> last_due;                // pairs
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
-  bool are_of_cycle = false;      // what results say of pairs that are not due is of the last cycle, and of no later one
+  bool are_of_cycle = false;  // what results say of pairs that are not due is of the last cycle, and of no later one
   std::size_t last_waypoint = 0;  // that all results' spans end at; 0 if they differ
 };
 

@@ -80,8 +80,9 @@ std::string boundLines(const Scene& scene) {
   const auto by_triangles = std::count_if(scene.pairs.begin(), scene.pairs.end(),
                                           [&](const PlannedPair& pair) { return hasTriangles(scene, pair); });
   return text + sources(bound) + "; triangles decide about " + std::to_string(by_triangles) + " of " +
-         std::to_string(scene.pairs.size()) + " pairs\nerror bound of contacts' times and depths: " +
-         number(1e3 * scene.contact_bound.total(), 2) + " mm" + sources(scene.contact_bound) + "\n";
+         std::to_string(scene.pairs.size()) +
+         " pairs\nerror bound of contacts' times and depths: " + number(1e3 * scene.contact_bound.total(), 2) + " mm" +
+         sources(scene.contact_bound) + "\n";
 }
 
 }  // namespace

@@ -153,8 +153,8 @@ SceneCost expectedCost(const SceneDescription& description, const ScenePlan& pla
     const BodyDescription& body = description.bodies[i];
     if (!body.failure.empty() || !(plan.needs_field[i] || plan.needs_shell[i])) continue;
     try {
-      scene.add(estimate.of(
-          body, {plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], decides[i] != 0, false}));
+      scene.add(
+          estimate.of(body, {plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], decides[i] != 0, false}));
     } catch (const std::exception&) {
       // Building the body will say what is wrong with it.
     }

@@ -10,7 +10,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kLongestCycle = 3600.0;    // so long transforms have to be kept [s]
+constexpr double kLongestCycle = 3600.0;  // so long transforms have to be kept [s]
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
   constexpr std::size_t kMost = 1000;  // each is held against each pair

@@ -127,7 +127,8 @@ void Duel::judgeClear(const PairMotion& solid, const PairResult& result, const s
     ++tally.false_bound;
     tally.fail(what + ": clearance", text("%.17g m, true %.17g m", result.clearance, double(truth)));
   }
-  if (truth < kComparable * bound_ && !result.skipped) addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
+  if (truth < kComparable * bound_ && !result.skipped)
+    addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
 }
 
 /// Where triangles leave a pair open, its surfaces come as near as the error says.
@@ -151,8 +152,8 @@ void Duel::judgeContact(const PairMotion& outer, const PairResult& result, const
   tally.fail(what + ": CONTACT", text("%.3g m deep, but %.3g m apart", result.deepest.depth, double(least.high)));
 }
 
-/// The deepest point is on one surface and `depth` inside the other; where surfaces cross and no point tells a depth, it is
-/// in both.
+/// The deepest point is on one surface and `depth` inside the other; where surfaces cross and no point tells a depth,
+/// it is in both.
 void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const {
   if (result.intervals.empty() || !a_.is_convex || !b_.is_convex) return;
   const ContactPoint& deepest = result.deepest;

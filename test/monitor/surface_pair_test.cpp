@@ -51,8 +51,9 @@ TEST(SurfacePair, TellsATenthOfAMillimetre) {
 /// whatever max_error is.
 TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
   constexpr double kHalf = 0.1, kTop = 0.01;
-  const auto scene = build(
-      {body("slab", Primitive(Box{{0.5, 0.5, kTop}})), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))}, coarse());
+  const auto scene =
+      build({body("slab", Primitive(Box{{0.5, 0.5, kTop}})), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+            coarse());
   Random random(3);
   for (const double max_error : {1e-5, 1e-4, 1e-3, 1e-2}) {
     MonitorOptions options = soft();
@@ -60,7 +61,8 @@ TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
     Monitor monitor(scene, options);
     int open = 0;
     for (int i = 0; i < 200; ++i) {
-      const double gap = max_error * (i % 2 == 0 ? 1.0 : 1e-3) * uniform(random, -4.0, 2.0), from = uniform(random, -0.3, 0.3);
+      const double gap = max_error * (i % 2 == 0 ? 1.0 : 1e-3) * uniform(random, -4.0, 2.0),
+                   from = uniform(random, -0.3, 0.3);
       const Isometry3d over = translation({0.1, -0.05, kTop + kHalf * std::sqrt(2.0) + gap});
       const auto at = [&](double angle) { return over * pose({0, 0, 0}, angle, {0, 1, 0}); };
       monitor.reset();

@@ -151,8 +151,7 @@ TEST_F(CheckBag, WhyNothingWasCheckedIsSaidFirst) {
   writeTf("some.bag", {{"known", "base"}, {"known2", "base"}});
   const ToolRun some = run("check-bag some.bag" + options + "some");
   EXPECT_EQ(some.exit_code, kPartlyDone) << some.error;
-  EXPECT_EQ(
-      some.error.find("sdf_ccd: no cycle was checked as a whole, as lost_a: no transform from lost_a to "), 0u)
+  EXPECT_EQ(some.error.find("sdf_ccd: no cycle was checked as a whole, as lost_a: no transform from lost_a to "), 0u)
       << some.error;
   const std::size_t not_checked = some.out.find("\nnot checked ");
   EXPECT_LT(not_checked, some.out.find("\ncontact "));

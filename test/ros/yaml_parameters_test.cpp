@@ -99,7 +99,8 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
 
 TEST(YamlParameters, PairsByRule) {
   const MonitorParameters parameters = parseParameters(
-      load("allowed_pairs: [[hand, table], [\"finger_*\", part]]\nchecked_pairs: [[a, b]]\noverlapping_pairs: check"), "~");
+      load("allowed_pairs: [[hand, table], [\"finger_*\", part]]\nchecked_pairs: [[a, b]]\noverlapping_pairs: check"),
+      "~");
   ASSERT_EQ(parameters.pairs.allowed.size(), 2u);
   EXPECT_EQ(parameters.pairs.allowed[1].a, "finger_*");
   EXPECT_EQ(parameters.pairs.allowed[1].b, "part");

@@ -32,8 +32,9 @@ struct BodyOptions {
 
   std::optional<double> max_error;  ///< the bound wanted of every verdict [m]; the plan says whether it is kept
 
-  /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a field
-  /// or shell that would be too large is made coarser, and its body's report says so; else the body cannot be checked.
+  /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a
+  /// field or shell that would be too large is made coarser, and its body's report says so; else the body cannot be
+  /// checked.
   bool is_shared_out = false;
 };
 

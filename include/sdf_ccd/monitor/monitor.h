@@ -43,13 +43,13 @@ struct PairResult {
   int body_a = -1;
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;    ///< why it was not checked; empty if it was
-  WaypointSpan span;     ///< the part of the motion that this is about; empty if the pair is delayed
-  bool skipped = false;  ///< clear by the clearance left from an earlier cycle
-  ErrorBound error;      ///< of the verdict
+  std::string reason;        ///< why it was not checked; empty if it was
+  WaypointSpan span;         ///< the part of the motion that this is about; empty if the pair is delayed
+  bool skipped = false;      ///< clear by the clearance left from an earlier cycle
+  ErrorBound error;          ///< of the verdict
   ErrorBound contact_error;  ///< of intervals and depths, which fields and shells tell; zero where there are none
-  double clearance = 0.0;           ///< a lower bound of the distance at the span's end, whatever the motion is off
-                                    ///< by [m]; negative if not known. See CycleRequest::skipped_pairs
+  double clearance = 0.0;    ///< a lower bound of the distance at the span's end, whatever the motion is off
+                             ///< by [m]; negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
   ContactPoint deepest;             ///< valid if intervals is not empty
   Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end

@@ -23,7 +23,7 @@ struct Scene {
   ErrorBound bound;                   ///< of verdicts, the largest of all pairs; chord: what the options allow for
   ErrorBound contact_bound;           ///< the same of contacts' times and depths, which fields and shells tell
   double motion_margin = 0.0, motion_error = 0.0;  ///< as in BodyOptions [m]
-  std::optional<double> max_error;    ///< that was wanted [m]
+  std::optional<double> max_error;                 ///< that was wanted [m]
   double build_seconds = 0.0;
 };
 

@@ -126,8 +126,9 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
   }
   is_complete &= areAllMade(scene);
   if (statistics.neverChecked() > 0) {
-    std::cerr << "sdf_ccd: " << statistics.neverChecked() << " bodies, or pairs of others, were checked in no cycle, as "
-              << statistics.whyNotChecked() << std::endl;
+    std::cerr << "sdf_ccd: " << statistics.neverChecked()
+              << " bodies, or pairs of others, were checked in no cycle, as " << statistics.whyNotChecked()
+              << std::endl;
     is_complete = false;
   }
   return is_complete;
