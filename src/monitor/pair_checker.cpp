@@ -17,6 +17,16 @@ void setNotChecked(const std::string& reason, PairResult& result) {
   result.reason = reason;
 }
 
+/// What a role's impulse counts for, beside the others of the pair (design §3.7): the same, but for shells whose points
+/// are more than twice as far apart as the finest. A wrench errs by how few points touch, so these count as many as
+/// stand for an area.
+double forceWeight(const PairRole& role, double finest) {
+  constexpr double kAlike = 2.0;
+  if (!role.bearsForce()) return 0.0;
+  const double coarser = role.shell().covering_radius / finest;
+  return coarser <= kAlike ? 1.0 : 1.0 / (coarser * coarser);
+}
+
 void requireFinite(const ErrorBound& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
@@ -27,7 +37,7 @@ void clear(PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason.clear();
   result.skipped = false;
-  result.error = {};
+  result.error = result.contact_error = {};
   result.clearance = -1.0;
   result.intervals.clear();
   result.deepest = {};
@@ -52,7 +62,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
   if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a, purpose(pair.b_edges_only));
   if (pair.a_witnesses_b_field) addRole(pair.body_a, pair.body_b, ShellPurpose::kWitnesses);
   if (pair.b_witnesses_a_field) addRole(pair.body_b, pair.body_a, ShellPurpose::kWitnesses);
-  if (SurfacePair::isPossible(scene, pair)) surfaces_.emplace(scene, pair);
+  if (hasTriangles(scene, pair)) surfaces_.emplace(scene, pair, 0.5 * options.max_error);
   bound_ = pairBound(scene, pair);
 }
 
@@ -154,10 +164,11 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     result.skipped = true;
     return;
   }
-  std::optional<ContactPoint> crossing;
+  SurfacePair::Answer by_surfaces;
+  const ErrorBound surface_error = result.error;
   if (surfaces_) {
-    if (clearBySurfaces(crossing, result)) return;
-    if (crossing && !request.wantsContacts()) return setCrossing(*crossing, result);
+    if (clearBySurfaces(by_surfaces, result)) return;
+    if (by_surfaces.crossing && !request.wantsContacts()) return setCrossing(*by_surfaces.crossing, result);
     setRoles(bodies, result.span);
     motion_error_ += given_error;
     setError(bound_, kRootTolerance * travel_, result);
@@ -168,10 +179,11 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   cutRoles(result);
   requireFinite(result.error);
   const double near = result.error.total();
+  const std::optional<ContactPoint>& crossing = by_surfaces.crossing;
   if (crossing || std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
     forgetClearance();
     findContacts(motion, request, crossing, result);
-    return;
+    return setSurfaceError(by_surfaces, surface_error, result);
   }
   outside_ = true;
   // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
@@ -195,15 +207,23 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
   result.deepest = crossing;
 }
 
-/// Whether the triangles show that the bodies stay apart. @param crossing  gets where they surely cross, if they do.
-bool PairChecker::clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result) {
+/// Where triangles decided, or found that the surfaces come nearer than they can tell, the verdict's error is theirs.
+/// @param error  of what they decide.
+void PairChecker::setSurfaceError(const SurfacePair::Answer& answer, const ErrorBound& error,
+                                  PairResult& result) const {
+  if (!answer.crossing && !answer.is_near) return;
+  result.error = error;
+  if (!answer.crossing) result.error.gap += 2.0 * surfaces_->resolution();
+}
+
+/// Whether the triangles show that the bodies stay apart. @param answer  gets what they say otherwise.
+bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& result) {
   const RelativeMotion& motion = surfaces_->motion();
   double clearance = surfaces_->ballClearance(motion.end());
   if (surfaces_->ballClearance(motion.start()) - travel_ > std::max(motion_error_, surfaces_->size())) {
     outside_ = true;
   } else {
-    SurfacePair::Answer answer = surfaces_->decide(motion_error_, memory_->separation);
-    crossing = answer.crossing;
+    answer = surfaces_->decide(motion_error_, memory_->separation);
     if (answer.state != SeparationState::kApart) return false;
     clearance = std::max(clearance, answer.clearance);
     outside_ = outside_ || surfaces_->isOutside();
@@ -259,15 +279,18 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
                                                        : std::nullopt;
   ContactCollector& collector = memory_->collector;
   collector.begin(motion, result, crossing.has_value());
-  const auto bears = [](const PairRole& role) { return role.bearsForce(); };
-  const double weight = 1.0 / double(std::count_if(roles_.begin(), roles_.end(), bears));
+  double finest = std::numeric_limits<double>::infinity(), all = 0.0;
+  for (const PairRole& role : roles_)
+    if (role.bearsForce()) finest = std::min(finest, role.shell().covering_radius);
+  for (const PairRole& role : roles_) all += forceWeight(role, finest);
   for (PairRole& role : roles_) {
     const bool shell_is_a = role.fieldBody() == pair_.body_b;
-    collector.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact,
+    collector.add(role, shell_is_a, forceWeight(role, finest) / all, siblings_[role.fieldBody()], options_.contact,
                   request.wrenches && role.bearsForce());
   }
   collector.finish(request, result);
   if (crossing && result.intervals.empty()) return setCrossing(*crossing, result);
+  if (!result.intervals.empty()) result.contact_error = result.error;
   // Whatever lies between the points, and wherever in the band: one of the surface is deeper than the motion is off by.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;
   result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;

@@ -278,12 +278,12 @@ TEST_F(CheckBag, MaxErrorIsKeptByABodyOfSeveralElements) {
 }
 
 TEST_F(CheckBag, ABoundAboveMaxErrorIsAWarning) {
-  write("ball.yaml", "world: [{name: dome, type: sphere, radius: 2.0, xyz: [2.5, 0, 0]}]\ncache_directory: cache\n");
+  write("ground.yaml", "world: [{name: ground, type: plane, xyz: [0, 0, -2]}]\ncache_directory: cache\n");
   const ToolRun result = run("check-bag arm.bag --urdf " SDF_CCD_SOURCE_DIR
-                             "/config/demo/arm.urdf --config ball.yaml --out made --max-error 0.005");
+                             "/config/demo/arm.urdf --config ground.yaml --out made --max-error 0.005");
   EXPECT_EQ(result.exit_code, kDone) << result.error;
   EXPECT_EQ(result.error.find("sdf_ccd: warning: the error bound is "), 0u) << result.error;
-  EXPECT_NE(result.error.find("more than the max_error of 5.00 mm: dome is only a field"), std::string::npos)
+  EXPECT_NE(result.error.find("more than the max_error of 5.00 mm: ground is only a field"), std::string::npos)
       << result.error;
 }
 
