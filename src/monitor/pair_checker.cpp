@@ -183,13 +183,14 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   if (crossing || std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
     forgetClearance();
     findContacts(motion, request, crossing, result);
-    return setSurfaceError(by_surfaces, surface_error, result);
+    return setSurfaceError(by_surfaces.is_near, surface_error, result);
   }
   outside_ = true;
   // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
   double clearance = std::numeric_limits<double>::infinity();
   for (const PairRole& role : roles_) clearance = std::min(clearance, role.pointClearanceAtEnd(0.5 * near));
   setClear(clearance - bound_.gap, result);
+  setSurfaceError(false, surface_error, result);
 }
 
 /// @param clearance  lower bound of the distance at the span's end, of bodies at the given poses [m].
@@ -207,13 +208,18 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
   result.deepest = crossing;
 }
 
-/// Where triangles decided, or found that the surfaces come nearer than they can tell, the verdict's error is theirs.
-/// @param error  of what they decide.
-void PairChecker::setSurfaceError(const SurfacePair::Answer& answer, const ErrorBound& error,
-                                  PairResult& result) const {
-  if (!answer.crossing && !answer.is_near) return;
+/// The verdict's error where both bodies are triangles: of these and of the motion, also where fields decided. For they
+/// call a pair CLEAR if no point of a shell, whose surface is no farther than the gap from its points, comes nearer by
+/// the field than field + gap + chord + root: then the surfaces stay apart though all of these are as wrong as they may
+/// be. They call it CONTACT if a point is deeper, by what the field surely knows there, than chord + root. None of the
+/// errors that were taken off is left; only the motion's, which no check removes, and what the triangles that stand for
+/// a curved surface deviate by. What is UNCERTAIN is so to the triangles' resolution if they found the surfaces near,
+/// else to what the fields know.
+/// @param error  of the triangles and the motion.
+void PairChecker::setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const {
+  if (!surfaces_ || (result.verdict == Verdict::kUncertain && !is_near)) return;
   result.error = error;
-  if (!answer.crossing) result.error.gap += 2.0 * surfaces_->resolution();
+  if (result.verdict == Verdict::kUncertain) result.error.gap += 2.0 * surfaces_->resolution();
 }
 
 /// Whether the triangles show that the bodies stay apart. @param answer  gets what they say otherwise.

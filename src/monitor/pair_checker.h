@@ -76,7 +76,7 @@ class PairChecker {
   void setClear(double clearance, PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
-  void setSurfaceError(const SurfacePair::Answer& answer, const ErrorBound& error, PairResult& result) const;
+  void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);
   std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const;
