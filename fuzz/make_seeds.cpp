@@ -79,6 +79,13 @@ class Seeds {
     tree.writeBinary(binary);
     add("octomap", "full", full.str());
     add("octomap", "binary", binary.str());
+    // The message is the file without its head, which ends behind "data".
+    const auto voxelMap = [&](const std::string& file, char kind) {
+      const std::string data = "data\n";
+      add("voxel_map", std::string(1, 'a' + kind), std::string{kind, 1, kind, 0} + file.substr(file.find(data) + data.size()));
+    };
+    voxelMap(binary.str(), 0);
+    voxelMap(full.str(), 1);
 #endif
   }
 
@@ -134,7 +141,7 @@ class Seeds {
         "0 0\n1\nsub\n0 0 0\n0 0 0 1\n.\n");
     add("moveit_scene", "before", "(noname)+\n* b\n1\nplane\n0 0 1 0\n0 0 0\n0 0 0 1\n1 0 0 1\n.\n");
     add("segments", "header", "ox,oy,oz,ex,ey,ez\n0,0,0,1,1,1\n-1e-3, 2.5,0,1,.5,0x1p3\r\n\n");
-    for (const char* target : {"query_motion", "query_points", "transforms"}) {
+    for (const char* target : {"query_motion", "query_points", "transforms", "update_scene"}) {
       for (int k = 1; k < 32; ++k) {
         std::string numbers;
         for (int i = 0; i < 96; ++i) numbers += static_cast<char>(i % 3 == 0 ? k : 17 * i * k % 251);

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "fuzz_input.h"
+#include "ros/changing_scene.h"
 #include "ros/monitor_loop.h"
 #include "ros/queries.h"
 #include "ros/tf_messages.h"
+#include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd::fuzz {
 
@@ -39,8 +41,18 @@ class SmallMonitor {
       const char* parent = std::string(link) == "hand" ? "arm" : "base";
       loop_->history().add(test::message({test::stampedTransform(parent, link, kStart, 0.2)}), false);
     }
-    queries_ = std::make_unique<Queries>(scene_, described_, parameters_, loop_->history(), loop_->tracker());
+    queries_ = std::make_unique<Queries>(loop_->world(), described_, parameters_, loop_->history());
   }
+
+  /// Whose next world is the second.
+  std::unique_ptr<WorldEditor> editor() const {
+    auto editor = std::make_unique<WorldEditor>(parameters_.scene);
+    const ScenePlan plan = planScene(described_.scene, planOptions(parameters_.scene));
+    editor->begin(described_.scene, plan, Scene(*scene_));
+    return editor;
+  }
+
+  ChangingScene changingScene() const { return {described_, parameters_.pairs, described_.scene}; }
 
   MonitorLoop& loop() { return *loop_; }
   Queries& queries() { return *queries_; }

@@ -12,6 +12,7 @@
 #include "body/coarsen.h"
 #include "body/element_options.h"
 #include "common/number_text.h"
+#include "common/seconds_since.h"
 #include "field/opening_caps.h"
 #include "shell/contact_gap.h"
 #include "shell/witness_points.h"
@@ -80,7 +81,7 @@ class BodyBuilder {
       const std::string left_out = made.now && meshes_[i]->made.solid ? summary(meshes_[i]->made.solid->report()) : "";
       if (!left_out.empty()) report_.solid += (report_.solid.empty() ? "" : "; ") + left_out;
     }
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = secondsSince(start);
     report_.field = exact ? "exact" : built ? fmt::format("built {:.1f} s", seconds) : cached ? "cached" : "shared";
     return parts;
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/number_text.h"
+#include "common/seconds_since.h"
 #include "explicit_step.h"
 
 namespace sdf_ccd {
@@ -78,7 +79,7 @@ const StepRecord& Simulation::advance() {
   torque_work_ += workOfTorques(states_, states);
   record_ = measured(states, step);
   states_ = std::move(states);
-  record_.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record_.run_time = secondsSince(start);
   return record_;
 }
 

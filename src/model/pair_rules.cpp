@@ -60,6 +60,13 @@ bool matchesAny(const std::vector<PairRule>& rules, const std::string& name_a, c
   return std::any_of(rules.begin(), rules.end(), [&](const PairRule& rule) { return matches(rule, name_a, name_b); });
 }
 
+std::string whyAllowed(const PairRules& rules, const std::string& name_a, const std::string& name_b) {
+  const auto rule = std::find_if(rules.allowed.begin(), rules.allowed.end(),
+                                 [&](const PairRule& allowed) { return matches(allowed, name_a, name_b); });
+  if (rule == rules.allowed.end() || matchesAny(rules.checked, name_a, name_b)) return "";
+  return "allowed_pairs: " + textOf(*rule);
+}
+
 void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std::string>& warnings) {
   warnOfUnknown("allowed_pairs", rules.allowed, scene, warnings);
   warnOfUnknown("checked_pairs", rules.checked, scene, warnings);
@@ -74,11 +81,8 @@ void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
       const std::string &a = scene.bodies[i].name, &b = scene.bodies[k].name;
-      const auto rule = std::find_if(rules.allowed.begin(), rules.allowed.end(),
-                                     [&](const PairRule& allowed) { return matches(allowed, a, b); });
-      if (rule == rules.allowed.end() || matchesAny(rules.checked, a, b) || left_out.count(namePair(a, b)) > 0)
-        continue;
-      disabled.push_back({a, b, "allowed_pairs: " + textOf(*rule)});
+      const std::string reason = whyAllowed(rules, a, b);
+      if (!reason.empty() && left_out.count(namePair(a, b)) == 0) disabled.push_back({a, b, reason});
     }
 }
 

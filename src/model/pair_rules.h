@@ -25,6 +25,9 @@ bool matches(const std::string& pattern, const std::string& name);
 bool matches(const PairRule& rule, const std::string& name_a, const std::string& name_b);
 bool matchesAny(const std::vector<PairRule>& rules, const std::string& name_a, const std::string& name_b);
 
+/// Why a pair is left out by the rules: "allowed_pairs: hand* - table"; empty if it is not.
+std::string whyAllowed(const PairRules& rules, const std::string& name_a, const std::string& name_b);
+
 /// Leaves out pairs of a scene that are allowed to touch, and takes back what else left out pairs that are to be
 /// checked, but for DisabledPair::proved ones.
 /// @param scene     with all of its bodies and disabled pairs.

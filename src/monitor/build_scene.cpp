@@ -6,6 +6,7 @@
 
 #include "body/body_builder.h"
 #include "body/body_triangles.h"
+#include "common/seconds_since.h"
 #include "monitor/scene_cost.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
@@ -117,7 +118,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
   countPairs(scene);
   setBounds(scene);
-  scene.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  scene.build_seconds = secondsSince(start);
   return scene;
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "scene_difference.h"
 
 namespace sdf_ccd {
 namespace {
@@ -52,18 +53,9 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples) {
 }
 
 ContactTracker::Change ContactTracker::prepare(const Scene& next) const {
-  using Names = std::pair<std::string, std::string>;
   Change change;
-  std::map<Names, int> now;
-  for (std::size_t i = 0; i < next.pairs.size(); ++i) {
-    const PlannedPair& pair = next.pairs[i];
-    change.names.push_back({next.bodies[pair.body_a].name, next.bodies[pair.body_b].name});
-    now[std::minmax(change.names[i].first, change.names[i].second)] = static_cast<int>(i);
-  }
-  for (const Names& names : names_) {
-    const auto found = now.find(std::minmax(names.first, names.second));
-    change.pairs_now.push_back(found == now.end() ? -1 : found->second);
-  }
+  change.names = pairNames(next);
+  change.pairs_now = findPairs(names_, change.names);
   change.last.assign(next.pairs.size(), -1);
   // At most one contact of each pair, and those that end with the pairs until now.
   change.listed.reserve(next.pairs.size() + 2 * names_.size());

@@ -10,6 +10,7 @@
 
 #include "common/number_text.h"
 #include "common/parallel_for.h"
+#include "common/seconds_since.h"
 #include "model/error_budget.h"
 #include "motion/validate_motion.h"
 #include "pair_checker.h"
@@ -124,12 +125,16 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
 struct MonitorChange::Impl {
   std::unique_ptr<Monitor::Impl> monitor;
   std::shared_ptr<const Scene> before;
+  SceneDifference difference;
   Schedule::Kept kept;
-  std::vector<int> pair_now;  // per pair of the scene before; -1 if it is no longer there
 };
 
 MonitorChange::MonitorChange(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 MonitorChange::~MonitorChange() = default;
+
+const SceneDifference& MonitorChange::difference() const {
+  return impl_->difference;
+}
 
 Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
                  std::shared_ptr<MonitorMemory> memory) {
@@ -166,7 +171,7 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
     throw;
   }
   impl_->summarise();
-  impl_->result.run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  impl_->result.run_time = secondsSince(start);
   return impl_->result;
 }
 
@@ -257,20 +262,19 @@ const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_
 
 std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next) const {
   if (!next) throw std::invalid_argument("monitor: no scene");
-  auto change = std::make_unique<MonitorChange::Impl>();
-  change->before = impl_->scene;
-  change->monitor = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
-  Impl& monitor = *change->monitor;
-  const SceneDifference difference(*impl_->scene, *monitor.scene);
-  change->kept.bodies = difference.bodyRuns();
-  change->pair_now = difference.pairsNow();
+  auto made = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
+  Impl& monitor = *made;
+  auto change = std::make_unique<MonitorChange::Impl>(
+      MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, *monitor.scene}, {}});
+  change->kept.bodies = change->difference.bodyRuns();
+  const std::vector<int>& pairs_now = change->difference.pairsNow();
   // Those that stay and are not tested in the next cycle are clear; all others are set by their tests.
   const std::size_t last = impl_->last_waypoint;
   monitor.last_waypoint = last;
   for (PairResult& result : monitor.result.pairs)
     if (last > 0) result.span = {0, last};
-  for (std::size_t p = 0; p < change->pair_now.size(); ++p) {
-    const int now = change->pair_now[p];
+  for (std::size_t p = 0; p < pairs_now.size(); ++p) {
+    const int now = pairs_now[p];
     if (now < 0) continue;
     const PairChecker& checker = monitor.checkers[static_cast<std::size_t>(now)];
     setSkipped(checker.bound(), checker.margin(), monitor.result.pairs[static_cast<std::size_t>(now)]);
@@ -286,7 +290,7 @@ void Monitor::adopt(MonitorChange& change) {
   next.schedule->take(*impl_->schedule, made.kept);
   // What a pair that is not due knows beside its clearance only makes its next test quicker.
   for (const int pair : impl_->last_due) {
-    const int now = made.pair_now[static_cast<std::size_t>(pair)];
+    const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];
     if (now < 0) continue;
     const auto from = static_cast<std::size_t>(pair), to = static_cast<std::size_t>(now);
     next.checkers[to].take(impl_->checkers[from]);

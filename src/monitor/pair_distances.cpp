@@ -44,13 +44,14 @@ void PairDistances::forget() {
   near_.clear();
 }
 
-void PairDistances::take(const PairDistances& before, const std::vector<int>& pairs_before) {
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (pairs_before[i] < 0 || !before.pairs_[pairs_before[i]].is_near) continue;
-    pairs_[i] = before.pairs_[pairs_before[i]];
-    pairs_[i].last.pair = static_cast<int>(i);
-    pairs_[i].last.body_a = scene_->pairs[i].body_a;
-    pairs_[i].last.body_b = scene_->pairs[i].body_b;
+void PairDistances::take(const PairDistances& before, const std::vector<int>& pairs_now) {
+  for (const PairDistance& near : before.near_) {
+    const int now = pairs_now[near.pair];
+    if (now < 0) continue;
+    pairs_[now] = before.pairs_[near.pair];
+    pairs_[now].last.pair = now;
+    pairs_[now].last.body_a = scene_->pairs[now].body_a;
+    pairs_[now].last.body_b = scene_->pairs[now].body_b;
   }
 }
 

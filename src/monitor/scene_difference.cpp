@@ -1,7 +1,10 @@
 #include "scene_difference.h"
 
 #include <cstdint>
+#include <map>
 #include <unordered_map>
+
+#include "model/name_pair.h"
 
 namespace sdf_ccd {
 namespace {
@@ -32,11 +35,14 @@ SceneDifference::SceneDifference(const Scene& before, const Scene& now) {
     const int b = bodies_before_[static_cast<std::size_t>(now.pairs[p].body_b)];
     if (a >= 0 && b >= 0) pairs.emplace(keyOf(a, b), static_cast<int>(p));
   }
-  pairs_now_.reserve(before.pairs.size());
-  for (const PlannedPair& pair : before.pairs) {
+  pairs_now_.assign(before.pairs.size(), -1);
+  pairs_before_.assign(now.pairs.size(), -1);
+  for (std::size_t p = 0; p < before.pairs.size(); ++p) {
+    const PlannedPair& pair = before.pairs[p];
     const auto found = pairs.find(keyOf(pair.body_a, pair.body_b));
-    const bool stays = found != pairs.end() && sameTests(pair, now.pairs[static_cast<std::size_t>(found->second)]);
-    pairs_now_.push_back(stays ? found->second : -1);
+    if (found == pairs.end() || !sameTests(pair, now.pairs[static_cast<std::size_t>(found->second)])) continue;
+    pairs_now_[p] = found->second;
+    pairs_before_[static_cast<std::size_t>(found->second)] = static_cast<int>(p);
   }
 }
 
@@ -54,6 +60,28 @@ std::vector<BodyRun> SceneDifference::bodyRuns() const {
     }
   }
   return runs;
+}
+
+std::vector<std::pair<std::string, std::string>> pairNames(const Scene& scene) {
+  std::vector<std::pair<std::string, std::string>> names;
+  names.reserve(scene.pairs.size());
+  for (const PlannedPair& pair : scene.pairs)
+    names.emplace_back(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
+  return names;
+}
+
+std::vector<int> findPairs(const std::vector<std::pair<std::string, std::string>>& pairs,
+                           const std::vector<std::pair<std::string, std::string>>& others) {
+  std::map<NamePair, int> places;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    places[namePair(others[i].first, others[i].second)] = static_cast<int>(i);
+  std::vector<int> found;
+  found.reserve(pairs.size());
+  for (const auto& [a, b] : pairs) {
+    const auto place = places.find(namePair(a, b));
+    found.push_back(place == places.end() ? -1 : place->second);
+  }
+  return found;
 }
 
 }  // namespace sdf_ccd

@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "common/seconds_since.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"
 #include "prepared_bodies.h"
@@ -38,12 +39,12 @@ SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan
   for (std::size_t b = 0; b < description.bodies.size(); ++b) description.bodies[b].failure = scene.bodies[b].failure;
   std::set<std::pair<int, int>> stay;
   for (const PlannedPair& pair : scene.pairs) stay.emplace(pair.body_a, pair.body_b);
-  std::unordered_map<std::string, const std::string*> reasons;
-  for (const LeftOut& left_out : scene.left_out) reasons.emplace(left_out.what, &left_out.reason);
+  std::map<std::pair<int, int>, const std::string*> reasons;
+  for (const LeftOut& left_out : scene.left_out) reasons.emplace(std::pair(left_out.body_a, left_out.body_b), &left_out.reason);
   for (const PlannedPair& pair : plan.pairs) {
     if (stay.count({pair.body_a, pair.body_b}) > 0) continue;
     const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
-    const auto reason = reasons.find("pair " + a + " - " + b);
+    const auto reason = reasons.find({pair.body_a, pair.body_b});
     description.disabled.push_back({a, b, reason == reasons.end() ? "left out" : *reason->second});
   }
   return description;
@@ -257,7 +258,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   scene.motion_margin = impl_->options.motion_margin;
   scene.motion_error = impl_->options.motion_error;
   setBounds(scene);
-  scene.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  scene.build_seconds = secondsSince(start);
   snapshot->seconds = scene.build_seconds;
   snapshot->description = std::make_shared<const SceneDescription>(std::move(description));
   snapshot->scene = std::make_shared<const Scene>(std::move(scene));

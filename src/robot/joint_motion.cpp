@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "joint_kind.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {
@@ -19,7 +20,7 @@ Vector3d unitAxis(const urdf::Joint& joint) {
 
 Isometry3d jointMotion(const urdf::Joint& joint, double position) {
   Isometry3d X = Isometry3d::Identity();
-  if (joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS) {
+  if (turns(joint)) {
     X.linear() = Eigen::AngleAxisd(position, unitAxis(joint)).toRotationMatrix();
   } else if (joint.type == urdf::Joint::PRISMATIC) {
     X.translation() = position * unitAxis(joint);
@@ -29,9 +30,7 @@ Isometry3d jointMotion(const urdf::Joint& joint, double position) {
 
 double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC) {
   if (joint.type == urdf::Joint::PRISMATIC) return X_JC.translation().dot(unitAxis(joint));
-  if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::CONTINUOUS) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  if (!turns(joint)) return std::numeric_limits<double>::quiet_NaN();
   constexpr double kRevolution = 6.283185307179586;
   const Quaterniond q(X_JC.linear());
   const double angle = std::remainder(2.0 * std::atan2(q.vec().dot(unitAxis(joint)), q.w()), kRevolution);
@@ -45,7 +44,7 @@ double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC) {
 Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
   constexpr double kShare = 0.1, kLeast = 0.01;  // of the range, and [m]
   Range range(-kInfinity, kInfinity);
-  if (joint.type != urdf::Joint::CONTINUOUS && joint.limits && joint.limits->lower != joint.limits->upper) {
+  if (hasLimits(joint)) {
     const double lower = joint.limits->lower, upper = joint.limits->upper;
     const double margin = std::max(kLeast, kShare * (upper - lower));
     range = {lower - margin, upper + margin};

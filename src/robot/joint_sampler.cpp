@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joint_kind.h"
+
 namespace sdf_ccd {
 namespace {
 
 constexpr std::uint64_t kAtLimits = 4;  // every so many states
-
-bool hasLimits(const urdf::Joint& joint) {
-  return joint.type != urdf::Joint::CONTINUOUS && joint.limits && joint.limits->lower != joint.limits->upper;
-}
-
-bool turns(const urdf::Joint& joint) {
-  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
-}
 
 }  // namespace
 
@@ -22,7 +16,7 @@ JointSampler::JointSampler(const RobotModel& robot, std::uint64_t seed) : random
   for (std::size_t link = 1; link < robot.links().size(); ++link) {
     const urdf::Joint& joint = robot.jointAbove(static_cast<int>(link));
     if (joint.mimic) continue;
-    if (hasLimits(joint) && (turns(joint) || joint.type == urdf::Joint::PRISMATIC)) {
+    if (hasLimits(joint) && hasPosition(joint)) {
       joints_.push_back({joint.name, joint.limits->lower, joint.limits->upper, true});
     } else if (turns(joint)) {
       joints_.push_back({joint.name, -M_PI, M_PI, false});

@@ -2,22 +2,10 @@
 
 #include <algorithm>
 
+#include "joint_kind.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {
-namespace {
-
-bool turns(const urdf::Joint& joint) {
-  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
-}
-
-/// Of the joint's position against that of the one that it follows in the end.
-double multiplierOf(const RobotModel& robot, const urdf::Joint& joint) {
-  if (!joint.mimic) return 1.0;
-  return joint.mimic->multiplier * multiplierOf(robot, *robot.urdf().joints_.at(joint.mimic->joint_name));
-}
-
-}  // namespace
 
 JointTorques::JointTorques(const RobotModel& robot) {
   const int links = static_cast<int>(robot.links().size());
@@ -25,17 +13,17 @@ JointTorques::JointTorques(const RobotModel& robot) {
     parent_.push_back(robot.parent(link));
     if (link == 0) continue;
     const urdf::Joint& joint = robot.jointAbove(link);
-    if (!joint.mimic && (turns(joint) || joint.type == urdf::Joint::PRISMATIC)) joints_.push_back(joint.name);
+    if (!joint.mimic && hasPosition(joint)) joints_.push_back(joint.name);
   }
   for (int link = 1; link < links; ++link) {
     const urdf::Joint& joint = robot.jointAbove(link);
-    if (!turns(joint) && joint.type != urdf::Joint::PRISMATIC) continue;
+    if (!hasPosition(joint)) continue;
     const auto leader = std::find(joints_.begin(), joints_.end(), robot.leader(joint).name);
     if (leader == joints_.end()) continue;
     // The joint's frame and that of the link below it share the axis, whatever the position is.
     below_.push_back(link);
     joints_below_.push_back({link, static_cast<int>(leader - joints_.begin())});
-    parts_.push_back({static_cast<int>(leader - joints_.begin()), multiplierOf(robot, joint), turns(joint),
+    parts_.push_back({static_cast<int>(leader - joints_.begin()), robot.multiplier(joint), turns(joint),
                       toEigen(joint.axis).normalized()});
   }
 }

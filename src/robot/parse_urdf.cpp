@@ -14,6 +14,7 @@
 
 #include "common/number_text.h"
 #include "common/text_limits.h"
+#include "joint_kind.h"
 
 namespace sdf_ccd {
 namespace {
@@ -77,9 +78,7 @@ std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml) {
 
 /// urdfdom accepts these, but no joint position follows from them.
 void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
-  const bool has_axis = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
-                        joint.type == urdf::Joint::PRISMATIC;
-  if (has_axis && joint.axis.x == 0.0 && joint.axis.y == 0.0 && joint.axis.z == 0.0) {
+  if (hasPosition(joint) && joint.axis.x == 0.0 && joint.axis.y == 0.0 && joint.axis.z == 0.0) {
     throw std::runtime_error("joint " + joint.name + ": its axis is 0 0 0");
   }
   if (joint.type == urdf::Joint::UNKNOWN) throw std::runtime_error("joint " + joint.name + ": unknown type");

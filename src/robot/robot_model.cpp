@@ -45,6 +45,10 @@ const urdf::Joint& RobotModel::leader(const urdf::Joint& joint) const {
   return joint.mimic ? leader(*urdf_->joints_.at(joint.mimic->joint_name)) : joint;
 }
 
+double RobotModel::multiplier(const urdf::Joint& joint) const {
+  return joint.mimic ? joint.mimic->multiplier * multiplier(*urdf_->joints_.at(joint.mimic->joint_name)) : 1.0;
+}
+
 double RobotModel::position(const urdf::Joint& joint, const JointPositions& positions) const {
   if (joint.mimic) {
     const urdf::Joint& leader = *urdf_->joints_.at(joint.mimic->joint_name);

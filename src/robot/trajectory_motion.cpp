@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "joint_kind.h"
 #include "joint_motion.h"
 #include "motion/chain_derivatives.h"
 #include "urdf_geometry.h"
@@ -183,14 +184,6 @@ std::vector<double> TrajectoryMotion::waypoints() const {
 std::vector<double> TrajectoryMotion::jointErrors() const {
   std::vector<double> errors(bodies_.size(), 0.0);
   if (trajectory_.joint_error == 0.0) return errors;
-  const auto multiplierOf = [&](const urdf::Joint& joint) {  // of a joint whose position the trajectory has; else 0
-    double multiplier = 1.0;
-    for (const urdf::Joint* next = &joint; next->mimic;
-         next = robot_.urdf().joints_.at(next->mimic->joint_name).get()) {
-      multiplier *= next->mimic->multiplier;
-    }
-    return trajectory_.states[0].positions.count(robot_.leader(joint).name) > 0 ? std::abs(multiplier) : 0.0;
-  };
   std::vector<double> farthest(robot_.links().size(), 0.0);  // per link: of its origin from its joint's frame [m]
   std::vector<FrameMove> moves;
   for (std::size_t i = 1; i < trajectory_.times.size(); ++i) {
@@ -204,9 +197,9 @@ std::vector<double> TrajectoryMotion::jointErrors() const {
     double reach = (carried.X_LB * carried.ball_B.center).norm() + carried.ball_B.radius;  // from the link's origin
     for (int link = carried.link; link > 0; link = robot_.parent(link)) {
       const urdf::Joint& joint = robot_.jointAbove(link);
-      const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
-      const double error = multiplierOf(joint) * trajectory_.joint_error;
-      if (turns) errors[body] += error * reach;
+      const bool is_followed = trajectory_.states[0].positions.count(robot_.leader(joint).name) > 0;
+      const double error = is_followed ? std::abs(robot_.multiplier(joint)) * trajectory_.joint_error : 0.0;
+      if (turns(joint)) errors[body] += error * reach;
       if (joint.type == urdf::Joint::PRISMATIC) errors[body] += error;
       reach += farthest[link] + error + toEigen(joint.parent_to_joint_origin_transform).translation().norm();
     }
@@ -245,9 +238,8 @@ void TrajectoryMotion::moveAlong(std::size_t segment, std::vector<FrameMove>& mo
       continue;
     }
     const double start = robot_.position(joint, from.positions), end = robot_.position(joint, to.positions);
-    const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
     moves[link] = {jointMotion(joint, start), jointMotion(joint, end).translation(),
-                   turns ? std::abs(end - start) : 0.0};
+                   turns(joint) ? std::abs(end - start) : 0.0};
   }
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/seconds_since.h"
 #include "model/error_budget.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"
@@ -237,7 +238,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   for (std::size_t p = 0; p < seen.size(); ++p) sortOut(scene.pairs[p], seen[p], scene, options, pairs);
   pairs.error_bound = scene.contact_bound.total();
   pairs.build_seconds = std::chrono::duration<double>(built - start).count();
-  pairs.test_seconds = std::chrono::duration<double>(Clock::now() - built).count();
+  pairs.test_seconds = secondsSince(built);
   return pairs;
 }
 

@@ -245,18 +245,7 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   };
   if (mayTouch(object.touch_links, other.name)) return "attached, and may touch";
   if (known != objects_.end() && mayTouch(known->second.touch_links, name)) return "attached, and may touch";
-  const PairRules& rules = fixed_->rules;
-  if (!matchesAny(rules.checked, name, other.name) && matchesAny(rules.allowed, name, other.name))
-    return "allowed_pairs";
-  return "";
-}
-
-std::string ChangingScene::whyTileLeftOut(const BodyDescription& tile, const BodyDescription& other) const {
-  const PairRules& rules = fixed_->rules;
-  if (rules.allowed.empty()) return "";
-  const bool is_allowed =
-      !matchesAny(rules.checked, tile.name, other.name) && matchesAny(rules.allowed, tile.name, other.name);
-  return is_allowed ? "allowed_pairs" : "";
+  return whyAllowed(fixed_->rules, name, other.name);
 }
 
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
@@ -291,10 +280,9 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
     scene.disabled.push_back(pair);
     if (!rules_.empty()) left_out.insert(namePair(pair.body_a, pair.body_b));
   }
-  std::size_t pairs = 0, moving = 0;
-  for (const BodyDescription& body : scene.bodies) moving += !body.is_world;
-  pairs = moving * scene.bodies.size();
-  if (pairs > limits.pairs) throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
+  const auto moving = static_cast<std::size_t>(std::count_if(
+      scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
+  if (moving * scene.bodies.size() > limits.pairs) throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
 
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     checkCancelled();
@@ -309,7 +297,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       bool proved = false;
       std::string reason;
       if (is_new) reason = b && !b->is_as_first ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
-      if (reason.empty() && !proved && k >= first_tile) reason = whyTileLeftOut(body_b, body_a);
+      if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(fixed_->rules, body_b.name, body_a.name);
       if (rule && !proved) reason = rule->is_allowed ? "update_scene: " + rule->pair.a + " - " + rule->pair.b : "";
       if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
       scene.disabled.push_back({body_a.name, body_b.name, reason, proved});

@@ -80,7 +80,6 @@ class ChangingScene {
   std::string frameOf(const SceneChange& change, const std::string& otherwise) const;
   Object& find(const std::string& name);
   const Rule* lastRule(const std::string& a, const std::string& b) const;
-  std::string whyTileLeftOut(const BodyDescription& tile, const BodyDescription& other) const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
 
   std::shared_ptr<const Fixed> fixed_;

@@ -197,7 +197,7 @@ void CollisionMonitor::buildFields() {
   health_.pairs = static_cast<int>(scene->pairs.size());
   health_.pairs_left_out =
       static_cast<int>(std::count_if(scene->left_out.begin(), scene->left_out.end(),
-                                     [](const LeftOut& left_out) { return left_out.what.rfind("pair ", 0) == 0; }));
+                                     [](const LeftOut& left_out) { return left_out.body_a >= 0; }));
   publishPlan(*first_world_);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
                described_.fixed_frame.c_str(), planTable(*scene).c_str());

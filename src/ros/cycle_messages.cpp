@@ -120,7 +120,7 @@ void setScalars(const MonitorLoop& loop, MonitorState& message) {
 }  // namespace
 
 CycleContext contextOf(const MonitorLoop& loop) {
-  return {loop.scene(), loop.cycle().motion, loop.cycle().samples, loop.cycle().origin};
+  return {loop.scene(), loop.cycle().motion, loop.cycle().recorded, loop.cycle().origin};
 }
 
 void setContactArray(const MonitorLoop& loop, ContactArray& message) {

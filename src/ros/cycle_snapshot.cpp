@@ -6,7 +6,7 @@ void CycleSnapshot::take(const MonitorLoop& loop) {
   const CycleResult& result = loop.result();
   world_ = loop.world();
   motion_ = loop.cycle().motion;
-  samples_ = loop.cycle().samples;
+  samples_ = loop.cycle().recorded;
   origin_ = loop.cycle().origin;
   result_.verdict = result.verdict;
   result_.error_bound = result.error_bound;

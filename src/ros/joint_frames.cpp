@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/joint_kind.h"
 #include "ros/conversions.h"
 
 namespace sdf_ccd {
@@ -48,9 +49,7 @@ tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, co
   tf2_msgs::TFMessage message;
   for (const Link& link : links_) {
     const urdf::Joint& joint = *link.joint;
-    const bool moves = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
-                       joint.type == urdf::Joint::PRISMATIC;
-    if (moves && positions.count(robot_->leader(joint).name) > 0)
+    if (hasPosition(joint) && positions.count(robot_->leader(joint).name) > 0)
       message.transforms.push_back(transform(link, X_RL, stamp));
   }
   return message;

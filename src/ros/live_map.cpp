@@ -6,8 +6,10 @@
 
 #include <ros/console.h>
 
+#include "common/seconds_since.h"
 #include "common/shown_text.h"
 #include "field/uniform/sparse_grid.h"
+#include "monitor/voxel_mask.h"
 #include "ros/low_priority.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -17,23 +19,7 @@ namespace {
 constexpr const char* kName = "octomap";
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 const ros::WallDuration kPatience(0.1);  // until tf has the map's stamp
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A body's parts, each with the pose of the map's frame in its own.
-struct MaskSolid {
-  Isometry3d X_GM;
-  const Primitive* primitive;  // null: the field
-  const DistanceField* field;
-
-  double distance(const Vector3d& p_M) const {
-    if (primitive) return signedDistance(*primitive, X_GM * p_M);
-    const FieldSample known = field->sample(X_GM * p_M);
-    return known.value - known.error;
-  }
-};
+constexpr std::chrono::milliseconds kLook(2);
 
 }  // namespace
 
@@ -112,86 +98,51 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
                     1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
 }
 
+/// Of the robot and what is attached to it, as tf has them at the map's stamp; what it has not, where that is now.
 std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const std::string& frame,
                                         const ros::Time& stamp) const {
-  Isometry3d X_WM;
-  std::string problem;
-  ros::Time when = stamp;
-  const ros::WallTime end = ros::WallTime::now() + kPatience;
-  while (!history_.lookup(frame, when, X_WM, problem) && ros::WallTime::now() < end) {
-    checkCancelled();
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  std::vector<Isometry3d> X_WB;
-  std::vector<std::string> missing;
-  const auto isLost = [&](std::size_t b) { return !world.scene().bodies[b].is_world && !missing[b].empty(); };
-  const auto anyLost = [&] {
-    for (std::size_t b = 0; b < missing.size(); ++b)
-      if (isLost(b)) return true;
-    return false;
-  };
-  std::vector<TrackedBody> robot;
-  std::vector<std::size_t> places;
+  std::vector<TrackedBody> tracked = {{frame, Isometry3d::Identity(), {}}};
+  std::vector<std::size_t> robot;  // bodies, each tracked behind the map's frame
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (world.scene().bodies[b].is_world) continue;
-    robot.push_back(world.bodies[b]);
-    places.push_back(b);
+    robot.push_back(b);
+    tracked.push_back(world.bodies[b]);
   }
-  const auto look = [&](const ros::Time& time) {
-    std::vector<Isometry3d> poses;
-    std::vector<std::string> lost;
-    posesAt(history_, robot, time, poses, lost);
-    X_WB.assign(world.bodies.size(), Isometry3d::Identity());
-    missing.assign(world.bodies.size(), "");
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      X_WB[places[i]] = poses[i];
-      missing[places[i]] = lost[i];
-    }
+  std::vector<Isometry3d> X_W;
+  std::vector<std::string> missing;
+  const auto areKnown = [&] {
+    missing.clear();
+    posesAt(history_, tracked, stamp, X_W, missing);
+    return std::all_of(missing.begin(), missing.end(), [](const std::string& why) { return why.empty(); });
   };
-  look(when);
-  while (anyLost() && ros::WallTime::now() < end) {
+  const ros::WallTime end = ros::WallTime::now() + kPatience;
+  while (!areKnown() && ros::WallTime::now() < end) {
     checkCancelled();
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    look(when);
+    std::this_thread::sleep_for(kLook);
   }
-  if (anyLost()) look(ros::Time());
-  if (!history_.lookup(frame, when, X_WM, problem) && !history_.lookup(frame, ros::Time(), X_WM, problem)) {
-    ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", problem.c_str());
+  std::vector<Isometry3d> X_W_now;
+  std::vector<std::string> missing_now;
+  posesAt(history_, tracked, ros::Time(), X_W_now, missing_now);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    if (missing[i].empty()) continue;
+    X_W[i] = X_W_now[i];
+    missing[i] = missing_now[i];
+  }
+  if (!missing[0].empty()) {
+    ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", missing[0].c_str());
     return {};
   }
   std::vector<VoxelMask> masks;
-  for (const std::size_t b : places) {
-    const Body& body = world.scene().bodies[b];
-    if (isLost(b) || !body.failure.empty()) continue;
-    const BodyDescription& description = world.description().bodies[b];
-    const bool has_fields = body.parts.size() == description.geometry.size();
-    const Isometry3d X_BM = X_WB[b].inverse() * X_WM;
-    std::vector<MaskSolid> parts;
-    AlignedBox3d box;
-    for (std::size_t i = 0; i < description.geometry.size(); ++i) {
-      const GeometryDescription& geometry = description.geometry[i];
-      const auto* primitive = std::get_if<Primitive>(&geometry.shape);
-      if (!primitive && !has_fields) continue;
-      const AlignedBox3d part = primitive ? boundingBox(*primitive) : body.parts[i].field.surfaceBox();
-      if (!part.sizes().allFinite()) continue;
-      for (int k = 0; k < 8; ++k) box.extend(geometry.X_BG * part.corner(AlignedBox3d::CornerType(k)));
-      parts.push_back({geometry.X_BG.inverse() * X_BM, primitive, primitive ? nullptr : &body.parts[i].field});
+  for (std::size_t i = 0; i < robot.size(); ++i) {
+    const Body& body = world.scene().bodies[robot[i]];
+    const BodyDescription& description = world.description().bodies[robot[i]];
+    if (!missing[i + 1].empty() || !body.failure.empty() || description.geometry.empty()) continue;
+    if (auto mask = maskOf(body, description, X_W[i + 1].inverse() * X_W[0])) {
+      masks.push_back(std::move(*mask));
+    } else {
+      ROS_WARN_ONCE("Voxels that %s fills count, as it has no field: no other link is checked against it",
+                    body.name.c_str());
     }
-    if (parts.empty()) {
-      if (!description.geometry.empty())
-        ROS_WARN_ONCE("Voxels that %s fills count, as it has no field: no other link is checked against it",
-                      body.name.c_str());
-      continue;
-    }
-    VoxelMask mask;
-    mask.center_M = X_BM.inverse() * box.center();
-    mask.radius = 0.5 * box.diagonal().norm();
-    mask.distance = [parts](const Vector3d& p_M) {
-      double least = parts.front().distance(p_M);
-      for (const MaskSolid& solid : parts) least = std::min(least, solid.distance(p_M));
-      return least;
-    };
-    masks.push_back(std::move(mask));
   }
   return masks;
 }

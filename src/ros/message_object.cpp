@@ -5,6 +5,7 @@
 
 #include "common/number_text.h"
 #include "common/shown_text.h"
+#include "ros/conversions.h"
 #include "sdf_ccd/motion/cycle_motion.h"
 
 namespace sdf_ccd {
@@ -12,10 +13,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
-}
-
-Vector3d toVector(const geometry_msgs::Point& p) {
-  return {p.x, p.y, p.z};
 }
 
 /// Not of NaN, which lpNorm() may pass over.
@@ -49,7 +46,7 @@ std::shared_ptr<const TriangleMesh> toMesh(const shape_msgs::Mesh& message, cons
   triangles -= message.triangles.size();
   auto mesh = std::make_shared<TriangleMesh>();
   for (const geometry_msgs::Point& vertex : message.vertices) {
-    mesh->vertices.push_back(toVector(vertex));
+    mesh->vertices.push_back(toEigen(vertex));
     const Vector3d& p = mesh->vertices.back();
     if (!isNear(p)) refuse(name + ": a vertex that is not finite, or too far away");
   }
@@ -70,7 +67,7 @@ std::shared_ptr<const TriangleMesh> toMesh(const shape_msgs::Mesh& message, cons
 }  // namespace
 
 std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose) {
-  const Vector3d p = toVector(pose.position);
+  const Vector3d p = toEigen(pose.position);
   const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
   if (p.isZero(0.0) && q.coeffs().isZero(0.0)) return std::nullopt;
   if (!isNear(p)) refuse("a position that is not finite, or too far away");

@@ -50,13 +50,6 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
     for (const Body& body : *bodies) frames.insert(withoutLeadingSlash(body.frame));
   history_.wantBesides({frames.begin(), frames.end()});
 
-  const SceneDifference difference(monitor_.scene(), scene);
-  change->bodies_before = difference.bodiesBefore();
-  change->pairs_before.assign(scene.pairs.size(), -1);
-  for (std::size_t p = 0; p < difference.pairsNow().size(); ++p) {
-    const int now = difference.pairsNow()[p];
-    if (now >= 0) change->pairs_before[static_cast<std::size_t>(now)] = static_cast<int>(p);
-  }
   change->monitor = monitor_.prepare(next->snapshot->scene);
   change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
   change->tracker->warmUp();
@@ -75,12 +68,13 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
 }
 
 void MonitorLoop::adopt(LoopChange& change) {
+  const SceneDifference& difference = change.monitor->difference();
   monitor_.adopt(*change.monitor);
-  change.tracker->take(*tracker_, change.bodies_before, change.pairs_before);
+  change.tracker->take(*tracker_, difference.bodiesBefore(), difference.pairsBefore());
   tracker_.swap(change.tracker);
   reach_guard_.swap(change.reach_guard);
   contacts_.adopt(change.contacts);
-  change.distances->take(*distances_, change.pairs_before);
+  change.distances->take(*distances_, difference.pairsNow());
   distances_.swap(change.distances);
   std::swap(cycle_, change.cycle);
   cycle_.start = change.cycle.start;
@@ -128,7 +122,7 @@ void MonitorLoop::guardReach() {
 
 void MonitorLoop::trackContacts(const CycleRequest& request) {
   if (!request.wantsContacts()) return contacts_.lose();
-  contacts_.update({*result_, cycle_.motion, cycle_.samples, std::chrono::nanoseconds(cycle_.origin.toNSec())});
+  contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
 }
 
 std::string MonitorLoop::movingFixedFrame() const {

@@ -19,7 +19,6 @@ struct LoopChange {
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;
   TrackedCycle cycle;
-  std::vector<int> bodies_before, pairs_before;  ///< as TfTracker::take()
 };
 
 /// From transforms to results: one cycle of the monitor after the other, whoever brings the transforms and the clock.

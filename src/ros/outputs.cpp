@@ -1,11 +1,10 @@
 #include "ros/outputs.h"
 
 #include <algorithm>
-#include <map>
-#include <unordered_map>
 
 #include <ros/console.h>
 
+#include "monitor/scene_difference.h"
 #include "ros/cycle_messages.h"
 #include "ros/shape_marker.h"
 #include "ros/world_markers.h"
@@ -16,25 +15,6 @@ namespace {
 constexpr std::size_t kWaiting = 8;  // cycles whose messages may wait
 const ros::WallDuration kLookPeriod(0.02);
 const ros::WallDuration kWorldPeriod(1.0);
-
-/// Per pair now: its index before; -1 if it was not there. By the bodies' names.
-std::vector<int> samePairs(const Scene& before, const Scene& now) {
-  std::unordered_map<std::string, int> bodies;
-  for (std::size_t b = 0; b < before.bodies.size(); ++b) bodies[before.bodies[b].name] = static_cast<int>(b);
-  std::map<std::pair<int, int>, int> pairs;
-  for (std::size_t p = 0; p < before.pairs.size(); ++p)
-    pairs[{before.pairs[p].body_a, before.pairs[p].body_b}] = static_cast<int>(p);
-  const auto bodyBefore = [&](int body) {
-    const auto found = bodies.find(now.bodies[static_cast<std::size_t>(body)].name);
-    return found == bodies.end() ? -1 : found->second;
-  };
-  std::vector<int> same;
-  for (const PlannedPair& pair : now.pairs) {
-    const auto found = pairs.find({bodyBefore(pair.body_a), bodyBefore(pair.body_b)});
-    same.push_back(found == pairs.end() ? -1 : found->second);
-  }
-  return same;
-}
 
 }  // namespace
 
@@ -165,7 +145,7 @@ void Outputs::setWorld(Report& report) {
 /// Of the thread that draws.
 void Outputs::goOnWith(const std::shared_ptr<const CheckedWorld>& world) {
   if (world == drawn_) return;
-  if (drawn_) drawer_.take(samePairs(drawn_->scene(), world->scene()));
+  if (drawn_) drawer_.take(findPairs(pairNames(world->scene()), pairNames(drawn_->scene())));
   link_markers_ = std::make_unique<LinkMarkers>(world->description());
   drawn_ = world;
 }

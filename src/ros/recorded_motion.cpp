@@ -8,6 +8,7 @@
 #include <rosbag/view.h>
 
 #include "common/number_text.h"
+#include "robot/joint_kind.h"
 #include "ros/read_bag.h"
 
 namespace sdf_ccd {
@@ -39,9 +40,7 @@ RecordedMotion::RecordedMotion(const std::string& file, const DescribedScene& de
                                const RecordedMotionOptions& options)
     : file_(file), options_(options), joints_(described.robot, prefixOf(described)), joint_watch_(*described.robot) {
   for (const auto& [name, joint] : described.robot->urdf().joints_) {
-    const bool moves = joint->type == urdf::Joint::REVOLUTE || joint->type == urdf::Joint::CONTINUOUS ||
-                       joint->type == urdf::Joint::PRISMATIC;
-    if (moves && !joint->mimic) unnamed_.insert(name);
+    if (hasPosition(*joint) && !joint->mimic) unnamed_.insert(name);
   }
   readBag(file_, [&] {
     bag_.open(file_, rosbag::bagmode::Read);

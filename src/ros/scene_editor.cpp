@@ -9,6 +9,7 @@
 
 #include <ros/package.h>
 
+#include "common/seconds_since.h"
 #include "ros/low_priority.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -20,10 +21,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int kMostCallers = 3;  // one at work, others that wait
 constexpr auto kLook = std::chrono::microseconds(200);
 constexpr auto kPatience = std::chrono::milliseconds(500);  // until a cycle has taken a version over
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -148,17 +145,23 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   response.seconds = secondsSince(start);
   response.adopted = true;
   if (!request.changes.empty()) {
-    scene_ = std::move(scene);
-    setLast(world);
     const auto ready = Clock::now();
-    response.adopted = handOver(world);
+    response.adopted = goOnWith(std::move(scene), world);
     response.adopt_seconds = secondsSince(ready);
     response.prepared = static_cast<std::uint32_t>(world->snapshot->prepared);
     response.shared = static_cast<std::uint32_t>(world->snapshot->shared);
-    changed_(*world);
   }
   for (const std::string& warning : sources.warnings) response.message += warning + "\n";
   response.success = true;
+}
+
+/// @return whether the cycles have taken it over.
+bool SceneEditor::goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world) {
+  scene_ = std::move(scene);
+  setLast(world);
+  const bool is_adopted = handOver(world);
+  changed_(*world);
+  return is_adopted;
 }
 
 void SceneEditor::setLast(std::shared_ptr<const CheckedWorld> world) {
@@ -178,10 +181,7 @@ std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, const std:
   ChangingScene scene = scene_;
   scene.setTiles(std::move(tiles));
   const std::shared_ptr<const CheckedWorld> world = make(scene);
-  scene_ = std::move(scene);
-  setLast(world);
-  handOver(world);
-  changed_(*world);
+  goOnWith(std::move(scene), world);
   return world->version();
 }
 

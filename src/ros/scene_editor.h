@@ -71,6 +71,7 @@ class SceneEditor {
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
   std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene);
   bool handOver(const std::shared_ptr<const CheckedWorld>& world);
+  bool goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world);
   void setLast(std::shared_ptr<const CheckedWorld> world);
   void withdraw();
   void save(const std::string& file, const ChangingScene& scene, ChangeSources& sources);

@@ -40,7 +40,9 @@ struct TrackedCycle {
   ros::Time delayed_since;      ///< from here on some pair waits for its transforms; 0 if none is delayed
   ros::Time origin;             ///< the motion's time 0: start, or earlier if pairs that were delayed are caught up on
   CycleMotion motion;           ///< in the fixed frame
-  std::vector<double> samples;  ///< [s] from origin: the recorded transforms, and the ends of all pairs' spans
+  /// [s] from origin: the recorded transforms between which a body moves, and the ends of all pairs' spans.
+  std::vector<double> samples;
+  std::vector<double> recorded;  ///< [s] from origin: all recorded transforms, as a check at samples would take them
 
   /// Transforms that came behind newer ones, where cycles had used an interpolation already, one a frame. The pairs
   /// that this concerns are dealt with again in this cycle, from there on.
@@ -101,7 +103,7 @@ class TfTracker {
   void findWindows(const TrackedCycle& cycle);
   void findNeeded(const TimePart& part, const TrackedCycle& cycle);
   void copyMotion(const TrackedCycle& cycle, std::vector<std::string>& missing);
-  void findSampleTimes(const TimePart& part, const TrackedCycle& cycle);
+  void findSampleTimes(const TimePart& part, TrackedCycle& cycle);
   void addPairTimes(const TimePart& part, const ros::Time& origin);
   void sample(const TimePart& part, TrackedCycle& cycle);
   void setMissing(const std::string& why, TrackedCycle& cycle);

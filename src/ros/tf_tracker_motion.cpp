@@ -11,6 +11,13 @@ bool operator==(const TimePart& a, const TimePart& b) {
   return a.from == b.from && a.until == b.until;
 }
 
+/// Sorts the values from a place on, each once.
+void sortOnce(std::vector<double>& values, std::size_t from) {
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(from);
+  std::sort(first, values.end());
+  values.erase(std::unique(first, values.end()), values.end());
+}
+
 /// From when to when a body is needed, by the clock of samples [s].
 struct Needed {
   double from, until;
@@ -30,6 +37,7 @@ void TfTracker::follow(TrackedCycle& cycle) {
   for (std::vector<Isometry3d>& poses : motion.X_WB) poses.clear();
   motion.motion_error.assign(bodies_.size(), 0.0);
   cycle.samples.clear();
+  cycle.recorded.clear();
   findWindows(cycle);
   for (const TimePart& part : windows_) {
     findNeeded(part, cycle);
@@ -129,6 +137,7 @@ void TfTracker::sample(const TimePart& part, TrackedCycle& cycle) {
 void TfTracker::setMissing(const std::string& why, TrackedCycle& cycle) {
   needed_.assign(bodies_.size(), {});
   cycle.samples.clear();
+  cycle.recorded.clear();
   findWindows(cycle);
   for (const TimePart& part : windows_) {
     findSampleTimes(part, cycle);
@@ -142,7 +151,7 @@ void TfTracker::setMissing(const std::string& why, TrackedCycle& cycle) {
 }
 
 /// Recorded transforms, and the ends of the part and of pairs' times within it.
-void TfTracker::findSampleTimes(const TimePart& part, const TrackedCycle& cycle) {
+void TfTracker::findSampleTimes(const TimePart& part, TrackedCycle& cycle) {
   std::vector<double>& times = sample_times_;
   times = {(part.from - cycle.origin).toSec(), (part.until - cycle.origin).toSec()};
   if (!are_together_) addPairTimes(part, cycle.origin);
@@ -151,9 +160,10 @@ void TfTracker::findSampleTimes(const TimePart& part, const TrackedCycle& cycle)
     const bool is_needed = needed_[body].from < needed_[body].until;
     if (is_needed && cycle.motion.missing[body].empty()) listed_.push_back(body);
   }
-  window_.addRecordedTimes(listed_, times);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const std::size_t first = cycle.recorded.size();
+  window_.addRecordedTimes(listed_, times, cycle.recorded);
+  sortOnce(times, 0);
+  sortOnce(cycle.recorded, first);
 }
 
 /// There are many pairs, and few times among them.

@@ -30,6 +30,7 @@ void TfWindow::setStep(std::size_t index, const StepSource& source, const TimePa
   step.pose_time = step.start = kNaN;
   step.times.clear();
   step.poses.clear();
+  step.resting_times.clear();
   const TfEdge& edge = *source.edge;
   const TfPoses& records = edge.records;
   const std::size_t first = edge.is_static ? records.size() - 1 : records.lastUpTo(part.from);
@@ -37,8 +38,11 @@ void TfWindow::setStep(std::size_t index, const StepSource& source, const TimePa
     const bool is_last = i + 1 == records.size() || records[i].stamp >= part.until;
     const bool rests =
         i != first && !is_last && isSamePlace(records[i - 1], records[i]) && isSamePlace(records[i], records[i + 1]);
-    if (!rests) {
-      step.times.push_back(edge.is_static ? 0.0 : (records[i].stamp - origin_).toSec());
+    const double time = edge.is_static ? 0.0 : (records[i].stamp - origin_).toSec();
+    if (rests) {
+      step.resting_times.push_back(time);
+    } else {
+      step.times.push_back(time);
       step.poses.push_back(records[i]);
     }
     if (is_last) break;
@@ -53,7 +57,8 @@ void TfWindow::setFrame(std::size_t index, const FrameSource& source, const Time
   frame.until = (part.until - origin_).toSec();
 }
 
-void TfWindow::addRecordedTimes(const std::vector<std::size_t>& frames, std::vector<double>& times) {
+void TfWindow::addRecordedTimes(const std::vector<std::size_t>& frames, std::vector<double>& times,
+                                std::vector<double>& recorded) {
   for (Step& step : steps_) step.listed_from = step.listed_until = kNaN;
   for (const std::size_t index : frames) {
     const Frame& frame = frames_[index];
@@ -65,6 +70,10 @@ void TfWindow::addRecordedTimes(const std::vector<std::size_t>& frames, std::vec
       if (step.times.size() < 2) continue;
       const auto first = std::upper_bound(step.times.begin(), step.times.end(), frame.from);
       times.insert(times.end(), first, std::lower_bound(first, step.times.end(), frame.until));
+      for (const std::vector<double>* known : {&step.times, &step.resting_times}) {
+        const auto from = std::lower_bound(known->begin(), known->end(), frame.from);
+        recorded.insert(recorded.end(), from, std::upper_bound(from, known->end(), frame.until));
+      }
     }
   }
 }

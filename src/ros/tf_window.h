@@ -32,9 +32,11 @@ class TfWindow {
   /// Longest time between two transforms of one edge on the frame's way that overlap its part [s].
   double longestGap(std::size_t frame) const { return frames_[frame].source.longest_gap; }
 
-  /// Adds the times within the frames' parts at which an edge on the way of one has a recorded transform that differs
-  /// from one of its neighbours: between all others it rests [s].
-  void addRecordedTimes(const std::vector<std::size_t>& frames, std::vector<double>& times);
+  /// Adds the times at which an edge on the way of one of the frames has a recorded transform [s].
+  /// @param times     those within the frames' parts that differ from one of their neighbours: between all others it rests.
+  /// @param recorded  all of them, at the parts' ends too; of some edges twice.
+  void addRecordedTimes(const std::vector<std::size_t>& frames, std::vector<double>& times,
+                        std::vector<double>& recorded);
 
   /// Pose in the fixed frame, as tf2 interpolates it, within the frame's part.
   /// @param time  [s] from the origin, as all others.
@@ -64,6 +66,7 @@ class TfWindow {
     // The frame in its parent, between the first and the last of the times, else at rest.
     std::vector<double> times;
     std::vector<TfPose> poses;  // resting ones between two that are the same are left out
+    std::vector<double> resting_times;
 
     std::size_t piece = 0;  // the times of which it interpolates between
     TfInterpolation interpolation;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/seconds_since.h"
 #include "print.h"
 #include "progress_bar.h"
 #include "sdf_ccd/field/build_field.h"
@@ -14,10 +15,6 @@
 
 namespace sdf_ccd::tools {
 namespace {
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::string time(double seconds) {
   return rounded(seconds, 2) + " s";

@@ -50,7 +50,7 @@ TEST(PrepareBody, SeesWhatCrossesAnOpenMesh) {
   const Isometry3d still = Isometry3d::Identity();
   EXPECT_NE(monitor.check({{still, still}, {still, still}}).verdict, Verdict::kContact);
   bool crosses = false;
-  for (const Vector3d& way : {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()})
+  for (const Vector3d& way : {Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY()), Vector3d(Vector3d::UnitZ())})
     for (const double side : {-0.1, 0.1}) {
       const Isometry3d on = at(side * way.x(), side * way.y(), side * way.z());
       crosses |= monitor.check({{still, still}, {on, on}}).verdict == Verdict::kContact;

@@ -193,7 +193,7 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
     PairDistances distances(scene);
     Robot robot(promise, random);
     constexpr double kStep = 5e-3;
-    Isometry3d X = test::translation({0.0, 0.0, 0.4}), X_last = X;
+    Isometry3d X = test::translation({0.0, 0.0, 0.4});
     Vector3d way = direction(random), spin = direction(random);
     double speed = 0.0, known = 0.0;
     std::vector<Isometry3d> poses = {X};

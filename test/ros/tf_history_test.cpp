@@ -35,8 +35,8 @@ std::vector<double> recordedTimes(const TfHistory& history, const std::string& f
   TfWindow window;
   TfChains chains({frame});
   history.copy(chains, {{ros::Time(from), ros::Time(until)}}, ros::Time(from), window);
-  std::vector<double> times;
-  window.addRecordedTimes({0}, times);
+  std::vector<double> times, recorded;
+  window.addRecordedTimes({0}, times, recorded);
   return times;
 }
 

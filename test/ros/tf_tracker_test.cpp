@@ -93,6 +93,22 @@ TEST_F(TfTrackerTest, RestingFramesAddNoTimes) {
   ASSERT_EQ(cycle_.samples.size(), 5u);  // both ends, and before, at and after the move
   EXPECT_NEAR(cycle_.samples[1], 0.04, 1e-9);
   EXPECT_NEAR(cycle_.samples[3], 0.06, 1e-9);
+  EXPECT_EQ(cycle_.recorded.size(), 11u);
+}
+
+TEST_F(TfTrackerTest, TheEndOfACycleIsNoRecordedTransform) {
+  for (const double stamp : {10.0, 10.05, 10.2})
+    for (const char* frame : {"hand", "foot"}) send(stampedTransform("world", frame, stamp, stamp - 10.0));
+  EXPECT_EQ(next(10.0), Step::kWaiting);
+  ASSERT_EQ(next(10.1), Step::kCycle);
+  EXPECT_EQ(cycle_.end, ros::Time(10.1));
+  ASSERT_EQ(cycle_.samples.size(), 3u);
+  ASSERT_EQ(cycle_.recorded.size(), 2u);
+  EXPECT_NEAR(cycle_.recorded[0], 0.0, 1e-9);
+  EXPECT_NEAR(cycle_.recorded[1], 0.05, 1e-9);
+  ASSERT_EQ(next(10.2), Step::kCycle);
+  ASSERT_EQ(cycle_.recorded.size(), 1u);
+  EXPECT_NEAR(cycle_.recorded[0], 0.1, 1e-9);
 }
 
 TEST_F(TfTrackerTest, ALateFrameDelaysOnlyItsOwnPairsAndIsCaughtUpOn) {

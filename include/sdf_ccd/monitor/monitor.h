@@ -88,11 +88,16 @@ struct MonitorOptions {
 struct MonitorMemory;
 std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
+class SceneDifference;
+
 /// What another scene needs of a monitor, made ahead by Monitor::prepare(); after Monitor::adopt() what the monitor no
 /// longer needs. To be destroyed by a thread that has the time for it.
 class MonitorChange {
  public:
   ~MonitorChange();
+
+  /// What the scene has in common with the one before.
+  const SceneDifference& difference() const;
 
  private:
   friend class Monitor;

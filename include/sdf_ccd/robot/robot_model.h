@@ -39,6 +39,9 @@ class RobotModel {
   /// The joint that a mimic joint follows in the end; any other joint itself.
   const urdf::Joint& leader(const urdf::Joint& joint) const;
 
+  /// How much the joint's position changes with its leader's; 1 for a joint that follows none.
+  double multiplier(const urdf::Joint& joint) const;
+
   /// Links whose collision elements urdf() does not hold, as the parser could not read all of them; reasons by link.
   const std::map<std::string, std::string>& unread() const { return unread_; }
 

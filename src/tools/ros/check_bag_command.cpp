@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "common/number_text.h"
+#include "common/seconds_since.h"
 #include "cycle_report.h"
 #include "monitor/over_budget.h"
 #include "monitor_config.h"
@@ -107,7 +108,7 @@ double check(const RecordedMotion& motion, const MonitorParameters& parameters, 
   bag.addScene(described.scene, motion.begin());
   Recorder recorder(motion, loop, bag, files);
   checkBag(motion, parameters, loop, recorder);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return secondsSince(start);
 }
 
 void requireChecked(const CycleStatistics& statistics, const std::string& bag) {

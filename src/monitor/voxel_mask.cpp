@@ -1,0 +1,49 @@
+#include "monitor/voxel_mask.h"
+
+#include <algorithm>
+
+#include "sdf_ccd/field/distance_field.h"
+
+namespace sdf_ccd {
+namespace {
+
+struct Solid {
+  Isometry3d X_GM;  // pose of the map's frame in the part's
+  const Primitive* primitive;
+  const DistanceField* field;  // if it is no primitive
+
+  double distance(const Vector3d& p_M) const {
+    if (primitive) return signedDistance(*primitive, X_GM * p_M);
+    const FieldSample known = field->sample(X_GM * p_M);
+    return known.value - known.error;
+  }
+};
+
+}  // namespace
+
+std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& description, const Isometry3d& X_BM) {
+  const bool has_fields = body.parts.size() == description.geometry.size();
+  std::vector<Solid> solids;
+  AlignedBox3d box_B;
+  for (std::size_t i = 0; i < description.geometry.size(); ++i) {
+    const GeometryDescription& geometry = description.geometry[i];
+    const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+    if (!primitive && !has_fields) continue;
+    const AlignedBox3d box = primitive ? boundingBox(*primitive) : body.parts[i].field.surfaceBox();
+    if (!box.sizes().allFinite()) continue;
+    for (int k = 0; k < 8; ++k) box_B.extend(geometry.X_BG * box.corner(AlignedBox3d::CornerType(k)));
+    solids.push_back({geometry.X_BG.inverse() * X_BM, primitive, primitive ? nullptr : &body.parts[i].field});
+  }
+  if (solids.empty()) return std::nullopt;
+  VoxelMask mask;
+  mask.center_M = X_BM.inverse() * box_B.center();
+  mask.radius = 0.5 * box_B.diagonal().norm();
+  mask.distance = [solids = std::move(solids)](const Vector3d& p_M) {
+    double least = solids.front().distance(p_M);
+    for (const Solid& solid : solids) least = std::min(least, solid.distance(p_M));
+    return least;
+  };
+  return mask;
+}
+
+}  // namespace sdf_ccd
