@@ -100,6 +100,13 @@ def main():
                 kind = 'uniform cells' if field.isdigit() else 'max_error'
                 uncertain.setdefault('%s, %s' % (mesh, kind), []).append((x, share, share, share))
         draw(path(name), 'Moving pairs that stay UNCERTAIN', (label, 'share of motions'), uncertain)
+    budgets = {}
+    for case in results.cases('anytime'):
+        time, share = (results.get('anytime', case, 'sdf_ccd', m) for m in ('us_p99', 'open_share'))
+        if share:
+            budgets.setdefault(case.rsplit('/', 1)[0], []).append((time, share, share, share))
+    draw(path('anytime.svg'), 'Cycles with a budget, 1 kHz', ('99th percentile of a cycle, us', 'share of verdicts left open'),
+         budgets)
     names = {'closed_form_continuous': 's/4 < ζ < 1/s (closed form)', 'continuous': 'continuous (of the paper), measured',
              'closed_form_discrete': 's² + 4ζs < 4 (closed form)', 'discrete': 'discrete, measured',
              'implicit': 'implicit (ours), measured: 10⁴ is the largest tried'}

@@ -10,6 +10,7 @@ import argparse
 import re
 import sys
 
+import anytime_tables
 import dynamics_tables
 import meshes_tables
 import monitor_tables
@@ -178,7 +179,8 @@ TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
               **meshes_tables.TABLES, **monitor_tables.TABLES,
-              **planning_tables.TABLES, **separation_tables.TABLES, **world_tables.TABLES}.items()}}
+              **planning_tables.TABLES, **anytime_tables.TABLES, **separation_tables.TABLES,
+              **world_tables.TABLES}.items()}}
 
 
 def main():

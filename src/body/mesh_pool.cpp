@@ -30,6 +30,7 @@ PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   if (voxels) {
     validate(mesh);
     pooled.mesh = mesh;
+    pooled.made.voxels = VoxelSolid::of(mesh);
   } else {
     OrientedMesh oriented = orientOutward(mesh);
     pooled.mesh = std::move(oriented.mesh);

@@ -53,13 +53,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   GridShape shape = uniformShape(boundingBox(solid.boundary()), options);
   const std::size_t bricks = shape.brickCount();
   const std::size_t coarse_bytes = shape.cornerCount() * sizeof(float) + bricks * sizeof(std::int32_t);
-  const auto refuse = [&](std::size_t bytes) {
-    throw std::length_error(
-        "field: " + std::to_string(bytes >> 20) + " MB with cells of " + std::to_string(shape.cell) +
-        " m, more than the " + std::to_string(options.max_bytes >> 20) + " MB allowed; cells of " +
-        std::to_string(shape.cell * std::sqrt(double(bytes) / double(options.max_bytes))) + " m would fit");
-  };
-  if (coarse_bytes > options.max_bytes) refuse(coarse_bytes);
+  requireBytes(coarse_bytes, shape, options);
 
   const BrickSampler sampler(solid, shape);
   GridData data;
@@ -97,7 +91,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
       }
   const std::size_t samples = sampled.size() * GridShape::kSamples;
   const std::size_t bytes = coarse_bytes + samples * sizeof(std::int16_t);
-  if (bytes > options.max_bytes) refuse(bytes);
+  requireBytes(bytes, shape, options);
 
   shape.step = GridShape::stepFor(largest);
   data.samples.resize(samples);

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <optional>
 
-#include "geometry/closed_solid.h"
+#include "field/source_field.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "storage/content_hash.h"
 
@@ -45,8 +45,8 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
     doubt = firstLine(path + kDoubt);
   };
   const auto make = [&] {
-    field = buildField(source.closed(), options, progress);
-    doubt = warning(source.solid().report());
+    field = buildField(source, options, progress);
+    if (!source.voxels()) doubt = warning(source.solid().report());
   };
   const auto save = [&](const std::string& path) {
     if (!doubt.empty()) std::ofstream(path + kDoubt) << doubt << std::endl;

@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <optional>
 
+#include "field/field_cost.h"
+#include "geometry/voxel_solid.h"
+#include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
@@ -32,12 +35,19 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelPlace& place);
 
 /// The field of a block's occupied voxels, with cells of half a voxel and exact distances at their corners: as
 /// buildField() makes it of voxelSurface(), in about a millisecond.
-///
-/// The square of the distance from a lattice point to a set of cubes is the least sum of squares of its distances to
-/// their intervals along the axes, so that one axis after the other can be dealt with (Felzenszwalb & Huttenlocher,
-/// "Distance transforms of sampled functions", 2012). All are whole numbers of cells.
 /// @param band  as in FieldOptions [m].
 /// @return none if nothing is occupied.
 std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelPlace& place, double band);
+
+/// The field of a map, as buildField() makes it of the mesh that is its boundary, but for where its cells begin, in a
+/// fraction of the time.
+/// @param options  with a cell_size of which a voxel is a whole number, and a band of up to 32 cells; see canBeLattice().
+/// @throws std::length_error as buildField(); Cancelled.
+DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, const Progress& progress = {});
+
+bool canBeLattice(const VoxelSolid& solid, const FieldOptions& options);
+
+/// What that is expected to take: by making a share of it.
+FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options);
 
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 
 #include "geometry/openings.h"
 #include "geometry/solid_boundary.h"
+#include "geometry/voxel_solid.h"
 
 namespace sdf_ccd {
 
@@ -24,6 +25,7 @@ class ClosedSolid {
 struct MadeSolid {
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ClosedSolid> closed;
+  std::shared_ptr<const VoxelSolid> voxels;  ///< if it is known to be a boundary of voxels
 };
 
 /// A mesh whose solid is made when it is first asked for, for what is mostly found in a cache.
@@ -39,6 +41,7 @@ class SolidSource {
   const TriangleMesh& mesh() const { return mesh_; }
   const Solid& solid() const;
   const ClosedSolid& closed() const;
+  const VoxelSolid* voxels() const { return made_->voxels.get(); }
 
  private:
   const TriangleMesh& mesh_;

@@ -164,7 +164,7 @@ void ContactTracker::updatePair(const ObservedCycle& cycle, std::size_t index) {
   Slot& slot = contacts_[last_[index]];
   if (!slot.is_open) return;
   const Time until = cycle.origin + toTime(cycle.motion.times[pair.span.last]);
-  if (pair.verdict == Verdict::kNotChecked) {
+  if (pair.verdict == Verdict::kNotChecked || pair.postponed) {
     close(slot, true);
   } else if (slot.said.end + kJoin < until) {
     close(slot, false);

@@ -8,6 +8,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include <tbb/task_arena.h>
+
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/seconds_since.h"
@@ -21,6 +23,8 @@
 
 namespace sdf_ccd {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
   std::vector<ContactCollector::Siblings> siblings(scene.bodies.size());
@@ -74,7 +78,9 @@ struct Monitor::Impl {
 
   void takeSpans(const CycleMotion& motion);
   void takeSkipped(const CycleRequest& request);
-  void checkDue(const CycleMotion& motion, const CycleRequest& request);
+  void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
+  void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
+  void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& with);
   void summarise();
   ErrorBound errorOf(int pair) const;
   void forget();
@@ -89,6 +95,8 @@ struct Monitor::Impl {
   MotionShape shape;
   CycleResult result;
   std::vector<int> last_due;                // pairs
+  std::vector<DuePair> in_line;             // due ones, those that have waited longest first
+  std::vector<std::uint32_t> waited;        // per pair: cycles in which it was postponed, up to now
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
   bool are_of_cycle = false;      // what results say of pairs that are not due is of the last cycle, and of no later one
@@ -114,6 +122,8 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
   schedule = std::make_unique<Schedule>(*scene, checkers);
   due_in_cycle.assign(pairs, 0);
   last_due.reserve(pairs);
+  in_line.reserve(pairs);
+  waited.assign(pairs, 0);
   shape.pairs = pairs;
   for (const Body& body : scene->bodies) {
     shape.bodies.push_back(body.name);
@@ -158,13 +168,13 @@ Monitor::Monitor(std::vector<Body> bodies, const MonitorOptions& options)
 Monitor::~Monitor() = default;
 
 const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   validate(motion, impl_->shape, "cycle motion");
   try {
     impl_->schedule->take(motion, impl_->checkers);
     impl_->takeSpans(motion);
     impl_->takeSkipped(request);
-    impl_->checkDue(motion, request);
+    impl_->checkDue(motion, request, start);
     impl_->schedule->settle(motion, impl_->checkers);
   } catch (...) {
     impl_->forget();
@@ -212,17 +222,21 @@ ErrorBound Monitor::Impl::errorOf(int pair) const {
   return error;
 }
 
-void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& request) {
+void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& with) {
+  checkCancelled();
+  const auto i = static_cast<std::size_t>(due.pair);
+  checkers[i].run(motion, *bodies, request, with, result.pairs[i]);
+}
+
+void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start) {
   const std::vector<DuePair>& due = schedule->due();
   if (due.empty()) return;
   bodies->take(motion, result.pairs, due);
+  if (request.max_time > 0.0)
+    return checkInTime(motion, request, start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.max_time)));
   const auto checkRange = [&](std::size_t first, std::size_t last) {
     std::unique_ptr<PairMemory> taken = memory->take();
-    for (std::size_t k = first; k < last; ++k) {
-      checkCancelled();
-      const auto i = static_cast<std::size_t>(due[k].pair);
-      checkers[i].run(motion, *bodies, request, *taken, result.pairs[i]);
-    }
+    for (std::size_t k = first; k < last; ++k) check(due[k], motion, request, *taken);
     memory->giveBack(std::move(taken));
   };
   // A few that were clear the last time take less than to hand them to other threads.
@@ -235,6 +249,31 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
   parallelRanges(std::size_t{0}, due.size(), checkRange);
 }
 
+/// One after the other, by as many threads as there are, so that at any time the most urgent ones are done.
+void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
+  in_line = schedule->due();
+  const auto waitedFor = [&](const DuePair& due) { return waited[static_cast<std::size_t>(due.pair)]; };
+  std::sort(in_line.begin(), in_line.end(), [&](const DuePair& a, const DuePair& b) {
+    if (waitedFor(a) != waitedFor(b)) return waitedFor(a) > waitedFor(b);
+    return a.left != b.left ? a.left < b.left : a.pair < b.pair;
+  });
+  std::atomic<std::size_t> next{0};
+  parallelFor(0, tbb::this_task_arena::max_concurrency(), [&](int) {
+    std::unique_ptr<PairMemory> taken = memory->take();
+    for (std::size_t k = next++; k < in_line.size(); k = next++) {
+      const auto i = static_cast<std::size_t>(in_line[k].pair);
+      const bool is_late = k > 0 && Clock::now() >= until;
+      if (is_late) {
+        checkers[i].postpone(motion, *bodies, schedule->leftClearance(in_line[k]), result.pairs[i]);
+      } else {
+        check(in_line[k], motion, request, *taken);
+      }
+      waited[i] = result.pairs[i].postponed ? waited[i] + 1 : 0;
+    }
+    memory->giveBack(std::move(taken));
+  });
+}
+
 void Monitor::Impl::summarise() {
   CycleSummary summary(result);
   for (const DuePair& due : schedule->due()) summary.add(result.pairs[static_cast<std::size_t>(due.pair)]);
@@ -245,6 +284,7 @@ void Monitor::Impl::summarise() {
 
 void Monitor::Impl::forget() {
   schedule->forget();
+  std::fill(waited.begin(), waited.end(), 0);
   for (PairChecker& checker : checkers) checker.forget();
 }
 
@@ -294,6 +334,7 @@ void Monitor::adopt(MonitorChange& change) {
     if (now < 0) continue;
     const auto from = static_cast<std::size_t>(pair), to = static_cast<std::size_t>(now);
     next.checkers[to].take(impl_->checkers[from]);
+    next.waited[to] = impl_->waited[from];
     const int body_a = next.result.pairs[to].body_a, body_b = next.result.pairs[to].body_b;
     const WaypointSpan span = next.result.pairs[to].span;
     std::swap(next.result.pairs[to], impl_->result.pairs[from]);

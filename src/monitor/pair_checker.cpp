@@ -36,7 +36,7 @@ void requireFinite(const ErrorBound& error) {
 void clear(PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason.clear();
-  result.skipped = false;
+  result.skipped = result.postponed = false;
   result.error = result.contact_error = {};
   result.clearance = -1.0;
   result.intervals.clear();
@@ -66,23 +66,52 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
   bound_ = pairBound(scene, pair);
 }
 
-void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
-                      PairMemory& memory, PairResult& result) {
-  memory_ = &memory;
-  clear(result);
-  if (result.span.empty()) return setNotChecked("its transforms have not come yet", result);
+/// Else the result says why not.
+bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bodies, PairResult& result) {
+  const auto because = [&](const std::string& reason) {
+    setNotChecked(reason, result);
+    return false;
+  };
+  if (result.span.empty()) return because("its transforms have not come yet");
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const std::string& failure = scene_.bodies[body].failure;
     const bool lost = !motion.missing.empty() && !motion.missing[body].empty();
     const std::string& why = !failure.empty() ? failure : lost ? motion.missing[body] : bodies.problem(body);
     if (why.empty()) continue;
     forget();
-    return setNotChecked(why, result);
+    return because(why);
   }
   const int wanted =
       pair_.a_shell_b_field + pair_.b_shell_a_field + pair_.a_witnesses_b_field + pair_.b_witnesses_a_field;
   if (roles_.size() != static_cast<std::size_t>(wanted) || roles_.empty())
-    return setNotChecked("its fields and shells were not built", result);
+    return because("its fields and shells were not built");
+  return true;
+}
+
+void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairResult& result) {
+  clear(result);
+  if (!canBeChecked(motion, bodies, result)) return;
+  // Of bodies that lie in balls, no more than the smaller ball's diameter can be in the other body.
+  double most = std::numeric_limits<double>::infinity(), motion_error = givenError(motion);
+  for (const int body : {pair_.body_a, pair_.body_b}) {
+    const BoundingBall& ball = scene_.bodies[body].ball;
+    most = std::min(most, 2.0 * ball.radius);
+    motion_error += bodies.poseError(body, ball.center.norm() + ball.radius);  // of a point that lies in both
+  }
+  result.verdict = Verdict::kUncertain;
+  result.postponed = true;
+  result.reason = "no time was left for it";
+  result.error = bound();
+  result.error.chord = motion_error + std::min(most, std::max(0.0, -clearance));
+  clearance_ = clearance;
+  outside_ = false;
+}
+
+void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                      PairMemory& memory, PairResult& result) {
+  memory_ = &memory;
+  clear(result);
+  if (!canBeChecked(motion, bodies, result)) return;
   try {
     check(motion, bodies, request, result);
   } catch (const std::exception& error) {

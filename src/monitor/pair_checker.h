@@ -36,6 +36,11 @@ class PairChecker {
   void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
            PairResult& result);
 
+  /// Leaves the pair untested, over a span that is not empty.
+  /// @param clearance  lower bound of the distance of the bodies all over the span, below zero how far they may overlap at
+  /// most [m]; −∞ if nothing is known.
+  void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairResult& result);
+
   /// Forgets how far apart the bodies were, and all else of earlier cycles.
   void forget() {
     forgetClearance();
@@ -67,6 +72,7 @@ class PairChecker {
     clearance_ = kUnknown;
     outside_ = false;
   }
+  bool canBeChecked(const CycleMotion& motion, const SweptBodies& bodies, PairResult& result);
   void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
   const RelativeMotion& relativeMotion() const { return surfaces_ ? surfaces_->motion() : roles_.front().motion(); }
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span);

@@ -14,7 +14,7 @@
 #include "body/element_options.h"
 #include "body/mesh_pool.h"
 #include "field/field_cache.h"
-#include "field/field_cost.h"
+#include "field/source_field.h"
 
 namespace sdf_ccd {
 namespace {
@@ -72,8 +72,8 @@ class CostEstimate {
     cost.in_cache = cost.in_cache && cached > 0.0;
     cost.field_bytes += cached;
     if (cached > 0.0) return;
-    const ClosedSolid& closed = SolidSource(mesh.mesh, mesh.made).closed();
-    FieldCost expected = expectedCost(closed, field);
+    const SolidSource source(mesh.mesh, mesh.made);
+    FieldCost expected = expectedCost(source, field);
     cost.largest_field = std::max(cost.largest_field, expected.bytes);
     // What is too large ends when it is, and a coarser one is made.
     const auto most = static_cast<double>(field.max_bytes);
@@ -81,7 +81,7 @@ class CostEstimate {
     while (options_.is_shared_out && field.max_error && expected.bytes > most && expected.bytes < kHopeless * most) {
       one_thread += expected.seconds * most / expected.bytes;
       *field.max_error *= 2.0;
-      expected = expectedCost(closed, field);
+      expected = expectedCost(source, field);
     }
     expected.seconds += one_thread;
     cost.addField(expected);

@@ -35,6 +35,10 @@ class Schedule {
   double motionError(int pair) const;
   double clearance(int pair) const { return table_.clearance(pair); }
 
+  /// Of a pair that is due: a lower bound of its bodies' distance all over the cycle, below zero how far they may overlap
+  /// at most [m]; −∞ if nothing is known.
+  double leftClearance(const DuePair& due) const { return double(due.left) + table_.margin(due.pair); }
+
   /// Takes back what the checkers of the due pairs have found.
   void settle(const CycleMotion& motion, const std::vector<PairChecker>& checkers);
 

@@ -8,7 +8,7 @@ CycleSummary::CycleSummary(CycleResult& result) : result_(result) {
   result.verdict = Verdict::kClear;
   result.error_bound = result.contact_error = 0.0;
   result.error = {};
-  result.checked = result.skipped = result.not_checked = result.delayed = 0;
+  result.checked = result.skipped = result.not_checked = result.delayed = result.postponed = 0;
 }
 
 void CycleSummary::take(const ErrorBound& error) {
@@ -28,7 +28,7 @@ void CycleSummary::add(const PairResult& pair) {
     ++result_.not_checked;
     return;
   }
-  ++(pair.skipped ? result_.skipped : result_.checked);
+  ++(pair.skipped ? result_.skipped : pair.postponed ? result_.postponed : result_.checked);
   take(pair.error);
   result_.contact_error = std::max(result_.contact_error, pair.contact_error.total());
 }

@@ -291,7 +291,9 @@ void CollisionMonitor::cycle() {
   }
   sayWhatIsDropped();
   hearStaticAgain();
-  switch (loop_->step(ros::Time::now(), outputs_->request(parameters_.max_points))) {
+  CycleRequest request = outputs_->request(parameters_.max_points);
+  request.max_time = parameters_.max_cycle_time;
+  switch (loop_->step(ros::Time::now(), request)) {
     case TfTracker::Step::kWaiting:
       if (!isSilent()) return diagnostics_->update(health_);
       [[fallthrough]];
@@ -334,6 +336,8 @@ void CollisionMonitor::publishCycle() {
   health_.contact_error = loop_->result().contact_error;
   health_.missing = missingBodies(*loop_);
   health_.pairs_delayed = loop_->result().delayed;
+  health_.pairs_postponed = loop_->result().postponed;
+  health_.short_cycles += health_.pairs_postponed > 0;
   health_.contradicted = contradicted();
   health_.out_of_order = loop_->history().outOfOrder();
   health_.bad_joints = joint_watch_->lines("joint_states");

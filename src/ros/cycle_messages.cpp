@@ -140,6 +140,7 @@ void setContactArray(const MonitorLoop& loop, ContactArray& message) {
   setContacts(loop, message.contacts);
   message.checked = result.checked;
   message.skipped = result.skipped;
+  message.postponed = result.postponed;
   message.not_checked = result.not_checked;
   message.delayed = result.delayed;
 }
@@ -194,6 +195,7 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   setScalars(loop, message);
   message.pairs_checked = result.checked;
   message.pairs_skipped = result.skipped;
+  message.pairs_postponed = result.postponed;
   message.pairs_not_checked = result.not_checked;
   message.pairs_delayed = result.delayed;
 }

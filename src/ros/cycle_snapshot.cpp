@@ -14,6 +14,7 @@ void CycleSnapshot::take(const MonitorLoop& loop) {
   result_.contact_error = result.contact_error;
   result_.checked = result.checked;
   result_.skipped = result.skipped;
+  result_.postponed = result.postponed;
   result_.not_checked = result.not_checked;
   result_.delayed = result.delayed;
   result_.run_time = result.run_time;

@@ -34,6 +34,8 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::ERROR, "no new transforms: nothing is checked");
   } else if (health_.run_time * health_.wanted_rate > 1.0) {
     status.summary(DiagnosticStatus::WARN, "a check takes longer than its period");
+  } else if (health_.pairs_postponed > 0) {
+    status.summaryf(DiagnosticStatus::WARN, "%d pairs are postponed, as max_cycle_time is up", health_.pairs_postponed);
   } else if (health_.max_error > 0.0 && health_.error.total() > health_.max_error) {
     status.summary(DiagnosticStatus::WARN, "running, but the error bound exceeds max_error");
   } else {
@@ -50,6 +52,7 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
   status.addf("error bound of contacts [mm]", "%.3f", 1e3 * health_.contact_error);
   status.add("pairs", health_.pairs);
   status.add("pairs left out", health_.pairs_left_out);
+  status.add("cycles with postponed pairs", health_.short_cycles);
 }
 
 void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {

@@ -27,6 +27,8 @@ struct MonitorHealth {
   std::vector<std::string> bad_bodies;  ///< "body: reason" of those without field or shell
   std::vector<std::string> warnings;    ///< from reading robot and world
   int pairs_delayed = 0;                ///< in the last cycle, for late transforms
+  int pairs_postponed = 0;              ///< in the last cycle, as max_cycle_time was up
+  long short_cycles = 0;                ///< with such pairs
   std::string moving_frame;             ///< MonitorLoop::movingFixedFrame()
   std::string contradicted;             ///< by late transforms, a short time ago; empty if nothing was
   long out_of_order = 0;                ///< transforms that came behind newer ones

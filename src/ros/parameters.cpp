@@ -194,6 +194,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     if (reader.positive(key, 1.0) > kLongestCycle) reader.fail(key, "at most an hour");
   }
   parameters.rate = reader.positive("rate", 30.0);
+  parameters.max_cycle_time = reader.notNegative("max_cycle_time", 0.0);
   parameters.trigger = readTrigger(reader, parameters);
 
   parameters.proximity = readProximity(reader);

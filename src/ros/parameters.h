@@ -68,6 +68,7 @@ struct MonitorParameters {
   MarkerOptions markers;
   ProximityParameters proximity;
   double rate = 0.0;  ///< [Hz]
+  double max_cycle_time = 0.0;  ///< CycleRequest::max_time of a running monitor [s]
   TriggerOptions trigger;
   int max_points = 0;
   std::vector<std::string> unknown;  ///< what nothing reads, with what may be meant; in groups it is refused

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "field/field_cost.h"
+#include "field/source_field.h"
 #include "field/uniform/sparse_grid.h"
 #include "print.h"
 
@@ -45,7 +45,7 @@ BodyCost BuildCost::expected(const Wanted& wanted) const {
   const TriangleMesh& mesh = wanted.mesh->mesh;
   BodyCost cost;
   cost.name = wanted.name;
-  cost.addField(sdf_ccd::expectedCost(SolidSource(mesh, wanted.mesh->made).closed(), wanted.options));
+  cost.addField(sdf_ccd::expectedCost(SolidSource(mesh, wanted.mesh->made), wanted.options));
   ShellOptions shell;
   shell.spacing = spacing_.value_or(shellSpacing(errorOf(wanted.options, mesh)));
   if (!wanted.mesh->voxels) cost.addShell(expectedPoints(mesh, shell));

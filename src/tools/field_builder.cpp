@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/seconds_since.h"
+#include "field/source_field.h"
 #include "print.h"
 #include "progress_bar.h"
 #include "sdf_ccd/field/build_field.h"
@@ -44,9 +45,9 @@ DistanceField buildWithBar(const std::string& title, const Solid& solid, const F
   return buildField(solid, options, [&](double share) { bar(share); });
 }
 
-DistanceField buildWithBar(const std::string& title, const ClosedSolid& closed, const FieldOptions& options) {
+DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options) {
   ProgressBar bar(title);
-  return buildField(closed, options, [&](double share) { bar(share); });
+  return buildField(source, options, [&](double share) { bar(share); });
 }
 
 PooledMesh& FieldBuilder::find(const std::shared_ptr<const TriangleMesh>& mesh, bool voxels) {
@@ -83,7 +84,7 @@ FieldBuilder::Made FieldBuilder::make(const std::string& name, PooledMesh& mesh)
   const auto start = std::chrono::steady_clock::now();
   const SolidSource source(mesh.mesh, mesh.made);
   const Solid& solid = source.solid();
-  DistanceField field = buildWithBar("field of " + name, source.closed(), resolution_.fieldOptions());
+  DistanceField field = buildWithBar("field of " + name, source, resolution_.fieldOptions());
   const double field_seconds = secondsSince(start);
   ShellOptions options;
   options.spacing = spacing_.value_or(shellSpacing(field.errorBound()));
@@ -115,7 +116,7 @@ void FieldBuilder::addVoxels(const std::string& name, const std::shared_ptr<cons
             << signedVolume(*mesh) << " m^3\n";
   const auto start = std::chrono::steady_clock::now();
   PooledMesh& pooled = find(mesh, true);
-  const DistanceField field = buildWithBar("field of " + name, SolidSource(pooled.mesh, pooled.made).closed(),
+  const DistanceField field = buildWithBar("field of " + name, SolidSource(pooled.mesh, pooled.made),
                                            resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
   writeField(name, field, time(secondsSince(start)));

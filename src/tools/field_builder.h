@@ -26,7 +26,7 @@ void printSolid(const SolidReport& report, const std::string& indent);
 
 /// The field of a solid with a progress bar of that title.
 DistanceField buildWithBar(const std::string& title, const Solid& solid, const FieldOptions& options);
-DistanceField buildWithBar(const std::string& title, const ClosedSolid& closed, const FieldOptions& options);
+DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options);
 
 /// Makes fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {

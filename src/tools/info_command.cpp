@@ -86,7 +86,9 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
               << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m^3\nwithin "
               << describe(boundingBox(mesh)) << std::endl;
     if (!wants_field) return std::nullopt;
-    return buildWithBar("field", Solid(mesh), arguments.resolution.fieldOptions(voxel_size / 2.0));
+    MadeSolid made;
+    made.voxels = VoxelSolid::of(mesh);
+    return buildWithBar("field", SolidSource(mesh, made), arguments.resolution.fieldOptions(voxel_size / 2.0));
   }
   const OrientedMesh oriented = orientWithWarning(file, loadMesh(file));
   printQuality(oriented.quality);

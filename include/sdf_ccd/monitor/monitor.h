@@ -24,6 +24,10 @@ struct CycleRequest {
   /// has one interval and deepest point, the time and place where they were, without a depth; no field is asked.
   bool contacts = true;
 
+  /// When that much of the cycle's time is up, no other pair is tested [s], but one in every cycle; 0: no limit. Those
+  /// that are left are PairResult::postponed, and the first to be tested in the next cycle.
+  double max_time = 0.0;
+
   bool wantsContacts() const { return contacts || wrenches || max_points > 0; }
 };
 
@@ -46,6 +50,8 @@ struct PairResult {
   std::string reason;        ///< why it was not checked; empty if it was
   WaypointSpan span;         ///< the part of the motion that this is about; empty if the pair is delayed
   bool skipped = false;      ///< clear by the clearance left from an earlier cycle
+  /// UNCERTAIN, as no time was left for it: by what earlier cycles knew the bodies overlap by no more than the error.
+  bool postponed = false;
   ErrorBound error;          ///< of the verdict
   ErrorBound contact_error;  ///< of intervals and depths, which fields and shells tell; zero where there are none
   double clearance = 0.0;    ///< a lower bound of the distance at the span's end, whatever the motion is off
@@ -68,6 +74,7 @@ struct CycleResult {
   int skipped = 0;
   int not_checked = 0;
   int delayed = 0;
+  int postponed = 0;
   double run_time = 0.0;  ///< [s]
 };
 

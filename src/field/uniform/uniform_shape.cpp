@@ -1,6 +1,7 @@
 #include "uniform_shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -30,6 +31,14 @@ GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& opti
   shape.bricks = bricks.cast<int>();
   shape.origin = shape.surface_box.center() - 0.5 * shape.cell * shape.cells().cast<double>();
   return shape;
+}
+
+void requireBytes(std::size_t bytes, const GridShape& shape, const FieldOptions& options) {
+  if (bytes <= options.max_bytes) return;
+  throw std::length_error(
+      "field: " + std::to_string(bytes >> 20) + " MB with cells of " + std::to_string(shape.cell) +
+      " m, more than the " + std::to_string(options.max_bytes >> 20) + " MB allowed; cells of " +
+      std::to_string(shape.cell * std::sqrt(double(bytes) / double(options.max_bytes))) + " m would fit");
 }
 
 }  // namespace sdf_ccd

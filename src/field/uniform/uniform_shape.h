@@ -9,4 +9,7 @@ namespace sdf_ccd {
 /// @throws std::length_error if it would have too many cells along one side.
 GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& options);
 
+/// @throws std::length_error if that is more than the options allow; it says which cells would fit.
+void requireBytes(std::size_t bytes, const GridShape& shape, const FieldOptions& options);
+
 }  // namespace sdf_ccd

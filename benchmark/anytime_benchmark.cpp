@@ -1,0 +1,139 @@
+// Error against run time as a knob of the running monitor: cycles with budgets, and what verdicts they leave open.
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include <tbb/global_control.h>
+
+#include "common/seconds_since.h"
+#include "model/error_budget.h"
+#include "monitor/box_world.h"
+#include "monitor/cycle_times.h"
+#include "results.h"
+#include "sdf_ccd/monitor/monitor.h"
+#include "study.h"
+
+namespace sdf_ccd::benchmark {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+constexpr double kPeriod = 1e-3;                                             // [s]
+constexpr double kBudgets[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 0};  // [us]; the last one is none
+
+/// The poses at the ends of all cycles, the first one's start in front.
+using Waypoints = std::vector<std::vector<Isometry3d>>;
+
+/// What cycles say with a budget, over all of them.
+struct Said {
+  std::vector<double> bounds;  // per cycle: of the worst pair, whatever is known of it [m]
+  double postponed = 0, open = 0, pair_cycles = 0;
+  long false_clear = 0, false_contact = 0;  // against the same cycle without a budget
+  int longest_wait = 0;                     // cycles in a row that a pair was postponed
+};
+
+CycleMotion motionAt(const Waypoints& waypoints, std::size_t cycle) {
+  CycleMotion motion;
+  motion.times = {0.0, kPeriod};
+  for (std::size_t b = 0; b < waypoints[cycle].size(); ++b)
+    motion.X_WB.push_back({waypoints[cycle][b], waypoints[cycle + 1][b]});
+  return motion;
+}
+
+Said listen(Monitor& limited, Monitor& unlimited, const Waypoints& waypoints, const CycleRequest& request) {
+  Said said;
+  std::vector<int> waited(limited.scene().pairs.size(), 0);
+  limited.reset();
+  unlimited.reset();
+  CycleRequest without = request;
+  without.max_time = 0.0;
+  for (std::size_t k = 0; k + 1 < waypoints.size(); ++k) {
+    const CycleMotion motion = motionAt(waypoints, k);
+    const CycleResult &result = limited.run(motion, request), &truth = unlimited.run(motion, without);
+    said.bounds.push_back(result.error_bound);
+    said.postponed += result.postponed;
+    said.pair_cycles += double(result.pairs.size());
+    for (std::size_t p = 0; p < result.pairs.size(); ++p) {
+      const PairResult &pair = result.pairs[p], &known = truth.pairs[p];
+      said.open += pair.verdict == Verdict::kUncertain;
+      said.false_clear += pair.verdict == Verdict::kClear && known.verdict == Verdict::kContact;
+      said.false_contact += pair.verdict == Verdict::kContact && known.verdict == Verdict::kClear;
+      waited[p] = pair.postponed ? waited[p] + 1 : 0;
+      said.longest_wait = std::max(said.longest_wait, waited[p]);
+    }
+  }
+  std::sort(said.bounds.begin(), said.bounds.end());
+  return said;
+}
+
+void study(const Robot& robot, Proximity proximity, const std::string& name, const StudyOptions& options) {
+  const BoxWorld world = makeBoxWorld(robot, proximity, kPeriod * options.cycles, kSeed);
+  MonitorOptions monitor_options;
+  BodyOptions body_options;
+  body_options.field.cell_size = 0.004;
+  body_options.shell.spacing = 0.005;
+  body_options.motion_margin = ErrorBudget::kChords * monitor_options.chords.tolerance;
+  const auto scene = std::make_shared<const Scene>(
+      buildScene(world.scene, planScene(world.scene, planOptions(body_options)), body_options));
+  Waypoints waypoints;
+  for (int k = 0; k <= options.cycles; ++k)
+    waypoints.push_back(world.motion.posesAt(kPeriod * k, world.scene.bodies));
+
+  Monitor limited(scene, monitor_options), unlimited(scene, monitor_options);
+  for (const double budget : kBudgets) {
+    CycleRequest request;
+    request.max_points = 0;
+    request.skipped_pairs = false;
+    request.max_time = 1e-6 * budget;
+    // Budgets end cycles by the clock, so that each run is another one: all of their times count.
+    CycleTimes times(static_cast<std::size_t>(options.cycles * options.measure.runs), 1);
+    for (int run = 0; run < options.measure.runs; ++run) {
+      limited.reset();
+      for (int k = 0; k < options.cycles; ++k) {
+        const CycleMotion motion = motionAt(waypoints, static_cast<std::size_t>(k));
+        const auto start = std::chrono::steady_clock::now();
+        limited.run(motion, request);
+        times.take(static_cast<std::size_t>(run * options.cycles + k), secondsSince(start));
+      }
+    }
+    const Said said = listen(limited, unlimited, waypoints, request);
+    const std::string of_case = name + "/" + (budget > 0.0 ? std::to_string(int(budget)) : "none");
+    const auto row = [&](const char* metric, double value, const char* unit) {
+      print({"anytime", of_case, "sdf_ccd", metric, value, unit, options.measure.runs});
+    };
+    row("us_median", 1e6 * times.quantile(0.5), "us");
+    row("us_p99", 1e6 * times.quantile(0.99), "us");
+    row("us_p999", 1e6 * times.quantile(0.999), "us");
+    row("bound_median", 1e3 * said.bounds[said.bounds.size() / 2], "mm");
+    row("bound_p99", 1e3 * said.bounds[said.bounds.size() * 99 / 100], "mm");
+    row("open_share", said.open / said.pair_cycles, "of pair-cycles");
+    row("postponed", said.postponed / double(said.bounds.size()), "pairs a cycle");
+    row("longest_wait", said.longest_wait, "cycles");
+    row("false_clear", double(said.false_clear), "pair-cycles");
+    row("false_contact", double(said.false_contact), "pair-cycles");
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd::benchmark
+
+int main(int argc, char** argv) {
+  using namespace sdf_ccd::benchmark;
+  StudyOptions full;
+  full.measure.runs = 5;
+  full.cycles = 2000;
+  StudyOptions quick = full;
+  quick.cycles = 500;
+  return runStudy(argc, argv, "Cycles with a budget: bound and open verdicts over run time", full, quick,
+                  [](const StudyOptions& options) {
+                    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+                    std::vector<std::string> robots = options.robots;
+                    if (robots.empty()) robots.push_back("demo=" SDF_CCD_DEMO_ARM);
+                    for (const std::string& argument : robots) {
+                      const Robot robot = loadRobot(argument);
+                      for (const auto& [proximity, what] :
+                           {std::pair{Proximity::kNear, "near"}, {Proximity::kContact, "contact"}}) {
+                        if (isWanted(options.cases, what)) study(robot, proximity, robot.name + "/" + what, options);
+                      }
+                    }
+                  });
+}

@@ -1,0 +1,20 @@
+"""Table of the study `anytime`."""
+
+
+def number(value):
+    return '-' if value is None else '%.3g' % value
+
+
+def budgets(results):
+    """What cycles of a budget take, and what they leave open."""
+    rows = []
+    for case in results.cases('anytime'):
+        def get(*metrics):
+            return ' / '.join(number(results.get('anytime', case, 'sdf_ccd', metric)) for metric in metrics)
+        rows.append([*case.rsplit('/', 1), get('us_median', 'us_p99', 'us_p999'), get('bound_median', 'bound_p99'),
+                     get('open_share'), get('postponed'), get('longest_wait'), get('false_clear')])
+    return ['case', 'budget, us', 'cycle, us', 'bound, mm', 'UNCERTAIN', 'postponed a cycle', 'longest wait, cycles',
+            'false CLEAR'], rows
+
+
+TABLES = {'anytime': budgets}

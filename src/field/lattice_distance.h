@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sdf_ccd/common/eigen_types.h"
+
+namespace sdf_ccd {
+
+/// Signed distances from the points of a lattice to the boundary of voxels that fill whole cells of it: voxel i the
+/// cells n i to n (i + 1), along each axis. All are counted in cells, and exact.
+///
+/// The square of the distance from a lattice point to a set of cubes is the least sum of squares of its distances to
+/// their intervals along the axes, so that one axis after the other can be dealt with (Felzenszwalb & Huttenlocher,
+/// "Distance transforms of sampled functions", 2012).
+class LatticeDistance {
+ public:
+  /// @param low, size    the lattice's first point, and how many along each axis.
+  /// @param first, last  voxels that are looked at; the window's cells and the lattice's span at most 140 along an axis.
+  /// @param is_in        whether voxel (x, y, z) is occupied.
+  template <class IsIn>
+  void compute(int cells_per_voxel, const Vector3i& low, const Vector3i& size, const Vector3i& first,
+               const Vector3i& last, const IsIn& is_in);
+
+  /// Of a point, counted from the lattice's first one; negative in occupied voxels. What is nearer than the window
+  /// reaches is exact, other values are beyond its reach.
+  double at(const Vector3i& point) const {
+    const std::size_t i = indexOf(point);
+    return outside_[i] > 0 ? std::sqrt(double(outside_[i])) : -std::sqrt(double(inside_[i]));
+  }
+
+ private:
+  using Squared = std::uint16_t;
+  static constexpr Squared kNone = 40000;  // more than what a window reaches; and a sum with one more does not overflow
+
+  std::size_t indexOf(const Vector3i& p) const {
+    return (static_cast<std::size_t>(p.z()) * static_cast<std::size_t>(size_.y()) + static_cast<std::size_t>(p.y())) *
+               static_cast<std::size_t>(size_.x()) +
+           static_cast<std::size_t>(p.x());
+  }
+  void transform(bool to_occupied, std::vector<Squared>& squares);
+  void alongX(const std::uint8_t* voxels, bool to_occupied, Squared* row);
+
+  /// From a lattice point to a voxel along an axis.
+  Squared squared(int axis, int point, int voxel) const {
+    const int p = low_[axis] + point, begin = n_ * (first_[axis] + voxel);
+    const int away = std::max({0, begin - p, p - begin - n_});
+    return static_cast<Squared>(away * away);
+  }
+  static void takeLeast(const Squared* from, std::size_t size, Squared more, Squared* to) {
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto sum = static_cast<Squared>(from[i] + more);
+      to[i] = std::min(to[i], sum);
+    }
+  }
+
+  int n_ = 1;
+  Vector3i low_, size_, first_, count_;
+  std::vector<std::uint8_t> voxels_;  // of the window, x fastest
+  std::vector<Squared> along_x_, along_y_, outside_, inside_;
+};
+
+template <class IsIn>
+void LatticeDistance::compute(int cells_per_voxel, const Vector3i& low, const Vector3i& size, const Vector3i& first,
+                              const Vector3i& last, const IsIn& is_in) {
+  n_ = cells_per_voxel;
+  low_ = low;
+  size_ = size;
+  first_ = first;
+  count_ = last - first + Vector3i::Ones();
+  voxels_.clear();
+  bool is_any_in = false;
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x) {
+        voxels_.push_back(is_in(x, y, z));
+        is_any_in |= voxels_.back() != 0;
+      }
+  if (is_any_in) {
+    transform(true, outside_);
+  } else {
+    outside_.assign(static_cast<std::size_t>(size.prod()), kNone);
+  }
+  const bool is_outside = std::find(outside_.begin(), outside_.end(), 0) == outside_.end();
+  if (!is_outside) transform(false, inside_);
+}
+
+}  // namespace sdf_ccd

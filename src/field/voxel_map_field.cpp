@@ -1,0 +1,299 @@
+// The field of a whole map of voxels; see voxel_field.h.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "common/parallel_for.h"
+#include "common/processor_time.h"
+#include "common/progress_counter.h"
+#include "field/lattice_grid.h"
+#include "field/spread_order.h"
+#include "field/uniform/uniform_shape.h"
+#include "field/voxel_field.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kMostReach = 50;  // cells, so that a block's window is no wider than LatticeDistance allows
+constexpr int kBlock = 4;       // bricks along the side of what is made together
+
+int cellsPerVoxel(const VoxelSolid& solid, double cell) {
+  return static_cast<int>(std::lround(solid.size() / cell));
+}
+
+int floorDivide(int a, int b) {
+  return a / b - (a % b != 0 && (a < 0) != (b < 0));
+}
+
+/// Squared distances from the bricks' corners to the voxels that are occupied, or that are free [cells²]: one axis after
+/// the other, as LatticeDistance, each corner from its nearest rows and layers on.
+class CornerSquares {
+ public:
+  CornerSquares(const VoxelSolid& solid, const LatticeGrid& grid, bool to_occupied)
+      : solid_(solid),
+        low_(grid.low),
+        corners_(grid.shape.bricks.array() + 1),
+        n_(cellsPerVoxel(solid, grid.shape.cell)),
+        to_occupied_(to_occupied) {}
+
+  /// Corners along x are dealt with in columns of so many.
+  static constexpr int kWidth = 32;
+  int columns() const { return (corners_.x() + kWidth - 1) / kWidth; }
+
+  /// @param squares  of all corners; gets those of the column, where they are less.
+  void compute(int column, std::vector<float>& squares) const {
+    const int from = column * kWidth, width = std::min(kWidth, corners_.x() - from);
+    const int ring = to_occupied_ ? 0 : 1;  // outside the box all are free
+    std::vector<VoxelSolid::Run> runs;
+    std::vector<Row> rows;
+    std::vector<float> layer(static_cast<std::size_t>(kWidth) * static_cast<std::size_t>(corners_.y()));
+    for (int z = -ring; z < solid_.count().z() + ring; ++z) {
+      rows.clear();
+      for (int y = -ring; y < solid_.count().y() + ring; ++y) {
+        solid_.runs(y, z, runs);
+        if (!to_occupied_) takeRest(runs);
+        if (runs.empty()) continue;
+        rows.push_back({y, {}});
+        alongX(runs, from, width, rows.back().squares);
+      }
+      if (rows.empty()) continue;
+      for (int y = 0; y < corners_.y(); ++y) alongY(rows, y, width, layer.data() + kWidth * y);
+      for (int cz = 0; cz < corners_.z(); ++cz) {
+        const float away = squaredGap(z, low_.z() + GridShape::kBrick * cz);
+        for (int y = 0; y < corners_.y(); ++y) {
+          float* const to = squares.data() + (static_cast<std::size_t>(cz) * static_cast<std::size_t>(corners_.y()) + static_cast<std::size_t>(y)) *
+                                                 static_cast<std::size_t>(corners_.x()) + static_cast<std::size_t>(from);
+          const float* const of = layer.data() + kWidth * y;
+          for (int x = 0; x < width; ++x) to[x] = std::min(to[x], of[x] + away);
+        }
+      }
+    }
+  }
+
+ private:
+  struct Row {
+    int y;
+    std::array<float, kWidth> squares;
+  };
+
+  /// From a corner to a voxel, along an axis.
+  float squaredGap(int voxel, int corner) const {
+    const auto gap = static_cast<float>(std::max({0, n_ * voxel - corner, corner - n_ * (voxel + 1)}));
+    return gap * gap;
+  }
+
+  static void takeRest(std::vector<VoxelSolid::Run>& runs) {
+    constexpr int kFar = 1 << 20;
+    std::vector<VoxelSolid::Run> rest;
+    int begin = -kFar;
+    for (const VoxelSolid::Run& run : runs) {
+      rest.push_back({begin, run.begin});
+      begin = run.end;
+    }
+    rest.push_back({begin, kFar});
+    runs = std::move(rest);
+  }
+
+  void alongX(const std::vector<VoxelSolid::Run>& runs, int from, int width, std::array<float, kWidth>& squares) const {
+    std::size_t next = 0;  // the first that does not end before the corner
+    for (int x = 0; x < width; ++x) {
+      const int corner = low_.x() + GridShape::kBrick * (from + x);
+      while (next < runs.size() && n_ * runs[next].end < corner) ++next;
+      int gap = std::numeric_limits<int>::max();
+      if (next < runs.size()) gap = std::max(0, n_ * runs[next].begin - corner);
+      if (next > 0) gap = std::min(gap, corner - n_ * runs[next - 1].end);
+      squares[static_cast<std::size_t>(x)] = static_cast<float>(gap) * static_cast<float>(gap);
+    }
+  }
+
+  /// From the nearest rows on, to those that are too far away to matter.
+  void alongY(const std::vector<Row>& rows, int y, int width, float* best) const {
+    std::fill_n(best, width, std::numeric_limits<float>::infinity());
+    const int corner = low_.y() + GridShape::kBrick * y;
+    const auto middle = std::lower_bound(rows.begin(), rows.end(), corner,
+                                         [&](const Row& row, int value) { return n_ * row.y < value; });
+    auto behind = middle, before = middle;
+    while (behind != rows.end() || before != rows.begin()) {
+      const bool is_behind =
+          before == rows.begin() ||
+          (behind != rows.end() && squaredGap(behind->y, corner) <= squaredGap((before - 1)->y, corner));
+      const Row& row = is_behind ? *behind++ : *--before;
+      const float away = squaredGap(row.y, corner);
+      if (away >= *std::max_element(best, best + width)) return;
+      for (int x = 0; x < width; ++x) best[x] = std::min(best[x], row.squares[static_cast<std::size_t>(x)] + away);
+    }
+  }
+
+  const VoxelSolid& solid_;
+  const Vector3i low_, corners_;
+  const int n_;
+  const bool to_occupied_;
+};
+
+/// Makes the grid of a map, block by block of bricks.
+class MapGrid {
+ public:
+  MapGrid(const VoxelSolid& solid, const FieldOptions& options)
+      : solid_(solid), options_(options), grid_(solid.box(), solid.origin(), options), n_(cellsPerVoxel(solid, grid_.shape.cell)) {
+    requireBytes(coarseBytes(), shape(), options);
+  }
+
+  const GridShape& shape() const { return grid_.shape; }
+  std::size_t coarseBytes() const {
+    return shape().cornerCount() * sizeof(float) + shape().brickCount() * sizeof(std::int32_t);
+  }
+
+  std::vector<float> corners() const {
+    std::vector<float> outside = squares(true);
+    if (std::find(outside.begin(), outside.end(), 0.0F) == outside.end()) return inMetres(outside, {});
+    return inMetres(outside, squares(false));
+  }
+
+  /// Seconds of one processor that corners() takes, by one column of several.
+  double cornerSeconds() const {
+    const CornerSquares squares(solid_, grid_, true);
+    std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
+    const double start = threadSeconds();
+    squares.compute(squares.columns() / 2, found);
+    return 2.0 * squares.columns() * (threadSeconds() - start);
+  }
+
+  Vector3i blocks() const { return (shape().bricks.array() + kBlock - 1) / kBlock; }
+  Vector3i blockAt(std::size_t i) const {
+    const auto x = static_cast<std::size_t>(blocks().x()), y = static_cast<std::size_t>(blocks().y());
+    return {static_cast<int>(i % x), static_cast<int>(i / x % y), static_cast<int>(i / x / y)};
+  }
+
+  /// Whether a brick may have samples, by its corners.
+  bool mayBeNear(const Vector3i& brick, const std::vector<float>& corners) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 8; ++k) {
+      const Vector3i corner = brick + Vector3i(k & 1, k >> 1 & 1, k >> 2);
+      nearest = std::min(nearest, std::abs(double(corners[shape().cornerIndex(corner)])));
+    }
+    // Any of its points is no farther from one of its corners than half of its diagonal.
+    return nearest <= shape().band + (1.0 + kHalfSqrt3 * (1 + GridShape::kBrick)) * shape().cell;
+  }
+
+  /// The bricks of a block that have samples, and these. @param mayBe  what says of a brick whether it may be one.
+  template <class MayBe>
+  void make(const Vector3i& block, const MayBe& mayBe, std::vector<std::size_t>& bricks, BrickSamples& samples) const {
+    const Vector3i first = kBlock * block, end = (first.array() + kBlock).min(shape().bricks.array());
+    std::vector<Vector3i> near;
+    for (Vector3i b = first; b.z() < end.z(); ++b.z())
+      for (b.y() = first.y(); b.y() < end.y(); ++b.y())
+        for (b.x() = first.x(); b.x() < end.x(); ++b.x())
+          if (mayBe(b)) near.push_back(b);
+    if (near.empty()) return;
+    const int reach = farthestSample(shape());
+    const Vector3i low = grid_.low + GridShape::kBrick * first, high = grid_.low + GridShape::kBrick * end;
+    Vector3i first_voxel, last_voxel;
+    for (int k = 0; k < 3; ++k) {
+      first_voxel[k] = floorDivide(low[k] - reach, n_);
+      last_voxel[k] = floorDivide(high[k] + reach, n_);
+    }
+    LatticeDistance distances;
+    distances.compute(n_, low, (high - low).array() + 1, first_voxel, last_voxel,
+                      [&](int x, int y, int z) { return solid_.isIn(x, y, z); });
+    for (const Vector3i& b : near)
+      if (samples.take(distances, GridShape::kBrick * (b - first), shape())) bricks.push_back(shape().brickIndex(b));
+  }
+
+ private:
+  std::vector<float> squares(bool to_occupied) const {
+    std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
+    const CornerSquares squares(solid_, grid_, to_occupied);
+    parallelFor(0, squares.columns(), [&](int column) { squares.compute(column, found); });
+    return found;
+  }
+
+  std::vector<float> inMetres(std::vector<float> outside, const std::vector<float>& inside) const {
+    for (std::size_t i = 0; i < outside.size(); ++i) {
+      const double squared = outside[i] > 0.0F ? double(outside[i]) : double(inside[i]);
+      outside[i] = static_cast<float>((outside[i] > 0.0F ? 1.0 : -1.0) * shape().cell * std::sqrt(squared));
+    }
+    return outside;
+  }
+
+  const VoxelSolid& solid_;
+  const FieldOptions& options_;
+  const LatticeGrid grid_;
+  const int n_;
+};
+
+constexpr std::size_t kBrickBytes = GridShape::kSamples * sizeof(std::int16_t);
+
+}  // namespace
+
+bool canBeLattice(const VoxelSolid& solid, const FieldOptions& options) {
+  if (!options.cell_size || options.max_error || options.cells) return false;
+  const double n = solid.size() / *options.cell_size;
+  if (!(n > 0.5 && n < 16.5) || std::abs(n - std::round(n)) > 1e-6 * n) return false;
+  GridShape shape;
+  shape.cell = *options.cell_size;
+  shape.band = std::max(options.band, 2.0 * shape.cell);
+  return farthestSample(shape) <= kMostReach;
+}
+
+DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, const Progress& progress) {
+  validate(options);
+  const MapGrid map(solid, options);
+  const GridShape& shape = map.shape();
+  GridData data;
+  data.corners = map.corners();
+  data.slots.assign(shape.brickCount(), SparseGrid::kFar);
+
+  const std::size_t blocks = static_cast<std::size_t>(map.blocks().prod());
+  std::vector<std::vector<std::int16_t>> made(blocks);
+  std::vector<std::vector<std::size_t>> bricks(blocks);
+  std::mutex mutex;
+  std::size_t bytes = map.coarseBytes();
+  ProgressCounter counter(progress, blocks);
+  parallelFor(std::size_t{0}, blocks, [&](std::size_t i) {
+    BrickSamples samples;
+    map.make(map.blockAt(i), [&](const Vector3i& brick) { return map.mayBeNear(brick, data.corners); }, bricks[i], samples);
+    made[i] = std::move(samples.samples);
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      bytes += bricks[i].size() * kBrickBytes;
+      requireBytes(bytes, shape, options);
+    }
+    counter.add();
+  });
+  std::int32_t slot = 0;
+  for (const std::vector<std::size_t>& of_block : bricks)
+    for (const std::size_t brick : of_block) data.slots[brick] = slot++;
+  data.samples.reserve(static_cast<std::size_t>(slot) * GridShape::kSamples);
+  for (std::vector<std::int16_t>& of_block : made) {
+    data.samples.insert(data.samples.end(), of_block.begin(), of_block.end());
+    of_block = {};
+  }
+  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
+}
+
+FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options) {
+  constexpr double kSeconds = 15e-3;
+  constexpr std::size_t kFewest = 8;
+  validate(options);
+  const MapGrid map(solid, options);
+  const std::size_t blocks = static_cast<std::size_t>(map.blocks().prod());
+  const SpreadOrder order(blocks);
+  std::size_t tested = 0, bricks = 0;
+  const double start = threadSeconds();
+  for (; tested < blocks && (tested < kFewest || threadSeconds() - start < kSeconds); ++tested) {
+    std::vector<std::size_t> found;
+    BrickSamples samples;
+    map.make(map.blockAt(order[tested]), [](const Vector3i&) { return true; }, found, samples);
+    bricks += found.size();
+  }
+  const double share = double(blocks) / double(tested);
+  FieldCost cost;
+  cost.bytes = double(map.coarseBytes()) + share * double(bricks) * kBrickBytes;
+  cost.seconds = map.cornerSeconds() + share * (threadSeconds() - start);
+  cost.bytes_error = cost.seconds_error = tested < blocks ? 1.0 / std::sqrt(double(tested)) : 0.0;
+  return cost;
+}
+
+}  // namespace sdf_ccd

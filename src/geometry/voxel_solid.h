@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// Whole voxels, told from the mesh that is their boundary.
+class VoxelSolid {
+ public:
+  /// @return null if the mesh is no boundary of cubes of one size on one lattice, or their box has more than that many.
+  static std::shared_ptr<const VoxelSolid> of(const TriangleMesh& mesh, std::uint64_t max_voxels = std::uint64_t{1} << 33);
+
+  double size() const { return size_; }               ///< of a voxel [m]
+  const Vector3d& origin() const { return origin_; }  ///< lowest corner of the voxel 0 0 0 [m]
+  const Vector3i& count() const { return count_; }    ///< of voxels, in the box that holds all occupied ones
+  AlignedBox3d box() const { return {origin_, origin_ + size_ * count_.cast<double>()}; }
+
+  /// Also for voxels outside the box, which are free.
+  bool isIn(int x, int y, int z) const {
+    if (x < 0 || y < 0 || z < 0 || x >= count_.x() || y >= count_.y() || z >= count_.z()) return false;
+    return (row(y, z)[x / 64] >> (x % 64) & 1) != 0;
+  }
+
+  /// Voxels from one to before another along a row, all occupied, in order; none for rows outside the box.
+  struct Run {
+    int begin, end;
+  };
+  void runs(int y, int z, std::vector<Run>& found) const;
+
+ private:
+  VoxelSolid() = default;
+  const std::uint64_t* row(int y, int z) const {
+    return bits_.data() + words_ * (static_cast<std::size_t>(z) * static_cast<std::size_t>(count_.y()) + static_cast<std::size_t>(y));
+  }
+  std::uint64_t* row(int y, int z) { return const_cast<std::uint64_t*>(std::as_const(*this).row(y, z)); }
+  double faces() const;
+
+  double size_ = 0.0;
+  Vector3d origin_ = Vector3d::Zero();
+  Vector3i count_ = Vector3i::Zero();
+  std::size_t words_ = 0;            // of a row along x
+  std::vector<std::uint64_t> bits_;  // row by row: y, then z
+};
+
+}  // namespace sdf_ccd

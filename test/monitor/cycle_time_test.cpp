@@ -1,0 +1,186 @@
+// Cycles that are ended by their time (CycleRequest::max_time). Truth: distances of balls.
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+#include "oracle/random.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+constexpr double kRadius = 0.1;
+constexpr int kBalls = 10;
+constexpr double kNoTime = 1e-12;  // one pair is tested all the same
+
+/// Balls that fly about in a room.
+class CycleTime : public ::testing::Test {
+ protected:
+  CycleTime() {
+    std::vector<BodyDescription> bodies;
+    for (int i = 0; i < kBalls; ++i) {
+      bodies.push_back(body("ball" + std::to_string(i), Primitive(Sphere{kRadius})));
+      places_.push_back(anywhere());
+    }
+    scene_ = build(bodies);
+  }
+
+  Vector3d anywhere() {
+    return {uniform(random_, -0.5, 0.5), uniform(random_, -0.5, 0.5), uniform(random_, -0.5, 0.5)};
+  }
+
+  /// Each ball a bit on; now and then one is elsewhere at the cycle's start.
+  CycleMotion next() {
+    std::vector<std::vector<Isometry3d>> poses;
+    for (Vector3d& place : places_) {
+      if (uniform(random_, 0.0, 1.0) < 0.005) place = anywhere();
+      const Vector3d from = place;
+      place += 0.05 * Vector3d(uniform(random_, -1.0, 1.0), uniform(random_, -1.0, 1.0), uniform(random_, -1.0, 1.0));
+      place = place.cwiseMax(-0.6).cwiseMin(0.6);
+      poses.push_back({translation(from), translation(place)});
+    }
+    return cycle(0.1, poses);
+  }
+
+  /// Least distance of two balls in the cycle; below zero their overlap.
+  static double leastDistance(const CycleMotion& motion, int a, int b) {
+    const Vector3d from = motion.X_WB[b][0].translation() - motion.X_WB[a][0].translation(),
+                   way = motion.X_WB[b][1].translation() - motion.X_WB[a][1].translation() - from;
+    const double t = way.squaredNorm() > 0.0 ? std::clamp(-from.dot(way) / way.squaredNorm(), 0.0, 1.0) : 0.0;
+    return (from + t * way).norm() - 2.0 * kRadius;
+  }
+
+  static void expectTrue(const PairResult& pair, const CycleMotion& motion) {
+    const double least = leastDistance(motion, pair.body_a, pair.body_b), bound = pair.error.total();
+    ASSERT_TRUE(std::isfinite(bound));
+    if (pair.verdict == Verdict::kClear) {
+      EXPECT_GE(least, -bound);
+    }
+    if (pair.verdict == Verdict::kContact) {
+      EXPECT_LE(least, bound);
+    }
+    if (pair.postponed) {
+      EXPECT_EQ(pair.verdict, Verdict::kUncertain);
+      EXPECT_FALSE(pair.reason.empty());
+      EXPECT_TRUE(pair.intervals.empty());
+      EXPECT_LE(-least, bound);
+    }
+  }
+
+  Random random_{11};
+  std::vector<Vector3d> places_;
+  std::shared_ptr<const Scene> scene_;
+};
+
+TEST_F(CycleTime, WhatIsLeftIsUncertainByNoMoreThanItMayOverlap) {
+  Monitor monitor(scene_, {});
+  CycleRequest request;
+  request.max_time = kNoTime;
+  std::vector<int> waited(scene_->pairs.size(), 0);
+  int postponed = 0, tight = 0, contacts = 0, longest = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const CycleMotion motion = next();
+    const CycleResult& result = monitor.run(motion, request);
+    int found = 0;
+    for (std::size_t p = 0; p < result.pairs.size(); ++p) {
+      const PairResult& pair = result.pairs[p];
+      expectTrue(pair, motion);
+      found += pair.postponed;
+      contacts += pair.verdict == Verdict::kContact;
+      tight += pair.postponed && pair.error.total() < kRadius;
+      waited[p] = pair.postponed ? waited[p] + 1 : 0;
+      longest = std::max(longest, waited[p]);
+    }
+    EXPECT_EQ(result.postponed, found);
+    EXPECT_LE(result.checked, 1);
+    EXPECT_EQ(result.checked + result.skipped + result.postponed, int(result.pairs.size()));
+    if (found > 0) {
+      EXPECT_EQ(result.checked, 1);
+      EXPECT_GE(result.verdict, Verdict::kUncertain);
+    }
+    postponed += found;
+  }
+  EXPECT_GT(postponed, 10000);
+  EXPECT_GT(contacts, 50);
+  EXPECT_GT(tight, 100);
+  EXPECT_LE(longest, int(scene_->pairs.size()));  // in turn
+}
+
+TEST_F(CycleTime, EnoughOfItChangesNothing) {
+  Monitor with(scene_, {}), without(scene_, {});
+  CycleRequest request;
+  request.max_time = 1000.0;
+  for (int i = 0; i < 300; ++i) {
+    const CycleMotion motion = next();
+    const CycleResult &a = with.run(motion, request), &b = without.run(motion, {});
+    ASSERT_EQ(a.verdict, b.verdict);
+    ASSERT_EQ(a.error_bound, b.error_bound);
+    EXPECT_EQ(a.postponed, 0);
+    for (std::size_t p = 0; p < a.pairs.size(); ++p) {
+      ASSERT_EQ(a.pairs[p].verdict, b.pairs[p].verdict);
+      ASSERT_EQ(a.pairs[p].clearance, b.pairs[p].clearance);
+      ASSERT_EQ(a.pairs[p].on_a_W.force, b.pairs[p].on_a_W.force);
+    }
+  }
+}
+
+TEST_F(CycleTime, IsRecoveredFrom) {
+  Monitor monitor(scene_, {});
+  CycleRequest short_of_time;
+  short_of_time.max_time = kNoTime;
+  for (int i = 0; i < 200; ++i) {
+    const CycleMotion motion = next();
+    const CycleResult& result = monitor.run(motion, i % 10 == 9 ? CycleRequest() : short_of_time);
+    for (const PairResult& pair : result.pairs) expectTrue(pair, motion);
+    if (i % 10 != 9) continue;
+    EXPECT_EQ(result.postponed, 0);
+    for (const PairResult& pair : result.pairs) {
+      const double least = leastDistance(motion, pair.body_a, pair.body_b);
+      if (std::abs(least) > pair.error.total()) {
+        EXPECT_EQ(pair.verdict, least > 0.0 ? Verdict::kClear : Verdict::kContact);
+      }
+    }
+  }
+}
+
+TEST_F(CycleTime, WhatCannotBeCheckedIsNotPostponed) {
+  Monitor monitor(scene_, {});
+  CycleRequest request;
+  request.max_time = kNoTime;
+  CycleMotion motion = next();
+  motion.missing.resize(kBalls);
+  motion.missing[3] = "lost";
+  const CycleResult& result = monitor.run(motion, request);
+  for (const PairResult& pair : result.pairs) {
+    const bool is_lost = pair.body_a == 3 || pair.body_b == 3;
+    EXPECT_EQ(pair.verdict == Verdict::kNotChecked, is_lost);
+    EXPECT_EQ(pair.postponed && is_lost, false);
+  }
+  EXPECT_EQ(result.not_checked, kBalls - 1);
+}
+
+/// A bead that gets into a box while the pair is left, so that no surfaces cross afterwards.
+TEST(CycleTimeOfTwo, WhatGotInsideMeanwhileIsFound) {
+  const auto scene = build({body("box", Primitive(Box{{0.3, 0.3, 0.3}}), true), body("bead", Primitive(Sphere{0.02})),
+                            body("post", Primitive(Sphere{0.3}))});
+  Monitor monitor(scene, {});
+  CycleRequest request;
+  request.max_time = kNoTime;
+  // The post is in the box all the time, so that some pair is always due.
+  const auto motionOf = [&](double from, double to) {
+    return cycle(0.1, {still(Isometry3d::Identity()), {translation({from, 0, 0}), translation({to, 0, 0})},
+                       still(translation({0, 0.25, 0.0}))});
+  };
+  const auto verdictOf = [&](const CycleResult& result) {
+    for (const PairResult& pair : result.pairs)
+      if (scene->bodies[pair.body_a].name == "box" && scene->bodies[pair.body_b].name == "bead") return pair.verdict;
+    return Verdict::kNotChecked;
+  };
+  for (int i = 0; i < 4; ++i) EXPECT_NE(verdictOf(monitor.run(motionOf(1.0, 1.0), request)), Verdict::kContact);
+  EXPECT_NE(verdictOf(monitor.run(motionOf(1.0, 0.0), request)), Verdict::kClear);
+  for (int i = 0; i < 5; ++i) EXPECT_NE(verdictOf(monitor.run(motionOf(0.0, 0.0), request)), Verdict::kClear);
+  EXPECT_EQ(verdictOf(monitor.run(motionOf(0.0, 0.0), {})), Verdict::kContact);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
