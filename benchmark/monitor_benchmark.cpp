@@ -131,16 +131,9 @@ std::size_t strideFor(MonitorSystem& system, const Waypoints& waypoints) {
 }
 
 BodyOptions bodyOptions(double max_error, MonitorOptions& monitor) {
-  BodyOptions options;
-  if (max_error > 0.0) {
-    options = optionsFor({max_error});
-    monitor.chords.tolerance = options.motion_margin / ErrorBudget::kChords;
-  } else {
-    options.field.cell_size = 0.004;
-    options.shell.spacing = 0.005;
-    options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
-  }
-  options.shell.vertex_spacing = 0.002;
+  if (max_error > 0.0) monitor.max_error = max_error;
+  BodyOptions options = optionsForContacts();
+  options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
   return options;
 }
 

@@ -10,6 +10,7 @@
 
 #include "body/body_shell.h"
 #include "body/coarsen.h"
+#include "body/element_options.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "field/opening_caps.h"
@@ -85,8 +86,7 @@ class BodyBuilder {
     return parts;
   }
 
-  /// @param edges_only  the body is one box, whose faces get no points.
-  PointShell makeShell(const std::vector<BodyPart>& parts, bool edges_only) {
+  PointShell makeShell(const std::vector<BodyPart>& parts, const BodyNeeds& needs) {
     std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings have them in any case
     primitives.reserve(meshes_.size());
     std::vector<ShellPart> shells;
@@ -95,7 +95,7 @@ class BodyBuilder {
       if (!meshes_[i]) {
         const Primitive& primitive = primitiveOf(geometry);
         primitives.emplace_back(primitive);
-        shells.push_back({geometry.X_BG, makeShell(primitive, edges_only), &primitives.back()});
+        shells.push_back({geometry.X_BG, makeShell(primitive, needs), &primitives.back()});
       } else {
         note(pool_.makeShell(*meshes_[i], hasSiblings()).outcome);
         const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
@@ -122,17 +122,17 @@ class BodyBuilder {
   }
 
  private:
-  PointShell makeShell(const Primitive& primitive, bool edges_only) {
-    ShellOptions options = options_.shell;
+  PointShell makeShell(const Primitive& primitive, const BodyNeeds& needs) {
+    ShellOptions options = shellOptionsFor(options_, surfaceArea(primitive), !needs.decides);
     options.has_siblings = hasSiblings();
     std::string warning;
-    const auto make = [&](double gap) {
-      options.edge_gap = gap;
-      options.spacing = std::max(options.spacing, gap);
-      if (edges_only) return sampleEdges(tessellate(primitive, gap), options);  // a box, which is its tessellation
+    const auto make = [&](double tried) {
+      setFineness(tried, options);
+      if (needs.edges_only)
+        return sampleEdges(tessellate(primitive, tried), options);  // a box, which is its tessellation
       return sampleSurface(primitive, options);
     };
-    PointShell shell = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
+    PointShell shell = makeCoarser(finenessOf(options), mayBeCoarser(options_), make, warning);
     if (!warning.empty()) report_.warnings.push_back(warning);
     return shell;
   }
@@ -182,7 +182,7 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   if (needs.field) body.parts = builder.makeParts(progress);
   if (needs.witnesses) body.witnesses = builder.makeWitnesses();
   if (needs.witnesses) body.witness_tree = buildSphereTree(body.witnesses);
-  if (needs.shell) body.shell = builder.makeShell(body.parts, needs.edges_only);
+  if (needs.shell) body.shell = builder.makeShell(body.parts, needs);
   report.witnesses = body.witnesses.size();
   body.ball = surfaceBall(body);
   if (!needs.shell) return;

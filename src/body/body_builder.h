@@ -14,6 +14,7 @@ struct BodyNeeds {
   bool field = true;
   bool shell = true;
   bool edges_only = false;  ///< the body is one box, of whose shell no pair needs more
+  bool decides = true;      ///< some verdict rests on the shell: no primitive's may have fewer points, if it is large
   bool witnesses = false;
 
   bool any() const { return field || shell || witnesses; }

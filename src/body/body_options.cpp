@@ -4,6 +4,22 @@
 
 namespace sdf_ccd {
 
+BodyOptions optionsForContacts(const std::optional<double>& accuracy) {
+  constexpr double kCoarsest = 0.005;             // [m]
+  constexpr double kPointsAcross = 25.0;          // then those of a robot's finger are 2.5 mm apart
+  constexpr double kCell = 0.8, kVertices = 0.4;  // of the spacing
+  BodyOptions options;
+  options.shell.spacing = accuracy.value_or(kCoarsest);
+  options.shell.vertex_spacing = kVertices * options.shell.spacing;
+  options.field.cell_size = kCell * options.shell.spacing;
+  if (accuracy) return options;
+  options.points_across = kPointsAcross;
+  options.cells_across = kPointsAcross / kCell;
+  options.shell.max_points = kMostShellPoints;
+  options.field.max_bytes = kMostFieldBytes;
+  return options;
+}
+
 BodyOptions optionsFor(const Accuracy& accuracy) {
   const ErrorBudget budget = shareOut(accuracy.max_error);
   BodyOptions options;
@@ -13,7 +29,9 @@ BodyOptions optionsFor(const Accuracy& accuracy) {
   options.shell.edge_gap = budget.edge_gap;
   options.shell.max_points = kMostShellPoints;
   options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
+  options.motion_error = options.motion_margin - budget.chord_tolerance;
   options.max_error = accuracy.max_error;
+  options.is_shared_out = true;
   options.cache_directory = accuracy.cache_directory;
   return options;
 }

@@ -5,6 +5,7 @@
 
 #include "coarsen.h"
 #include "common/number_text.h"
+#include "element_options.h"
 #include "field/field_cache.h"
 #include "field/uniform/sparse_grid.h"
 #include "shell/shell_cache.h"
@@ -38,8 +39,12 @@ PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   return meshes_.emplace(hash, std::move(pooled)).first->second;
 }
 
+ShellOptions MeshPool::shellOptions(const PooledMesh& mesh) const {
+  return shellOptionsFor(options_, surfaceArea(mesh.mesh));
+}
+
 FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
-  FieldOptions options = options_.field;
+  FieldOptions options = fieldOptionsFor(options_, surfaceArea(mesh.mesh));
   if (mesh.cell_size) {
     options.cells.reset();
     options.max_error.reset();
@@ -50,9 +55,8 @@ FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
   if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
   if (options.cell_size) cell = *options.cell_size;
   if (options.max_error) cell = *options.max_error / kHalfSqrt3;
-  const double gap = !mesh.voxels && options_.shell.edge_gap > 0.0
-                         ? std::min(options_.shell.edge_gap, options_.shell.spacing)
-                         : options_.shell.spacing;
+  const ShellOptions shell = shellOptions(mesh);
+  const double gap = !mesh.voxels && shell.edge_gap > 0.0 ? std::min(shell.edge_gap, shell.spacing) : shell.spacing;
   const double margin = 1.1 * (gap + kHalfSqrt3 * cell + options_.motion_margin);
   options.band = std::max(options.band, std::min(margin, kWidestBand * cell));
   return options;
@@ -62,12 +66,13 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   if (mesh.field) return {};
   FieldOptions options = fieldOptions(mesh);
   std::string warning;
-  const bool is_shared = options_.max_error && options.max_error;
-  const auto make = [&](double error) {
-    if (options.max_error) options.max_error = error;
+  std::optional<double>& fineness = options.max_error ? options.max_error : options.cell_size;
+  const auto make = [&](double tried) {
+    if (fineness) fineness = tried;
     return cachedField(cache_, {mesh.mesh, mesh.made}, options, progress);
   };
-  CachedField made = makeCoarser(options.max_error.value_or(0.0), is_shared, make, warning);
+  const bool may = mayBeCoarser(options_) && fineness && !mesh.cell_size;
+  CachedField made = makeCoarser(fineness.value_or(0.0), may, make, warning);
   mesh.field = std::move(made.field);
   if (options.max_error && mesh.field->errorBound() > 1.001 * *options.max_error) {
     warning = "field: an error of " + numberText(mesh.field->errorBound()) + " m is reached, not " +
@@ -79,15 +84,14 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
 
 MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
   if (mesh.shells[has_siblings]) return {};
-  ShellOptions options = options_.shell;
+  ShellOptions options = shellOptions(mesh);
   options.has_siblings = has_siblings;
   std::string warning;
-  const auto make = [&](double gap) {
-    options.edge_gap = gap;
-    options.spacing = std::max(options.spacing, gap);
+  const auto make = [&](double tried) {
+    setFineness(tried, options);
     return cachedShell(cache_, {mesh.mesh, mesh.made}, options);
   };
-  CachedShell made = makeCoarser(options.edge_gap, options_.max_error.has_value(), make, warning);
+  CachedShell made = makeCoarser(finenessOf(options), mayBeCoarser(options_), make, warning);
   if (!warning.empty()) made.outcome.warning = warning;
   mesh.shells[has_siblings] = std::move(made.shell);
   return {true, made.outcome};

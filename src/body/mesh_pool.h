@@ -38,9 +38,10 @@ class MeshPool {
   };
   /// How the field of a mesh is made. @throws std::invalid_argument for options that no field can have.
   FieldOptions fieldOptions(const PooledMesh& mesh) const;
+  ShellOptions shellOptions(const PooledMesh& mesh) const;
 
-  /// Where BodyOptions::max_error asks for more than a field or shell may cost, a coarser one is made; the outcome's
-  /// warning says so.
+  /// Where the options ask for more than a field or shell may cost, and let it be coarser, a coarser one is made; the
+  /// outcome's warning says so.
   Made makeField(PooledMesh& mesh, const Progress& progress);
   Made makeShell(PooledMesh& mesh, bool has_siblings);
 

@@ -30,7 +30,7 @@ Body prepareBody(const std::string& name, const TriangleMesh& mesh, const Accura
 
 Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
   BodyOptions options = optionsFor(accuracy);
-  options.max_error.reset();  // what cannot be had is refused, not made coarser
+  options.is_shared_out = false;  // what cannot be had is refused, not made coarser
   MeshPool pool(options);
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();

@@ -51,7 +51,7 @@ std::string megabytes(double bytes) {
 /// The limit that the cost is surely over; empty if there is none.
 std::string exceededLimit(const SceneCost& cost, const BodyOptions& options) {
   if (cost.bytes > machineBytes()) return "this machine has " + megabytes(machineBytes());
-  if (!options.max_error) return "";  // building names the bodies whose settings ask for too much
+  if (!options.is_shared_out) return "";  // building names the bodies whose settings ask for too much
   const auto most_bytes = static_cast<double>(options.field.max_bytes);
   const auto most_points = static_cast<double>(options.shell.max_points);
   for (const BodyCost& body : cost.bodies) {
@@ -71,7 +71,7 @@ void requireAffordable(const SceneCost& cost, const BodyOptions& options) {
   const std::string limit = exceededLimit(cost, options);
   if (limit.empty()) return;
   const std::string what =
-      options.max_error ? "a max_error of " + numberText(*options.max_error) + " m" : "such fine fields and shells";
+      options.is_shared_out ? "a max_error of " + numberText(*options.max_error) + " m" : "such fine fields and shells";
   throw std::length_error(what + " would take " + summary(cost) + "; " + limit);
 }
 

@@ -82,12 +82,15 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   const auto start = Clock::now();
   Scene scene;
   scene.max_error = options.max_error;
+  scene.motion_margin = options.motion_margin;
+  scene.motion_error = options.motion_error;
   scene.pairs = plan.pairs;
   scene.left_out = plan.left_out;
   scene.visual_only = description.visual_only;
   const std::shared_ptr<MeshPool> pool =
       plan.expected && plan.expected->meshes ? plan.expected->meshes : std::make_shared<MeshPool>(options);
   const std::size_t count = description.bodies.size();
+  const std::vector<char> decides = shellsThatDecide(description, plan);
   const Pace pace(description, plan.expected.get());
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < count; ++i) {
@@ -97,7 +100,8 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
       if (progress) progress(described.name, pace.done(i, share));
     };
     report_progress(0.0);
-    const BodyNeeds needs{plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], plan.needs_witnesses[i]};
+    const BodyNeeds needs{plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], decides[i] != 0,
+                          plan.needs_witnesses[i]};
     BuiltBody built = buildBody(described, needs, options, *pool, report_progress);
     bodies.push_back(std::move(built.body));
     scene.reports.push_back(std::move(built.report));
@@ -113,7 +117,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   scene.bodies = BodyList(std::move(bodies));
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
   countPairs(scene);
-  setBounds(options.motion_margin, scene);
+  setBounds(scene);
   scene.build_seconds = secondsSince(start);
   return scene;
 }
@@ -131,7 +135,8 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) addPair(bodies, a, b, scene);
   scene.bodies = BodyList(std::move(bodies));
   countPairs(scene);
-  setBounds(motion_margin, scene);
+  scene.motion_margin = scene.motion_error = motion_margin;
+  setBounds(scene);
   return scene;
 }
 
@@ -150,7 +155,7 @@ void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
   if (stay.size() == scene.pairs.size()) return;
   scene.pairs = std::move(stay);
   countPairs(scene);
-  setBounds(scene.bound.chord, scene);
+  setBounds(scene);
 }
 
 }  // namespace sdf_ccd

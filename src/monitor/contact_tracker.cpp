@@ -19,7 +19,7 @@ bool isWithin(const ContactPoint& point, const Interval& interval) {
 }
 
 bool proves(const PairResult& pair, const ContactPoint& point, const Interval& interval) {
-  return isWithin(point, interval) && pair.error.provesContact(point.depth, point.depth_error);
+  return isWithin(point, interval) && pair.contact_error.provesContact(point.depth, point.depth_error);
 }
 
 /// Whether some point that the result lists proves that the pair touches within the interval.
@@ -147,6 +147,7 @@ void ContactTracker::updatePair(const ObservedCycle& cycle, std::size_t index) {
     contact.cycles += slot.cycle != cycle_;
     slot.cycle = cycle_;
     contact.error_bound = std::max(contact.error_bound, pair.error.total());
+    contact.contact_error = std::max(contact.contact_error, pair.contact_error.total());
     contact.seen_at_samples |= holdsSample(interval, cycle.samples);
     if (force < 0.0) force = forceWhileTouching(cycle, pair);
     contact.max_force = std::max(contact.max_force, force);
@@ -207,7 +208,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t pair, Time start, Time
   said.end = end;
   said.deepest = {};
   said.deepest_origin = {};
-  said.error_bound = said.max_force = 0.0;
+  said.error_bound = said.contact_error = said.max_force = 0.0;
   said.cycles = 0;
   slot.pair = static_cast<int>(pair);
   slot.is_open = true;

@@ -24,9 +24,10 @@ struct TrackedContact {
   Time end{0};                            ///< up to when, until now
   ContactPoint deepest;                   ///< of all cycles; its times count from `deepest_origin`
   Time deepest_origin{0};
-  double error_bound = 0.0;  ///< largest of its cycles [m]
-  double max_force = 0.0;    ///< largest of its cycles' mean forces while it touched [N]; 0 if wrenches are not known
-  std::uint32_t cycles = 0;  ///< in which it was seen
+  double error_bound = 0.0;    ///< of the verdict, largest of its cycles [m]
+  double contact_error = 0.0;  ///< of times and depths, largest of its cycles [m]
+  double max_force = 0.0;      ///< largest of its cycles' mean forces while it touched [N]; 0 if wrenches are not known
+  std::uint32_t cycles = 0;    ///< in which it was seen
   bool seen_at_samples = false;  ///< by a check at the recorded poses alone
 };
 

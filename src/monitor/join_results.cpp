@@ -55,6 +55,7 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   pair.verdict = std::max(pair.verdict, piece.verdict);
   if (pair.reason.empty()) pair.reason = piece.reason;
   if (piece.error.total() > pair.error.total()) pair.error = piece.error;
+  if (piece.contact_error.total() > pair.contact_error.total()) pair.contact_error = piece.contact_error;
   pair.skipped &= piece.skipped;
   pair.clearance = piece.clearance;
   if (!piece.intervals.empty() && (pair.intervals.empty() || piece.deepest.depth > pair.deepest.depth)) {

@@ -153,6 +153,9 @@ Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& optio
     throw std::invalid_argument("monitor: chord tolerance " + numberText(options.chords.tolerance) + " m");
   if (options.chords.max_chords < 1)
     throw std::invalid_argument("monitor: max_chords " + std::to_string(options.chords.max_chords));
+  if (!(options.max_error >= kLeastMaxError && options.max_error <= kLargestMaxError))
+    throw std::invalid_argument("monitor: max_error must be from " + numberText(kLeastMaxError) + " to " +
+                                numberText(kLargestMaxError) + " m, not " + numberText(options.max_error));
   if (!scene) throw std::invalid_argument("monitor: no scene");
   impl_ = std::make_unique<Impl>(std::move(scene), options, memory ? std::move(memory) : makeMonitorMemory());
 }

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "field/uniform/sparse_grid.h"
+#include "model/error_budget.h"
 #include "pair_bound.h"
 #include "shell/contact_gap.h"
 
@@ -19,11 +19,6 @@ constexpr double kRounding = 1.001;  // of a share that is just reached
 
 std::string millimetres(double metres) {
   return fmt::format("{:.2f}", 1e3 * metres);
-}
-
-double fieldShare(const FieldOptions& field) {
-  if (field.max_error) return *field.max_error;
-  return field.cell_size ? kHalfSqrt3 * *field.cell_size : 0.0;
 }
 
 double fieldError(const Body& body) {
@@ -56,11 +51,11 @@ Reason gapReason(const Scene& scene, const PlannedPair& pair, double gap, double
 }
 
 /// The reasons why a pair's bound is more than asked for.
-std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const BodyOptions& options) {
+std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const ErrorBudget& budget) {
   const ErrorBound bound = pairBound(scene, pair);
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
   std::vector<Reason> found;
-  const double field = fieldShare(options.field), gap = options.shell.edge_gap;
+  const double field = budget.field, gap = budget.edge_gap;
   if (bound.gap > kRounding * gap) found.push_back(gapReason(scene, pair, bound.gap, gap));
   if (bound.field > kRounding * field) {
     const Body& worse = fieldError(a) > fieldError(b) ? a : b;
@@ -73,13 +68,14 @@ std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const B
 
 }  // namespace
 
-std::string overBudget(const Scene& scene, const BodyOptions& options) {
-  if (!options.max_error || scene.bound.total() <= *options.max_error) return "";
+std::string overBudget(const Scene& scene) {
+  if (!scene.max_error || scene.bound.total() <= *scene.max_error) return "";
   std::map<std::pair<std::string, std::string>, std::pair<double, std::string>> largest;  // bound and text of the worst
   for (const PlannedPair& pair : scene.pairs) {
-    const double total = pairBound(scene, pair).total() + options.motion_margin;
-    if (total <= *options.max_error) continue;
-    for (const Reason& reason : reasons(scene, pair, options)) {
+    if (hasTriangles(scene, pair)) continue;
+    const double total = pairBound(scene, pair).total() + scene.motion_margin;
+    if (total <= *scene.max_error) continue;
+    for (const Reason& reason : reasons(scene, pair, shareOut(*scene.max_error))) {
       auto& known = largest[reason.key];
       if (total > known.first) known = {total, reason.text};
     }
@@ -88,7 +84,7 @@ std::string overBudget(const Scene& scene, const BodyOptions& options) {
   for (const auto& [key, bound] : largest) worst.emplace_back(-bound.first, bound.second);
   std::sort(worst.begin(), worst.end());
   std::string text = "the error bound is " + millimetres(scene.bound.total()) + " mm, more than the max_error of " +
-                     millimetres(*options.max_error) + " mm";
+                     millimetres(*scene.max_error) + " mm";
   for (std::size_t i = 0; i < std::min(kNamed, worst.size()); ++i) text += (i == 0 ? ": " : "; ") + worst[i].second;
   if (worst.size() > kNamed) text += "; and " + std::to_string(worst.size() - kNamed) + " more";
   return text;

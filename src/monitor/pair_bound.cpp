@@ -43,4 +43,10 @@ ErrorBound pairBound(const Scene& scene, const PlannedPair& pair) {
   return bound;
 }
 
+ErrorBound verdictBound(const Scene& scene, const PlannedPair& pair) {
+  if (!hasTriangles(scene, pair)) return pairBound(scene, pair);
+  const auto deviation = [&](int body) { return scene.bodies[body].triangles->deviation; };
+  return {0.0, 0.0, 0.0, deviation(pair.body_a) + deviation(pair.body_b)};
+}
+
 }  // namespace sdf_ccd

@@ -17,6 +17,16 @@ void setNotChecked(const std::string& reason, PairResult& result) {
   result.reason = reason;
 }
 
+/// What a role's impulse counts for, beside the others of the pair (design §3.7): the same, but for shells whose points
+/// are more than twice as far apart as the finest. A wrench errs by how few points touch, so these count as many as
+/// stand for an area.
+double forceWeight(const PairRole& role, double finest) {
+  constexpr double kAlike = 2.0;
+  if (!role.bearsForce()) return 0.0;
+  const double coarser = role.shell().covering_radius / finest;
+  return coarser <= kAlike ? 1.0 : 1.0 / (coarser * coarser);
+}
+
 void requireFinite(const ErrorBound& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
@@ -27,7 +37,7 @@ void clear(PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason.clear();
   result.skipped = result.postponed = false;
-  result.error = {};
+  result.error = result.contact_error = {};
   result.clearance = -1.0;
   result.intervals.clear();
   result.deepest = {};
@@ -52,7 +62,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
   if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a, purpose(pair.b_edges_only));
   if (pair.a_witnesses_b_field) addRole(pair.body_a, pair.body_b, ShellPurpose::kWitnesses);
   if (pair.b_witnesses_a_field) addRole(pair.body_b, pair.body_a, ShellPurpose::kWitnesses);
-  if (SurfacePair::isPossible(scene, pair)) surfaces_.emplace(scene, pair);
+  if (hasTriangles(scene, pair)) surfaces_.emplace(scene, pair, 0.5 * options.max_error);
   bound_ = pairBound(scene, pair);
 }
 
@@ -183,10 +193,11 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     result.skipped = true;
     return;
   }
-  std::optional<ContactPoint> crossing;
+  SurfacePair::Answer by_surfaces;
+  const ErrorBound surface_error = result.error;
   if (surfaces_) {
-    if (clearBySurfaces(crossing, result)) return;
-    if (crossing && !request.wantsContacts()) return setCrossing(*crossing, result);
+    if (clearBySurfaces(by_surfaces, result)) return;
+    if (by_surfaces.crossing && !request.wantsContacts()) return setCrossing(*by_surfaces.crossing, result);
     setRoles(bodies, result.span);
     motion_error_ += given_error;
     setError(bound_, kRootTolerance * travel_, result);
@@ -197,16 +208,18 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   cutRoles(result);
   requireFinite(result.error);
   const double near = result.error.total();
+  const std::optional<ContactPoint>& crossing = by_surfaces.crossing;
   if (crossing || std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
     forgetClearance();
     findContacts(motion, request, crossing, result);
-    return;
+    return setSurfaceError(by_surfaces.is_near, surface_error, result);
   }
   outside_ = true;
   // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
   double clearance = std::numeric_limits<double>::infinity();
   for (const PairRole& role : roles_) clearance = std::min(clearance, role.pointClearanceAtEnd(0.5 * near));
   setClear(clearance - bound_.gap, result);
+  setSurfaceError(false, surface_error, result);
 }
 
 /// @param clearance  lower bound of the distance at the span's end, of bodies at the given poses [m].
@@ -224,15 +237,28 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
   result.deepest = crossing;
 }
 
-/// Whether the triangles show that the bodies stay apart. @param crossing  gets where they surely cross, if they do.
-bool PairChecker::clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result) {
+/// The verdict's error where both bodies are triangles: of these and of the motion, also where fields decided. For they
+/// call a pair CLEAR if no point of a shell, whose surface is no farther than the gap from its points, comes nearer by
+/// the field than field + gap + chord + root: then the surfaces stay apart though all of these are as wrong as they may
+/// be. They call it CONTACT if a point is deeper, by what the field surely knows there, than chord + root. None of the
+/// errors that were taken off is left; only the motion's, which no check removes, and what the triangles that stand for
+/// a curved surface deviate by. What is UNCERTAIN is so to the triangles' resolution if they found the surfaces near,
+/// else to what the fields know.
+/// @param error  of the triangles and the motion.
+void PairChecker::setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const {
+  if (!surfaces_ || (result.verdict == Verdict::kUncertain && !is_near)) return;
+  result.error = error;
+  if (result.verdict == Verdict::kUncertain) result.error.gap += 2.0 * surfaces_->resolution();
+}
+
+/// Whether the triangles show that the bodies stay apart. @param answer  gets what they say otherwise.
+bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& result) {
   const RelativeMotion& motion = surfaces_->motion();
   double clearance = surfaces_->ballClearance(motion.end());
   if (surfaces_->ballClearance(motion.start()) - travel_ > std::max(motion_error_, surfaces_->size())) {
     outside_ = true;
   } else {
-    SurfacePair::Answer answer = surfaces_->decide(motion_error_, memory_->separation);
-    crossing = answer.crossing;
+    answer = surfaces_->decide(motion_error_, memory_->separation);
     if (answer.state != SeparationState::kApart) return false;
     clearance = std::max(clearance, answer.clearance);
     outside_ = outside_ || surfaces_->isOutside();
@@ -288,15 +314,18 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
                                                        : std::nullopt;
   ContactCollector& collector = memory_->collector;
   collector.begin(motion, result, crossing.has_value());
-  const auto bears = [](const PairRole& role) { return role.bearsForce(); };
-  const double weight = 1.0 / double(std::count_if(roles_.begin(), roles_.end(), bears));
+  double finest = std::numeric_limits<double>::infinity(), all = 0.0;
+  for (const PairRole& role : roles_)
+    if (role.bearsForce()) finest = std::min(finest, role.shell().covering_radius);
+  for (const PairRole& role : roles_) all += forceWeight(role, finest);
   for (PairRole& role : roles_) {
     const bool shell_is_a = role.fieldBody() == pair_.body_b;
-    collector.add(role, shell_is_a, weight, siblings_[role.fieldBody()], options_.contact,
+    collector.add(role, shell_is_a, forceWeight(role, finest) / all, siblings_[role.fieldBody()], options_.contact,
                   request.wrenches && role.bearsForce());
   }
   collector.finish(request, result);
   if (crossing && result.intervals.empty()) return setCrossing(*crossing, result);
+  if (!result.intervals.empty()) result.contact_error = result.error;
   // Whatever lies between the points, and wherever in the band: one of the surface is deeper than the motion is off by.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;
   result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;

@@ -81,7 +81,8 @@ class PairChecker {
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
-  bool clearBySurfaces(std::optional<ContactPoint>& crossing, PairResult& result);
+  bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
+  void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
   bool clearFromAfar(double margin, PairResult& result);
   void cutRoles(PairResult& result);
   std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const;

@@ -66,6 +66,7 @@ bool PreparedNeeds::cover(const PreparedNeeds& other) const {
   const auto has = [](bool mine, bool wanted) { return mine || !wanted; };
   return has(of_body.field, other.of_body.field) && has(of_body.shell, other.of_body.shell) &&
          (!other.of_body.shell || !of_body.edges_only || other.of_body.edges_only) &&
+         (!other.of_body.shell || has(of_body.decides, other.of_body.decides)) &&
          has(of_body.witnesses, other.of_body.witnesses) && has(triangles, other.triangles) &&
          has(surface, other.surface);
 }
@@ -78,6 +79,7 @@ PreparedNeeds PreparedNeeds::operator|(const PreparedNeeds& other) const {
   // Only the edges are wanted if all who want a shell want these.
   all.of_body.edges_only = all.of_body.shell && (!of_body.shell || of_body.edges_only) &&
                            (!other.of_body.shell || other.of_body.edges_only);
+  all.of_body.decides = (of_body.shell && of_body.decides) || (other.of_body.shell && other.of_body.decides);
   all.triangles = triangles || other.triangles;
   all.surface = surface || other.surface;
   return all;

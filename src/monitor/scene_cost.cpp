@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "body/body_builder.h"
+#include "body/element_options.h"
 #include "body/mesh_pool.h"
 #include "field/field_cache.h"
 #include "field/source_field.h"
@@ -44,28 +46,26 @@ class CostEstimate {
 
   std::shared_ptr<MeshPool> meshes() const { return pool_; }
 
-  BodyCost of(const BodyDescription& body, bool needs_field, bool needs_shell, bool edges_only) {
+  BodyCost of(const BodyDescription& body, const BodyNeeds& needs) {
     BodyCost cost;
     cost.name = body.name;
     cost.in_cache = true;
     for (const GeometryDescription& geometry : body.geometry) {
       const auto* primitive = std::get_if<Primitive>(&geometry.shape);
       if (primitive) {
-        if (needs_shell) addShell(*primitive, edges_only, cost);
+        if (needs.shell) addShell(*primitive, needs, cost);
         continue;
       }
       PooledMesh& mesh = pool_->find(geometry);
       const bool is_new = seen_.insert(&mesh).second;
-      if (needs_field && is_new) addField(mesh, cost);
-      if (needs_shell) cost.addShell(expectedPoints(mesh.mesh, options_.shell));
+      if (needs.field && is_new) addField(mesh, cost);
+      if (needs.shell) cost.addShell(expectedPoints(mesh.mesh, pool_->shellOptions(mesh)));
     }
     cost.in_cache = cost.in_cache && cost.field_bytes > 0.0;
     return cost;
   }
 
  private:
-  double finest() const { return options_.shell.edge_gap > 0.0 ? options_.shell.edge_gap : options_.shell.spacing; }
-
   void addField(PooledMesh& mesh, BodyCost& cost) {
     FieldOptions field = pool_->fieldOptions(mesh);
     const double cached = cachedBytes(options_, mesh.mesh, field);
@@ -78,7 +78,7 @@ class CostEstimate {
     // What is too large ends when it is, and a coarser one is made.
     const auto most = static_cast<double>(field.max_bytes);
     double one_thread = 0.0;
-    while (options_.max_error && field.max_error && expected.bytes > most && expected.bytes < kHopeless * most) {
+    while (options_.is_shared_out && field.max_error && expected.bytes > most && expected.bytes < kHopeless * most) {
       one_thread += expected.seconds * most / expected.bytes;
       *field.max_error *= 2.0;
       expected = expectedCost(source, field);
@@ -89,15 +89,16 @@ class CostEstimate {
 
   /// A finely tessellated curve would cost more than its shell: points of a coarser one stand for it, and grow as they
   /// do on such surfaces.
-  void addShell(const Primitive& primitive, bool edges_only, BodyCost& cost) {
+  void addShell(const Primitive& primitive, const BodyNeeds& needs, BodyCost& cost) {
     const double size = boundingBox(primitive).sizes().norm();
     const bool is_box = std::holds_alternative<Box>(primitive);
-    const double coarser = is_box ? 1.0 : std::max(1.0, kFinestOfSize * size / finest());
-    const bool has_rims = std::holds_alternative<Cylinder>(primitive) && options_.shell.edge_gap > 0.0;
-    ShellOptions shell = options_.shell;
-    shell.spacing = edges_only ? size : coarser * shell.spacing;
+    ShellOptions shell = shellOptionsFor(options_, surfaceArea(primitive), !needs.decides);
+    const double finest = finenessOf(shell);
+    const double coarser = is_box ? 1.0 : std::max(1.0, kFinestOfSize * size / finest);
+    const bool has_rims = std::holds_alternative<Cylinder>(primitive) && shell.edge_gap > 0.0;
+    shell.spacing = needs.edges_only ? size : coarser * shell.spacing;
     shell.edge_gap *= coarser;
-    const double points = expectedPoints(tessellate(primitive, 0.05 * coarser * finest()), shell);
+    const double points = expectedPoints(tessellate(primitive, 0.05 * coarser * finest), shell);
     cost.addShell(points * std::pow(coarser, has_rims ? 1.5 : 2.0));
   }
 
@@ -134,14 +135,26 @@ void SceneCost::add(const BodyCost& body) {
   bodies.push_back(body);
 }
 
+std::vector<char> shellsThatDecide(const SceneDescription& description, const ScenePlan& plan) {
+  std::vector<char> decides(description.bodies.size(), 0);
+  for (const PlannedPair& pair : plan.pairs) {
+    const auto has_no_triangles = [&](int body) { return !whyNoShell(description.bodies[body]).empty(); };
+    if (has_no_triangles(pair.body_a)) decides[pair.body_b] = 1;
+    if (has_no_triangles(pair.body_b)) decides[pair.body_a] = 1;
+  }
+  return decides;
+}
+
 SceneCost expectedCost(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options) {
+  const std::vector<char> decides = shellsThatDecide(description, plan);
   SceneCost scene;
   CostEstimate estimate(options);
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     const BodyDescription& body = description.bodies[i];
     if (!body.failure.empty() || !(plan.needs_field[i] || plan.needs_shell[i])) continue;
     try {
-      scene.add(estimate.of(body, plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i]));
+      scene.add(
+          estimate.of(body, {plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], decides[i] != 0, false}));
     } catch (const std::exception&) {
       // Building the body will say what is wrong with it.
     }

@@ -39,6 +39,9 @@ struct SceneCost {
   void add(const BodyCost& body);
 };
 
+/// Per body: whether a verdict rests on its shell, as a pair's other body has no triangles to decide by.
+std::vector<char> shellsThatDecide(const SceneDescription& description, const ScenePlan& plan);
+
 /// Expects the cost of buildScene() with the same arguments: of fields by building a sample of their cells (see the
 /// fields' expectedCost()), of shells from areas and edges. Meshes of equal content count once. What buildScene() would
 /// refuse costs nothing here.

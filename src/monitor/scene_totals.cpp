@@ -19,13 +19,15 @@ void countPairs(Scene& scene) {
   }
 }
 
-void setBounds(double motion_margin, Scene& scene) {
-  scene.bound = {};
+void setBounds(Scene& scene) {
+  scene.bound = scene.contact_bound = {};
   for (BodyReport& report : scene.reports) report.bound = {};
   for (const PlannedPair& pair : scene.pairs) {
-    ErrorBound bound = pairBound(scene, pair);
-    if (bound.total() == 0.0) continue;  // of a body that was not built
-    bound.chord = motion_margin;
+    ErrorBound of_contacts = pairBound(scene, pair), bound = verdictBound(scene, pair);
+    if (of_contacts.total() == 0.0) continue;  // of a body that was not built
+    of_contacts.chord = scene.motion_margin;
+    bound.chord = hasTriangles(scene, pair) ? scene.motion_error : scene.motion_margin;
+    if (isLarger(of_contacts, scene.contact_bound)) scene.contact_bound = of_contacts;
     for (ErrorBound* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
       if (isLarger(bound, *largest)) *largest = bound;
   }

@@ -7,8 +7,7 @@ namespace sdf_ccd {
 /// Sets how many pairs each body is in: BodyReport::pairs.
 void countPairs(Scene& scene);
 
-/// Sets the largest error bounds of each body's pairs and of all.
-/// @param motion_margin  as in BodyOptions [m].
-void setBounds(double motion_margin, Scene& scene);
+/// Sets the largest error bounds of each body's pairs and of all, of verdicts and of contacts.
+void setBounds(Scene& scene);
 
 }  // namespace sdf_ccd

@@ -6,7 +6,7 @@ namespace sdf_ccd {
 
 CycleSummary::CycleSummary(CycleResult& result) : result_(result) {
   result.verdict = Verdict::kClear;
-  result.error_bound = 0.0;
+  result.error_bound = result.contact_error = 0.0;
   result.error = {};
   result.checked = result.skipped = result.not_checked = result.delayed = result.postponed = 0;
 }
@@ -30,6 +30,7 @@ void CycleSummary::add(const PairResult& pair) {
   }
   ++(pair.skipped ? result_.skipped : pair.postponed ? result_.postponed : result_.checked);
   take(pair.error);
+  result_.contact_error = std::max(result_.contact_error, pair.contact_error.total());
 }
 
 void CycleSummary::addSkipped(int count, const ErrorBound& error) {

@@ -37,13 +37,10 @@ bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d
 
 }  // namespace
 
-bool SurfacePair::isPossible(const Scene& scene, const PlannedPair& pair) {
-  return scene.bodies[pair.body_a].triangles && scene.bodies[pair.body_b].triangles;
-}
-
-SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair)
+SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution)
     : f_is_a_(scene.bodies[pair.body_a].ball.radius >= scene.bodies[pair.body_b].ball.radius),
-      motion_(scene, f_is_a_ ? pair.body_a : pair.body_b, f_is_a_ ? pair.body_b : pair.body_a) {
+      motion_(scene, f_is_a_ ? pair.body_a : pair.body_b, f_is_a_ ? pair.body_b : pair.body_a),
+      resolution_(resolution) {
   field_ = &scene.bodies[motion_.f()];
   shell_ = &scene.bodies[motion_.p()];
   deviation_ = field_->triangles->deviation + shell_->triangles->deviation;
@@ -61,7 +58,7 @@ SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& m
     const Answer closed = decideBy(f.closedTree(), p.closedTree(), margin, closed_witness_, memory);
     if (closed.state == SeparationState::kApart) return closed;
     Answer open = decideBy(f.tree, p.tree, margin, witness_, memory);
-    if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;
+    if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;  // not near
     return open;
   }
   return decideBy(f.tree, p.tree, margin, witness_, memory);
@@ -69,13 +66,12 @@ SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& m
 
 SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, double margin, SeparationWitness& witness,
                                           SeparationMemory& memory) const {
-  constexpr double kResolution = 5e-5;  // half of the error that a verdict may have by default [m]
   Answer answer;
   double distance = -std::numeric_limits<double>::infinity();
   bool apart = true;
   SeparationOptions options;
   options.margin = margin;
-  options.resolution = kResolution;
+  options.resolution = resolution_;
   for (std::size_t step = 0; step < motion_.steps(); ++step) {
     const double travel = motion_.bounds(step).travel;
     if (distance - travel > margin) {
@@ -91,6 +87,7 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
     const bool now = found.state == SeparationState::kApart;
     // A motion of many steps that stay open takes no longer than one.
     if (!now) options.max_tests -= found.tests;
+    answer.is_near |= found.is_near;
     if (options.max_tests <= 0) return answer;
     distance = now ? found.distance : -std::numeric_limits<double>::infinity();
     apart &= now;

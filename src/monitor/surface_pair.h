@@ -13,9 +13,9 @@ namespace sdf_ccd {
 /// their surfaces stay apart or surely cross.
 class SurfacePair {
  public:
-  /// If both bodies are all triangles.
-  static bool isPossible(const Scene& scene, const PlannedPair& pair);
-  SurfacePair(const Scene& scene, const PlannedPair& pair);
+  /// Of a pair that hasTriangles().
+  /// @param resolution  surfaces nearer to each other than this may be left open [m].
+  SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution);
 
   /// Takes the motion over a part of a cycle, of bodies that can be followed.
   /// @param bounds  see RelativeMotion::take().
@@ -28,6 +28,9 @@ class SurfacePair {
 
   /// What the triangles are off by from the surfaces [m].
   double deviation() const { return deviation_; }
+
+  /// What is nearer than this, beyond the errors of triangles and motion, may be left open [m].
+  double resolution() const { return resolution_; }
 
   /// Of the ball around the smaller body: what is farther away than that need not be known well [m].
   double size() const { return shell_->ball.radius; }
@@ -48,6 +51,7 @@ class SurfacePair {
     SeparationState state = SeparationState::kOpen;
     double clearance = 0.0;                ///< where apart: lower bound of the distance at the motion's end [m]
     std::optional<ContactPoint> crossing;  ///< where crossing
+    bool is_near = false;  ///< where open: the surfaces come as near as all errors and twice the resolution
   };
 
   /// @param motion_error  the bodies are no farther than this from where the motion has them, both together [m].
@@ -66,6 +70,7 @@ class SurfacePair {
   bool f_is_a_;
   RelativeMotion motion_;
   double deviation_;
+  double resolution_;
   SeparationWitness witness_, closed_witness_;
 };
 

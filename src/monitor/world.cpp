@@ -117,9 +117,11 @@ void WorldEditor::Impl::forgetFields() {
 std::vector<PreparedNeeds> WorldEditor::Impl::needsOf(const SceneDescription& description,
                                                       const ScenePlan& plan) const {
   std::vector<PreparedNeeds> needs(description.bodies.size());
+  const std::vector<char> decides = shellsThatDecide(description, plan);
   std::vector<char> can_be_triangles;
   for (std::size_t b = 0; b < needs.size(); ++b) {
-    needs[b].of_body = {plan.needs_field[b], plan.needs_shell[b], plan.edges_only[b], plan.needs_witnesses[b]};
+    needs[b].of_body = {plan.needs_field[b], plan.needs_shell[b], plan.edges_only[b], decides[b] != 0,
+                        plan.needs_witnesses[b]};
     const BodyDescription& body = description.bodies[b];
     can_be_triangles.push_back(body.failure.empty() && whyNoShell(body).empty());
   }
@@ -253,7 +255,9 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   }
   snapshot->shared = std::max(0, snapshot->shared - snapshot->prepared);
   countPairs(scene);
-  setBounds(impl_->options.motion_margin, scene);
+  scene.motion_margin = impl_->options.motion_margin;
+  scene.motion_error = impl_->options.motion_error;
+  setBounds(scene);
   scene.build_seconds = secondsSince(start);
   snapshot->seconds = scene.build_seconds;
   snapshot->description = std::make_shared<const SceneDescription>(std::move(description));

@@ -313,7 +313,7 @@ class SeparationQuery {
   /// CLEAR is no longer to be had; a crossing may be.
   void leaveOpen() {
     if (open_) return;
-    open_ = true;
+    open_ = found_.is_near = true;
     limit_ = std::min(options_.max_tests, tests_ + kMostTestsWhenOpen);
   }
 

@@ -12,7 +12,7 @@ namespace sdf_ccd {
 
 struct SeparationOptions {
   double margin = 0.0;       ///< surfaces count as apart where they surely are farther apart than this [m]
-  double resolution = 5e-5;  ///< what is nearer than this beyond the margin may stay open [m]
+  double resolution = 5e-5;  ///< what comes nearer than this beyond the margin may stay open [m]
   int max_tests = 20000;     ///< of pairs of triangles; what is not decided by then stays open
 };
 
@@ -30,11 +30,12 @@ enum class SeparationState {
 
 struct Separation {
   SeparationState state = SeparationState::kOpen;
-  double distance = 0.0;                  ///< where apart: a lower bound all along, the margin not taken off [m]
-  double s = 0.0;                         ///< where crossing: when, from 0 to 1
-  Vector3d p_A = Vector3d::Zero();        ///< and where: on the surface of one, and the other one has it, to rounding [m]
+  double distance = 0.0;            ///< where apart: a lower bound all along, the margin not taken off [m]
+  double s = 0.0;                   ///< where crossing: when, from 0 to 1
+  Vector3d p_A = Vector3d::Zero();  ///< and where: on the surface of one, and the other one has it, to rounding [m]
   Vector3d normal_A = Vector3d::UnitZ();  ///< of a triangle there, unit; either side
   int tests = 0;                          ///< that it took, of SeparationOptions::max_tests
+  bool is_near = false;  ///< where open: some time they are no farther apart than the margin and twice the resolution
 };
 
 /// What a query needs while it runs.
@@ -70,6 +71,12 @@ struct SeparationMemory {
 ///    else the interval is halved, for these pairs alone, until it is. `distance` is the least of all gaps.
 /// What rounding takes off: kBoxRounding, and 32 ε of the coordinates for triangles, as placing a corner takes four
 /// roundings of coordinates of A's frame each way (√3 · 4), a product of it with n three, and n's length two.
+///
+/// What is_near says. Triangles are left open where the gap by the direction n of their closest points, with B's
+/// corners on the middles of their chords, is no more than the margin, and these corners go no farther than m over the
+/// interval, m + e ≤ resolution. With d the distance of those closest points, n·q − n·x is at least d − m/2 at both
+/// ends, so d ≤ margin + e + m/2; and halfway in time B is within e of these middles: the distance is then no more than
+/// margin + 2e + m/2 ≤ margin + 2 resolution.
 ///
 /// The proof of kCrossing: an edge pierces a triangle at a time (see crossingPoint()), or rounded triangles overlap.
 ///

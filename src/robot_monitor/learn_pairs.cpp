@@ -236,7 +236,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   const auto built = Clock::now();
   const std::vector<Seen> seen = testPairs(robot, scene, options);
   for (std::size_t p = 0; p < seen.size(); ++p) sortOut(scene.pairs[p], seen[p], scene, options, pairs);
-  pairs.error_bound = scene.bound.total();
+  pairs.error_bound = scene.contact_bound.total();
   pairs.build_seconds = std::chrono::duration<double>(built - start).count();
   pairs.test_seconds = secondsSince(built);
   return pairs;

@@ -19,7 +19,7 @@ class StateTester {
  public:
   /// @param scene  in which all pairs are of links.
   StateTester(const RobotModel& robot, const std::shared_ptr<const Scene>& scene)
-      : robot_(robot), monitor_(scene, {}), bound_(scene->bound.total()) {
+      : robot_(robot), monitor_(scene, {}), bound_(scene->contact_bound.total()) {
     for (const Body& body : scene->bodies) {
       const auto& links = robot.links();
       links_.push_back(static_cast<std::size_t>(std::find(links.begin(), links.end(), body.name) - links.begin()));

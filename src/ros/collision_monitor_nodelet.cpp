@@ -187,7 +187,7 @@ void CollisionMonitor::buildFields() {
     NODELET_WARN("%s", warning.c_str());
     health_.warnings.push_back(warning);
   }
-  const std::string over = overBudget(*scene, parameters_.scene);
+  const std::string over = overBudget(*scene);
   if (!over.empty()) {
     NODELET_WARN("%s", over.c_str());
     health_.warnings.push_back(over);
@@ -333,6 +333,7 @@ void CollisionMonitor::publishCycle() {
   health_.latency = state->latency;
   health_.run_time = state->run_time;
   health_.error = loop_->result().error;
+  health_.contact_error = loop_->result().contact_error;
   health_.missing = missingBodies(*loop_);
   health_.pairs_delayed = loop_->result().delayed;
   health_.pairs_postponed = loop_->result().postponed;

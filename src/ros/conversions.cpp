@@ -121,6 +121,7 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   message.error_chord = pair.error.chord;
   message.error_root = pair.error.root;
   message.error_gap = pair.error.gap;
+  message.contact_error_bound = pair.contact_error.total();
 }
 
 void setContact(const TrackedContact& contact, Contact& message) {
@@ -138,6 +139,7 @@ void setContact(const TrackedContact& contact, Contact& message) {
   setPointContact(contact.deepest, toTime(contact.deepest_origin), message.deepest);
   message.max_force = contact.max_force;
   message.error_bound = contact.error_bound;
+  message.contact_error_bound = contact.contact_error;
 }
 
 void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages) {

@@ -190,6 +190,7 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   message.run_time = result.run_time;
   message.latency = (now - cycle.end).toSec();
   setErrorBound(result, message);
+  message.contact_error_bound = result.contact_error;
   setDelays(cycle, message);
   setScalars(loop, message);
   message.pairs_checked = result.checked;

@@ -11,6 +11,7 @@ void CycleSnapshot::take(const MonitorLoop& loop) {
   result_.verdict = result.verdict;
   result_.error_bound = result.error_bound;
   result_.error = result.error;
+  result_.contact_error = result.contact_error;
   result_.checked = result.checked;
   result_.skipped = result.skipped;
   result_.postponed = result.postponed;

@@ -49,6 +49,7 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
   status.addf("of it chords and motion [mm]", "%.3f", 1e3 * health_.error.chord);
   status.addf("of it contact times [mm]", "%.3f", 1e3 * health_.error.root);
   status.addf("of it gaps between points [mm]", "%.3f", 1e3 * health_.error.gap);
+  status.addf("error bound of contacts [mm]", "%.3f", 1e3 * health_.contact_error);
   status.add("pairs", health_.pairs);
   status.add("pairs left out", health_.pairs_left_out);
   status.add("cycles with postponed pairs", health_.short_cycles);

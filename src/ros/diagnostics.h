@@ -11,16 +11,17 @@ namespace sdf_ccd {
 
 /// What /diagnostics tells of the monitor.
 struct MonitorHealth {
-  std::string failure;       ///< why the monitor cannot start; empty if it can
-  std::string building;      ///< what is being built; empty if all is
-  bool stalled = false;      ///< no transforms arrive
-  double wanted_rate = 0.0;  ///< [Hz]
-  double rate = 0.0;         ///< of cycles [Hz]
-  double latency = 0.0;      ///< of the last cycle [s]
-  double run_time = 0.0;     ///< of the last check [s]
-  ErrorBound error;          ///< of the last cycle's pair where it is largest
-  double max_error = 0.0;    ///< wanted [m]; 0: none
-  int pairs = 0;             ///< to be checked in each cycle
+  std::string failure;         ///< why the monitor cannot start; empty if it can
+  std::string building;        ///< what is being built; empty if all is
+  bool stalled = false;        ///< no transforms arrive
+  double wanted_rate = 0.0;    ///< [Hz]
+  double rate = 0.0;           ///< of cycles [Hz]
+  double latency = 0.0;        ///< of the last cycle [s]
+  double run_time = 0.0;       ///< of the last check [s]
+  ErrorBound error;            ///< of the last cycle's pair where it is largest
+  double contact_error = 0.0;  ///< CycleResult::contact_error of the last cycle [m]
+  double max_error = 0.0;      ///< wanted [m]; 0: none
+  int pairs = 0;               ///< to be checked in each cycle
   int pairs_left_out = 0;
   std::vector<std::string> missing;     ///< "body: reason" of the last cycle
   std::vector<std::string> bad_bodies;  ///< "body: reason" of those without field or shell

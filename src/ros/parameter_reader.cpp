@@ -37,16 +37,21 @@ bool toNumber(const XmlRpcValue& value, double& number) {
 
 ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string name) : tree_(tree), name_(std::move(name)) {}
 
-bool ParameterReader::has(const std::string& key) const {
+bool ParameterReader::isSet(const std::string& key) const {
   return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
 }
 
-bool ParameterReader::isText(const std::string& key) const {
-  return has(key) && XmlRpcValue(tree_)[key].getType() == XmlRpcValue::TypeString;
+bool ParameterReader::has(const std::string& key) {
+  known_.insert(key);
+  return isSet(key);
 }
 
-bool ParameterReader::isGroup(const std::string& key) const {
-  return has(key) && XmlRpcValue(tree_)[key].getType() == XmlRpcValue::TypeStruct;
+bool ParameterReader::isText(const std::string& key) {
+  return has(key) && tree_[key].getType() == XmlRpcValue::TypeString;
+}
+
+bool ParameterReader::isGroup(const std::string& key) {
+  return has(key) && tree_[key].getType() == XmlRpcValue::TypeStruct;
 }
 
 XmlRpcValue* ParameterReader::find(const std::string& key) {
@@ -57,7 +62,7 @@ XmlRpcValue* ParameterReader::find(const std::string& key) {
 void ParameterReader::fail(const std::string& key, const std::string& expected) const {
   std::ostringstream text;
   text << "parameter " << name_ << "/" << key;
-  if (has(key)) {
+  if (isSet(key)) {
     XmlRpcValue value = tree_[key];
     std::ostringstream written;
     written << value;
@@ -66,7 +71,7 @@ void ParameterReader::fail(const std::string& key, const std::string& expected) 
     text << " is missing";
   }
   text << ", expected " << expected;
-  const std::string misspelt = has(key) ? "" : nearestName(key, notRead());
+  const std::string misspelt = isSet(key) ? "" : nearestName(key, notRead());
   if (!misspelt.empty()) text << "; is it " << misspelt << "?";
   throw ParameterError(text.str());
 }
@@ -124,7 +129,7 @@ std::string ParameterReader::name(const std::string& key, const std::string& fal
 
 int ParameterReader::choice(const std::string& key, std::initializer_list<const char*> choices, int fallback) {
   const std::string value = text(key, "");
-  if (!has(key)) return fallback;
+  if (!isSet(key)) return fallback;
   std::string expected = "one of";
   int index = 0;
   for (const char* choice : choices) {
@@ -222,8 +227,8 @@ std::set<std::string> ParameterReader::notRead() const {
 
 std::set<std::string> ParameterReader::unset() const {
   std::set<std::string> names;
-  for (const std::string& key : read_)
-    if (!has(key)) names.insert(key);
+  for (const std::string& key : known_)
+    if (!isSet(key)) names.insert(key);
   return names;
 }
 

@@ -28,9 +28,10 @@ class ParameterReader {
 
   const std::string& name() const { return name_; }
 
-  bool has(const std::string& key) const;
-  bool isText(const std::string& key) const;
-  bool isGroup(const std::string& key) const;
+  /// Whether it is set. One that is, is not read by this; one that is not may be what another was meant to be.
+  bool has(const std::string& key);
+  bool isText(const std::string& key);
+  bool isGroup(const std::string& key);
 
   double number(const std::string& key, double fallback);
   double positive(const std::string& key, double fallback);     ///< > 0 and finite
@@ -70,12 +71,13 @@ class ParameterReader {
  private:
   XmlRpc::XmlRpcValue tree_;
   std::string name_;
-  std::set<std::string> read_;
+  std::set<std::string> read_, known_;  // the latter also if only looked for
 
   /// Null if it is not set.
   XmlRpc::XmlRpcValue* find(const std::string& key);
 
-  std::set<std::string> unset() const;  ///< of what was read, or looked for
+  bool isSet(const std::string& key) const;
+  std::set<std::string> unset() const;  ///< of what is known
   std::set<std::string> notRead() const;
 };
 

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "field/uniform/sparse_grid.h"
-#include "model/error_budget.h"
+#include "common/number_text.h"
 #include "ros/parameter_reader.h"
 #include "ros/world_parameters.h"
 
 namespace sdf_ccd {
 namespace {
 
-constexpr double kDefaultCellSize = 0.004;  // [m]
-constexpr double kLongestCycle = 3600.0;    // so long transforms have to be kept [s]
+constexpr double kLongestCycle = 3600.0;  // so long transforms have to be kept [s]
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
   constexpr std::size_t kMost = 1000;  // each is held against each pair
@@ -22,58 +20,57 @@ std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key)
   return rules;
 }
 
-double fieldError(const FieldOptions& field) {
-  return field.cell_size ? kHalfSqrt3 * *field.cell_size : *field.max_error;
-}
+/// Fields and shells for contacts: as fine as contact/accuracy says, else as elements are small; what field and shell
+/// say themselves holds.
+BodyOptions readScene(ParameterReader& reader) {
+  ParameterReader contact = reader.group("contact");
+  std::optional<double> accuracy;
+  if (contact.has("accuracy")) accuracy = contact.positive("accuracy", 0.0);
+  BodyOptions scene = optionsForContacts(accuracy);
 
-/// Reads max_error and shares it out. What field, shell and chord_tolerance set themselves has to fit in.
-std::optional<ErrorBudget> readBudget(ParameterReader& reader) {
-  const double max_error = reader.positive("max_error", 1.0);
-  if (!reader.has("max_error")) return std::nullopt;
-  ParameterReader field = reader.group("field"), shell = reader.group("shell");
-  GivenShares given;
-  if (field.has("max_error")) given.field = field.positive("max_error", 0.0);
-  if (field.has("cell_size")) given.field = fieldError({{}, field.positive("cell_size", 0.0), {}});
-  if (shell.has("edge_gap")) given.edge_gap = shell.positive("edge_gap", 0.0);
-  if (reader.has("chord_tolerance")) given.chord_tolerance = reader.positive("chord_tolerance", 0.0);
-  try {
-    return shareOut(max_error, given);
-  } catch (const std::invalid_argument& error) {
-    throw ParameterError(reader.name() + "/max_error: " + error.what() +
-                         " (field/max_error or field/cell_size, shell/edge_gap, three times chord_tolerance)");
+  ParameterReader field = reader.group("field");
+  const int given = field.has("cells") + field.has("cell_size") + field.has("max_error");
+  if (given > 1) field.fail("cells", "only one of cells, cell_size and max_error to be set");
+  if (given > 0) {
+    scene.cells_across = 0.0;
+    scene.field = {};
   }
-}
+  if (field.has("cells")) scene.field.cells = field.integer("cells", 0, 2);
+  if (field.has("max_error")) scene.field.max_error = field.positive("max_error", 0.0);
+  if (field.has("cell_size")) scene.field.cell_size = field.positive("cell_size", 0.0);
+  scene.field.band = field.notNegative("band", scene.field.band);
+  const double megabytes = field.positive("max_megabytes", static_cast<double>(scene.field.max_bytes >> 20));
+  scene.field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
+  field.finish();
 
-FieldOptions readField(ParameterReader reader, const std::optional<ErrorBudget>& budget) {
-  FieldOptions field;
-  const int given = reader.has("cells") + reader.has("cell_size") + reader.has("max_error");
-  if (given > 1) reader.fail("cells", "only one of cells, cell_size and max_error to be set");
-  if (reader.has("cells")) {
-    field.cells = reader.integer("cells", 0, 2);
-  } else if (reader.has("max_error")) {
-    field.max_error = reader.positive("max_error", 0.0);
-  } else if (budget && !reader.has("cell_size")) {
-    field.max_error = budget->field;
-  } else {
-    field.cell_size = reader.positive("cell_size", kDefaultCellSize);
+  ParameterReader shell = reader.group("shell");
+  if (shell.has("spacing")) {
+    const ShellOptions given_spacing = optionsForContacts(shell.positive("spacing", 0.0)).shell;
+    scene.points_across = 0.0;
+    scene.shell.spacing = given_spacing.spacing;
+    scene.shell.vertex_spacing = given_spacing.vertex_spacing;
   }
-  field.band = reader.notNegative("band", field.band);
-  const std::size_t most = budget ? kMostFieldBytes : field.max_bytes;
-  const double megabytes = reader.positive("max_megabytes", static_cast<double>(most >> 20));
-  field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
-  reader.finish();
-  return field;
+  scene.shell.edge_gap = shell.notNegative("edge_gap", scene.shell.edge_gap);
+  scene.shell.vertex_spacing = shell.notNegative("vertex_spacing", scene.shell.vertex_spacing);
+  scene.shell.seed = shell.integer("seed", static_cast<int>(scene.shell.seed), 0);
+  shell.finish();
+  return scene;
 }
 
-ShellOptions readShell(ParameterReader reader, const std::optional<ErrorBudget>& budget) {
-  ShellOptions shell;
-  shell.spacing = reader.positive("spacing", budget ? budget->face_spacing : 0.005);
-  shell.edge_gap = reader.notNegative("edge_gap", budget ? budget->edge_gap : shell.edge_gap);
-  if (budget) shell.max_points = kMostShellPoints;
-  shell.vertex_spacing = reader.notNegative("vertex_spacing", 0.002);
-  shell.seed = reader.integer("seed", static_cast<int>(shell.seed), 0);
-  reader.finish();
-  return shell;
+/// How far a verdict may be off, and what of it motions between transforms may be off by.
+void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
+  constexpr double kOfMotion = 0.2;  // that each body's motion may take of it
+  double& max_error = parameters.monitor.max_error;
+  max_error = reader.positive("max_error", max_error);
+  if (max_error < kLeastMaxError || max_error > kLargestMaxError)
+    reader.fail("max_error", "from " + numberText(kLeastMaxError) + " to " + numberText(kLargestMaxError) + " m");
+  if (reader.has("max_error")) parameters.scene.max_error = max_error;
+  ChordOptions& chords = parameters.monitor.chords;
+  double& sampling = parameters.tf.sampling.tolerance;
+  sampling = std::min(chords.tolerance, kOfMotion * max_error);
+  if (reader.has("chord_tolerance")) sampling = chords.tolerance = reader.positive("chord_tolerance", 0.0);
+  parameters.scene.motion_error = 2.0 * sampling;
+  parameters.scene.motion_margin = 2.0 * sampling + chords.tolerance;
 }
 
 ProximityParameters readProximity(ParameterReader& reader) {
@@ -125,6 +122,7 @@ ContactOptions readContact(ParameterReader reader) {
   contact.quadrature =
       static_cast<Quadrature>(reader.choice("quadrature", {"exact", "midpoint"}, static_cast<int>(contact.quadrature)));
   contact.midpoint_intervals = reader.integer("midpoint_intervals", contact.midpoint_intervals, 1);
+  reader.positive("accuracy", 1.0);  // see readScene()
   reader.finish();
   return contact;
 }
@@ -178,9 +176,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.world_file = reader.text("world_file", "");
   parameters.resource_roots = reader.texts("resource_roots");
   parameters.octomap = readOctomap(reader.group("octomap"), parameters.live_map);
-  const std::optional<ErrorBudget> budget = readBudget(reader);
-  parameters.scene.field = readField(reader.group("field"), budget);
-  parameters.scene.shell = readShell(reader.group("shell"), budget);
+  parameters.scene = readScene(reader);
   if (reader.flag("cache", true)) {
     parameters.scene.cache_directory = reader.text("cache_directory", "");
     if (parameters.scene.cache_directory.empty()) parameters.scene.cache_directory = defaultCacheDirectory();
@@ -189,12 +185,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   }
 
   parameters.monitor.contact = readContact(reader.group("contact"));
+  readMaxError(reader, parameters);
   ChordOptions& chords = parameters.monitor.chords;
-  chords.tolerance = reader.positive("chord_tolerance", budget ? budget->chord_tolerance : chords.tolerance);
-  parameters.scene.motion_margin = ErrorBudget::kChords * chords.tolerance;
-  if (budget) parameters.scene.max_error = reader.positive("max_error", 0.0);
   chords.max_chords = reader.integer("max_chords", chords.max_chords, 1);
-  parameters.tf.sampling.tolerance = chords.tolerance;
   parameters.tf.max_latency = reader.positive("max_latency", parameters.tf.max_latency);
   parameters.tf.max_cycle = reader.positive("max_cycle", parameters.tf.max_cycle);
   for (const char* key : {"max_latency", "max_cycle"}) {

@@ -1,5 +1,7 @@
 #include "measure_shell.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -23,6 +25,12 @@ void forEachChunk(const TriangleMesh& mesh, Work work) {
 
 std::size_t chunks(const TriangleMesh& mesh) {
   return (mesh.triangles.size() + kChunk - 1) / kChunk;
+}
+
+void raise(double value, std::atomic<double>& largest) {
+  double known = largest.load(std::memory_order_relaxed);
+  while (value > known && !largest.compare_exchange_weak(known, value, std::memory_order_relaxed)) {
+  }
 }
 
 /// What the cells of one triangle add to its points' areas.
@@ -63,27 +71,27 @@ double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double 
       reached2[chunk] = std::max(reached2[chunk], nearest.find(SurfacePiece::of(mesh, i).centroid(), any).distance2);
     }
   });
-  const double start2 = *std::max_element(reached2.begin(), reached2.end());
-  forEachChunk(mesh, [&](std::size_t chunk, int first, int last) {
-    double bound2 = start2;
+  // Shared by all, whose order does not matter: what one leaves out is below what another has found.
+  std::atomic<double> bound2{*std::max_element(reached2.begin(), reached2.end())};
+  forEachChunk(mesh, [&](std::size_t, int first, int last) {
     const auto isBelow = [&](const ContestedPiece& contested) {
+      const double known2 = bound2.load(std::memory_order_relaxed);
       return std::any_of(contested.begin, contested.end, [&](const Candidate& candidate) {
-        return contested.piece.farthest2(candidate.point) <= bound2;
+        return contested.piece.farthest2(candidate.point) <= known2;
       });
     };
     PieceWalk pieces(nearest, scale, cancel);
     for (int i = first; i < last; ++i) {
       pieces.walk(SurfacePiece::of(mesh, i), any, isBelow, [&](const ContestedPiece& contested) {
         forEachCell(contested, [&](const Candidate& candidate, const CellPolygon& cell) {
-          bound2 = std::max(bound2, cell.farthest2(candidate.point));
+          raise(cell.farthest2(candidate.point), bound2);
         });
       });
     }
-    reached2[chunk] = bound2;
   });
   const AlignedBox3d box = boundingBox(mesh);
   const double rounding = 1e-14 * (box.min().cwiseAbs().maxCoeff() + box.sizes().norm());
-  return std::sqrt(*std::max_element(reached2.begin(), reached2.end())) * (1 + 1e-9) + rounding;
+  return std::sqrt(bound2.load()) * (1 + 1e-9) + rounding;
 }
 
 std::vector<double> nearestAreas(const TriangleMesh& mesh, const PointShell& shell, double scale) {

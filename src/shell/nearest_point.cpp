@@ -39,7 +39,7 @@ NearestPoint::NearestPoint(const PointShell& shell) {
 }
 
 NearestPoint::Hit NearestPoint::find(const Vector3d& p, const Vector3d& facing) const {
-  Hit best{-1, std::numeric_limits<double>::infinity()};
+  Hit best{-1, std::numeric_limits<double>::infinity(), Vector3d::Zero()};
   if (nodes_.empty()) return best;
   struct Pending {
     double bound2;
@@ -64,7 +64,7 @@ NearestPoint::Hit NearestPoint::find(const Vector3d& p, const Vector3d& facing) 
       const Entry& entry = entries_[i];
       const double distance2 = (entry.point - p).squaredNorm();
       if (distance2 > best.distance2 || entry.normal.dot(facing) < 0) continue;
-      if (distance2 < best.distance2 || entry.index < best.index) best = {entry.index, distance2};
+      if (distance2 < best.distance2 || entry.index < best.index) best = {entry.index, distance2, entry.point};
     }
   }
   return best;

@@ -16,6 +16,7 @@ class NearestPoint {
   struct Hit {
     std::int32_t index = -1;  ///< in the shell; -1 if there is no such point
     double distance2 = 0.0;
+    Vector3d point = Vector3d::Zero();
   };
 
   /// Nearest point whose normal does not point against `facing`; a zero vector takes all. Of equally near points

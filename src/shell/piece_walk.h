@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -62,33 +63,54 @@ class PieceWalk {
   };
 
   /// Looking for points once for a larger piece and sharing them out is cheaper than looking for each small one.
-  static constexpr double kGather = 3;
+  static constexpr double kGather = 5;
 
-  /// A point that is nearest to some location of the piece is at most this much farther from the piece's centre than
-  /// the centre's nearest point: there and back.
-  static double margin(const SurfacePiece& piece, const Vector3d& center) {
-    return 2 * std::sqrt(piece.farthest2(center)) * (1 + 1e-12);
-  }
-
+  /// All points that may be nearest to some location of the piece. That location is no farther from the point that is
+  /// nearest to the centre than some corner is, so what is nearest to it is no farther from it.
   void gather(const SurfacePiece& piece, const Vector3d& facing) {
     const Vector3d center = piece.centroid();
-    const double reach = std::sqrt(nearest_.find(center, facing).distance2) * (1 + 1e-12) + margin(piece, center);
-    nearest_.forEachWithin(center, reach, facing, [&](std::int32_t index, const Vector3d& point) {
-      candidates_.push_back({point, index});
+    const NearestPoint::Hit hit = nearest_.find(center, facing);
+    if (hit.index < 0) return;
+    const double reach = std::sqrt(piece.farthest2(hit.point)) + std::sqrt(piece.farthest2(center));
+    gathered_.clear();
+    nearest_.forEachWithin(center, (1 + 1e-12) * reach, facing, [&](std::int32_t index, const Vector3d& point) {
+      gathered_.push_back({point, index});
     });
+    keepContestants(piece);
   }
 
   void narrow(const Entry& entry) {
-    const Vector3d center = entry.piece.centroid();
-    double nearest2 = std::numeric_limits<double>::infinity();
-    for (std::size_t i = entry.begin; i < entry.end; ++i) {
-      nearest2 = std::min(nearest2, (candidates_[i].point - center).squaredNorm());
+    gathered_.assign(candidates_.begin() + entry.begin, candidates_.begin() + entry.end);
+    keepContestants(entry.piece);
+  }
+
+  /// Adds those gathered to the candidates that no other is nearer than at all corners: what is nearer there is nearer
+  /// in the whole piece, as a plane divides what is nearer to the one from what is nearer to the other. Held against
+  /// those nearest to the corners and the centre.
+  void keepContestants(const SurfacePiece& piece) {
+    constexpr double kSurely = 1 - 1e-12;
+    const std::size_t count = gathered_.size();
+    to_corners2_.resize(count);
+    std::array<std::size_t, 4> rivals{};
+    std::array<double, 4> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < count; ++i) {
+      Vector3d& to2 = to_corners2_[i];
+      for (int k = 0; k < 3; ++k) to2[k] = (piece.corners[k] - gathered_[i].point).squaredNorm();
+      const std::array<double, 4> values{to2[0], to2[1], to2[2],
+                                         to2.sum()};  // the last, as the centre's, but for a constant
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (values[k] < least[k]) {
+          least[k] = values[k];
+          rivals[k] = i;
+        }
+      }
     }
-    const double reach = std::sqrt(nearest2) * (1 + 1e-12) + margin(entry.piece, center);
-    for (std::size_t i = entry.begin; i < entry.end; ++i) {
-      if ((candidates_[i].point - center).squaredNorm() > reach * reach) continue;
-      const Candidate kept = candidates_[i];
-      candidates_.push_back(kept);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_beaten = std::any_of(rivals.begin(), rivals.end(), [&](std::size_t rival) {
+        return (to_corners2_[rival].array() < kSurely * to_corners2_[i].array()).all();
+      });
+      if (!is_beaten) candidates_.push_back(gathered_[i]);
     }
   }
 
@@ -104,6 +126,8 @@ class PieceWalk {
   double gather2_;  ///< pieces with a longer edge, squared, are halved before points are looked for
   std::vector<Entry> stack_;
   std::vector<Candidate> candidates_;
+  std::vector<Candidate> gathered_;
+  std::vector<Vector3d> to_corners2_;  // of those gathered
 };
 
 }  // namespace sdf_ccd

@@ -35,6 +35,7 @@ BodyOptions limits(const FieldOptions& field) {
   BodyOptions options;
   options.field = field;
   options.max_error = field.max_error;
+  options.is_shared_out = field.max_error.has_value();
   return options;
 }
 

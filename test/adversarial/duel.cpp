@@ -63,7 +63,7 @@ Duel::Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& mon
   auto built =
       std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(scene)), scene));
   if (built->pairs.empty()) throw std::logic_error(name() + ": " + built->left_out.at(0).reason);
-  bound_ = built->bound.total();
+  bound_ = built->contact_bound.total();
   size_ = a_.radius() + b_.radius();
   monitor_ = std::make_unique<Monitor>(std::move(built), monitor);
 }
@@ -98,6 +98,7 @@ void Duel::judge(const PairMotion& solid, const PairMotion& outer, const PairRes
       return judgeDepth(solid, result, what, tally);
     case Verdict::kUncertain:
       ++tally.uncertain;
+      judgeNear(outer, result, what, tally);
       return judgeDepth(solid, result, what, tally);
     case Verdict::kNotChecked:
       ++tally.not_checked;
@@ -126,7 +127,19 @@ void Duel::judgeClear(const PairMotion& solid, const PairResult& result, const s
     ++tally.false_bound;
     tally.fail(what + ": clearance", text("%.17g m, true %.17g m", result.clearance, double(truth)));
   }
-  if (truth < kComparable * bound_ && !result.skipped) addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
+  if (truth < kComparable * bound_ && !result.skipped)
+    addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
+}
+
+/// Where triangles leave a pair open, its surfaces come as near as the error says.
+void Duel::judgeNear(const PairMotion& outer, const PairResult& result, const std::string& what, Tally& tally) const {
+  const bool by_triangles = result.error.total() < 1.1 * MonitorOptions().max_error + result.error.chord;
+  if (!by_triangles) return;
+  const Real near = result.error.total() + rounding(outer);
+  const LeastValue least = outer.least({0, near, 0});
+  if (least.low <= near) return;
+  ++tally.false_bound;
+  tally.fail(what + ": UNCERTAIN", text("%.3g m apart, reported %.3g m", double(least.low), result.error.total()));
 }
 
 void Duel::judgeContact(const PairMotion& outer, const PairResult& result, const std::string& what,
@@ -139,11 +152,13 @@ void Duel::judgeContact(const PairMotion& outer, const PairResult& result, const
   tally.fail(what + ": CONTACT", text("%.3g m deep, but %.3g m apart", result.deepest.depth, double(least.high)));
 }
 
-/// The deepest point is on one surface and `depth` inside the other; where surfaces cross and no point tells a depth, it is
-/// in both.
+/// The deepest point is on one surface and `depth` inside the other; where surfaces cross and no point tells a depth,
+/// it is in both.
 void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const {
   if (result.intervals.empty() || !a_.is_convex || !b_.is_convex) return;
   const ContactPoint& deepest = result.deepest;
+  const bool by_fields = result.contact_error.total() > 0.0;  // else triangles show the place
+  const ErrorBound& told = by_fields ? result.contact_error : result.error;
   const Real time = deepest.time;
   const auto in = [&](const Convex& piece, const LongPose& X) {
     return signedDistance(piece, X.R.transpose() * (deepest.p_W.cast<Real>() - X.p));
@@ -151,16 +166,16 @@ void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const s
   const Real in_a = in(a_.solid[0], solid.poseA(time)), in_b = in(b_.solid[0], solid.poseB(time));
   if (!(deepest.depth > 0.0)) {
     const Real outside = std::max(in_a, in_b);
-    if (outside <= result.error.total() + rounding(solid)) return;
+    if (outside <= told.total() + rounding(solid)) return;
     ++tally.false_bound;
-    tally.fail(what + ": place", text("%.3g m outside of a body, reported %.3g m", double(outside), result.error.total()));
+    tally.fail(what + ": place", text("%.3g m outside of a body, reported %.3g m", double(outside), told.total()));
     return;
   }
   const Real depth = deepest.depth;
   const Real error =
       std::min(std::max(std::abs(in_a + depth), std::abs(in_b)), std::max(std::abs(in_b + depth), std::abs(in_a)));
   // The place is off by the chord error too.
-  const Real bound = deepest.depth_error + result.error.root + 2.0 * result.error.chord;
+  const Real bound = deepest.depth_error + told.root + 2.0 * told.chord;
   addRatio(double(bound), error, tally);
   if (error <= bound + rounding(solid)) return;
   ++tally.false_bound;

@@ -68,6 +68,7 @@ class Duel {
  private:
   PairMotion motionOf(const CycleMotion& motion, const WaypointSpan& span, bool outer) const;
   void judgeClear(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
+  void judgeNear(const PairMotion& outer, const PairResult& result, const std::string& what, Tally& tally) const;
   void judgeContact(const PairMotion& outer, const PairResult& result, const std::string& what, Tally& tally) const;
   void judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
   Real rounding(const PairMotion& motion) const;

@@ -84,7 +84,8 @@ class TrackerTest : public ::testing::Test {
       } else {
         pair.span = {0, 1};
       }
-      pair.error = {0.003, 0.0001, 0.0, 0.001};
+      pair.error = {0.0, 0.0001, 0.0, 0.0};  // the verdict's, which triangles tell; depths are the fields'
+      pair.contact_error = {0.003, 0.0001, 0.0, 0.001};
       pair.on_a_W.force = Vector3d(0.0, 0.0, 6.0);
       for (const Touch& touch : said.touches) {
         pair.intervals.push_back({touch.enter, touch.exit});

@@ -47,6 +47,48 @@ TEST(SurfacePair, TellsATenthOfAMillimetre) {
   }
 }
 
+/// A cube tumbles over a slab and is nearest on its edge, halfway: how near is known. The bound holds from both sides,
+/// whatever max_error is.
+TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
+  constexpr double kHalf = 0.1, kTop = 0.01;
+  const auto scene =
+      build({body("slab", Primitive(Box{{0.5, 0.5, kTop}})), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+            coarse());
+  Random random(3);
+  for (const double max_error : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    MonitorOptions options = soft();
+    options.max_error = max_error;
+    Monitor monitor(scene, options);
+    int open = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double gap = max_error * (i % 2 == 0 ? 1.0 : 1e-3) * uniform(random, -4.0, 2.0),
+                   from = uniform(random, -0.3, 0.3);
+      const Isometry3d over = translation({0.1, -0.05, kTop + kHalf * std::sqrt(2.0) + gap});
+      const auto at = [&](double angle) { return over * pose({0, 0, 0}, angle, {0, 1, 0}); };
+      monitor.reset();
+      const PairResult pair =
+          monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {at(from), at(from + 1.5)}}), {}).pairs[0];
+      const bool is_clear = pair.verdict == Verdict::kClear;
+      ASSERT_TRUE(gap > 0.0 ? pair.verdict != Verdict::kContact : !is_clear) << max_error << ' ' << gap;
+      ASSERT_TRUE(is_clear || gap <= max_error) << max_error << ' ' << gap;
+      if (is_clear) {
+        EXPECT_LT(pair.error.total(), 1e-9);
+      }
+      if (pair.verdict != Verdict::kUncertain) continue;
+      ++open;
+      ASSERT_LE(gap, pair.error.total());
+      ASSERT_NEAR(pair.error.total(), max_error, 1e-9);
+    }
+    EXPECT_TRUE(open > 0 || max_error < 1e-2) << max_error;  // finer ones are decided sooner than given up
+    EXPECT_LT(open, 100) << max_error;
+  }
+  for (const double wrong : {0.0, -1.0, 9e-6, 0.011, std::nan("")}) {
+    MonitorOptions options;
+    options.max_error = wrong;
+    EXPECT_THROW(Monitor(scene, options), std::invalid_argument) << wrong;
+  }
+}
+
 /// What closes a mesh that is not quite closed is known to the triangles, however coarse the fields are.
 TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
   constexpr double kGap = 5e-5, kCrack = 1e-6, kHalf = 0.1;

@@ -38,7 +38,7 @@ TEST(TwoBodiesMove, HandsThatMeetHalfwayAreFound) {
                                  .pairs[0];
     ASSERT_EQ(pair.verdict, Verdict::kContact) << turn;
     // The hands' centres are 1.66 - 1.6 cos(angle) apart: 0.06 at the least.
-    EXPECT_NEAR(pair.deepest.depth, 0.04, pair.error.total()) << turn;
+    EXPECT_NEAR(pair.deepest.depth, 0.04, pair.contact_error.total()) << turn;
     EXPECT_NEAR(pair.deepest.time, 0.05, 0.01) << turn;
   }
 }

@@ -99,7 +99,7 @@ TEST(OverlappingPairs, AreLeftOutAndTold) {
   std::size_t counted = 0;
   for (const BodyReport& report : cart.scene.reports) counted += report.pairs;
   EXPECT_EQ(counted, 2 * cart.scene.pairs.size());
-  EXPECT_GT(cart.scene.bound.total(), 0.0);
+  EXPECT_GT(cart.scene.contact_bound.total(), 0.0);
 }
 
 TEST(OverlappingPairs, StayIfThatIsWanted) {

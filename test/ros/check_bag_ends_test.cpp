@@ -55,9 +55,10 @@ TEST_F(CheckBag, BadBagsAreRefused) {
 }
 
 TEST_F(CheckBag, WhatCannotBeMeantIsRefusedBeforeItIsBuilt) {
-  expectRefused(check("arm.bag", "no", "--max-error 1e-6"), "a max_error of 1e-06 m would take about ");
-  expectRefused(check("arm.bag", "no", "--max-error 1e-300"), "max_error must be at least 1e-09 m, not 1e-300 m");
-  expectRefused(check("arm.bag", "no", "--max-error 1e9"), "a max_error of 1e+09 m is larger than every body: ");
+  for (const char* error : {"1e-6", "1e-300", "0.02", "1e9"})
+    expectRefused(check("arm.bag", "no", std::string("--max-error ") + error), "expected from 1e-05 to 0.01 m");
+  write("fine.yaml", "contact: {accuracy: 1.0e-6}\ncache: false\n");
+  expectRefused(check("arm.bag", "no", "--config fine.yaml"), "such fine fields and shells would take about ");
   expectRefused(check("arm.bag", "no", "--rate 1e9"), "a rate of 1e+09 Hz is above the largest, 10000 Hz");
 }
 

@@ -52,17 +52,17 @@ class UnloadTest : public ::testing::Test {
         });
   }
 
-  void load(double max_error) {  // 0: the settings as they stand
+  void load(double accuracy) {  // 0: the settings as they stand
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       reasons_.clear();
     }
     const ros::NodeHandle monitor(kName);
     monitor.setParam("cache_directory", cache_);
-    if (max_error > 0.0) {
-      monitor.setParam("max_error", max_error);
+    if (accuracy > 0.0) {
+      monitor.setParam("contact/accuracy", accuracy);
     } else {
-      monitor.deleteParam("max_error");
+      monitor.deleteParam("contact");
     }
     ASSERT_TRUE(loader_.load(kName, "sdf_ccd/CollisionMonitor", {}, {}));
   }
@@ -95,14 +95,14 @@ TEST_F(UnloadTest, EndsSoonWhileItBuilds) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> moment(0.0, 4.0);
   for (int i = 0; i < 12; ++i) {
-    load(3e-4);
+    load(1.2e-3);
     std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
     EXPECT_LT(unload(), kSoon);
   }
 }
 
 TEST_F(UnloadTest, EndsSoonWhileAnotherProcessHoldsTheCache) {
-  load(2e-3);
+  load(5e-3);
   waitFor("waiting for transforms");
   unload();
   std::vector<int> locks;
@@ -112,7 +112,7 @@ TEST_F(UnloadTest, EndsSoonWhileAnotherProcessHoldsTheCache) {
     flock(locks.back(), LOCK_EX);
   }
   ASSERT_FALSE(locks.empty());
-  load(2e-3);
+  load(5e-3);
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   EXPECT_LT(unload(), kSoon);
   for (const int lock : locks) ::close(lock);

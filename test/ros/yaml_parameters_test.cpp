@@ -93,7 +93,8 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
 
 TEST(YamlParameters, PairsByRule) {
   const MonitorParameters parameters = parseParameters(
-      load("allowed_pairs: [[hand, table], [\"finger_*\", part]]\nchecked_pairs: [[a, b]]\noverlapping_pairs: check"), "~");
+      load("allowed_pairs: [[hand, table], [\"finger_*\", part]]\nchecked_pairs: [[a, b]]\noverlapping_pairs: check"),
+      "~");
   ASSERT_EQ(parameters.pairs.allowed.size(), 2u);
   EXPECT_EQ(parameters.pairs.allowed[1].a, "finger_*");
   EXPECT_EQ(parameters.pairs.allowed[1].b, "part");
@@ -108,43 +109,51 @@ TEST(YamlParameters, PairsByRule) {
   EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of check leave_out"), std::string::npos);
 }
 
-TEST(YamlParameters, MaxErrorSetsTheSharesThatAreNotGiven) {
+TEST(YamlParameters, MaxErrorIsOfVerdictsAndLeavesFieldsAndShells) {
   const auto parse = [](const std::string& text) { return parseParameters(load(text), "~"); };
-  const MonitorParameters shared = parse("max_error: 0.001");
-  EXPECT_EQ(shared.scene.max_error, 0.001);
-  const auto total = [](const MonitorParameters& p) {
-    return *p.scene.field.max_error + p.scene.shell.edge_gap + 3.0 * p.monitor.chords.tolerance;
-  };
-  EXPECT_NEAR(total(shared), 0.00099, 1e-12);
-  EXPECT_NEAR(shared.scene.motion_margin, 3.0 * shared.monitor.chords.tolerance, 1e-15);
-  EXPECT_EQ(shared.tf.sampling.tolerance, shared.monitor.chords.tolerance);
-  EXPECT_EQ(shared.scene.shell.spacing, 0.005);
-  EXPECT_LT(shared.scene.field.max_bytes, std::size_t{1} << 30);
-
-  const MonitorParameters given =
-      parse("max_error: 0.001\nfield: {max_error: 0.0002}\nshell: {spacing: 0.002}\nchord_tolerance: 0.00002");
-  EXPECT_EQ(given.scene.field.max_error, 0.0002);
-  EXPECT_EQ(given.scene.shell.spacing, 0.002);
-  EXPECT_EQ(given.monitor.chords.tolerance, 0.00002);
-  EXPECT_NEAR(total(given), 0.00099, 1e-12);
-  const MonitorParameters even = parse("max_error: 0.001\nfield: {cell_size: 0.0005}");
-  EXPECT_EQ(even.scene.field.cell_size, 0.0005);
-  EXPECT_FALSE(even.scene.field.max_error);
-  EXPECT_LT(even.scene.shell.edge_gap, shared.scene.shell.edge_gap * 1.5);
-
-  EXPECT_FALSE(parse("").scene.max_error);
-  EXPECT_EQ(parse("").scene.field.cell_size, 0.004);
+  const MonitorParameters none = parse(""), fine = parse("max_error: 0.00001"), coarse = parse("max_error: 0.01");
+  EXPECT_EQ(none.monitor.max_error, 1e-4);
+  EXPECT_FALSE(none.scene.max_error);  // nobody is told that a map is worse
+  EXPECT_EQ(fine.monitor.max_error, 1e-5);
+  EXPECT_EQ(fine.scene.max_error, 1e-5);
+  for (const MonitorParameters* p : {&none, &fine, &coarse}) {
+    EXPECT_EQ(p->scene.shell.spacing, none.scene.shell.spacing);
+    EXPECT_EQ(p->scene.field.cell_size, none.scene.field.cell_size);
+    EXPECT_EQ(p->monitor.chords.tolerance, 1e-4);  // of contacts
+    EXPECT_LE(2.0 * p->tf.sampling.tolerance, 0.4001 * p->monitor.max_error);
+    EXPECT_LE(p->tf.sampling.tolerance, 1e-4);
+    EXPECT_EQ(p->scene.motion_error, 2.0 * p->tf.sampling.tolerance);
+    EXPECT_EQ(p->scene.motion_margin, p->scene.motion_error + p->monitor.chords.tolerance);
+  }
+  const MonitorParameters given = parse("chord_tolerance: 0.00005");
+  EXPECT_EQ(given.tf.sampling.tolerance, 0.00005);
+  EXPECT_EQ(given.monitor.chords.tolerance, 0.00005);
+  for (const char* wrong : {"max_error: 0.000001", "max_error: 0.02"})
+    EXPECT_NE(errorOf(wrong).find("expected from 1e-05 to 0.01 m"), std::string::npos) << errorOf(wrong);
+  EXPECT_NE(errorOf("max_error: -0.001").find("~/max_error is -0.001"), std::string::npos);
 }
 
-TEST(YamlParameters, WhatContradictsMaxErrorIsNamed) {
-  EXPECT_EQ(errorOf("max_error: 0.001\nfield: {cell_size: 0.004}"),
-            "~/max_error: a max_error of 0.001 m cannot be kept: what is given takes 0.0034641 m of it "
-            "(field/max_error or field/cell_size, shell/edge_gap, three times chord_tolerance)");
-  EXPECT_NE(errorOf("max_error: 0.001\nchord_tolerance: 0.0004").find("cannot be kept"), std::string::npos);
-  EXPECT_NE(errorOf("max_error: 0.001\nshell: {edge_gap: 0.0}").find("shell/edge_gap is 0"), std::string::npos);
-  EXPECT_NE(errorOf("max_error: -0.001").find("~/max_error is -0.001"), std::string::npos);
-  EXPECT_NE(errorOf("max_error: 0.001\nfield: {cell_size: 0.0002, max_error: 0.0002}").find("only one of cells"),
-            std::string::npos);
+TEST(YamlParameters, ContactAccuracySetsFieldsAndShells) {
+  const auto parse = [](const std::string& text) { return parseParameters(load(text), "~").scene; };
+  EXPECT_GT(parse("").points_across, 0.0);
+  EXPECT_GT(parse("").cells_across, 0.0);
+  const BodyOptions accurate = parse("contact: {accuracy: 0.002}");
+  EXPECT_EQ(accurate.points_across, 0.0);
+  EXPECT_EQ(accurate.cells_across, 0.0);
+  EXPECT_EQ(accurate.shell.spacing, 0.002);
+  EXPECT_EQ(accurate.shell.vertex_spacing, 0.0008);
+  EXPECT_EQ(accurate.field.cell_size, 0.0016);
+  const BodyOptions cells = parse("contact: {accuracy: 0.002}\nfield: {max_error: 0.001}\nshell: {edge_gap: 0.0005}");
+  EXPECT_EQ(cells.field.max_error, 0.001);
+  EXPECT_FALSE(cells.field.cell_size);
+  EXPECT_EQ(cells.shell.spacing, 0.002);
+  EXPECT_EQ(cells.shell.edge_gap, 0.0005);
+  const BodyOptions points = parse("shell: {spacing: 0.005}");
+  EXPECT_EQ(points.points_across, 0.0);
+  EXPECT_EQ(points.shell.vertex_spacing, 0.002);
+  EXPECT_GT(points.cells_across, 0.0);
+  EXPECT_NE(errorOf("contact: {accuracy: 0}").find("~/contact/accuracy is 0"), std::string::npos);
+  EXPECT_NE(errorOf("field: {cell_size: 0.0002, max_error: 0.0002}").find("only one of cells"), std::string::npos);
 }
 
 TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {

@@ -66,7 +66,7 @@ struct BodyReport {
   std::size_t witnesses = 0;  ///< Body::witnesses
   double gap = 0.0;           ///< between its shell's points, against a body with a like shell [m]
   std::size_t pairs = 0;
-  ErrorBound bound;   ///< the largest of its pairs; chord: what the options allow for
+  ErrorBound bound;   ///< of verdicts, the largest of its pairs; chord: what the options allow for
   std::string solid;  ///< what of its meshes lies inside their solids and was left out; empty if nothing, or cached
   std::vector<std::string> warnings;
 };

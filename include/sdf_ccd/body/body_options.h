@@ -21,13 +21,27 @@ struct Accuracy {
 struct BodyOptions {
   FieldOptions field;
   ShellOptions shell;
+
+  /// How many points of its shell, and cells of its field, an element has across the root of its surface's area; a
+  /// millimetre apart where it is small, shell.spacing and field.cell_size where it is large. 0: these everywhere.
+  double points_across = 0.0, cells_across = 0.0;
+
   double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
+  double motion_error = 0.0;    ///< of it what two bodies' motions are off by, whatever the chords [m]
   std::string cache_directory;  ///< empty: nothing is read or written
 
-  /// The bound that field, shell and motion_margin are shares of [m]. If it is set, a field or shell that would be too
-  /// large is made coarser, and its body's report says so; else the body cannot be checked.
-  std::optional<double> max_error;
+  std::optional<double> max_error;  ///< the bound wanted of every verdict [m]; the plan says whether it is kept
+
+  /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a
+  /// field or shell that would be too large is made coarser, and its body's report says so; else the body cannot be
+  /// checked.
+  bool is_shared_out = false;
 };
+
+/// Fields and shells for contacts alone, where triangles decide the verdicts.
+/// @param accuracy  no location of a surface is farther than this from a point that bears forces, and a field's cells
+/// are four fifths of it [m]; none: as fine as the elements are small, at most 5 mm.
+BodyOptions optionsForContacts(const std::optional<double>& accuracy = {});
 
 /// What a body's field and shell may take where an accuracy is wanted, whatever that is.
 constexpr std::size_t kMostFieldBytes = std::size_t{256} << 20, kMostShellPoints = 3'000'000;

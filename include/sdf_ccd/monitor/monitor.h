@@ -47,14 +47,15 @@ struct PairResult {
   int body_a = -1;
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;    ///< why it was not checked; empty if it was
-  WaypointSpan span;     ///< the part of the motion that this is about; empty if the pair is delayed
-  bool skipped = false;  ///< clear by the clearance left from an earlier cycle
+  std::string reason;        ///< why it was not checked; empty if it was
+  WaypointSpan span;         ///< the part of the motion that this is about; empty if the pair is delayed
+  bool skipped = false;      ///< clear by the clearance left from an earlier cycle
   /// UNCERTAIN, as no time was left for it: by what earlier cycles knew the bodies overlap by no more than the error.
   bool postponed = false;
-  ErrorBound error;
-  double clearance = 0.0;           ///< a lower bound of the distance at the span's end, whatever the motion is off
-                                    ///< by [m]; negative if not known. See CycleRequest::skipped_pairs
+  ErrorBound error;          ///< of the verdict
+  ErrorBound contact_error;  ///< of intervals and depths, which fields and shells tell; zero where there are none
+  double clearance = 0.0;    ///< a lower bound of the distance at the span's end, whatever the motion is off
+                             ///< by [m]; negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
   ContactPoint deepest;             ///< valid if intervals is not empty
   Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
@@ -68,6 +69,7 @@ struct CycleResult {
                                            ///< NOT_CHECKED if there are none, or some are delayed and the others CLEAR
   double error_bound = 0.0;                ///< largest of the pairs checked [m]
   ErrorBound error;                        ///< of that pair, by source
+  double contact_error = 0.0;              ///< largest PairResult::contact_error of all pairs [m]
   int checked = 0;
   int skipped = 0;
   int not_checked = 0;
@@ -76,9 +78,16 @@ struct CycleResult {
   double run_time = 0.0;  ///< [s]
 };
 
+constexpr double kLeastMaxError = 1e-5, kLargestMaxError = 1e-2;  // [m]
+
 struct MonitorOptions {
   ContactOptions contact;
   ChordOptions chords;
+
+  /// Where triangles decide about a pair, surfaces that come no nearer than half of this, beyond what the motions and
+  /// the triangles are off by, are told apart; what comes nearer may stay UNCERTAIN [m]. From kLeastMaxError to
+  /// kLargestMaxError.
+  double max_error = 1e-4;
 };
 
 /// What checks need while they run, to be used again. Monitors of which several run at a time may share one; there is
@@ -108,15 +117,16 @@ class MonitorChange {
 ///
 /// Two bodies that are all triangles (meshes, boxes, cylinders, balls: Body::triangles) are CLEAR if their surfaces are
 /// proved to stay farther apart than the motions are known to, and no part of one is wholly inside the other, and in
-/// CONTACT if the surfaces surely cross at some time: to 0.1 mm, whatever fields and shells are
-/// (src/query/separation.h; design §3.17). PairResult::error is that of the triangles and motions then where they are
-/// CLEAR, or in CONTACT and no more is asked for (CycleRequest::contacts). What is left open, depths and forces are the
-/// fields' and shells'.
+/// CONTACT if the surfaces surely cross at some time: to MonitorOptions::max_error, whatever fields and shells are
+/// (src/query/separation.h; design §3.17). PairResult::error is that of the triangles and motions then; of a pair that
+/// is UNCERTAIN as its surfaces come nearer than can be told, max_error more. What is left open otherwise
+/// (a body may be wholly inside the other, or have come through the opening of a mesh) is the fields' and shells', and
+/// so are depths and forces, which are off by PairResult::contact_error.
 ///
 /// Else a pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is surely deeper,
 /// by what the field knows where it is, than the errors of chord and root, else UNCERTAIN; NOT_CHECKED if a body is
 /// missing, beyond kFarthestPose, or the bound infinite. Both bodies' shells are tested where both exist, and their
-/// impulses halved, so that what both see counts once. Where the bound exceeds a field's band, the field's lower bounds
+/// impulses weighted, so that what both see counts once. Where the bound exceeds a band, the field's lower bounds
 /// decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the end.
 ///
 /// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: some

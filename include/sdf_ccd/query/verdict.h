@@ -17,7 +17,8 @@ struct ErrorBound {
   double field = 0.0;  ///< sampling, interpolation, rounding of the field
   double chord = 0.0;  ///< arcs taken as chords
   double root = 0.0;   ///< tolerance of contact times, as a length
-  double gap = 0.0;    ///< largest gap between surface and nearest shell point
+  double gap = 0.0;    ///< largest gap between surface and nearest shell point, or the triangles that stand for it; of
+                       ///< what triangles left UNCERTAIN, how near they looked too
 
   /// For "no contact": the surface between the points counts.
   double total() const { return field + chord + root + gap; }

@@ -147,7 +147,7 @@ void run(const Arguments& arguments) {
   CheckFiles files(arguments.out);
   for (const std::string& warning : described.warnings) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
   const std::shared_ptr<const Scene> scene = buildWithBar(described, plan, parameters.scene, files.interrupt);
-  const std::string over = overBudget(*scene, parameters.scene);
+  const std::string over = overBudget(*scene);
   std::vector<std::string> warnings = described.warnings;
   if (!over.empty()) {
     std::cerr << "sdf_ccd: warning: " << over << std::endl;
@@ -221,7 +221,7 @@ void addCheckBagCommand(CLI::App& app) {
       "Cycles per second of the bag [Hz]; default as configured, else 30");
   command->add_option_function<double>(
       "--max-error", [arguments](double max_error) { arguments->config.max_error = max_error; },
-      "Bound on what a verdict may be wrong by [m], instead of the configured cells, gaps and chords");
+      "What verdicts may be wrong by where triangles decide [m], from 1e-5 to 1e-2");
   command->add_option("--start", arguments->motion.start, "Where to begin, from the bag's begin [s]; default 0");
   command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
   command->add_option("--joint-states", arguments->motion.joint_states,

@@ -28,18 +28,21 @@ std::vector<Contact> ContactRecords::contacts() const {
 }
 
 std::string contactColumns() {
-  return "id,body_a,body_b,verdict,start,end,depth,depth_error,error_bound,deepest_at,x,y,z,nx,ny,nz,max_force,cycles,"
-         "seen_at_samples,is_lost\n";
+  return "id,body_a,body_b,verdict,start,end,depth,depth_error,error_bound,contact_error_bound,deepest_at,x,y,z,nx,ny,"
+         "nz,max_"
+         "force,cycles,seen_at_samples,is_lost\n";
 }
 
 std::string toRow(const Contact& c) {
   const geometry_msgs::Point& p = c.deepest.position;
   const geometry_msgs::Vector3& n = c.deepest.normal;
   return fmt::format(
-      "{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:d},{:d}\n", c.id,
-      csvText(c.body_a), csvText(c.body_b), toString(static_cast<Verdict>(c.verdict)), timeText(c.begin),
-      timeText(c.end), c.deepest.depth, c.deepest.depth_error, c.error_bound, timeText(c.deepest.time), p.x, p.y, p.z,
-      n.x, n.y, n.z, c.max_force, c.cycles, bool(c.seen_at_samples), bool(c.is_lost));
+      "{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.9g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:d},{:d}"
+      "\n",
+      c.id, csvText(c.body_a), csvText(c.body_b), toString(static_cast<Verdict>(c.verdict)), timeText(c.begin),
+      timeText(c.end), c.deepest.depth, c.deepest.depth_error, c.error_bound, c.contact_error_bound,
+      timeText(c.deepest.time), p.x, p.y, p.z, n.x, n.y, n.z, c.max_force, c.cycles, bool(c.seen_at_samples),
+      bool(c.is_lost));
 }
 
 }  // namespace sdf_ccd::tools

@@ -1,6 +1,5 @@
 #include "monitor_config.h"
 
-#include <set>
 #include <stdexcept>
 
 #include "ros/yaml_parameters.h"
@@ -14,28 +13,12 @@ std::string readText(const std::string& path) {
   return text;
 }
 
-/// A group of parameters without those of these names; anything else as it is.
-XmlRpc::XmlRpcValue without(const std::set<std::string>& names, XmlRpc::XmlRpcValue group) {
-  if (group.getType() != XmlRpc::XmlRpcValue::TypeStruct) return group;
-  XmlRpc::XmlRpcValue kept;
-  kept.begin();  // makes it a group, also without members
-  for (auto member = group.begin(); member != group.end(); ++member) {
-    if (names.count(member->first) == 0) kept[member->first] = member->second;
-  }
-  return kept;
-}
-
 /// The parameters' tree with what the options say instead.
 XmlRpc::XmlRpcValue parameterTree(const MonitorConfig& config) {
   XmlRpc::XmlRpcValue tree;
   if (!config.parameters.empty()) tree = loadYamlParameters(config.parameters);
   if (config.rate) tree["rate"] = *config.rate;
-  if (!config.max_error) return tree;
-  // Shares that the file gives would stay, and might not fit in.
-  tree = without({"chord_tolerance"}, tree);
-  if (tree.hasMember("field")) tree["field"] = without({"cells", "cell_size", "max_error"}, tree["field"]);
-  if (tree.hasMember("shell")) tree["shell"] = without({"edge_gap"}, tree["shell"]);
-  tree["max_error"] = *config.max_error;
+  if (config.max_error) tree["max_error"] = *config.max_error;
   return tree;
 }
 

@@ -12,7 +12,7 @@ struct MonitorConfig {
   std::string urdf, srdf;           ///< files; no SRDF if empty
   std::string parameters;           ///< file, as config/monitor.yaml; defaults if empty
   std::optional<double> rate;       ///< [Hz]
-  std::optional<double> max_error;  ///< [m]; then the file's own shares of it are passed over
+  std::optional<double> max_error;  ///< [m]
 };
 
 /// Reads them. A parameter that nothing reads, which on a parameter server may be another's, is an error in a file.

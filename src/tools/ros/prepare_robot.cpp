@@ -54,7 +54,7 @@ void prepareRobot(const MonitorConfig& config, const std::string& directory) {
     throw std::runtime_error("interrupted: what was made is in " + directory);
   }
   std::vector<std::string> warnings = described.warnings;
-  const std::string over = overBudget(*scene, parameters.scene);
+  const std::string over = overBudget(*scene);
   if (!over.empty()) warnings.push_back(over);
   std::cout << planText(*scene, warnings);
   const bool is_complete = areAllMade(*scene);
