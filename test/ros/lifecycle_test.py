@@ -71,7 +71,7 @@ class Lifecycle(unittest.TestCase):
         cls.folder.cleanup()
 
     def play(self, *options):
-        subprocess.run(['rosbag', 'play', '--quiet', '--clock', '--hz=100', *options, self.bag], timeout=PATIENCE,
+        subprocess.run(['rosbag', 'play', '--quiet', '--clock', '--hz=100', '--wait-for-subscribers', *options, self.bag], timeout=PATIENCE,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     @staticmethod
@@ -110,7 +110,7 @@ class Lifecycle(unittest.TestCase):
     def test_4_a_publisher_that_dies_and_one_that_takes_its_place(self):
         self.contacts.clear()
         for _ in range(2):
-            player = self.start('rosbag', 'play', '--quiet', '--clock', '--hz=100', self.bag)
+            player = self.start('rosbag', 'play', '--quiet', '--clock', '--hz=100', '--wait-for-subscribers', self.bag)
             self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
             player.kill()
             player.wait()

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "monitor/scene_case.h"
+#include "oracle/busy_machine.h"
 #include "ros/cycle_messages.h"
 #include "ros/described_world.h"
 #include "ros/tf_messages.h"
@@ -413,7 +414,7 @@ TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
     }
     const auto start = std::chrono::steady_clock::now();
     step(now);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1)) << i;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, slowness() * std::chrono::seconds(1)) << i;
   }
   EXPECT_GT(said_.size(), 80u);
   said_.clear();
