@@ -1,7 +1,7 @@
 # The ROS layer: the nodelet's library, the node that loads it, launch files.
-file(GLOB SDF_CCD_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*.cpp)
+file(GLOB SDF_CCD_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*/*.cpp)
 list(FILTER SDF_CCD_ROS_SOURCES EXCLUDE REGEX "(_node|_main)\\.cpp$")
-file(GLOB SDF_CCD_NODE_SOURCES CONFIGURE_DEPENDS src/ros/*_node.cpp)
+file(GLOB SDF_CCD_NODE_SOURCES CONFIGURE_DEPENDS src/ros/*/*_node.cpp)
 
 if(SDF_CCD_ROS_SOURCES)
   add_library(sdf_ccd_ros SHARED ${SDF_CCD_ROS_SOURCES})
@@ -13,7 +13,7 @@ if(SDF_CCD_ROS_SOURCES)
 endif()
 
 # Fetches meshes over the network, in a process of its own; beside the one that reads them.
-add_executable(sdf_ccd_fetch src/ros/fetch_main.cpp)
+add_executable(sdf_ccd_fetch src/ros/world/fetch_main.cpp)
 target_include_directories(sdf_ccd_fetch SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(sdf_ccd_fetch ${resource_retriever_LIBRARIES})
 add_dependencies(sdf_ccd_ros sdf_ccd_fetch)

@@ -1,6 +1,6 @@
 // MoveIt's text of a planning scene.
 #include "fuzz_input.h"
-#include "ros/moveit_scene.h"
+#include "ros/parameters/moveit_scene.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

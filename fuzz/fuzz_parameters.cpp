@@ -1,7 +1,7 @@
 // The monitor's parameters, as check-bag reads them from a file.
 #include "fuzz_input.h"
-#include "ros/parameters.h"
-#include "ros/yaml_parameters.h"
+#include "ros/parameters/parameters.h"
+#include "ros/parameters/yaml_parameters.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

@@ -1,7 +1,7 @@
 // Transforms and the clock, as they come, and what the monitor makes of them.
 #include <cmath>
 
-#include "ros/cycle_messages.h"
+#include "ros/monitor/cycle_messages.h"
 #include "small_monitor.h"
 
 namespace sdf_ccd::fuzz {

@@ -1,7 +1,7 @@
 // Changes of the world, as update_scene is asked for them, the worlds that they make, and cycles in these.
 #include <limits>
 
-#include "ros/changing_scene.h"
+#include "ros/world/changing_scene.h"
 #include "small_monitor.h"
 
 namespace sdf_ccd::fuzz {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "fuzz_input.h"
-#include "ros/changing_scene.h"
-#include "ros/monitor_loop.h"
-#include "ros/queries.h"
+#include "ros/monitor/monitor_loop.h"
+#include "ros/monitor/queries.h"
 #include "ros/tf_messages.h"
+#include "ros/world/changing_scene.h"
 #include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd::fuzz {

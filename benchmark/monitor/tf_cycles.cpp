@@ -2,7 +2,7 @@
 
 #include <ros/serialization.h>
 
-#include "ros/cycle_messages.h"
+#include "ros/monitor/cycle_messages.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "monitor/box_world.h"
-#include "ros/joint_frames.h"
-#include "ros/monitor_loop.h"
+#include "ros/bag/joint_frames.h"
+#include "ros/monitor/monitor_loop.h"
 #include "sdf_ccd/ContactArray.h"
 
 namespace sdf_ccd::benchmark {

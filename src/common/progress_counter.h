@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/common/progress.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/triangle_cut.h"
-#include "sdf_ccd/motion/screw_motion.h"
+#include "sdf_ccd/common/bounding_ball.h"
 
 namespace sdf_ccd {
 

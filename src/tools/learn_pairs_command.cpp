@@ -8,12 +8,12 @@
 
 #include "commands.h"
 #include "interrupt.h"
-#include "robot_monitor/learn_pairs.h"
 #include "output_file.h"
 #include "print.h"
 #include "progress_bar.h"
+#include "robot_monitor/learn_pairs.h"
 #ifdef SDF_CCD_WITH_ROS
-#include "ros/recorded_positions.h"
+#include "ros/bag/recorded_positions.h"
 #endif
 
 namespace sdf_ccd::tools {

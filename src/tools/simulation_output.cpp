@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #ifdef SDF_CCD_WITH_ROS
-#include "ros/simulation_bag.h"
+#include "ros/bag/simulation_bag.h"
 #endif
 
 namespace sdf_ccd::tools {

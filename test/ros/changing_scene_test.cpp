@@ -1,4 +1,4 @@
-#include "ros/changing_scene.h"
+#include "ros/world/changing_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "oracle/failure.h"
 #include "oracle/files.h"
-#include "ros/moveit_scene.h"
+#include "ros/parameters/moveit_scene.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "ros/cycle_trigger.h"
+#include "ros/tf/cycle_trigger.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ros/describe_scene.h"
+#include "ros/world/describe_scene.h"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ros/describe_scene.h"
+#include "ros/world/describe_scene.h"
 
 namespace sdf_ccd::test {
 

@@ -1,4 +1,4 @@
-#include "ros/fetch_http.h"
+#include "ros/world/fetch_http.h"
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/failure.h"
-#include "ros/describe_scene.h"
+#include "ros/world/describe_scene.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "ros/joint_frames.h"
+#include "ros/bag/joint_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "ros/tf_pose.h"
+#include "ros/tf/tf_pose.h"
 
 namespace sdf_ccd {
 namespace {

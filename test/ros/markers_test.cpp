@@ -1,6 +1,6 @@
 // What rviz is told: sizes, names and ids, colours by verdict, deletions, labels that do not overlap.
 
-#include "ros/markers.h"
+#include "ros/messages/markers.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <set>
 
 #include "monitor/scene_case.h"
-#include "ros/link_markers.h"
-#include "ros/planned_markers.h"
-#include "ros/shape_marker.h"
-#include "ros/status_text.h"
-#include "ros/world_markers.h"
+#include "ros/messages/link_markers.h"
+#include "ros/messages/planned_markers.h"
+#include "ros/messages/shape_marker.h"
+#include "ros/messages/status_text.h"
+#include "ros/messages/world_markers.h"
 
 namespace sdf_ccd {
 namespace {

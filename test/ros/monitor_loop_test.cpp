@@ -1,6 +1,6 @@
 // Cycles of a whole monitor, from transforms to messages.
 
-#include "ros/monitor_loop.h"
+#include "ros/monitor/monitor_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 
 #include "monitor/scene_case.h"
 #include "oracle/busy_machine.h"
-#include "ros/cycle_messages.h"
 #include "ros/described_world.h"
+#include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {
@@ -414,7 +414,7 @@ TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
     }
     const auto start = std::chrono::steady_clock::now();
     step(now);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, slowness() * std::chrono::seconds(1)) << i;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, test::slowness() * std::chrono::seconds(1)) << i;
   }
   EXPECT_GT(said_.size(), 80u);
   said_.clear();

@@ -1,10 +1,10 @@
-#include "ros/ordered_worker.h"
+#include "ros/monitor/ordered_worker.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 
-#include "ros/message_pool.h"
+#include "ros/messages/message_pool.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "ros/parameter_reader.h"
+#include "ros/parameters/parameter_reader.h"
 
 #include <gtest/gtest.h>
 

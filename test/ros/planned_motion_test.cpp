@@ -1,11 +1,11 @@
-#include "ros/planned_motion.h"
+#include "ros/monitor/planned_motion.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "oracle/failure.h"
-#include "ros/conversions.h"
+#include "ros/messages/conversions.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,9 +1,9 @@
-#include "ros/queries.h"
+#include "ros/monitor/queries.h"
 
 #include <gtest/gtest.h>
 
 #include "cancel_moments.h"
-#include "ros/monitor_loop.h"
+#include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "ros/cycle_messages.h"
-#include "ros/monitor_loop.h"
+#include "ros/monitor/cycle_messages.h"
+#include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "ros/simulation_bag.h"
+#include "ros/bag/simulation_bag.h"
 
 #include <gtest/gtest.h>
 #include <tf2_msgs/TFMessage.h>

@@ -10,9 +10,9 @@
 #include <random>
 
 #include "monitor/scene_case.h"
-#include "ros/cycle_messages.h"
 #include "ros/described_world.h"
-#include "ros/monitor_loop.h"
+#include "ros/monitor/cycle_messages.h"
+#include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {

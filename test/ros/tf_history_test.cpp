@@ -1,4 +1,4 @@
-#include "ros/tf_history.h"
+#include "ros/tf/tf_history.h"
 
 #include <gtest/gtest.h>
 #include <tf2/buffer_core.h>

@@ -5,8 +5,8 @@
 
 #include <random>
 
+#include "ros/tf/tf_tracker.h"
 #include "ros/tf_messages.h"
-#include "ros/tf_tracker.h"
 
 namespace sdf_ccd {
 namespace {

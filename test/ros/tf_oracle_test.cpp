@@ -12,7 +12,7 @@
 #include <memory>
 #include <random>
 
-#include "ros/tf_history.h"
+#include "ros/tf/tf_history.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "ros/tf_tracker.h"
+#include "ros/tf/tf_tracker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "ros/torque_output.h"
+#include "ros/monitor/torque_output.h"
 
 #include <gtest/gtest.h>
 
-#include "ros/cycle_messages.h"
+#include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {

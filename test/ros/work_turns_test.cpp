@@ -1,4 +1,4 @@
-#include "ros/work_turns.h"
+#include "ros/monitor/work_turns.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ros/world_file.h"
+#include "ros/parameters/world_file.h"
 
 #include <filesystem>
 
@@ -7,7 +7,7 @@
 #include "oracle/failure.h"
 #include "oracle/files.h"
 #include "oracle/test_data.h"
-#include "ros/moveit_scene.h"
+#include "ros/parameters/moveit_scene.h"
 
 namespace sdf_ccd {
 namespace {

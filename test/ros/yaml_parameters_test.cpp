@@ -1,4 +1,4 @@
-#include "ros/yaml_parameters.h"
+#include "ros/parameters/yaml_parameters.h"
 
 #include <filesystem>
 
@@ -6,7 +6,7 @@
 
 #include "oracle/failure.h"
 #include "oracle/files.h"
-#include "ros/parameters.h"
+#include "ros/parameters/parameters.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,16 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 
+#include "sdf_ccd/common/progress.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {
-
-/// Called from one thread at a time with the share done, from 0 to 1.
-using Progress = std::function<void(double)>;
 
 /// How fine a field is. Exactly one of the first three is set.
 struct FieldOptions {

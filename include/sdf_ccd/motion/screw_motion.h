@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <vector>
-
+#include "sdf_ccd/common/bounding_ball.h"
 #include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
@@ -12,12 +11,6 @@ namespace sdf_ccd {
 /// @throws std::invalid_argument, beginning with `what`, unless the pose is finite and its rotation orthonormal to
 /// 1e-6.
 void requirePose(const Isometry3d& X, const std::string& what);
-
-/// A ball in frame P that holds the points of interest.
-struct BoundingBall {
-  Vector3d center = Vector3d::Zero();  ///< [m], frame P
-  double radius = 0.0;                 ///< [m]
-};
 
 /// Motion of frame P relative to frame F with a constant twist, from one pose to the next, over s in [0, 1].
 ///

@@ -17,8 +17,8 @@
 #include "monitor_scene.h"
 #include "print.h"
 #include "progress_bar.h"
-#include "ros/bag_check.h"
-#include "ros/checked_bag.h"
+#include "ros/bag/bag_check.h"
+#include "ros/bag/checked_bag.h"
 
 namespace sdf_ccd::tools {
 namespace {

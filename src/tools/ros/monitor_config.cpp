@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "ros/yaml_parameters.h"
+#include "ros/parameters/yaml_parameters.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/parameters.h"
+#include "ros/parameters/parameters.h"
 
 namespace sdf_ccd::tools {
 

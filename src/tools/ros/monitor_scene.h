@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interrupt.h"
-#include "ros/describe_scene.h"
+#include "ros/world/describe_scene.h"
 
 namespace sdf_ccd::tools {
 

@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "cycle_report.h"
 #include "progress_bar.h"
-#include "ros/read_bag.h"
+#include "ros/bag/read_bag.h"
 
 namespace sdf_ccd::tools {
 namespace {

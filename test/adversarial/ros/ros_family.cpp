@@ -9,7 +9,7 @@
 #include "adversarial/ros/tf_truth.h"
 #include "oracle/shapes.h"
 #include "ros/described_world.h"
-#include "ros/monitor_loop.h"
+#include "ros/monitor/monitor_loop.h"
 
 namespace sdf_ccd::test {
 namespace {

@@ -1,0 +1,43 @@
+#include "ros/bag/bag_check.h"
+
+#include <algorithm>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // beyond them clocks stand still or overflow [s]
+
+}  // namespace
+
+void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters, MonitorLoop& loop,
+              BagObserver& observer) {
+  const ros::Duration period(std::clamp(1.0 / parameters.rate, kShortestPeriod, kLongestPeriod));
+  const CycleRequest request{true, parameters.max_points};
+  TfTracker::Step last = TfTracker::Step::kWaiting;
+  const auto stepAt = [&](const ros::Time& now) {
+    ros::Time::setNow(now);
+    const TfTracker::Step step = loop.step(now, request);
+    const bool stalls = step == TfTracker::Step::kStalled && last != TfTracker::Step::kStalled;
+    if (step == TfTracker::Step::kCycle) observer.onCycle(now);
+    if (step == TfTracker::Step::kJump) observer.onUnchecked("time has jumped back", now);
+    if (stalls) observer.onUnchecked("no new transforms", now);
+    last = step;
+    return step;
+  };
+  ros::Time now = motion.begin();
+  const auto runUntil = [&](const ros::Time& time) {
+    for (; now < time; now += period) {
+      // Nothing happens before the next transforms, be they years away: clocks of robots are set while they record.
+      if (stepAt(now) == TfTracker::Step::kStalled && time - now > period) now = time - period;
+    }
+  };
+  motion.play([&](const RecordedTransforms& transforms) {
+    runUntil(transforms.recorded);
+    loop.history().add(transforms.message, transforms.is_static);
+    observer.onTransforms(transforms);
+  });
+  runUntil(motion.end());
+  stepAt(motion.end());
+}
+
+}  // namespace sdf_ccd

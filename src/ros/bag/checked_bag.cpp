@@ -1,0 +1,80 @@
+#include "ros/bag/checked_bag.h"
+
+#include <set>
+
+#include "ros/messages/world_markers.h"
+#include "ros/monitor/plan_message.h"
+
+namespace sdf_ccd {
+namespace {
+
+const std::string kMonitor = "/collision_monitor/";
+
+/// Bodies that touch another.
+std::set<int> touching(const CycleResult& result) {
+  std::set<int> bodies;
+  for (const PairResult& pair : result.pairs) {
+    if (!pair.intervals.empty()) bodies.insert({pair.body_a, pair.body_b});
+  }
+  return bodies;
+}
+
+}  // namespace
+
+CheckedBag::CheckedBag(BagWriter& bag, const MonitorLoop& loop, const SceneDescription& scene,
+                       const MarkerOptions& markers)
+    : loop_(loop), drawer_(loop.fixedFrame(), markers), link_markers_(scene), bag_(bag) {}
+
+void CheckedBag::addScene(const SceneDescription& description, const ros::Time& begin) {
+  writeLatched(kMonitor + "plan", begin, toPlan(*loop_.world(), loop_.fixedFrame(), begin));
+  writeLatched(kMonitor + "world", begin, toWorldMarkers(description));
+}
+
+void CheckedBag::addTransforms(const RecordedTransforms& transforms) {
+  if (!transforms.is_static) return bag_.write("/tf", transforms.recorded, transforms.message);
+  // A player latches one message of a topic: it holds all.
+  for (const geometry_msgs::TransformStamped& transform : transforms.message.transforms) {
+    static_transforms_[withoutLeadingSlash(transform.child_frame_id)] = transform;
+  }
+  tf2_msgs::TFMessage all;
+  for (const auto& [child, transform] : static_transforms_) all.transforms.push_back(transform);
+  writeLatched("/tf_static", transforms.recorded, all);
+}
+
+void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
+  bag_.write(kMonitor + "contacts", now, contacts);
+  writeLatched(kMonitor + "state", now, toMonitorState(loop_, now));
+  for (const int body : touching(loop_.result())) {
+    const Body& link = loop_.scene().bodies[body];
+    if (!link.is_world) bag_.write(kMonitor + wrenchTopic(link), now, toWrenchStamped(loop_, body));
+  }
+  bag_.write(kMonitor + "markers", now, drawer_.draw(loop_.result(), contextOf(loop_), now));
+  addLinks(now);
+}
+
+void CheckedBag::addLinks(const ros::Time& now) {
+  const auto links = link_markers_.draw(drawer_.states().ofBodies(loop_.scene()));
+  if (links) writeLatched(kMonitor + "links", now, *links);
+}
+
+void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {
+  bag_.write(kMonitor + "contacts", now, toUncheckedContacts(loop_, reason));
+  writeLatched(kMonitor + "state", now, toUncheckedState(loop_.fixedFrame(), reason, now));
+  bag_.write(kMonitor + "markers", now, drawer_.clear(reason));
+  addLinks(now);
+}
+
+template <class Message>
+void CheckedBag::writeLatched(const std::string& topic, const ros::Time& now, const Message& message) {
+  boost::shared_ptr<ros::M_string>& connection = latched_connections_[topic];
+  if (!connection) {
+    namespace traits = ros::message_traits;
+    connection = boost::make_shared<ros::M_string>(ros::M_string{{"type", traits::datatype<Message>()},
+                                                                 {"md5sum", traits::md5sum<Message>()},
+                                                                 {"message_definition", traits::definition<Message>()},
+                                                                 {"latching", "1"}});
+  }
+  bag_.write(topic, now, message, connection);
+}
+
+}  // namespace sdf_ccd

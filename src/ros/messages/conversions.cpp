@@ -1,0 +1,157 @@
+#include "ros/messages/conversions.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sdf_ccd {
+namespace {
+
+static_assert(static_cast<int>(Verdict::kClear) == PairContact::CLEAR, "as in the messages");
+static_assert(static_cast<int>(Verdict::kContact) == PairContact::CONTACT, "as in the messages");
+static_assert(static_cast<int>(Verdict::kUncertain) == PairContact::UNCERTAIN, "as in the messages");
+static_assert(static_cast<int>(Verdict::kNotChecked) == PairContact::NOT_CHECKED, "as in the messages");
+
+ros::Time toTime(std::chrono::nanoseconds since_epoch) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(since_epoch.count()));
+}
+
+void setPointContact(const ContactPoint& point, const ros::Time& start, PointContact& message) {
+  message.enter = start + ros::Duration(point.enter);
+  message.exit = start + ros::Duration(point.exit);
+  message.time = start + ros::Duration(point.time);
+  message.depth = point.depth;
+  message.depth_error = point.depth_error;
+  message.position = toPoint(point.p_W);
+  message.normal = toVector3(point.normal_W);
+}
+
+}  // namespace
+
+Isometry3d toIsometry(const geometry_msgs::Pose& pose) {
+  const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  const Vector3d p = toEigen(pose.position);
+  if (!q.coeffs().allFinite() || q.norm() < 1e-6) throw std::invalid_argument("orientation is not a quaternion");
+  if (!p.allFinite()) throw std::invalid_argument("position is not finite");
+  return Eigen::Translation3d(p) * q.normalized();
+}
+
+Vector3d toEigen(const geometry_msgs::Point& point) {
+  return {point.x, point.y, point.z};
+}
+
+geometry_msgs::Point toPoint(const Vector3d& p) {
+  geometry_msgs::Point message;
+  message.x = p.x();
+  message.y = p.y();
+  message.z = p.z();
+  return message;
+}
+
+geometry_msgs::Pose toPose(const Isometry3d& X) {
+  const Quaterniond q(X.linear());
+  geometry_msgs::Pose message;
+  message.position = toPoint(X.translation());
+  message.orientation.w = q.w();
+  message.orientation.x = q.x();
+  message.orientation.y = q.y();
+  message.orientation.z = q.z();
+  return message;
+}
+
+geometry_msgs::TransformStamped toTransformStamped(const TransformName& name, const Isometry3d& X_parent_child) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = name.stamp;
+  message.header.frame_id = name.parent;
+  message.child_frame_id = name.child;
+  message.transform.translation = toVector3(X_parent_child.translation());
+  message.transform.rotation = toPose(X_parent_child).orientation;
+  return message;
+}
+
+geometry_msgs::Vector3 toVector3(const Vector3d& v) {
+  geometry_msgs::Vector3 message;
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+  return message;
+}
+
+geometry_msgs::Wrench toWrench(const Wrench& wrench) {
+  geometry_msgs::Wrench message;
+  message.force = toVector3(wrench.force);
+  message.torque = toVector3(wrench.torque);
+  return message;
+}
+
+bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle) {
+  return std::any_of(pair.intervals.begin(), pair.intervals.end(),
+                     [&](const Interval& interval) { return holdsSample(interval, cycle.samples); });
+}
+
+void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message) {
+  message.body_a = cycle.scene.bodies[pair.body_a].name;
+  message.body_b = cycle.scene.bodies[pair.body_b].name;
+  message.verdict = static_cast<std::uint8_t>(pair.verdict);
+  message.reason = pair.reason;
+  message.checked_from = cycle.start + ros::Duration(cycle.motion.times[pair.span.first]);
+  message.checked_until = cycle.start + ros::Duration(cycle.motion.times[pair.span.last]);
+  message.intervals.resize(pair.intervals.size());
+  for (std::size_t i = 0; i < pair.intervals.size(); ++i) {
+    message.intervals[i].start = cycle.start + ros::Duration(pair.intervals[i].enter);
+    message.intervals[i].end = cycle.start + ros::Duration(pair.intervals[i].exit);
+  }
+  message.in_contact_at_samples = touchesAtSamples(pair, cycle);
+  if (pair.intervals.empty()) {
+    message.first_contact = ros::Time();
+    message.deepest = PointContact();
+  } else {
+    message.first_contact = message.intervals.front().start;
+    setPointContact(pair.deepest, cycle.start, message.deepest);
+  }
+  message.depth = message.deepest.depth;
+  message.normal = message.deepest.normal;
+  message.points.resize(pair.points.size());
+  for (std::size_t i = 0; i < pair.points.size(); ++i) setPointContact(pair.points[i], cycle.start, message.points[i]);
+  message.wrench_on_a = toWrench(pair.on_a_W);
+  message.wrench_on_b = toWrench(pair.on_b_W);
+  message.origin_a = toPoint(cycle.motion.X_WB[pair.body_a][pair.span.last].translation());
+  message.origin_b = toPoint(cycle.motion.X_WB[pair.body_b][pair.span.last].translation());
+  message.error_bound = pair.error.total();
+  message.error_field = pair.error.field;
+  message.error_chord = pair.error.chord;
+  message.error_root = pair.error.root;
+  message.error_gap = pair.error.gap;
+  message.contact_error_bound = pair.contact_error.total();
+}
+
+void setContact(const TrackedContact& contact, Contact& message) {
+  message.id = contact.id;
+  message.body_a = contact.body_a;
+  message.body_b = contact.body_b;
+  message.begins = contact.begins;
+  message.ends = contact.ends;
+  message.is_lost = contact.is_lost;
+  message.verdict = static_cast<std::uint8_t>(contact.verdict);
+  message.begin = toTime(contact.begin);
+  message.end = toTime(contact.end);
+  message.cycles = contact.cycles;
+  message.seen_at_samples = contact.seen_at_samples;
+  setPointContact(contact.deepest, toTime(contact.deepest_origin), message.deepest);
+  message.max_force = contact.max_force;
+  message.error_bound = contact.error_bound;
+  message.contact_error_bound = contact.contact_error;
+}
+
+void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages) {
+  std::size_t count = 0;
+  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const PairResult& pair = result.pairs[i];
+    if (pair.verdict == Verdict::kClear || pair.span.empty()) continue;
+    if (count == messages.size()) messages.emplace_back();
+    setPairContact(pair, cycle, messages[count++]);
+  }
+  messages.resize(count);
+}
+
+}  // namespace sdf_ccd

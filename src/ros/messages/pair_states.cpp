@@ -1,0 +1,62 @@
+#include "ros/messages/pair_states.h"
+
+#include <algorithm>
+
+namespace sdf_ccd {
+namespace {
+
+bool isHeld(Verdict verdict) {
+  return verdict >= Verdict::kUncertain;
+}
+
+}  // namespace
+
+void PairStates::update(const CycleResult& result, const CycleContext& cycle) {
+  pairs_.resize(result.pairs.size());
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    const PairResult& pair = result.pairs[i];
+    PairState& state = pairs_[i];
+    if (pair.span.empty()) continue;
+    state.until = cycle.start + ros::Duration(cycle.motion.times[pair.span.last]);
+    state.clearance = pair.verdict == Verdict::kClear ? pair.clearance : -1.0;
+    const bool holds = isHeld(state.verdict) && state.until < state.holds_until;
+    if (holds && pair.verdict < state.verdict) continue;
+    const double depth = pair.intervals.empty() ? 0.0 : pair.deepest.depth;
+    state.depth = holds && pair.verdict == state.verdict ? std::max(state.depth, depth) : depth;
+    state.verdict = pair.verdict;
+    state.holds_until = state.until + ros::Duration(hold_);
+  }
+}
+
+void PairStates::take(const std::vector<int>& before) {
+  std::vector<PairState> pairs(before.size());
+  for (std::size_t p = 0; p < before.size(); ++p) {
+    const auto old = static_cast<std::size_t>(before[p]);
+    if (before[p] >= 0 && old < pairs_.size()) pairs[p] = pairs_[old];
+  }
+  pairs_ = std::move(pairs);
+}
+
+void PairStates::clear() {
+  pairs_.assign(pairs_.size(), {});
+}
+
+Verdict PairStates::verdict() const {
+  if (pairs_.empty()) return Verdict::kNotChecked;
+  Verdict worst = Verdict::kClear;
+  for (const PairState& pair : pairs_) worst = std::max(worst, pair.verdict);
+  return worst;
+}
+
+std::vector<std::optional<Verdict>> PairStates::ofBodies(const Scene& scene) const {
+  std::vector<std::optional<Verdict>> verdicts(scene.bodies.size());
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const Verdict verdict = i < pairs_.size() ? pairs_[i].verdict : Verdict::kNotChecked;
+    for (const int body : {scene.pairs[i].body_a, scene.pairs[i].body_b}) {
+      verdicts[body] = std::max(verdicts[body].value_or(verdict), verdict);
+    }
+  }
+  return verdicts;
+}
+
+}  // namespace sdf_ccd

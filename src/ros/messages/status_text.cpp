@@ -1,0 +1,102 @@
+#include "ros/messages/status_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kWidth = 60;           // of a line [characters]
+constexpr std::size_t kLongestReason = 180;  // [characters]
+
+/// A lower bound of the distances of all pairs [m]; negative if some is not known.
+double clearanceOf(const PairStates& states) {
+  double clearance = std::numeric_limits<double>::infinity();
+  for (const PairState& pair : states.pairs()) clearance = std::min(clearance, pair.clearance);
+  return std::isfinite(clearance) ? clearance : -1.0;
+}
+
+double depthOf(const PairStates& states, Verdict verdict) {
+  double depth = 0.0;
+  for (const PairState& pair : states.pairs()) {
+    if (pair.verdict == verdict) depth = std::max(depth, pair.depth);
+  }
+  return depth;
+}
+
+std::string headline(const PairStates& states) {
+  switch (states.verdict()) {
+    case Verdict::kContact:
+      return "CONTACT, " + lengthText(depthOf(states, Verdict::kContact)) + " deep";
+    case Verdict::kUncertain:
+      return "UNCERTAIN: within the error bound";
+    case Verdict::kNotChecked:
+      return "NOT CHECKED";
+    case Verdict::kClear:
+      break;
+  }
+  const double clearance = clearanceOf(states);
+  return clearance > 0.0 ? "CLEAR, at least " + lengthText(clearance) + " apart" : "CLEAR";
+}
+
+/// How many pairs are not checked, and why one of them is not; empty if all are.
+std::string uncheckedPairs(const PairStates& states, const CycleResult& result, const CycleContext& cycle) {
+  std::size_t count = 0;
+  std::string example;
+  for (std::size_t i = 0; i < states.pairs().size(); ++i) {
+    if (states.pairs()[i].verdict != Verdict::kNotChecked) continue;
+    const PairResult& pair = result.pairs[i];
+    if (++count > 1 || pair.reason.empty()) continue;
+    example = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + ": " + pair.reason;
+  }
+  if (count == 0) return {};
+  const std::string total = std::to_string(states.pairs().size());
+  return wrapped(std::to_string(count) + " of " + total + " pairs not checked" +
+                     (example.empty() ? "" : ": " + example.substr(0, kLongestReason)),
+                 kWidth);
+}
+
+}  // namespace
+
+std::string lengthText(double length) {
+  return length < 1.0 ? fmt::format("{:.1f} mm", 1e3 * length) : fmt::format("{:.2f} m", length);
+}
+
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::istringstream words(text);
+  std::string result, word;
+  std::size_t column = 0;
+  while (words >> word) {
+    for (; word.size() > width; word.erase(0, width)) {
+      result += (result.empty() ? "" : "\n") + word.substr(0, width);
+      column = width;
+    }
+    const bool fits = column > 0 && column + 1 + word.size() <= width;
+    if (!result.empty()) result += fits ? " " : "\n";
+    column = fits ? column + 1 + word.size() : word.size();
+    result += word;
+  }
+  return result;
+}
+
+int lineCount(const std::string& text) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age) {
+  std::string text = headline(states);
+  if (result.checked + result.skipped > 0) {
+    text += fmt::format("\nerror bound {}, {:.2f} s ago", lengthText(result.error_bound), std::max(0.0, age));
+  }
+  const std::string unchecked = uncheckedPairs(states, result, cycle);
+  return unchecked.empty() ? text : text + "\n" + unchecked;
+}
+
+std::string uncheckedText(const std::string& reason) {
+  return "NOT CHECKED\n" + wrapped(reason.substr(0, kLongestReason), kWidth);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,287 @@
+#include "ros/monitor/cycle_messages.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace sdf_ccd {
+
+namespace {
+
+template <typename Message>
+void setErrorBound(const CycleResult& result, Message& message) {
+  message.error_bound = result.error_bound;
+  message.error_field = result.error.field;
+  message.error_chord = result.error.chord;
+  message.error_root = result.error.root;
+  message.error_gap = result.error.gap;
+}
+
+template <typename Message>
+void setDelays(const TrackedCycle& cycle, Message& message) {
+  message.delayed_since = cycle.delayed_since;
+  message.contradicted_since = ros::Time();
+  message.late_frames.clear();
+  for (const LateTransforms& late : cycle.late) {
+    const bool is_first = message.contradicted_since.isZero() || late.since < message.contradicted_since;
+    if (is_first) message.contradicted_since = late.since;
+    message.late_frames.push_back(late.frame);
+  }
+}
+
+/// Why a cycle as a whole is not checked; empty if it is.
+std::string reasonOf(const CycleResult& result, const TrackedCycle& cycle) {
+  if (result.verdict != Verdict::kNotChecked) return "";
+  if (result.pairs.empty()) return "no pairs: there is nothing to check";
+  std::string reason;
+  if (result.not_checked > 0) reason = std::to_string(result.not_checked) + " pairs could not be checked";
+  if (result.delayed > 0) {
+    reason += fmt::format("{}{} pairs wait for transforms, up to {:.3f} s already", reason.empty() ? "" : ", ",
+                          result.delayed, (cycle.end - cycle.delayed_since).toSec());
+  }
+  return reason;
+}
+
+/// Why none of a body's pairs can be checked; empty if they can.
+const std::string& uncheckedReason(const MonitorLoop& loop, int body) {
+  const std::string& failure = loop.scene().bodies[body].failure;
+  return failure.empty() ? loop.cycle().motion.missing[body] : failure;
+}
+
+bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair) {
+  return !uncheckedReason(loop, pair.body_a).empty() || !uncheckedReason(loop, pair.body_b).empty();
+}
+
+/// Counts a pair of the body, if that is why it is not checked.
+void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std::vector<UncheckedBody>& bodies) {
+  const std::string& reason = uncheckedReason(loop, body);
+  if (reason.empty()) return;
+  const std::string& name = loop.scene().bodies[body].name;
+  auto said =
+      std::find_if(bodies.begin(), bodies.end(), [&](const UncheckedBody& other) { return other.body == name; });
+  if (said == bodies.end()) {
+    said = bodies.emplace(bodies.end());
+    said->body = name;
+    said->reason = reason;
+    said->since = since;
+    said->pairs = 0;
+  }
+  said->since = std::min(said->since, since);
+  ++said->pairs;
+}
+
+/// The pairs that are neither clear nor delayed, but those of bodies none of whose pairs could be checked: these.
+void setPairs(const MonitorLoop& loop, ContactArray& message) {
+  const CycleResult& result = loop.result();
+  const CycleContext context = contextOf(loop);
+  message.unchecked.clear();
+  std::size_t count = 0;
+  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const PairResult& pair = result.pairs[i];
+    if (pair.verdict == Verdict::kClear || pair.span.empty()) continue;
+    if (pair.verdict == Verdict::kNotChecked && isOfUncheckedBody(loop, pair)) {
+      const ros::Time since = context.start + ros::Duration(context.motion.times[pair.span.first]);
+      for (const int body : {pair.body_a, pair.body_b}) addUnchecked(loop, body, since, message.unchecked);
+      continue;
+    }
+    if (count == message.pairs.size()) message.pairs.emplace_back();
+    setPairContact(pair, context, message.pairs[count++]);
+  }
+  message.pairs.resize(count);
+}
+
+void setContacts(const MonitorLoop& loop, std::vector<Contact>& messages) {
+  const ContactTracker& contacts = loop.contacts();
+  messages.resize(contacts.size());
+  for (std::size_t i = 0; i < messages.size(); ++i) setContact(contacts[i], messages[i]);
+}
+
+/// What is plotted of a cycle.
+void setScalars(const MonitorLoop& loop, MonitorState& message) {
+  message.max_depth = message.max_force = 0.0;
+  message.min_clearance = std::numeric_limits<double>::infinity();
+  for (const PairResult& pair : loop.result().pairs) {
+    if (pair.span.empty() || pair.verdict == Verdict::kNotChecked) continue;
+    message.min_clearance =
+        std::min(message.min_clearance, pair.verdict == Verdict::kClear ? std::max(0.0, pair.clearance) : 0.0);
+    if (pair.intervals.empty()) continue;
+    message.max_depth = std::max(message.max_depth, pair.deepest.depth);
+    message.max_force = std::max(message.max_force, pair.on_a_W.force.norm());
+  }
+  if (!std::isfinite(message.min_clearance)) message.min_clearance = 0.0;
+  message.contacts = static_cast<std::uint32_t>(loop.contacts().size());
+}
+
+}  // namespace
+
+CycleContext contextOf(const MonitorLoop& loop) {
+  return {loop.scene(), loop.cycle().motion, loop.cycle().recorded, loop.cycle().origin};
+}
+
+void setContactArray(const MonitorLoop& loop, ContactArray& message) {
+  const TrackedCycle& cycle = loop.cycle();
+  const CycleResult& result = loop.result();
+  message.header.stamp = cycle.end;
+  message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
+  message.cycle_start = cycle.start;
+  message.complete_until = cycle.complete_until;
+  message.run_time = result.run_time;
+  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.reason = reasonOf(result, cycle);
+  setErrorBound(result, message);
+  setDelays(cycle, message);
+  setPairs(loop, message);
+  setContacts(loop, message.contacts);
+  message.checked = result.checked;
+  message.skipped = result.skipped;
+  message.postponed = result.postponed;
+  message.not_checked = result.not_checked;
+  message.delayed = result.delayed;
+}
+
+ContactArray toContactArray(const MonitorLoop& loop) {
+  ContactArray message;
+  setContactArray(loop, message);
+  return message;
+}
+
+void setDistanceArray(const MonitorLoop& loop, double range, DistanceArray& message) {
+  message.header.stamp = loop.cycle().end;
+  message.header.frame_id = loop.fixedFrame();
+  message.range = range;
+  std::size_t count = 0;
+  for (const PairDistance& pair : loop.distances()) {
+    if (pair.any.width > range) continue;
+    if (count == message.distances.size()) message.distances.emplace_back();
+    Distance& distance = message.distances[count++];
+    distance.body_a = loop.scene().bodies[pair.body_a].name;
+    distance.body_b = loop.scene().bodies[pair.body_b].name;
+    distance.stamp = loop.cycle().origin + ros::Duration(pair.time);
+    distance.distance = pair.distance;
+    distance.error = pair.error;
+    distance.point_a = toPoint(pair.p_A_W);
+    distance.point_b = toPoint(pair.p_B_W);
+    distance.normal = toVector3(pair.normal_W);
+    distance.closing_speed = pair.closing_speed;
+  }
+  message.distances.resize(count);
+}
+
+void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message) {
+  const TrackedCycle& cycle = loop.cycle();
+  const CycleResult& result = loop.result();
+  message.header.stamp = cycle.end;
+  message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
+  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.missing = missingBodies(loop);
+  for (const Body& body : loop.scene().bodies) {
+    if (!body.failure.empty()) message.missing.push_back(body.name + ": " + body.failure);
+  }
+  message.reason = reasonOf(result, cycle);
+  message.cycle_start = cycle.start;
+  message.complete_until = cycle.complete_until;
+  message.run_time = result.run_time;
+  message.latency = (now - cycle.end).toSec();
+  setErrorBound(result, message);
+  message.contact_error_bound = result.contact_error;
+  setDelays(cycle, message);
+  setScalars(loop, message);
+  message.pairs_checked = result.checked;
+  message.pairs_skipped = result.skipped;
+  message.pairs_postponed = result.postponed;
+  message.pairs_not_checked = result.not_checked;
+  message.pairs_delayed = result.delayed;
+}
+
+MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
+  MonitorState message;
+  setMonitorState(loop, now, message);
+  return message;
+}
+
+ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason) {
+  ContactArray message;
+  message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
+  message.header.stamp = message.cycle_start = message.complete_until = loop.cycle().end;
+  message.verdict = ContactArray::NOT_CHECKED;
+  message.reason = reason;
+  setContacts(loop, message.contacts);
+  return message;
+}
+
+MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now) {
+  MonitorState message;
+  message.header.stamp = now;
+  message.header.frame_id = fixed_frame;
+  message.verdict = MonitorState::NOT_CHECKED;
+  message.reason = reason;
+  return message;
+}
+
+void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchStamped& message) {
+  Wrench sum_W;
+  for (const PairResult& pair : loop.result().pairs) {
+    if (pair.body_a == body) sum_W += pair.on_a_W;
+    if (pair.body_b == body) sum_W += pair.on_b_W;
+  }
+  const Isometry3d R_WB(loop.cycle().motion.X_WB[body].back().linear());
+  message.header.stamp = loop.cycle().end;
+  message.header.frame_id = loop.scene().bodies[body].frame;
+  message.wrench = toWrench(expressedIn(R_WB, sum_W));
+}
+
+geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body) {
+  geometry_msgs::WrenchStamped message;
+  setWrenchStamped(loop, body, message);
+  return message;
+}
+
+std::string wrenchTopic(const Body& body) {
+  std::string link = body.name;
+  std::replace_if(
+      link.begin(), link.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '/'; }, '_');
+  return "wrenches/" + link;
+}
+
+std::vector<std::string> missingBodies(const MonitorLoop& loop) {
+  const std::vector<std::string>& missing = loop.cycle().motion.missing;
+  std::vector<std::string> lines;
+  for (std::size_t body = 0; body < missing.size(); ++body) {
+    if (!missing[body].empty()) lines.push_back(loop.scene().bodies[body].name + ": " + missing[body]);
+  }
+  return lines;
+}
+
+std::string uncheckedCause(const MonitorLoop& loop) {
+  const std::vector<std::string> missing = missingBodies(loop);
+  if (missing.empty()) return "no new transforms come";
+  const auto causeOf = [](const std::string& line) { return line.substr(line.rfind(": ") + 1); };
+  std::map<std::string, std::size_t> bodies;  // by cause
+  for (const std::string& line : missing) ++bodies[causeOf(line)];
+  const auto shares = [&](const std::string& a, const std::string& b) {
+    return bodies[causeOf(a)] < bodies[causeOf(b)];
+  };
+  const std::size_t others = missing.size() - 1;
+  return *std::max_element(missing.begin(), missing.end(), shares) +
+         (others == 0   ? ""
+          : others == 1 ? "; and 1 body more"
+                        : "; and " + std::to_string(others) + " bodies more");
+}
+
+std::vector<std::string> failedBodies(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const Body& body : scene.bodies) {
+    if (!body.failure.empty()) lines.push_back(body.name + ": " + body.failure);
+  }
+  return lines;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,94 @@
+#include "ros/monitor/diagnostics.h"
+
+namespace sdf_ccd {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+void addLines(const std::string& key, const std::vector<std::string>& lines, DiagnosticStatusWrapper& status) {
+  for (const std::string& line : lines) status.add(key, line);
+}
+
+}  // namespace
+
+Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name)
+    : updater_(node, private_node, name) {
+  updater_.setHardwareID("none");
+  updater_.add("cycles", [this](DiagnosticStatusWrapper& status) { cycles(status); });
+  updater_.add("transforms", [this](DiagnosticStatusWrapper& status) { transforms(status); });
+  updater_.add("bodies", [this](DiagnosticStatusWrapper& status) { bodies(status); });
+}
+
+void Diagnostics::update(const MonitorHealth& health, bool at_once) {
+  health_ = health;
+  at_once ? updater_.force_update() : updater_.update();
+}
+
+void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
+  if (!health_.failure.empty()) {
+    status.summary(DiagnosticStatus::ERROR, health_.failure);
+  } else if (!health_.building.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.building);
+  } else if (health_.stalled) {
+    status.summary(DiagnosticStatus::ERROR, "no new transforms: nothing is checked");
+  } else if (health_.run_time * health_.wanted_rate > 1.0) {
+    status.summary(DiagnosticStatus::WARN, "a check takes longer than its period");
+  } else if (health_.pairs_postponed > 0) {
+    status.summaryf(DiagnosticStatus::WARN, "%d pairs are postponed, as max_cycle_time is up", health_.pairs_postponed);
+  } else if (health_.max_error > 0.0 && health_.error.total() > health_.max_error) {
+    status.summary(DiagnosticStatus::WARN, "running, but the error bound exceeds max_error");
+  } else {
+    status.summary(DiagnosticStatus::OK, "running");
+  }
+  status.addf("rate [Hz]", "%.1f", health_.rate);
+  status.addf("latency [ms]", "%.1f", 1e3 * health_.latency);
+  status.addf("run time [ms]", "%.2f", 1e3 * health_.run_time);
+  status.addf("error bound [mm]", "%.3f", 1e3 * health_.error.total());
+  status.addf("of it field [mm]", "%.3f", 1e3 * health_.error.field);
+  status.addf("of it chords and motion [mm]", "%.3f", 1e3 * health_.error.chord);
+  status.addf("of it contact times [mm]", "%.3f", 1e3 * health_.error.root);
+  status.addf("of it gaps between points [mm]", "%.3f", 1e3 * health_.error.gap);
+  status.addf("error bound of contacts [mm]", "%.3f", 1e3 * health_.contact_error);
+  status.add("pairs", health_.pairs);
+  status.add("pairs left out", health_.pairs_left_out);
+  status.add("cycles with postponed pairs", health_.short_cycles);
+}
+
+void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
+  if (health_.stalled) {
+    status.summary(DiagnosticStatus::ERROR, "none come");
+  } else if (!health_.missing.empty()) {
+    status.summaryf(DiagnosticStatus::ERROR, "%zu bodies not known", health_.missing.size());
+  } else if (!health_.bad_joints.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.bad_joints.front());
+  } else if (!health_.contradicted.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.contradicted);
+  } else if (!health_.moving_frame.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.moving_frame);
+  } else if (health_.pairs_delayed > 0) {
+    status.summaryf(DiagnosticStatus::WARN, "%d pairs wait for them", health_.pairs_delayed);
+  } else {
+    status.summary(DiagnosticStatus::OK, "all known");
+  }
+  addLines("missing", health_.missing, status);
+  addLines("joint", health_.bad_joints, status);
+  status.add("pairs delayed", health_.pairs_delayed);
+  status.add("out of order", health_.out_of_order);
+  status.add("refused", health_.refused);
+  status.add("not kept", health_.not_kept);
+}
+
+void Diagnostics::bodies(DiagnosticStatusWrapper& status) const {
+  if (!health_.bad_bodies.empty()) {
+    status.summaryf(DiagnosticStatus::ERROR, "%zu bodies cannot be checked", health_.bad_bodies.size());
+  } else if (!health_.warnings.empty()) {
+    status.summaryf(DiagnosticStatus::WARN, "%zu warnings", health_.warnings.size());
+  } else {
+    status.summary(DiagnosticStatus::OK, "all can be checked");
+  }
+  addLines("not checked", health_.bad_bodies, status);
+  addLines("warning", health_.warnings, status);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,150 @@
+#include "ros/monitor/live_map.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <ros/console.h>
+
+#include "common/seconds_since.h"
+#include "common/shown_text.h"
+#include "field/uniform/sparse_grid.h"
+#include "monitor/voxel_mask.h"
+#include "ros/monitor/low_priority.h"
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr const char* kName = "octomap";
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+const ros::WallDuration kPatience(0.1);  // until tf has the map's stamp
+constexpr std::chrono::milliseconds kLook(2);
+
+}  // namespace
+
+LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameters, SceneEditor& editor,
+                 const TfHistory& history, const std::atomic<bool>& stop)
+    : parameters_(parameters.live_map), editor_(editor), history_(history), stop_(stop) {
+  options_.unknown = parameters_.unknown;
+  options_.near_distance = parameters_.unknown_distance;
+  options_.padding = parameters_.padding;
+  options_.band = 1.1 * (parameters.scene.shell.spacing + parameters.scene.motion_margin);
+  ros::NodeHandle own(node);
+  own.setCallbackQueue(&queue_);
+  const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> hear =
+      [this](const octomap_msgs::Octomap::ConstPtr& message) { this->hear(*message); };
+  subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, hear);
+  spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
+  spinner_->start();
+}
+
+LiveMap::~LiveMap() {
+  queue_.disable();
+  spinner_->stop();
+}
+
+void LiveMap::hear(const octomap_msgs::Octomap& message) {
+  lowerPriority();
+  const CancelScope scope(stop_);
+  try {
+    take(message);
+  } catch (const Cancelled&) {
+    // The monitor ends.
+  } catch (const std::exception& error) {
+    ROS_ERROR_THROTTLE(5.0, "A map is not taken, and the last one stays: %s", error.what());
+  }
+}
+
+void LiveMap::take(const octomap_msgs::Octomap& message) {
+  const auto start = std::chrono::steady_clock::now();
+  if (message.data.size() > kMostBytes) throw std::runtime_error("it is larger than 256 MiB");
+  std::string frame = withoutLeadingSlash(message.header.frame_id);
+  if (frame.empty()) frame = history_.fixedFrame();
+  if (frame.size() > RequestLimits().name || frame != shownText(frame)) throw std::runtime_error("its frame is none");
+  VoxelMapOptions options = options_;
+  options.band += 1.1 * kHalfSqrt3 * 0.5 * message.resolution;
+  VoxelGrid grid(message.resolution, options);
+  grid.addOctree(message.data.data(), message.data.size(), message.id, message.binary != 0);
+  const std::shared_ptr<const CheckedWorld> world = editor_.world();
+  const std::vector<VoxelMask> masks = masksOf(*world, frame, message.header.stamp);
+  const double read = secondsSince(start);
+  if (!map_ || frame != frame_) {
+    map_ = std::make_unique<VoxelMap>(kName, frame, options);
+    frame_ = frame;
+    tiles_.clear();
+  }
+  VoxelMap::Change change;
+  editor_.arena().execute([&, cancel = CancelPoint()] {
+    const CancelScope scope(cancel);
+    change = map_->take(std::move(grid), masks);
+  });
+  for (const std::string& name : change.removed) tiles_.erase(name);
+  const std::size_t made = change.made.size();
+  std::vector<MadeField> fields;
+  for (std::size_t i = 0; i < made; ++i)
+    fields.push_back({std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry.front().shape),
+                      std::move(change.fields[i])});
+  for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
+  const double built = secondsSince(start);
+  std::vector<BodyDescription> tiles;
+  tiles.reserve(tiles_.size());
+  for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
+  const std::uint64_t version = made > 0 || !change.removed.empty() ? editor_.setMap(std::move(tiles), fields) : world->version();
+  ROS_INFO_THROTTLE(10.0,
+                    "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
+                    "%.1f ms (reading %.1f, tiles %.1f)",
+                    change.occupied, tiles_.size(), made, change.masked, static_cast<unsigned long>(version),
+                    1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
+}
+
+/// Of the robot and what is attached to it, as tf has them at the map's stamp; what it has not, where that is now.
+std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const std::string& frame,
+                                        const ros::Time& stamp) const {
+  std::vector<TrackedBody> tracked = {{frame, Isometry3d::Identity(), {}}};
+  std::vector<std::size_t> robot;  // bodies, each tracked behind the map's frame
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    if (world.scene().bodies[b].is_world) continue;
+    robot.push_back(b);
+    tracked.push_back(world.bodies[b]);
+  }
+  std::vector<Isometry3d> X_W;
+  std::vector<std::string> missing;
+  const auto areKnown = [&] {
+    missing.clear();
+    posesAt(history_, tracked, stamp, X_W, missing);
+    return std::all_of(missing.begin(), missing.end(), [](const std::string& why) { return why.empty(); });
+  };
+  const ros::WallTime end = ros::WallTime::now() + kPatience;
+  while (!areKnown() && ros::WallTime::now() < end) {
+    checkCancelled();
+    std::this_thread::sleep_for(kLook);
+  }
+  std::vector<Isometry3d> X_W_now;
+  std::vector<std::string> missing_now;
+  posesAt(history_, tracked, ros::Time(), X_W_now, missing_now);
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    if (missing[i].empty()) continue;
+    X_W[i] = X_W_now[i];
+    missing[i] = missing_now[i];
+  }
+  if (!missing[0].empty()) {
+    ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", missing[0].c_str());
+    return {};
+  }
+  std::vector<VoxelMask> masks;
+  for (std::size_t i = 0; i < robot.size(); ++i) {
+    const Body& body = world.scene().bodies[robot[i]];
+    const BodyDescription& description = world.description().bodies[robot[i]];
+    if (!missing[i + 1].empty() || !body.failure.empty() || description.geometry.empty()) continue;
+    if (auto mask = maskOf(body, description, X_W[i + 1].inverse() * X_W[0])) {
+      masks.push_back(std::move(*mask));
+    } else {
+      ROS_WARN_ONCE("Voxels that %s fills count, as it has no field: no other link is checked against it",
+                    body.name.c_str());
+    }
+  }
+  return masks;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include "ros/messages/octomap_message.h"
+#include "ros/monitor/scene_editor.h"
+#include "sdf_ccd/monitor/voxel_map.h"
+
+namespace sdf_ccd {
+
+/// A map of voxels that comes on a topic, as tiles of the world: each map takes the place of the last one, what has not
+/// changed of it is shared. While one is being taken the newest that comes waits, and others are dropped.
+///
+/// Voxels that the robot, and what is attached to it, fill where tf had them at the map's stamp do not count.
+///
+/// Subscribes:
+///   the parameter octomap/topic  octomap_msgs/Octomap  binary or full, of OcTree or ColorOcTree; in a thread of its own
+class LiveMap {
+ public:
+  /// @param stop  ends what is being done when it is set.
+  LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameters, SceneEditor& editor,
+          const TfHistory& history, const std::atomic<bool>& stop);
+  ~LiveMap();
+
+ private:
+  void hear(const octomap_msgs::Octomap& message);
+  void take(const octomap_msgs::Octomap& message);
+  std::vector<VoxelMask> masksOf(const CheckedWorld& world, const std::string& frame, const ros::Time& stamp) const;
+
+  LiveMapParameters parameters_;
+  SceneEditor& editor_;
+  const TfHistory& history_;
+  const std::atomic<bool>& stop_;
+  VoxelMapOptions options_;
+  std::unique_ptr<VoxelMap> map_;
+  std::string frame_;
+  std::map<std::string, BodyDescription> tiles_;  // by name
+  ros::CallbackQueue queue_;
+  ros::Subscriber subscriber_;
+  std::unique_ptr<ros::AsyncSpinner> spinner_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,164 @@
+#include "ros/monitor/monitor_loop.h"
+
+#include <algorithm>
+#include <set>
+
+#include "monitor/scene_difference.h"
+#include "monitor/summarise.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// The frames of all bodies, and of all links: queries rest on these.
+TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& described,
+                                const MonitorParameters& parameters) {
+  TfHistoryOptions options;
+  options.wanted = {withoutLeadingSlash(described.fixed_frame)};
+  for (const Body& body : scene.bodies) options.wanted.push_back(withoutLeadingSlash(body.frame));
+  const std::vector<std::string> links = described.robot ? described.robot->links() : std::vector<std::string>();
+  for (const std::string& link : links) {
+    options.wanted.push_back(withoutLeadingSlash(described.tf_prefix + link));
+  }
+  // A cycle of max_cycle may have waited for max_latency; as long again for those that check it anew.
+  options.keep = std::max(options.keep, 2.0 * (parameters.tf.max_cycle + parameters.tf.max_latency));
+  return options;
+}
+
+}  // namespace
+
+MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedScene described,
+                         const MonitorParameters& parameters)
+    : world_(std::move(world)),
+      described_(std::move(described)),
+      tf_options_(parameters.tf),
+      history_(described_.fixed_frame, historyOptions(world_->scene(), described_, parameters)),
+      tracker_(std::make_unique<TfTracker>(history_, world_->bodies, world_->scene().pairs, tf_options_)),
+      monitor_(world_->snapshot->scene, parameters.monitor),
+      reach_guard_(std::make_unique<ReachGuard>(*world_, described_)),
+      contacts_(monitor_.scene()),
+      distances_(std::make_unique<PairDistances>(world_->snapshot->scene)) {}
+
+MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,
+                         const MonitorParameters& parameters)
+    : MonitorLoop(firstWorld(scene, described.scene, described.unreachable), described, parameters) {}
+
+std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWorld> next) {
+  auto change = std::make_unique<LoopChange>();
+  const Scene& scene = next->scene();
+  std::set<std::string> frames;
+  for (const BodyList* bodies : {&scene.bodies, &monitor_.scene().bodies})  // until then the cycles need theirs
+    for (const Body& body : *bodies) frames.insert(withoutLeadingSlash(body.frame));
+  history_.wantBesides({frames.begin(), frames.end()});
+
+  change->monitor = monitor_.prepare(next->snapshot->scene);
+  change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
+  change->tracker->warmUp();
+  change->reach_guard = std::make_unique<ReachGuard>(*next, described_);
+  change->contacts = contacts_.prepare(scene);
+  change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
+  constexpr std::size_t kPoses = 16;  // of a body in a cycle, mostly fewer
+  CycleMotion& motion = change->cycle.motion;
+  motion.X_WB.resize(scene.bodies.size());
+  for (std::vector<Isometry3d>& poses : motion.X_WB) poses.reserve(kPoses);
+  motion.missing.resize(scene.bodies.size());
+  motion.motion_error.reserve(scene.bodies.size());
+  motion.spans.reserve(scene.pairs.size());
+  change->world = std::move(next);
+  return change;
+}
+
+void MonitorLoop::adopt(LoopChange& change) {
+  const SceneDifference& difference = change.monitor->difference();
+  monitor_.adopt(*change.monitor);
+  change.tracker->take(*tracker_, difference.bodiesBefore(), difference.pairsBefore());
+  tracker_.swap(change.tracker);
+  reach_guard_.swap(change.reach_guard);
+  contacts_.adopt(change.contacts);
+  change.distances->take(*distances_, difference.pairsNow());
+  distances_.swap(change.distances);
+  std::swap(cycle_, change.cycle);
+  cycle_.start = change.cycle.start;
+  cycle_.end = change.cycle.end;
+  cycle_.complete_until = change.cycle.complete_until;
+  cycle_.delayed_since = change.cycle.delayed_since;
+  world_.swap(change.world);
+  result_ = nullptr;
+}
+
+TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
+  const TfTracker::Step step = tracker_->next(now, cycle_);
+  contacts_.settle();
+  if (step == TfTracker::Step::kJump) {
+    monitor_.reset();
+    contacts_.lose();
+    distances_->forget();
+  }
+  if (step == TfTracker::Step::kCycle) {
+    run(request);
+    trackContacts(request);
+  }
+  return step;
+}
+
+void MonitorLoop::run(const CycleRequest& request) {
+  try {
+    result_ = &monitor_.run(cycle_.motion, request);
+    guardReach();
+  } catch (const std::exception& error) {
+    monitor_.reset();
+    cycle_.motion.missing.assign(scene().bodies.size(), error.what());
+    cycle_.motion.motion_error.clear();
+    result_ = &monitor_.run(cycle_.motion, request);
+  }
+}
+
+void MonitorLoop::guardReach() {
+  const std::vector<UncheckedPair> unchecked = reach_guard_->check(history_, cycle_);
+  if (unchecked.empty()) return;
+  guarded_ = *result_;
+  addUnchecked(unchecked, guarded_);
+  result_ = &guarded_;
+}
+
+void MonitorLoop::trackContacts(const CycleRequest& request) {
+  if (!request.wantsContacts()) return contacts_.lose();
+  contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
+}
+
+std::string MonitorLoop::movingFixedFrame() const {
+  constexpr double kMoved = 0.02, kTurned = 0.02;  // more than what localisation makes of a robot that rests [m, rad]
+  const std::string& fixed = history_.fixedFrame();
+  const BodyList& bodies = scene().bodies;
+  const auto object = std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) {
+    return body.is_world && withoutLeadingSlash(body.frame) == fixed;
+  });
+  if (object == bodies.end()) return {};
+  for (const std::string& above : history_.framesAbove(fixed)) {
+    const TfSpan span = history_.span(above);
+    Isometry3d X_then, X_now;
+    std::string problem;
+    if (!span.problem.empty() || span.is_static || !history_.lookup(above, span.first, X_then, problem) ||
+        !history_.lookup(above, span.last, X_now, problem)) {
+      continue;
+    }
+    const double turned = Quaterniond(X_then.linear()).angularDistance(Quaterniond(X_now.linear()));
+    if (turned < kTurned && (X_now.inverse().translation() - X_then.inverse().translation()).norm() < kMoved) continue;
+    return "the fixed frame " + fixed + " moves in " + above + ", and objects of the world with it, as " +
+           object->name + ": set fixed_frame to " + above + ", or to another frame that rests";
+  }
+  return {};
+}
+
+const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
+  return distances_->update(cycle_.motion, *result_, range);
+}
+
+void MonitorLoop::reset() {
+  tracker_->reset();
+  monitor_.reset();
+  contacts_.settle();
+  contacts_.lose();
+  distances_->forget();
+}
+
+}  // namespace sdf_ccd

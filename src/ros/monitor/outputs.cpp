@@ -1,0 +1,209 @@
+#include "ros/monitor/outputs.h"
+
+#include <algorithm>
+
+#include <ros/console.h>
+
+#include "monitor/scene_difference.h"
+#include "ros/messages/shape_marker.h"
+#include "ros/messages/world_markers.h"
+#include "ros/monitor/cycle_messages.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kWaiting = 8;  // cycles whose messages may wait
+const ros::WallDuration kLookPeriod(0.02);
+const ros::WallDuration kWorldPeriod(1.0);
+
+}  // namespace
+
+Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world,
+                 MonitorLoop& loop, const DescribedScene& described, const MarkerOptions& options,
+                 ProximityOutputs& proximity)
+    : node_(private_node),
+      loop_(loop),
+      proximity_(proximity),
+      state_(state),
+      world_publisher_(world),
+      torques_(described),
+      drawer_(loop.fixedFrame(), options) {
+  contacts_ = node_.advertise<ContactArray>("contacts", 100);
+  markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 10);
+  links_ = node_.advertise<visualization_msgs::MarkerArray>("links", 10, true);
+  torques_.advertise(node_);
+  adopt(*prepare(*loop.world()));
+  goOnWith(loop.world());
+  worker_ = std::make_unique<OrderedWorker<Report>>(kWaiting, [this](Report& report) { send(report); });
+}
+
+Outputs::~Outputs() = default;
+
+std::unique_ptr<Outputs::Change> Outputs::prepare(const CheckedWorld& next) {
+  auto change = std::make_unique<Change>();
+  change->link_of_body = torques_.linksOf(next.scene());
+  const BodyList& bodies = next.scene().bodies;
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (bodies[body].is_world) continue;
+    const std::string topic = wrenchTopic(bodies[body]);
+    const auto known =
+        std::find_if(wrenches_.begin(), wrenches_.end(), [&](const LinkWrench& link) { return link.topic == topic; });
+    LinkWrench link{static_cast<int>(body), topic, {}, false, {}};
+    if (known != wrenches_.end()) {
+      link.publisher = known->publisher;
+      link.messages = known->messages;
+    } else {
+      link.publisher = node_.advertise<geometry_msgs::WrenchStamped>(topic, 100);
+      link.messages = std::make_shared<MessagePool<geometry_msgs::WrenchStamped>>();
+    }
+    change->wrenches.push_back(std::move(link));
+  }
+  return change;
+}
+
+void Outputs::adopt(Change& change) {
+  wrenches_.swap(change.wrenches);
+  torques_.swapLinks(change.link_of_body);
+}
+
+CycleRequest Outputs::request(int max_points) {
+  lookForSubscribers();
+  CycleRequest request;
+  request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || state_wanted_;
+  request.contacts = contacts_wanted_ || markers_wanted_ || state_wanted_;
+  request.max_points = contacts_wanted_ || markers_wanted_ ? max_points : 0;
+  // The status, and the state, tell the clearance of all.
+  request.skipped_pairs = markers_wanted_ || links_wanted_ || state_wanted_ || proximity_.isWanted();
+  return request;
+}
+
+/// Each look searches all topics of the process, so that it is not taken every millisecond.
+void Outputs::lookForSubscribers() {
+  const ros::WallTime now = ros::WallTime::now();
+  if (now - looked_ < kLookPeriod) return;
+  looked_ = now;
+  contacts_wanted_ = contacts_.getNumSubscribers() > 0;
+  state_wanted_ = state_.getNumSubscribers() > 0;
+  markers_wanted_ = markers_.getNumSubscribers() > 0;
+  torques_wanted_ = torques_.isWanted();
+  links_wanted_ = links_.getNumSubscribers() > 0;
+  wrenches_wanted_ = false;
+  for (LinkWrench& link : wrenches_) {
+    link.is_wanted = link.publisher.getNumSubscribers() > 0;
+    wrenches_wanted_ |= link.is_wanted;
+  }
+}
+
+void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost::shared_ptr<DistanceArray>& distances) {
+  Report& report = worker_->next();
+  report.is_unchecked = false;
+  report.state = state;
+  report.distances = distances;
+  if (torques_wanted_) report.torques = torques_.toMessage(loop_);
+  report.draws_markers = markers_wanted_;
+  report.draws_links = links_wanted_;
+  if (contacts_wanted_) {
+    report.contacts = contact_messages_.take();
+    setContactArray(loop_, *report.contacts);
+  }
+  for (std::size_t i = 0; i < wrenches_.size() && wrenches_wanted_; ++i) {
+    LinkWrench& link = wrenches_[i];
+    if (!link.is_wanted || !loop_.cycle().motion.missing[link.body].empty()) continue;
+    report.wrenches.emplace_back(link.publisher, link.messages->take());
+    setWrenchStamped(loop_, link.body, *report.wrenches.back().second);
+  }
+  if (report.draws_markers || report.draws_links) report.snapshot.take(loop_);
+  setWorld(report);
+  worker_->handOver();
+}
+
+void Outputs::publishUnchecked(const std::string& reason, const boost::shared_ptr<MonitorState>& state) {
+  lookForSubscribers();
+  Report& report = worker_->next();
+  report.is_unchecked = true;
+  report.reason = reason;
+  report.state = state;
+  report.draws_links = links_wanted_;
+  if (contacts_wanted_) report.contacts = boost::make_shared<ContactArray>(toUncheckedContacts(loop_, reason));
+  setWorld(report);
+  worker_->handOver();
+}
+
+/// Large worlds take a while to be drawn: not before somebody looks at them.
+void Outputs::setWorld(Report& report) {
+  const ros::WallTime now = ros::WallTime::now();
+  report.draws_world = false;
+  if (loop_.world()->version() != world_drawn_ && (world_drawn_ == 0 || now - world_drawn_at_ > kWorldPeriod))
+    report.draws_world = world_publisher_.getNumSubscribers() > 0;
+  if (report.draws_world) {
+    world_drawn_ = loop_.world()->version();
+    world_drawn_at_ = now;
+  }
+  if (report.draws_markers || report.draws_links || report.draws_world) report.world = loop_.world();
+}
+
+/// Of the thread that draws.
+void Outputs::goOnWith(const std::shared_ptr<const CheckedWorld>& world) {
+  if (world == drawn_) return;
+  if (drawn_) drawer_.take(findPairs(pairNames(world->scene()), pairNames(drawn_->scene())));
+  link_markers_ = std::make_unique<LinkMarkers>(world->description());
+  drawn_ = world;
+}
+
+void Outputs::finish() {
+  finishes_ = true;
+  worker_.reset();
+}
+
+void Outputs::send(Report& report) {
+  try {
+    if (report.contacts) contacts_.publish(report.contacts);
+    for (const auto& [publisher, wrench] : report.wrenches) publisher.publish(wrench);
+    if (report.state) state_.publish(report.state);
+    if (report.torques) torques_.publish(report.torques);
+    if (report.distances) proximity_.publishDistances(report.distances);
+    draw(report);
+  } catch (const std::exception& error) {
+    ROS_ERROR_THROTTLE(1.0, "The messages of a cycle are not sent: %s", error.what());
+  }
+  report.contacts.reset();
+  report.state.reset();
+  report.distances.reset();
+  report.torques.reset();
+  report.wrenches.clear();
+  report.world.reset();
+  report.snapshot.release();
+}
+
+void Outputs::draw(const Report& report) {
+  if (report.world) goOnWith(report.world);
+  if (report.draws_world) drawWorld(*report.world);
+  if (report.is_unchecked) {
+    markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(drawer_.clear(report.reason)));
+  } else if (finishes_ || (!report.draws_markers && !report.draws_links)) {
+    return;
+  } else {
+    const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(
+        drawer_.draw(report.snapshot.result(), report.snapshot.context(), ros::Time::now()));
+    if (report.draws_markers) markers_.publish(markers);
+  }
+  if (report.draws_links) drawLinks();
+}
+
+void Outputs::drawWorld(const CheckedWorld& world) {
+  const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(toWorldMarkers(world.description()));
+  if (has_drawn_world_) {  // what is no longer there goes
+    visualization_msgs::Marker all = makeMarker(loop_.fixedFrame(), "", 0, visualization_msgs::Marker::CUBE);
+    all.action = visualization_msgs::Marker::DELETEALL;
+    markers->markers.insert(markers->markers.begin(), all);
+  }
+  has_drawn_world_ = true;
+  world_publisher_.publish(markers);
+}
+
+void Outputs::drawLinks() {
+  auto drawn = link_markers_->draw(drawer_.states().ofBodies(drawn_->scene()));
+  if (drawn) links_.publish(boost::make_shared<visualization_msgs::MarkerArray>(std::move(*drawn)));
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include "ros/messages/link_markers.h"
+#include "ros/messages/markers.h"
+#include "ros/messages/message_pool.h"
+#include "ros/monitor/cycle_snapshot.h"
+#include "ros/monitor/ordered_worker.h"
+#include "ros/monitor/proximity_outputs.h"
+#include "ros/monitor/torque_output.h"
+#include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/MonitorState.h"
+
+namespace sdf_ccd {
+
+/// Publishes what a cycle found.
+///
+/// Publishes, below the node's name:
+///   contacts         sdf_ccd/ContactArray            every cycle, and once a second while there is none
+///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
+///                                                    link's frame, about its origin [N, N·m]
+///   joint_torques    sensor_msgs/JointState          as TorqueOutput does
+///   markers          visualization_msgs/MarkerArray  contacts and status to look at
+///   world            visualization_msgs/MarkerArray  the world's objects as they are checked, again after changes, at
+///                                                    most once a second; latched
+///   links            visualization_msgs/MarkerArray  the links' collision shapes in the colours of their verdicts, all
+///                                                    of them when one changes; latched
+/// Nothing is put together, or computed, that has no subscriber.
+///
+/// Messages are filled where the cycle's results are, which takes no more than to copy these, and published in their
+/// order by a thread of their own, without a copy to subscribers of the same process: serialising, sending and drawing
+/// take no time of the cycles'. Those wait only when several cycles' messages do.
+class Outputs {
+ public:
+  /// @param state  publishes the states that are given.
+  /// @param world  publishes the world's objects.
+  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world, MonitorLoop& loop,
+          const DescribedScene& described, const MarkerOptions& options, ProximityOutputs& proximity);
+
+  ~Outputs();
+
+  /// The wrenches on one link, or on what is attached to one.
+  struct LinkWrench {
+    int body;
+    std::string topic;
+    ros::Publisher publisher;
+    bool is_wanted = false;
+    std::shared_ptr<MessagePool<geometry_msgs::WrenchStamped>> messages;
+  };
+
+  /// What another world needs; after adopt() what that of before needed.
+  struct Change {
+    std::vector<LinkWrench> wrenches;
+    std::vector<int> link_of_body;  ///< see TorqueOutput
+  };
+
+  /// What another world needs, beside running cycles but not while adopt() runs: publishers of what is attached now.
+  std::unique_ptr<Change> prepare(const CheckedWorld& next);
+
+  /// Goes on with the loop's world, between two cycles. Frees nothing.
+  /// @param change  that prepare() made since the last adopt(); to be destroyed by a thread that has the time.
+  void adopt(Change& change);
+
+  /// The world is drawn once more, as after a jump of time, when rviz drops what it shows.
+  void drawWorldAgain() { world_drawn_ = 0; }
+
+  /// What the subscribers want to know of the next cycle.
+  CycleRequest request(int max_points);
+
+  /// Of the loop's last cycle. @param state  of that cycle.
+  /// @param distances  the same, or null.
+  void publish(const boost::shared_ptr<MonitorState>& state, const boost::shared_ptr<DistanceArray>& distances);
+
+  /// Nothing is checked after the last cycle, for this reason: a message without pairs, and no markers.
+  /// @param state  that says so.
+  void publishUnchecked(const std::string& reason, const boost::shared_ptr<MonitorState>& state);
+
+  /// Publishes what waits still, but draws nothing any more. The last call.
+  void finish();
+
+ private:
+  using WrenchMessage = boost::shared_ptr<geometry_msgs::WrenchStamped>;
+
+  struct Report {                              // of a cycle, or that there is none
+    boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
+    boost::shared_ptr<MonitorState> state;
+    boost::shared_ptr<DistanceArray> distances;
+    boost::shared_ptr<sensor_msgs::JointState> torques;
+    std::vector<std::pair<ros::Publisher, WrenchMessage>> wrenches;
+    CycleSnapshot snapshot;
+    bool draws_markers = false, draws_links = false;  // of the snapshot
+    std::shared_ptr<const CheckedWorld> world;        // that this is about; null if nothing is drawn
+    bool draws_world = false;
+    bool is_unchecked = false;
+    std::string reason;  // why
+  };
+
+  void lookForSubscribers();
+  void send(Report& report);
+  void draw(const Report& report);
+  void drawWorld(const CheckedWorld& world);
+  void drawLinks();
+  void setWorld(Report& report);
+  void goOnWith(const std::shared_ptr<const CheckedWorld>& world);
+
+  ros::NodeHandle node_;
+  MonitorLoop& loop_;
+  ProximityOutputs& proximity_;
+  ros::Publisher state_, world_publisher_, contacts_, markers_, links_;
+  std::vector<LinkWrench> wrenches_;
+  TorqueOutput torques_;
+  std::uint64_t world_drawn_ = 0;  // its version
+  ros::WallTime world_drawn_at_;
+
+  // Of the thread that draws.
+  std::shared_ptr<const CheckedWorld> drawn_;
+  MarkerDrawer drawer_;
+  std::unique_ptr<LinkMarkers> link_markers_;
+  bool has_drawn_world_ = false;
+
+  MessagePool<ContactArray> contact_messages_;
+
+  ros::WallTime looked_;  // for subscribers
+  bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
+  bool markers_wanted_ = false, links_wanted_ = false;
+
+  std::atomic<bool> finishes_{false};
+  std::unique_ptr<OrderedWorker<Report>> worker_;
+};
+
+}  // namespace sdf_ccd

@@ -1,0 +1,62 @@
+#include "ros/monitor/plan_message.h"
+
+#include <algorithm>
+#include <map>
+
+namespace sdf_ccd {
+
+Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros::Time& now) {
+  const Scene& scene = world.scene();
+  Plan plan;
+  plan.header.stamp = now;
+  plan.header.frame_id = fixed_frame;
+  plan.scene_version = world.version();
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    const BodyReport& report = scene.reports[b];
+    plan.names.push_back(body.name);
+    plan.ids.push_back(b < world.snapshot->body_ids.size() ? world.snapshot->body_ids[b] : b + 1);
+    plan.frames.push_back(body.frame);
+    plan.is_world.push_back(static_cast<std::uint8_t>(body.is_world));
+    plan.geometry.push_back(report.geometry);
+    plan.fields.push_back(report.field);
+    plan.bytes.push_back(report.field_bytes + report.shell_bytes);
+    plan.shell_points.push_back(static_cast<std::uint32_t>(report.shell_points));
+    plan.error_bounds.push_back(report.bound.total());
+    plan.failures.push_back(body.failure);
+    for (const std::string& warning : report.warnings) plan.warnings.push_back(report.name + ": " + warning);
+  }
+  for (const PlannedPair& pair : scene.pairs) {
+    plan.pairs_a.push_back(static_cast<std::uint32_t>(pair.body_a));
+    plan.pairs_b.push_back(static_cast<std::uint32_t>(pair.body_b));
+  }
+  constexpr std::size_t kMostReasons = 65535;
+  std::map<std::string, std::uint16_t> reasons;
+  for (const LeftOut& left_out : scene.left_out) {
+    if (left_out.body_a < 0) {
+      if (left_out.what.rfind("all ", 0) == 0) continue;  // pairs of objects, counted below
+      plan.parts_left_out.push_back(left_out.what);
+      plan.part_reasons.push_back(left_out.reason);
+      continue;
+    }
+    if (scene.bodies[left_out.body_a].is_world && scene.bodies[left_out.body_b].is_world) continue;
+    const bool is_full = plan.reasons.size() >= kMostReasons;
+    const auto [known, is_new] = reasons.emplace(is_full ? plan.reasons.back() : left_out.reason,
+                                                 static_cast<std::uint16_t>(plan.reasons.size()));
+    if (is_new) plan.reasons.push_back(known->first);
+    plan.left_out_a.push_back(static_cast<std::uint32_t>(left_out.body_a));
+    plan.left_out_b.push_back(static_cast<std::uint32_t>(left_out.body_b));
+    plan.left_out_reason.push_back(known->second);
+  }
+  const auto objects = static_cast<std::uint64_t>(
+      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.is_world; }));
+  plan.pairs_of_objects = objects * (objects - std::min<std::uint64_t>(objects, 1)) / 2;
+  plan.visual_only = scene.visual_only;
+  plan.warnings.insert(plan.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+  plan.error_bound = scene.bound.total();
+  plan.max_error = scene.max_error.value_or(0.0);
+  plan.seconds = world.snapshot->seconds > 0.0 ? world.snapshot->seconds : scene.build_seconds;
+  return plan;
+}
+
+}  // namespace sdf_ccd

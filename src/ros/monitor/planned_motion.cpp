@@ -1,0 +1,299 @@
+#include "ros/monitor/planned_motion.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "common/number_text.h"
+#include "ros/messages/conversions.h"
+#include "sdf_ccd/motion/two_body_motion.h"
+
+namespace sdf_ccd {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument(what);
+}
+
+/// Times [s] since `start`.
+template <class Point>
+std::vector<double> timesOf(const std::vector<Point>& points, const ros::Duration& start, const std::string& name) {
+  if (points.size() < 2) refuse(name + " has " + std::to_string(points.size()) + " points, two or more are needed");
+  std::vector<double> times;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    times.push_back((points[i].time_from_start - start).toSec());
+    if (i > 0 && times[i] <= times[i - 1]) {
+      refuse(name + ": time_from_start of point " + std::to_string(i) + " does not increase");
+    }
+  }
+  return times;
+}
+
+Isometry3d checkedIsometry(const geometry_msgs::Transform& transform) {
+  geometry_msgs::Pose pose;
+  pose.position.x = transform.translation.x;
+  pose.position.y = transform.translation.y;
+  pose.position.z = transform.translation.z;
+  pose.orientation = transform.rotation;
+  return toIsometry(pose);
+}
+
+void requireSize(std::size_t given, std::size_t wanted, const std::string& what) {
+  if (given == wanted) return;
+  refuse(what + " has " + std::to_string(given) + " positions for " + std::to_string(wanted) + " joints");
+}
+
+void requireNamedOnce(const QueryMotion::Request& request) {
+  std::set<std::string> names;
+  for (const auto* list :
+       {&request.trajectory.joint_names, &request.other_joints, &request.multi_dof_trajectory.joint_names}) {
+    for (const std::string& name : *list) {
+      if (!names.insert(name).second) refuse("joint " + name + " is named twice");
+    }
+  }
+}
+
+/// On splines, as joint_trajectory_controller follows it.
+RobotTrajectory toSplines(const trajectory_msgs::JointTrajectory& trajectory, const ros::Duration& start,
+                          double tolerance) {
+  const std::vector<double> times = timesOf(trajectory.points, start, "the trajectory");
+  std::vector<JointWaypoint> points;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const trajectory_msgs::JointTrajectoryPoint& point = trajectory.points[i];
+    points.push_back({times[i], point.positions, point.velocities, point.accelerations});
+  }
+  return splined(trajectory.joint_names, points, tolerance);
+}
+
+RobotTrajectory toRobotTrajectory(const trajectory_msgs::JointTrajectory& trajectory, const ros::Duration& start) {
+  RobotTrajectory result;
+  result.times = timesOf(trajectory.points, start, "the trajectory");
+  for (std::size_t i = 0; i < result.times.size(); ++i) {
+    const std::vector<double>& positions = trajectory.points[i].positions;
+    requireSize(positions.size(), trajectory.joint_names.size(), "point " + std::to_string(i) + " of the trajectory");
+    RobotState state;
+    for (std::size_t k = 0; k < positions.size(); ++k) state.positions[trajectory.joint_names[k]] = positions[k];
+    result.states.push_back(state);
+  }
+  return result;
+}
+
+/// The root, whose joint may be named after it or as in the SRDF, stands in the message's frame; all others in their
+/// joint's frame.
+RobotTrajectory toRobotTrajectory(const trajectory_msgs::MultiDOFJointTrajectory& trajectory,
+                                  const ros::Duration& start, const PlannedScene& planned) {
+  RobotTrajectory result;
+  result.times = timesOf(trajectory.points, start, "the multi_dof_trajectory");
+  for (std::size_t i = 0; i < result.times.size(); ++i) {
+    const std::string what = "point " + std::to_string(i) + " of the multi_dof_trajectory";
+    const auto& transforms = trajectory.points[i].transforms;
+    requireSize(transforms.size(), trajectory.joint_names.size(), what);
+    RobotState state;
+    state.X_WR = planned.now.X_WR;
+    for (std::size_t k = 0; k < transforms.size(); ++k) {
+      const std::string& name = trajectory.joint_names[k];
+      const Isometry3d X = checkedIsometry(transforms[k]);
+      if (name == planned.base_joint || name == planned.robot.root()) {
+        state.X_WR = planned.now.X_WM * X;
+      } else {
+        state.poses[name] = X;
+      }
+    }
+    result.states.push_back(state);
+  }
+  return result;
+}
+
+bool movesRoot(const QueryMotion::Request& request, const PlannedScene& planned) {
+  const auto& names = request.multi_dof_trajectory.joint_names;
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return name == planned.base_joint || name == planned.robot.root();
+  });
+}
+
+/// What the request says of joints, at all its times.
+RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
+  requireNamedOnce(request);
+  const auto& joints = request.trajectory.points;
+  const auto& multi_dof = request.multi_dof_trajectory.points;
+  const ros::Duration start = joints.empty() ? multi_dof.front().time_from_start : joints.front().time_from_start;
+  RobotTrajectory named;
+  if (!joints.empty()) {
+    const bool on_splines = request.interpolation == QueryMotion::Request::SPLINES;
+    // Joints' errors add up along a chain: a quarter of what samples of the motion may stray, each [rad, m].
+    named = on_splines ? toSplines(request.trajectory, start, 0.25 * planned.sampling.tolerance)
+                       : toRobotTrajectory(request.trajectory, start);
+    for (RobotState& state : named.states) state.X_WR = planned.now.X_WR;
+  }
+  if (!multi_dof.empty()) {
+    const RobotTrajectory poses = toRobotTrajectory(request.multi_dof_trajectory, start, planned);
+    named = joints.empty() ? poses : merged(named, poses);
+  }
+  requireSize(request.other_positions.size(), request.other_joints.size(), "other_positions");
+  for (RobotState& state : named.states) {
+    for (std::size_t k = 0; k < request.other_joints.size(); ++k) {
+      state.positions[request.other_joints[k]] = request.other_positions[k];
+    }
+  }
+  return named;
+}
+
+std::string notesOf(const PlannedJoints& plan) {
+  std::string notes;
+  if (!plan.assumed.empty()) {
+    notes = std::to_string(plan.assumed.size()) + " joints that are not named are where tf has them now";
+  }
+  for (const std::string& beyond : plan.beyond_limits) notes += (notes.empty() ? "" : "; ") + ("now " + beyond);
+  return notes;
+}
+
+/// Where the base moves, objects that hang on the robot's links move along and are never in its way: mostly as their
+/// frame is the root link, for want of one that rests.
+std::string carriedNote(const PlannedScene& planned) {
+  std::string names;
+  int count = 0;
+  for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
+    if (!planned.scene.bodies[body].is_world || planned.now.carriers[body].link < 0) continue;
+    if (++count <= 3) names += (count == 1 ? "" : ", ") + planned.scene.bodies[body].name;
+  }
+  if (count == 0) return {};
+  return "these objects move with the robot's base, as their frames hang on it: " + names + (count > 3 ? ", ..." : "") +
+         "; give them, or fixed_frame, a frame that rests";
+}
+
+PlannedMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
+  const CurrentPoses& now = planned.now;
+  const PlannedJoints plan = completePlan(planned.robot, namedTrajectory(request, planned), now.joints,
+                                          {static_cast<bool>(request.allow_beyond_limits)});
+  PlannedBodies bodies;
+  bodies.missing = now.missing;
+  for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
+    const Carrier& carrier = now.carriers[body];
+    const bool is_carried = carrier.link >= 0;
+    bodies.bodies.push_back(
+        {carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], motionBall(planned.scene.bodies[body])});
+    if (is_carried) bodies.missing[body] = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
+  }
+  PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.unreachable, planned.sampling);
+  result.notes = notesOf(plan);
+  const std::string carried = movesRoot(request, planned) ? carriedNote(planned) : "";
+  if (!carried.empty()) result.notes += (result.notes.empty() ? "" : "; ") + carried;
+  return result;
+}
+
+/// Per link that is named: its poses.
+std::vector<std::vector<Isometry3d>> linkPoses(const QueryMotion::Request& request) {
+  std::vector<std::vector<Isometry3d>> X_WL(request.links.size());
+  for (std::size_t i = 0; i < request.poses.size(); ++i) {
+    const std::vector<geometry_msgs::Pose>& poses = request.poses[i].poses;
+    if (poses.size() != request.links.size()) {
+      refuse("poses " + std::to_string(i) + " has " + std::to_string(poses.size()) + " for " +
+             std::to_string(request.links.size()) + " links");
+    }
+    for (std::size_t link = 0; link < poses.size(); ++link) X_WL[link].push_back(toIsometry(poses[link]));
+  }
+  for (std::size_t link = 0; link < X_WL.size(); ++link)
+    requireUnambiguousTurns(X_WL[link], "link " + request.links[link]);
+  return X_WL;
+}
+
+PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedScene& planned) {
+  const CurrentPoses& now = planned.now;
+  CycleMotion motion;
+  motion.times = timesOf(request.poses, request.poses.front().time_from_start, "poses");
+  motion.missing = now.missing;
+  for (const Isometry3d& X_WB : now.X_WB) motion.X_WB.emplace_back(motion.times.size(), X_WB);
+  const std::vector<std::string>& links = planned.robot.links();
+  std::set<std::string> named;
+  for (const std::string& link : request.links) {
+    if (std::find(links.begin(), links.end(), link) == links.end()) refuse("the robot has no link " + link);
+    if (!named.insert(link).second) refuse("link " + link + " is named twice");
+  }
+  const std::vector<std::vector<Isometry3d>> X_WL = linkPoses(request);
+  std::vector<bool> is_moved(motion.X_WB.size(), false);
+  for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
+    const Carrier& carrier = now.carriers[body];
+    if (carrier.link < 0) continue;
+    const auto link = std::find(request.links.begin(), request.links.end(), links[carrier.link]);
+    if (link == request.links.end()) continue;
+    const std::vector<Isometry3d>& poses = X_WL[link - request.links.begin()];
+    for (std::size_t i = 0; i < poses.size(); ++i) motion.X_WB[body][i] = poses[i] * carrier.X_LB;
+    motion.missing[body].clear();
+    is_moved[body] = true;
+  }
+  return planThrough(std::move(motion), is_moved, planned.unreachable);
+}
+
+/// Where a frame is in one above it, at the last time at which the way from the fixed frame is known.
+/// @return why that is not known; empty if it is.
+std::string poseAbove(const TfHistory& history, const std::string& above, const std::string& frame, Isometry3d& X_AF) {
+  X_AF.setIdentity();
+  if (above == frame) return {};
+  const TfSpan span = history.span(frame);
+  if (!span.problem.empty()) return span.problem;
+  const ros::Time time = span.is_static ? ros::Time() : span.last;
+  Isometry3d X_WA, X_WF;
+  std::string problem;
+  if (!history.lookup(above, time, X_WA, problem) || !history.lookup(frame, time, X_WF, problem)) return problem;
+  X_AF = relativePose(X_WA, X_WF);
+  return {};
+}
+
+}  // namespace
+
+CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const Scene& scene) {
+  const RobotModel& robot = frames.robot;
+  CurrentPoses now;
+  history.lookup(frames(0), ros::Time(), now.X_WR, now.root_missing);
+  std::map<std::string, int> links;
+  for (int link = 0; link < static_cast<int>(robot.links().size()); ++link) {
+    links[frames(link)] = link;
+    const TfSpan span = history.span(frames(link));
+    const bool moves = span.problem.empty() && !span.is_static;
+    if (moves && (now.oldest.isZero() || span.last < now.oldest)) {
+      now.oldest = span.last;
+      now.oldest_frame = frames(link);
+    }
+    if (link == 0) continue;
+    const std::string& joint = robot.jointAbove(link).name;
+    Isometry3d X_PL;
+    const std::string problem = poseAbove(history, frames(robot.parent(link)), frames(link), X_PL);
+    if (problem.empty()) {
+      now.joints.X_PL[joint] = X_PL;
+    } else {
+      now.joints.missing[joint] = problem;
+    }
+  }
+  for (const Body& body : scene.bodies) {
+    Carrier carrier;
+    std::vector<std::string> above = history.framesAbove(body.frame);
+    above.insert(above.begin(), body.frame);
+    const auto frame =
+        std::find_if(above.begin(), above.end(), [&](const auto& name) { return links.count(name) > 0; });
+    Isometry3d X_LF = Isometry3d::Identity();
+    if (frame != above.end() && poseAbove(history, *frame, body.frame, X_LF).empty()) {
+      carrier = {links.at(*frame), X_LF * body.X_frame_B};
+    }
+    now.carriers.push_back(carrier);
+  }
+  return now;
+}
+
+std::string oldTransformsNote(const CurrentPoses& now, const ros::Time& time, double max_age) {
+  const double age = (time - now.oldest).toSec();
+  if (now.oldest.isZero() || age <= max_age) return {};
+  return "the newest transform of " + now.oldest_frame + " is " + numberText(age) + " s old";
+}
+
+PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& planned) {
+  if (request.interpolation > QueryMotion::Request::SPLINES) {
+    refuse("interpolation " + std::to_string(request.interpolation) + " is neither LINEAR nor SPLINES");
+  }
+  const bool has_joints = !request.trajectory.points.empty() || !request.multi_dof_trajectory.points.empty();
+  if (has_joints == !request.poses.empty()) refuse("give either a trajectory or poses of links");
+  return withMargin(has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned), request.margin);
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,277 @@
+#include "ros/monitor/queries.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "common/number_text.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/planned_markers.h"
+#include "ros/monitor/low_priority.h"
+#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/robot_monitor/check_motion.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kPointsPerPiece = 500;
+constexpr std::size_t kMotionsPerPiece = 16;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument(what);
+}
+
+void requireAtMost(std::size_t most, std::size_t given, const std::string& what) {
+  if (given <= most) return;
+  refuse(std::to_string(given) + " " + what + ", at most " + std::to_string(most) + " are answered at a time");
+}
+
+}  // namespace
+
+class Queries::Piece {
+ public:
+  /// @param spent  by the answer so far [s].
+  /// @throws Cancelled, as does the work of the piece, also when the answer has taken too long.
+  Piece(Queries& queries, double& spent)
+      : turn_(queries.turns_),
+        spent_(spent),
+        start_(Clock::now()),
+        deadline_(start_ + std::chrono::duration_cast<Clock::duration>(
+                               std::chrono::duration<double>(queries.limits_.seconds - spent))) {
+    checkCancelled();
+  }
+  ~Piece() { spent_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = CancelRequest::Clock;
+
+  WorkTurns::Turn turn_;
+  double& spent_;
+  Clock::time_point start_;
+  CancelScope deadline_;
+};
+
+/// Answers with `work`, or with the reason why there is no answer.
+template <class Response, class Work>
+void Queries::answerWith(const Work& work, Response& response) {
+  lowerPriority();
+  const CancelPoint caller;
+  const auto fail = [&](const std::string& why) {
+    response = {};
+    response.message = why;
+  };
+  try {
+    const WorkTurns::Caller place(turns_);
+    work();
+    response.success = true;
+  } catch (const Cancelled&) {
+    if (caller.asked()) throw;
+    fail("this takes more than " + numberText(limits_.seconds) + " s of computing: ask for it in parts");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
+
+Queries::Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene& described,
+                 const MonitorParameters& parameters, const TfHistory& history, const QueryLimits& limits)
+    : world_(std::move(world)),
+      robot_(described.robot),
+      tf_prefix_(described.tf_prefix),
+      base_joint_(described.base_joint),
+      sampling_(parameters.tf.sampling),
+      options_(parameters.monitor),
+      max_points_(parameters.max_points),
+      max_age_(parameters.tf.max_latency),
+      history_(history),
+      limits_(limits),
+      turns_(limits.queries),
+      arena_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)) {}
+
+void Queries::setWorld(std::shared_ptr<const CheckedWorld> world) {
+  const std::lock_guard<std::mutex> lock(world_mutex_);
+  world_.swap(world);
+}
+
+std::shared_ptr<const CheckedWorld> Queries::world() const {
+  const std::lock_guard<std::mutex> lock(world_mutex_);
+  return world_;
+}
+
+void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
+  answerWith([&] { checkMotion(request, response); }, response);
+  if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
+}
+
+/// Where things are now, for a motion that says no more.
+/// @param plan_frame  that the plan's root poses are given in.
+PlannedScene Queries::planFromNow(const std::string& plan_frame, const CheckedWorld& world) const {
+  CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, world.scene());
+  posesAt(history_, world.bodies, ros::Time(), now.X_WB, now.missing);
+  const std::string frame = withoutLeadingSlash(plan_frame);
+  history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
+  return {world.scene(), *robot_, base_joint_, world.unreachable, now, sampling_};
+}
+
+PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWorld& world) const {
+  const PlannedScene from_now = planFromNow(request.multi_dof_trajectory.header.frame_id, world);
+  PlannedMotion planned = toPlannedMotion(request, from_now);
+  const std::string old = ros::Time::isValid() ? oldTransformsNote(from_now.now, ros::Time::now(), max_age_) : "";
+  if (!old.empty()) planned.notes += (planned.notes.empty() ? "" : "; ") + old;
+  return planned;
+}
+
+void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response) {
+  requireAtMost(limits_.waypoints,
+                request.trajectory.points.size() + request.multi_dof_trajectory.points.size() + request.poses.size(),
+                "waypoints");
+  const std::shared_ptr<const CheckedWorld> world = this->world();
+  response.scene_version = world->version();
+  double spent = 0.0;
+  PlannedMotion planned;
+  {
+    const Piece piece(*this, spent);
+    planned = plan(request, *world);
+  }
+  CycleRequest wanted;
+  wanted.max_points = max_points_;
+  MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
+  std::unique_ptr<PlannedMarkers> markers;
+  if (drawn_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(world->description());
+  while (!check.isDone()) {
+    const Piece piece(*this, spent);
+    const CancelPoint cancel;
+    arena_.execute([&] {
+      const CancelScope scope(cancel);  // it may be another thread
+      const CycleMotion& motion = check.next();
+      if (markers) markers->add(motion);
+    });
+  }
+  const CycleResult result = check.result();
+  response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
+  for (const AssumedJoint& joint : planned.assumed) {
+    response.assumed_joints.push_back(joint.name);
+    response.assumed_positions.push_back(joint.position);
+  }
+  response.verdict = static_cast<std::uint8_t>(result.verdict);
+  response.error_bound = std::max(0.0, result.error_bound - request.margin);
+  const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
+  setPairContacts(result, context, response.pairs);
+  if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
+  response.checked = result.checked + result.skipped;
+  response.not_checked = result.not_checked;
+}
+
+void Queries::answer(const QueryMotions::Request& request, QueryMotions::Response& response) {
+  answerWith([&] { checkMotions(request, response); }, response);
+}
+
+void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response) {
+  const std::size_t count = request.motions.size();
+  requireAtMost(limits_.motions, count, "motions");
+  std::size_t points = 0;
+  std::string frame;  // of all root poses: tf is asked once
+  for (const RobotMotion& motion : request.motions) {
+    points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
+    const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
+    if (!frame.empty() && !of_motion.empty() && of_motion != frame) {
+      refuse("root poses of all motions are to be in one frame, not in " + frame + " and " + of_motion);
+    }
+    if (!of_motion.empty()) frame = of_motion;
+  }
+  requireAtMost(limits_.points, points, "points of motions");
+  const std::shared_ptr<const CheckedWorld> world = this->world();
+  response.scene_version = world->version();
+  const Scene& scene = world->scene();
+  const PlannedScene from_now = planFromNow(frame, *world);
+  MotionsRequest wanted;
+  wanted.first_only = !request.all;
+  wanted.margin = request.margin;
+  double spent = 0.0;
+  for (std::size_t first = 0; first < count; first += kMotionsPerPiece) {
+    const Piece piece(*this, spent);
+    const CancelPoint cancel;
+    const auto motionOf = [&](std::size_t i, double tolerance) {
+      const CancelScope scope(cancel);  // it may be another thread
+      QueryMotion::Request one;
+      one.trajectory = request.motions[first + i].joint_trajectory;
+      one.multi_dof_trajectory = request.motions[first + i].multi_dof_joint_trajectory;
+      one.interpolation = request.interpolation;
+      one.other_joints = request.other_joints;
+      one.other_positions = request.other_positions;
+      one.allow_beyond_limits = request.allow_beyond_limits;
+      PlannedScene now = from_now;
+      now.sampling.tolerance = tolerance;
+      try {
+        return toPlannedMotion(one, now);
+      } catch (const std::invalid_argument& error) {
+        refuse("motion " + std::to_string(first + i) + ": " + error.what());
+      }
+    };
+    std::vector<MotionVerdict> verdicts;
+    arena_.execute([&] {
+      const CancelScope scope(cancel);
+      verdicts = sdf_ccd::checkMotions(world->snapshot->scene, options_, std::min(kMotionsPerPiece, count - first),
+                                       motionOf, wanted);
+    });
+    for (const MotionVerdict& verdict : verdicts) {
+      const PlannedPair* pair = verdict.pair < 0 ? nullptr : &scene.pairs[static_cast<std::size_t>(verdict.pair)];
+      response.verdicts.push_back(static_cast<std::uint8_t>(verdict.verdict));
+      response.error_bounds.push_back(verdict.error_bound);
+      response.bodies_a.push_back(pair ? scene.bodies[pair->body_a].name : "");
+      response.bodies_b.push_back(pair ? scene.bodies[pair->body_b].name : "");
+      response.times.push_back(ros::Duration(verdict.time));
+    }
+  }
+}
+
+void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response& response) {
+  answerWith([&] { findDistances(request, response); }, response);
+}
+
+void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Response& response) {
+  requireAtMost(limits_.points, request.points.size(), "points");
+  const std::string frame =
+      request.header.frame_id.empty() ? history_.fixedFrame() : withoutLeadingSlash(request.header.frame_id);
+  const std::shared_ptr<const CheckedWorld> world = this->world();
+  const Scene& scene = world->scene();
+  response.scene_version = world->version();
+  Isometry3d X_WQ;
+  std::string problem;
+  if (!history_.lookup(frame, request.header.stamp, X_WQ, problem)) refuse(problem);
+  std::vector<Isometry3d> X_WB;
+  std::vector<std::string> missing;
+  posesAt(history_, world->bodies, request.header.stamp, X_WB, missing);
+  for (std::size_t body = 0; body < missing.size(); ++body) {
+    const Body& description = scene.bodies[body];
+    if (!description.failure.empty()) {
+      response.message += "not counted: " + description.failure + "\n";
+    } else if (!missing[body].empty()) {
+      refuse("body " + description.name + ": " + missing[body]);
+    } else if (!description.parts.empty() && !description.warning.empty()) {
+      response.message += "body " + description.name + ": " + description.warning + "\n";
+    }
+  }
+  double spent = 0.0;
+  for (std::size_t first = 0; first < request.points.size(); first += kPointsPerPiece) {
+    const Piece piece(*this, spent);
+    const std::size_t end = std::min(first + kPointsPerPiece, request.points.size());
+    const CancelPoint cancel;
+    for (std::size_t i = first; i < end; ++i) {
+      cancel.check();
+      const Vector3d p_W = X_WQ * toEigen(request.points[i]);
+      if (!p_W.allFinite()) refuse("point " + std::to_string(i) + " is not finite");
+      if (!(p_W.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
+        refuse("point " + std::to_string(i) + " is more than " + numberText(kFarthestPose) + " m from the origin");
+      }
+      const NearestBody nearest = nearestBody(scene, X_WB, p_W);
+      const bool none = nearest.body < 0;
+      response.distances.push_back(none ? std::numeric_limits<double>::infinity() : nearest.distance);
+      response.errors.push_back(nearest.error);
+      response.gradients.push_back(toVector3(X_WQ.linear().transpose() * nearest.gradient_W));
+      response.bodies.push_back(none ? "" : scene.bodies[nearest.body].name);
+    }
+  }
+}
+
+}  // namespace sdf_ccd

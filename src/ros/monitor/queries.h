@@ -1,0 +1,81 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <ros/publisher.h>
+#include <tbb/task_arena.h>
+
+#include "ros/monitor/planned_motion.h"
+#include "ros/monitor/work_turns.h"
+#include "ros/world/checked_world.h"
+#include "ros/world/describe_scene.h"
+#include "sdf_ccd/QueryMotion.h"
+#include "sdf_ccd/QueryMotions.h"
+#include "sdf_ccd/QueryPoints.h"
+
+namespace sdf_ccd {
+
+/// What one query may ask for, and how many there may be. What is more is refused, in the answer's message.
+struct QueryLimits {
+  std::size_t waypoints = 2000;  ///< of all trajectories of a motion
+  std::size_t motions = 2000;    ///< of query_motions
+  std::size_t points = 20000;    ///< of query_points; or of all motions of query_motions
+  double seconds = 2.0;          ///< of computing; the answer comes within milliseconds after
+  int queries = 4;               ///< at a time
+};
+
+/// Answers query_motion, query_motions and query_points, beside the cycles and of lower priority than these, on at most
+/// half of the cores. Several calls at a time take turns. A motion is followed piece by piece, so memory does not grow
+/// with its length.
+///
+/// What a CancelScope of the calling thread asks for ends an answer with Cancelled.
+class Queries {
+ public:
+  Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene& described,
+          const MonitorParameters& parameters, const TfHistory& history, const QueryLimits& limits = {});
+
+  /// Answers that begin from now on are about this world; those that have begun go on with theirs. From any thread.
+  void setWorld(std::shared_ptr<const CheckedWorld> world);
+
+  std::shared_ptr<const CheckedWorld> world() const;
+
+  /// Draws each motion that is asked for, while somebody looks at it (PlannedMarkers). To be called before answer().
+  void drawOn(const ros::Publisher& publisher) { drawn_ = publisher; }
+
+  void answer(const QueryMotion::Request& request, QueryMotion::Response& response);
+  void answer(const QueryMotions::Request& request, QueryMotions::Response& response);
+  void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
+
+ private:
+  /// One piece of an answer: takes its turn, and counts the time.
+  class Piece;
+
+  template <class Response, class Work>
+  void answerWith(const Work& work, Response& response);
+
+  PlannedScene planFromNow(const std::string& plan_frame, const CheckedWorld& world) const;
+  PlannedMotion plan(const QueryMotion::Request& request, const CheckedWorld& world) const;
+  void checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response);
+  void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response);
+  void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response);
+
+  mutable std::mutex world_mutex_;
+  std::shared_ptr<const CheckedWorld> world_;  // guarded by world_mutex_
+  std::shared_ptr<const RobotModel> robot_;
+  std::string tf_prefix_, base_joint_;
+  MotionSampling sampling_;
+  MonitorOptions options_;
+  int max_points_;
+  double max_age_;  // of transforms that need no note [s]
+  const TfHistory& history_;
+  ros::Publisher drawn_;  // nothing is drawn without
+  QueryLimits limits_;
+  WorkTurns turns_;
+  std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // of all answers, as one works at a time
+  tbb::task_arena arena_;
+};
+
+}  // namespace sdf_ccd

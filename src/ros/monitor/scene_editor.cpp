@@ -1,0 +1,207 @@
+#include "ros/monitor/scene_editor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include <ros/package.h>
+
+#include "common/seconds_since.h"
+#include "ros/monitor/low_priority.h"
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMostCallers = 3;  // one at work, others that wait
+constexpr auto kLook = std::chrono::microseconds(200);
+constexpr auto kPatience = std::chrono::milliseconds(500);  // until a cycle has taken a version over
+
+}  // namespace
+
+/// One caller's, as long as it lives.
+class SceneEditor::Turn {
+ public:
+  explicit Turn(SceneEditor& editor) : editor_(editor) {
+    if (++editor.callers_ > kMostCallers) {
+      --editor.callers_;
+      throw std::runtime_error("too many changes at a time: " + std::to_string(kMostCallers) + " wait already");
+    }
+    try {
+      while (!editor.turn_.try_lock_for(std::chrono::milliseconds(20))) checkCancelled();
+    } catch (...) {
+      --editor.callers_;
+      throw;
+    }
+  }
+  ~Turn() {
+    editor_.turn_.unlock();
+    --editor_.callers_;
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  SceneEditor& editor_;
+};
+
+SceneEditor::SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described,
+                         const MonitorParameters& parameters, const Parts& parts, std::function<void()> wake,
+                         std::function<void(const CheckedWorld&)> changed)
+    : editor_(std::move(editor)),
+      parts_(parts),
+      files_(parameters.resource_roots, makeResourceLoader(ros::package::getPath, "", parameters.allow_http)),
+      wake_(std::move(wake)),
+      changed_(std::move(changed)),
+      arena_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)),
+      scene_(described, parameters.pairs, parts.loop.world()->description()),
+      last_(parts.loop.world()) {}
+
+SceneEditor::~SceneEditor() = default;
+
+bool SceneEditor::adopt() {
+  PreparedWorld* const ready = offered_.exchange(nullptr);
+  if (!ready) return false;
+  const std::shared_ptr<const CheckedWorld> world = ready->loop->world;
+  parts_.loop.adopt(*ready->loop);
+  parts_.outputs.adopt(*ready->outputs);
+  parts_.queries.setWorld(world);
+  adopted_ = ready;
+  return true;
+}
+
+/// Takes back what no cycle has taken; waits while one does.
+void SceneEditor::withdraw() {
+  if (!given_) return;
+  if (!offered_.exchange(nullptr)) {
+    while (adopted_ != given_.get()) std::this_thread::sleep_for(kLook);
+  }
+  adopted_ = nullptr;
+  given_.reset();
+}
+
+bool SceneEditor::handOver(const std::shared_ptr<const CheckedWorld>& world) {
+  withdraw();
+  auto prepared = std::make_unique<PreparedWorld>();
+  prepared->loop = parts_.loop.prepare(world);
+  prepared->outputs = parts_.outputs.prepare(*world);
+  given_ = std::move(prepared);
+  offered_ = given_.get();
+  wake_();
+  const CancelPoint cancel;
+  for (const auto start = Clock::now();
+       adopted_ != given_.get() && Clock::now() - start < kPatience && !cancel.asked();)
+    std::this_thread::sleep_for(kLook);
+  const bool is_adopted = adopted_ == given_.get();
+  if (is_adopted) withdraw();  // and frees what was before
+  return is_adopted;
+}
+
+std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene) {
+  std::shared_ptr<const CheckedWorld> world;
+  const CancelPoint cancel;
+  arena_.execute([&] {
+    const CancelScope scope(cancel);  // it may be another thread
+    SceneDescription description = scene.description(limits_);
+    std::vector<UnreachablePair> unreachable = scene.unreachable(description);
+    world = std::make_shared<const CheckedWorld>(editor_->next(std::move(description)), std::move(unreachable));
+  });
+  return world;
+}
+
+void SceneEditor::save(const std::string& file, const ChangingScene& scene, ChangeSources& sources) {
+  namespace fs = std::filesystem;
+  const std::string path = sources.files.path(file);
+  if (fs::path(path).extension() != ".scene") throw std::invalid_argument(file + ": a scene's file ends in .scene");
+  const std::string text = scene.text(sources, sources.warnings);
+  const std::string part = path + ".part";
+  {
+    std::ofstream stream(part, std::ios::binary | std::ios::trunc);
+    stream << text;
+    if (!stream.flush()) throw std::runtime_error(part + ": cannot be written");
+  }
+  fs::rename(part, path);
+}
+
+void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Response& response) {
+  const auto start = Clock::now();
+  ChangingScene scene = scene_;
+  ChangeSources sources{parts_.loop.history(), files_, limits_, limits_.triangles, {}};
+  if (request.changes.size() > limits_.objects)
+    throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes");
+  for (const SceneChange& change : request.changes) {
+    response.failed_change = static_cast<std::int32_t>(&change - request.changes.data());
+    scene.apply(change, sources);
+  }
+  response.failed_change = -1;
+  std::shared_ptr<const CheckedWorld> world = last_;
+  if (!request.changes.empty()) world = make(scene);
+  if (!request.save_file.empty()) save(request.save_file, scene, sources);
+  response.seconds = secondsSince(start);
+  response.adopted = true;
+  if (!request.changes.empty()) {
+    const auto ready = Clock::now();
+    response.adopted = goOnWith(std::move(scene), world);
+    response.adopt_seconds = secondsSince(ready);
+    response.prepared = static_cast<std::uint32_t>(world->snapshot->prepared);
+    response.shared = static_cast<std::uint32_t>(world->snapshot->shared);
+  }
+  for (const std::string& warning : sources.warnings) response.message += warning + "\n";
+  response.success = true;
+}
+
+/// @return whether the cycles have taken it over.
+bool SceneEditor::goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world) {
+  scene_ = std::move(scene);
+  setLast(world);
+  const bool is_adopted = handOver(world);
+  changed_(*world);
+  return is_adopted;
+}
+
+void SceneEditor::setLast(std::shared_ptr<const CheckedWorld> world) {
+  const std::lock_guard<std::mutex> lock(last_mutex_);
+  last_.swap(world);
+}
+
+std::shared_ptr<const CheckedWorld> SceneEditor::world() {
+  const std::lock_guard<std::mutex> lock(last_mutex_);
+  return last_;
+}
+
+std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, const std::vector<MadeField>& fields) {
+  lowerPriority();
+  const Turn turn(*this);
+  for (const MadeField& made : fields) editor_->provide(made.mesh, made.field);
+  ChangingScene scene = scene_;
+  scene.setTiles(std::move(tiles));
+  const std::shared_ptr<const CheckedWorld> world = make(scene);
+  goOnWith(std::move(scene), world);
+  return world->version();
+}
+
+void SceneEditor::update(const UpdateScene::Request& request, UpdateScene::Response& response) {
+  lowerPriority();
+  response.failed_change = -1;
+  try {
+    const Turn turn(*this);
+    try {
+      edit(request, response);
+    } catch (const std::exception& error) {
+      response.success = false;
+      response.message = error.what();
+    }
+    response.scene_version = last_->version();
+    response.objects = scene_.objects();
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.message = error.what();
+  }
+}
+
+}  // namespace sdf_ccd

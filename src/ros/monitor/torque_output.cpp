@@ -1,0 +1,71 @@
+#include "ros/monitor/torque_output.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "ros/tf/tf_history.h"
+
+namespace sdf_ccd {
+
+TorqueOutput::TorqueOutput(const DescribedScene& described) : torques_(*described.robot) {
+  for (const std::string& link : described.robot->links())
+    frames_.push_back(withoutLeadingSlash(described.tf_prefix + link));
+  X_WL_.assign(frames_.size(), Isometry3d::Identity());
+  wrenches_.resize(frames_.size());
+  is_known_.resize(frames_.size());
+}
+
+std::vector<int> TorqueOutput::linksOf(const Scene& scene) const {
+  std::vector<int> links;
+  for (const Body& body : scene.bodies) {
+    const auto link = std::find(frames_.begin(), frames_.end(), withoutLeadingSlash(body.frame));
+    const bool is_carried = !body.is_world && link != frames_.end();
+    links.push_back(is_carried ? static_cast<int>(link - frames_.begin()) : -1);
+  }
+  return links;
+}
+
+void TorqueOutput::advertise(ros::NodeHandle private_node) {
+  publisher_ = private_node.advertise<sensor_msgs::JointState>("joint_torques", 100);
+}
+
+boost::shared_ptr<sensor_msgs::JointState> TorqueOutput::toMessage(MonitorLoop& loop) {
+  const boost::shared_ptr<sensor_msgs::JointState> message = messages_.take();
+  set(loop, *message);
+  return message;
+}
+
+void TorqueOutput::set(MonitorLoop& loop, sensor_msgs::JointState& message) {
+  const TrackedCycle& cycle = loop.cycle();
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench());
+  std::fill(is_known_.begin(), is_known_.end(), 0);
+  std::string problem;
+  for (const int link : torques_.links()) {
+    problem.clear();
+    is_known_[link] = loop.history().lookup(frames_[link], cycle.end, X_WL_[link], problem);
+  }
+  const auto add = [&](int body, const Wrench& wrench) {
+    const int link = link_of_body_[body];
+    if (link < 0 || wrench.force.isZero(0.0)) return;
+    const Isometry3d& X_WB = cycle.motion.X_WB[body].back();
+    if (!is_known_[link]) {  // it has no joint that moves right above: where its body is, is where it is
+      X_WL_[link] = X_WB;
+      is_known_[link] = 1;
+    }
+    wrenches_[link].force += wrench.force;
+    wrenches_[link].torque += wrench.torque + (X_WB.translation() - X_WL_[link].translation()).cross(wrench.force);
+  };
+  for (const PairResult& pair : loop.result().pairs) {
+    add(pair.body_a, pair.on_a_W);
+    add(pair.body_b, pair.on_b_W);
+  }
+  message.header.stamp = cycle.end;
+  message.header.frame_id.clear();
+  message.name = torques_.joints();
+  torques_.compute(X_WL_, wrenches_, message.effort);
+  for (const auto& [link, joint] : torques_.jointsBelow()) {
+    if (!is_known_[link]) message.effort[joint] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace sdf_ccd

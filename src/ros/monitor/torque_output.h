@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <sensor_msgs/JointState.h>
+#include <boost/shared_ptr.hpp>
+
+#include "robot/joint_torques.h"
+#include "ros/messages/message_pool.h"
+#include "ros/monitor/monitor_loop.h"
+#include "ros/world/describe_scene.h"
+
+namespace sdf_ccd {
+
+/// What the contact wrenches do at the robot's joints.
+///
+/// Publishes, below the node's name:
+///   joint_torques  sensor_msgs/JointState  every cycle: effort is the generalised force of all contacts, averaged over
+///                                          the time checked [N·m, N]; NaN where tf does not have the joint
+class TorqueOutput {
+ public:
+  explicit TorqueOutput(const DescribedScene& described);
+
+  /// Per body: which of the robot's links carries it; −1: none.
+  std::vector<int> linksOf(const Scene& scene) const;
+
+  /// To be called before set(), and between two cycles when the scene is another.
+  void swapLinks(std::vector<int>& links) { link_of_body_.swap(links); }
+
+  void advertise(ros::NodeHandle private_node);
+
+  bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
+
+  /// Of the loop's last cycle, whose wrenches are computed.
+  boost::shared_ptr<sensor_msgs::JointState> toMessage(MonitorLoop& loop);
+  void set(MonitorLoop& loop, sensor_msgs::JointState& message);
+
+  void publish(const boost::shared_ptr<sensor_msgs::JointState>& message) { publisher_.publish(message); }
+
+ private:
+  JointTorques torques_;
+  std::vector<std::string> frames_;  // per link
+  std::vector<int> link_of_body_;    // see linksOf()
+  ros::Publisher publisher_;
+  MessagePool<sensor_msgs::JointState> messages_;
+
+  std::vector<Isometry3d> X_WL_;  // per link
+  std::vector<Wrench> wrenches_;
+  std::vector<char> is_known_;
+};
+
+}  // namespace sdf_ccd

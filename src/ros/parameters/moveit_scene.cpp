@@ -1,0 +1,175 @@
+#include "ros/parameters/moveit_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/shown_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kMostObjects = 10'000, kMostShapes = 10'000, kMostCorners = 5'000'000;
+
+/// The words of a text, with their lines.
+class Words {
+ public:
+  explicit Words(const std::string& text) : stream_(text) { stream_.imbue(std::locale::classic()); }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw std::runtime_error("line " + std::to_string(line_) + ": " + reason);
+  }
+
+  /// The rest of the line, without blanks around it.
+  std::string rest() {
+    std::string text = words_.str().substr(std::min<std::size_t>(std::size_t(words_.tellg()), words_.str().size()));
+    words_.setstate(std::ios::eofbit);
+    const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  }
+
+  /// Goes to the next line that holds anything, if this one is used up. @return false at the end.
+  bool goOn() {
+    while ((words_ >> std::ws).eof()) {
+      std::string text;
+      if (!std::getline(stream_, text)) return false;
+      ++line_;
+      words_.clear();
+      words_.str(text);
+    }
+    return true;
+  }
+
+  /// How many words are left on this line, or on the next if there are none.
+  int count() {
+    if (!goOn()) return 0;
+    std::istringstream copy(words_.str().substr(std::size_t(words_.tellg())));
+    int words = 0;
+    for (std::string word; copy >> word;) ++words;
+    return words;
+  }
+
+  std::string word() {
+    if (!goOn()) fail("the text ends too early");
+    std::string word;
+    words_ >> word;
+    return word;
+  }
+
+  double number() {
+    const std::string text = word();
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    double value = 0.0;
+    if (!(stream >> value) || !stream.eof() || !std::isfinite(value))
+      fail("a number is wanted, not " + shownText(text));
+    return value;
+  }
+  double positive() {
+    const double value = number();
+    if (!(value > 0.0)) fail("a size must be above 0");
+    return value;
+  }
+  int whole(int most) {
+    const double value = number();
+    if (value != std::floor(value) || value < 0.0 || value > most)
+      fail("a whole number up to " + std::to_string(most) + " is wanted");
+    return static_cast<int>(value);
+  }
+  Vector3d vector() {
+    const double x = number(), y = number();
+    return {x, y, number()};
+  }
+  Isometry3d pose() {
+    const Vector3d p = vector(), axis = vector();
+    const auto pose = poseOf(p, {number(), axis.x(), axis.y(), axis.z()});
+    if (!pose) fail("a unit quaternion is wanted");
+    return *pose;
+  }
+
+ private:
+  std::istringstream stream_, words_;
+  int line_ = 0;
+};
+
+TriangleMesh readMesh(Words& words) {
+  TriangleMesh mesh;
+  const int vertices = words.whole(kMostCorners), triangles = words.whole(kMostCorners);
+  for (int i = 0; i < vertices; ++i) mesh.vertices.push_back(words.vector());
+  for (int i = 0; i < triangles; ++i) {
+    Vector3i corners;
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = words.whole(kMostCorners);
+      if (corners[k] >= vertices)
+        words.fail("a triangle has vertex " + std::to_string(corners[k]) + ", of " + std::to_string(vertices));
+    }
+    mesh.triangles.push_back(corners);
+  }
+  if (mesh.triangles.empty()) words.fail("a mesh without triangles");
+  return mesh;
+}
+
+WorldShape readShape(Words& words) {
+  WorldShape made;
+  const std::string type = words.word();
+  if (type == "box") {
+    const double x = words.positive(), y = words.positive();
+    made.shape = Primitive(Box{0.5 * Vector3d(x, y, words.positive())});
+  } else if (type == "sphere") {
+    made.shape = Primitive(Sphere{words.positive()});
+  } else if (type == "cylinder") {
+    const double radius = words.positive();
+    made.shape = Primitive(Cylinder{radius, 0.5 * words.positive()});
+  } else if (type == "plane") {
+    const Vector3d normal = words.vector();
+    const auto solid = solidBelow(normal, words.number());
+    if (!solid) words.fail("a plane's normal is 0");
+    made.shape = *solid;
+  } else if (type == "mesh") {
+    made.shape = std::make_shared<const TriangleMesh>(readMesh(words));
+  } else {
+    words.fail("a shape must be box, sphere, cylinder, plane or mesh, not " + shownText(type));
+  }
+  made.X_BG = words.pose();
+  for (int channel = 0; channel < 4; ++channel) words.number();  // its colour
+  return made;
+}
+
+WorldObject readObject(Words& words) {
+  WorldObject object;
+  object.name = words.rest();
+  if (object.name.empty() || object.name != shownText(object.name)) words.fail("an object's name is wanted behind *");
+  const bool has_pose = words.count() == 3;  // else how many shapes there are
+  if (has_pose) object.X_frame_B = words.pose();
+  const int shapes = words.whole(kMostShapes);
+  if (shapes == 0) words.fail("object " + object.name + " has no shapes");
+  for (int i = 0; i < shapes; ++i) object.shapes.push_back(readShape(words));
+  if (!has_pose) return object;
+  for (int subframes = words.whole(kMostShapes); subframes > 0; --subframes) {
+    if (!words.goOn()) words.fail("the text ends too early");
+    words.rest();  // its name
+    words.pose();
+  }
+  return object;
+}
+
+}  // namespace
+
+std::vector<WorldObject> parseMoveitScene(const std::string& text) {
+  Words words(text);
+  std::vector<WorldObject> objects;
+  if (!words.goOn()) words.fail("it is empty");
+  words.rest();  // the scene's name
+  for (std::string mark; (mark = words.word()) != ".";) {
+    if (mark != "*")
+      words.fail("* and an object's name, or a last line with a point is wanted, not " + shownText(mark));
+    if (objects.size() == std::size_t(kMostObjects))
+      words.fail("more than " + std::to_string(kMostObjects) + " objects");
+    objects.push_back(readObject(words));
+  }
+  return objects;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,246 @@
+#include "ros/parameters/parameter_reader.h"
+
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+#include "common/nearest_name.h"
+#include "common/shown_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+constexpr std::size_t kMaxName = 256;  // bytes
+
+/// Sets the number that the value holds. YAML takes 1.0e8 (without a sign in the exponent) for a text; here it is a
+/// number all the same.
+bool toNumber(const XmlRpcValue& value, double& number) {
+  XmlRpcValue copy = value;
+  if (value.getType() == XmlRpcValue::TypeInt) {
+    number = static_cast<int>(copy);
+  } else if (value.getType() == XmlRpcValue::TypeDouble) {
+    number = static_cast<double>(copy);
+  } else if (value.getType() == XmlRpcValue::TypeString) {
+    const std::string text = copy;
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    if (!(stream >> number) || !stream.eof()) return false;
+  } else {
+    return false;
+  }
+  return std::isfinite(number);
+}
+
+}  // namespace
+
+ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string name) : tree_(tree), name_(std::move(name)) {}
+
+bool ParameterReader::isSet(const std::string& key) const {
+  return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
+}
+
+bool ParameterReader::has(const std::string& key) {
+  known_.insert(key);
+  return isSet(key);
+}
+
+bool ParameterReader::isText(const std::string& key) {
+  return has(key) && tree_[key].getType() == XmlRpcValue::TypeString;
+}
+
+bool ParameterReader::isGroup(const std::string& key) {
+  return has(key) && tree_[key].getType() == XmlRpcValue::TypeStruct;
+}
+
+XmlRpcValue* ParameterReader::find(const std::string& key) {
+  read_.insert(key);
+  return has(key) ? &tree_[key] : nullptr;
+}
+
+void ParameterReader::fail(const std::string& key, const std::string& expected) const {
+  std::ostringstream text;
+  text << "parameter " << name_ << "/" << key;
+  if (isSet(key)) {
+    XmlRpcValue value = tree_[key];
+    std::ostringstream written;
+    written << value;
+    text << " is " << shownText(written.str());
+  } else {
+    text << " is missing";
+  }
+  text << ", expected " << expected;
+  const std::string misspelt = isSet(key) ? "" : nearestName(key, notRead());
+  if (!misspelt.empty()) text << "; is it " << misspelt << "?";
+  throw ParameterError(text.str());
+}
+
+double ParameterReader::number(const std::string& key, double fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  double number = 0.0;
+  if (!toNumber(*value, number)) fail(key, "a finite number");
+  return number;
+}
+
+double ParameterReader::positive(const std::string& key, double fallback) {
+  const double value = number(key, fallback);
+  if (!(value > 0.0)) fail(key, "a number above 0");
+  return value;
+}
+
+double ParameterReader::notNegative(const std::string& key, double fallback) {
+  const double value = number(key, fallback);
+  if (!(value >= 0.0)) fail(key, "a number not below 0");
+  return value;
+}
+
+int ParameterReader::integer(const std::string& key, int fallback, int smallest) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeInt || static_cast<int>(*value) < smallest) {
+    fail(key, "an integer not below " + std::to_string(smallest));
+  }
+  return *value;
+}
+
+bool ParameterReader::flag(const std::string& key, bool fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeBoolean) fail(key, "true or false");
+  return *value;
+}
+
+std::string ParameterReader::text(const std::string& key, const std::string& fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeString) fail(key, "a text");
+  return *value;
+}
+
+std::string ParameterReader::name(const std::string& key, const std::string& fallback) {
+  std::string value = text(key, fallback);
+  if (value.size() > kMaxName || value != shownText(value)) {
+    fail(key, "at most " + std::to_string(kMaxName) + " bytes without control characters");
+  }
+  return value;
+}
+
+int ParameterReader::choice(const std::string& key, std::initializer_list<const char*> choices, int fallback) {
+  const std::string value = text(key, "");
+  if (!isSet(key)) return fallback;
+  std::string expected = "one of";
+  int index = 0;
+  for (const char* choice : choices) {
+    if (value == choice) return index;
+    expected += std::string(" ") + choice;
+    ++index;
+  }
+  fail(key, expected);
+}
+
+Vector3d ParameterReader::vector(const std::string& key, const Vector3d& fallback) {
+  XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeArray || value->size() != 3) fail(key, "three numbers");
+  Vector3d result;
+  for (int i = 0; i < 3; ++i) {
+    if (!toNumber((*value)[i], result[i])) fail(key, "three finite numbers");
+  }
+  return result;
+}
+
+std::vector<double> ParameterReader::numbers(const std::string& key, std::size_t least, std::size_t most) {
+  XmlRpcValue* value = find(key);
+  const std::string expected =
+      "a list of " + std::to_string(least) + (least == most ? "" : " to " + std::to_string(most)) + " finite numbers";
+  if (!value || value->getType() != XmlRpcValue::TypeArray) fail(key, expected);
+  const auto size = static_cast<std::size_t>(value->size());
+  if (size < least || size > most) fail(key, expected);
+  std::vector<double> numbers(size);
+  for (std::size_t i = 0; i < size; ++i)
+    if (!toNumber((*value)[static_cast<int>(i)], numbers[i])) fail(key, expected);
+  return numbers;
+}
+
+std::vector<std::string> ParameterReader::texts(const std::string& key) {
+  std::vector<std::string> texts;
+  XmlRpcValue* value = find(key);
+  if (!value) return texts;
+  if (value->getType() != XmlRpcValue::TypeArray) fail(key, "a list of texts");
+  for (int i = 0; i < value->size(); ++i) {
+    XmlRpcValue& text = (*value)[i];
+    if (text.getType() != XmlRpcValue::TypeString || static_cast<std::string>(text).empty())
+      fail(key, "a list of texts");
+    texts.push_back(static_cast<std::string>(text));
+  }
+  return texts;
+}
+
+std::vector<std::pair<std::string, std::string>> ParameterReader::textPairs(const std::string& key) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  XmlRpcValue* value = find(key);
+  if (!value) return pairs;
+  const char* const expected = "a list of pairs of texts, as [[hand, table], [\"finger_*\", \"finger_*\"]]";
+  const auto isText = [](XmlRpcValue& text) {
+    return text.getType() == XmlRpcValue::TypeString && !static_cast<std::string>(text).empty();
+  };
+  if (value->getType() != XmlRpcValue::TypeArray) fail(key, expected);
+  for (int i = 0; i < value->size(); ++i) {
+    XmlRpcValue& pair = (*value)[i];
+    if (pair.getType() != XmlRpcValue::TypeArray || pair.size() != 2 || !isText(pair[0]) || !isText(pair[1]))
+      fail(key, expected);
+    pairs.emplace_back(static_cast<std::string>(pair[0]), static_cast<std::string>(pair[1]));
+  }
+  return pairs;
+}
+
+ParameterReader ParameterReader::group(const std::string& key) {
+  XmlRpcValue* value = find(key);
+  if (value && value->getType() != XmlRpcValue::TypeStruct) fail(key, "a group of parameters");
+  return {value ? *value : XmlRpcValue(), name_ + "/" + key};
+}
+
+std::vector<ParameterReader> ParameterReader::list(const std::string& key) {
+  std::vector<ParameterReader> readers;
+  XmlRpcValue* value = find(key);
+  if (!value) return readers;
+  if (value->getType() != XmlRpcValue::TypeArray) fail(key, "a list");
+  for (int i = 0; i < value->size(); ++i) {
+    const std::string name = key + "[" + std::to_string(i) + "]";
+    if ((*value)[i].getType() != XmlRpcValue::TypeStruct) fail(key, "a list of groups of parameters");
+    readers.emplace_back((*value)[i], name_ + "/" + name);
+  }
+  return readers;
+}
+
+std::set<std::string> ParameterReader::notRead() const {
+  std::set<std::string> names;
+  if (tree_.getType() != XmlRpcValue::TypeStruct) return names;
+  for (auto member = const_cast<XmlRpcValue&>(tree_).begin(); member != const_cast<XmlRpcValue&>(tree_).end();
+       ++member) {
+    if (read_.count(member->first) == 0) names.insert(member->first);
+  }
+  return names;
+}
+
+std::set<std::string> ParameterReader::unset() const {
+  std::set<std::string> names;
+  for (const std::string& key : known_)
+    if (!isSet(key)) names.insert(key);
+  return names;
+}
+
+std::vector<std::string> ParameterReader::unread() const {
+  std::vector<std::string> texts;
+  for (const std::string& name : notRead()) texts.push_back(name_ + "/" + name + suggestion(name, unset()));
+  return texts;
+}
+
+void ParameterReader::finish() const {
+  const std::vector<std::string> names = unread();
+  if (!names.empty()) throw ParameterError("nothing reads parameter " + names.front());
+}
+
+}  // namespace sdf_ccd

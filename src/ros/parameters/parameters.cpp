@@ -1,0 +1,227 @@
+#include "ros/parameters/parameters.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "common/number_text.h"
+#include "ros/parameters/parameter_reader.h"
+#include "ros/parameters/world_parameters.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kLongestCycle = 3600.0;  // so long transforms have to be kept [s]
+
+std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
+  constexpr std::size_t kMost = 1000;  // each is held against each pair
+  std::vector<PairRule> rules;
+  for (const auto& [a, b] : reader.textPairs(key)) rules.push_back({a, b});
+  if (rules.size() > kMost) reader.fail(key, "at most " + std::to_string(kMost) + " pairs");
+  return rules;
+}
+
+/// Fields and shells for contacts: as fine as contact/accuracy says, else as elements are small; what field and shell
+/// say themselves holds.
+BodyOptions readScene(ParameterReader& reader) {
+  ParameterReader contact = reader.group("contact");
+  std::optional<double> accuracy;
+  if (contact.has("accuracy")) accuracy = contact.positive("accuracy", 0.0);
+  BodyOptions scene = optionsForContacts(accuracy);
+
+  ParameterReader field = reader.group("field");
+  const int given = field.has("cells") + field.has("cell_size") + field.has("max_error");
+  if (given > 1) field.fail("cells", "only one of cells, cell_size and max_error to be set");
+  if (given > 0) {
+    scene.cells_across = 0.0;
+    scene.field = {};
+  }
+  if (field.has("cells")) scene.field.cells = field.integer("cells", 0, 2);
+  if (field.has("max_error")) scene.field.max_error = field.positive("max_error", 0.0);
+  if (field.has("cell_size")) scene.field.cell_size = field.positive("cell_size", 0.0);
+  scene.field.band = field.notNegative("band", scene.field.band);
+  const double megabytes = field.positive("max_megabytes", static_cast<double>(scene.field.max_bytes >> 20));
+  scene.field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
+  field.finish();
+
+  ParameterReader shell = reader.group("shell");
+  if (shell.has("spacing")) {
+    const ShellOptions given_spacing = optionsForContacts(shell.positive("spacing", 0.0)).shell;
+    scene.points_across = 0.0;
+    scene.shell.spacing = given_spacing.spacing;
+    scene.shell.vertex_spacing = given_spacing.vertex_spacing;
+  }
+  scene.shell.edge_gap = shell.notNegative("edge_gap", scene.shell.edge_gap);
+  scene.shell.vertex_spacing = shell.notNegative("vertex_spacing", scene.shell.vertex_spacing);
+  scene.shell.seed = shell.integer("seed", static_cast<int>(scene.shell.seed), 0);
+  shell.finish();
+  return scene;
+}
+
+/// How far a verdict may be off, and what of it motions between transforms may be off by.
+void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
+  constexpr double kOfMotion = 0.2;  // that each body's motion may take of it
+  double& max_error = parameters.monitor.max_error;
+  max_error = reader.positive("max_error", max_error);
+  if (max_error < kLeastMaxError || max_error > kLargestMaxError)
+    reader.fail("max_error", "from " + numberText(kLeastMaxError) + " to " + numberText(kLargestMaxError) + " m");
+  if (reader.has("max_error")) parameters.scene.max_error = max_error;
+  ChordOptions& chords = parameters.monitor.chords;
+  double& sampling = parameters.tf.sampling.tolerance;
+  sampling = std::min(chords.tolerance, kOfMotion * max_error);
+  if (reader.has("chord_tolerance")) sampling = chords.tolerance = reader.positive("chord_tolerance", 0.0);
+  parameters.scene.motion_error = 2.0 * sampling;
+  parameters.scene.motion_margin = 2.0 * sampling + chords.tolerance;
+}
+
+ProximityParameters readProximity(ParameterReader& reader) {
+  ProximityParameters proximity;
+  proximity.report_distance = reader.notNegative("report_distance", 0.0);
+  ProximityThresholds& thresholds = proximity.thresholds;
+  thresholds.warning = reader.notNegative("warning_distance", 0.0);
+  thresholds.stop = reader.notNegative("stop_distance", 0.0);
+  thresholds.hysteresis = reader.notNegative("hysteresis", 0.005);
+  if (thresholds.warning > 0.0 && thresholds.warning < thresholds.stop) {
+    reader.fail("warning_distance", "no less than stop_distance");
+  }
+  ParameterReader scale = reader.group("velocity_scale");
+  StoppingPromise promise;
+  promise.stop_distance = thresholds.stop;
+  const bool is_wanted = scale.has("max_speed");
+  promise.max_speed = scale.positive("max_speed", promise.max_speed);
+  promise.max_acceleration = scale.notNegative("max_acceleration", promise.max_acceleration);
+  promise.deceleration = scale.positive("deceleration", promise.deceleration);
+  promise.reaction_time = scale.notNegative("reaction_time", promise.reaction_time);
+  promise.period = scale.positive("period", promise.period);
+  promise.max_age = scale.positive("max_age", promise.max_age);
+  scale.finish();
+  if (is_wanted) proximity.promise = promise;
+  return proximity;
+}
+
+TriggerOptions readTrigger(ParameterReader& reader, const MonitorParameters& parameters) {
+  TriggerOptions trigger;
+  trigger.kind = static_cast<TriggerKind>(reader.choice("trigger", {"timer", "tf", "joint_states", "frames"}, 0));
+  for (const std::string& frame : reader.texts("trigger_frames")) trigger.frames.push_back(withoutLeadingSlash(frame));
+  if (trigger.kind == TriggerKind::kFrames && trigger.frames.empty()) {
+    reader.fail("trigger_frames", "one frame or more, as trigger is frames");
+  }
+  trigger.period = 1.0 / parameters.rate;
+  // What the tracker says of frames that have ended must not wait for ever.
+  trigger.patience = std::min(0.1, parameters.tf.max_latency);
+  return trigger;
+}
+
+ContactOptions readContact(ParameterReader reader) {
+  ContactOptions contact;
+  contact.stiffness_per = static_cast<StiffnessPer>(
+      reader.choice("stiffness_per", {"area", "point"}, static_cast<int>(contact.stiffness_per)));
+  contact.stiffness = reader.notNegative("stiffness", contact.stiffness);
+  contact.damping = reader.notNegative("damping", contact.damping);
+  contact.normal =
+      static_cast<NormalSource>(reader.choice("normal", {"field", "shell"}, static_cast<int>(contact.normal)));
+  contact.quadrature =
+      static_cast<Quadrature>(reader.choice("quadrature", {"exact", "midpoint"}, static_cast<int>(contact.quadrature)));
+  contact.midpoint_intervals = reader.integer("midpoint_intervals", contact.midpoint_intervals, 1);
+  reader.positive("accuracy", 1.0);  // see readScene()
+  reader.finish();
+  return contact;
+}
+
+OctomapObject readOctomap(ParameterReader reader, LiveMapParameters& live) {
+  OctomapObject octomap;
+  live.topic = reader.name("topic", "");
+  live.unknown = static_cast<UnknownSpace>(
+      reader.choice("unknown", {"free", "occupied", "occupied_near"}, static_cast<int>(live.unknown)));
+  live.unknown_distance = reader.notNegative("unknown_distance", live.unknown_distance);
+  live.padding = reader.notNegative("padding", live.padding);
+  octomap.file = reader.text("file", "");
+  octomap.frame = reader.name("frame", "");
+  octomap.X_frame_B = readPose(reader);
+  octomap.cell_size = reader.notNegative("cell_size", 0.0);
+  reader.finish();
+  return octomap;
+}
+
+std::string defaultCacheDirectory() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/sdf_ccd";
+  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/sdf_ccd";
+  return "";
+}
+
+/// The text that a parameter of the given name holds, looked for upwards from the private namespace as `~/…`,
+/// then `/ns/…`, then `/…`; empty if there is none.
+std::string findDescription(const ros::NodeHandle& private_node, const std::string& name) {
+  std::string key, text;
+  if (private_node.searchParam(name, key)) private_node.getParam(key, text);
+  return text;
+}
+
+}  // namespace
+
+MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name) {
+  ParameterReader reader(tree, name);
+  MonitorParameters parameters;
+
+  parameters.urdf_parameter = reader.text("urdf_parameter", "robot_description");
+  parameters.srdf_parameter = reader.text("srdf_parameter", parameters.urdf_parameter + "_semantic");
+  parameters.fixed_frame = withoutLeadingSlash(reader.name("fixed_frame", ""));
+  parameters.tf_prefix = withoutLeadingSlash(reader.name("tf_prefix", ""));
+  parameters.allow_http = reader.flag("allow_http", false);
+  parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
+
+  parameters.pairs = {readRules(reader, "allowed_pairs"), readRules(reader, "checked_pairs")};
+  parameters.leave_out_overlapping = reader.choice("overlapping_pairs", {"check", "leave_out"}, 1) == 1;
+
+  parameters.world = readWorld(reader);
+  parameters.world_file = reader.text("world_file", "");
+  parameters.resource_roots = reader.texts("resource_roots");
+  parameters.octomap = readOctomap(reader.group("octomap"), parameters.live_map);
+  parameters.scene = readScene(reader);
+  if (reader.flag("cache", true)) {
+    parameters.scene.cache_directory = reader.text("cache_directory", "");
+    if (parameters.scene.cache_directory.empty()) parameters.scene.cache_directory = defaultCacheDirectory();
+  } else {
+    reader.text("cache_directory", "");
+  }
+
+  parameters.monitor.contact = readContact(reader.group("contact"));
+  readMaxError(reader, parameters);
+  ChordOptions& chords = parameters.monitor.chords;
+  chords.max_chords = reader.integer("max_chords", chords.max_chords, 1);
+  parameters.tf.max_latency = reader.positive("max_latency", parameters.tf.max_latency);
+  parameters.tf.max_cycle = reader.positive("max_cycle", parameters.tf.max_cycle);
+  for (const char* key : {"max_latency", "max_cycle"}) {
+    if (reader.positive(key, 1.0) > kLongestCycle) reader.fail(key, "at most an hour");
+  }
+  parameters.rate = reader.positive("rate", 30.0);
+  parameters.max_cycle_time = reader.notNegative("max_cycle_time", 0.0);
+  parameters.trigger = readTrigger(reader, parameters);
+
+  parameters.proximity = readProximity(reader);
+  parameters.max_points = reader.integer("max_points", 20, 0);
+  parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
+  parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
+  // The descriptions may stand here too.
+  for (const std::string& description : {parameters.urdf_parameter, parameters.srdf_parameter})
+    reader.text(description, "");
+  reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's
+  reader.positive("diagnostic_period", 1.0);   // the diagnostic updater's
+  parameters.unknown = reader.unread();
+  return parameters;
+}
+
+MonitorParameters readParameters(const ros::NodeHandle& private_node) {
+  XmlRpc::XmlRpcValue tree;
+  private_node.getParam("", tree);
+  MonitorParameters parameters = parseParameters(tree, private_node.getNamespace());
+  parameters.urdf = findDescription(private_node, parameters.urdf_parameter);
+  if (parameters.urdf.empty()) {
+    throw MissingDescription("parameter " + parameters.urdf_parameter + " is missing, expected a robot's URDF");
+  }
+  parameters.srdf = findDescription(private_node, parameters.srdf_parameter);
+  parameters.urdf_source = "parameter " + parameters.urdf_parameter;
+  parameters.srdf_source = "parameter " + parameters.srdf_parameter;
+  return parameters;
+}
+
+}  // namespace sdf_ccd

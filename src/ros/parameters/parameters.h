@@ -1,0 +1,92 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "model/pair_rules.h"
+#include "monitor/proximity.h"
+#include "monitor/velocity_scale.h"
+#include "ros/messages/markers.h"
+#include "ros/parameters/parameter_reader.h"
+#include "ros/parameters/world_object.h"
+#include "ros/tf/cycle_trigger.h"
+#include "ros/tf/tf_tracker.h"
+#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor/voxel_map.h"
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd {
+
+/// The world as an OctoMap file, from the parameters `octomap/…`.
+struct OctomapObject {
+  std::string file;   ///< empty: none
+  std::string frame;  ///< empty: the fixed frame
+  Isometry3d X_frame_B = Isometry3d::Identity();
+  double cell_size = 0.0;  ///< of its field [m]; 0: half a voxel
+};
+
+/// How near is near: what can change while the monitor runs.
+struct ProximityParameters {
+  double report_distance = 0.0;  ///< pairs nearer than this are listed [m]; 0: none
+  ProximityThresholds thresholds;
+  std::optional<StoppingPromise> promise;  ///< of whoever obeys the velocity scale; none: it is not published
+};
+
+/// The world as an OctoMap that comes on a topic, from the parameters `octomap/…` too.
+struct LiveMapParameters {
+  std::string topic;  ///< empty: none
+  UnknownSpace unknown = UnknownSpace::kFree;
+  double unknown_distance = 0.5;  ///< [m]
+  double padding = 0.03;          ///< of the robot's own voxels [m]
+};
+
+/// All parameters of the monitor; config/monitor.yaml documents them.
+struct MonitorParameters {
+  std::string urdf_parameter;  ///< name of the parameter that holds the robot's description
+  std::string srdf_parameter;
+  std::string urdf;         ///< text of the robot's description
+  std::string srdf;         ///< text of its semantic description, empty if there is none
+  std::string urdf_source;  ///< where those texts are from, for errors
+  std::string srdf_source;
+  std::string fixed_frame;  ///< empty: the robot's root link
+  std::string tf_prefix;
+  bool allow_http = false;  ///< meshes may come over the network
+  RobotSceneOptions robot;
+  PairRules pairs;
+  bool leave_out_overlapping = true;  ///< see leaveOutOverlapping()
+  std::vector<WorldObject> world;
+  std::string world_file;  ///< further objects; empty: none
+  std::vector<std::string> resource_roots;  ///< folders whose files requests may name
+  OctomapObject octomap;
+  LiveMapParameters live_map;
+  BodyOptions scene;
+  MonitorOptions monitor;
+  TfTrackerOptions tf;
+  MarkerOptions markers;
+  ProximityParameters proximity;
+  double rate = 0.0;  ///< [Hz]
+  double max_cycle_time = 0.0;  ///< CycleRequest::max_time of a running monitor [s]
+  TriggerOptions trigger;
+  int max_points = 0;
+  std::vector<std::string> unknown;  ///< what nothing reads, with what may be meant; in groups it is refused
+};
+
+/// Thrown while the robot's description is not there; it may come later.
+struct MissingDescription : ParameterError {
+  using ParameterError::ParameterError;
+};
+
+/// Reads and checks all parameters but the descriptions, which are left empty.
+/// @param tree  a struct, or anything else if there are no parameters.
+/// @param name  of the tree, for errors: "/collision_monitor".
+/// @throws ParameterError naming the parameter and its value.
+MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name);
+
+/// Reads and checks all parameters from a private namespace, with the robot's descriptions.
+/// @throws MissingDescription, else ParameterError naming the parameter and its value.
+MonitorParameters readParameters(const ros::NodeHandle& private_node);
+
+}  // namespace sdf_ccd

@@ -1,0 +1,29 @@
+#include "ros/parameters/world_file.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/text_limits.h"
+#include "ros/parameters/moveit_scene.h"
+#include "ros/parameters/world_parameters.h"
+#include "ros/parameters/yaml_parameters.h"
+#include "storage/regular_file.h"
+
+namespace sdf_ccd {
+
+std::vector<WorldObject> loadWorldFile(const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension().string();
+  if (ending == ".yaml" || ending == ".yml") {
+    ParameterReader reader(loadYamlParameters(file), file);
+    if (!reader.has("world")) throw std::runtime_error(file + ": there is no `world` in it");
+    return readWorld(reader);
+  }
+  try {
+    if (ending != ".scene") throw std::runtime_error("a world's file must end in .yaml, .yml or .scene");
+    return parseMoveitScene(readRegularFile(file, kMaxYamlBytes));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,117 @@
+#include "ros/parameters/yaml_parameters.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <limits>
+#include <regex>
+#include <set>
+#include <stdexcept>
+
+#include <yaml-cpp/yaml.h>
+
+#include "common/text_limits.h"
+#include "storage/regular_file.h"
+
+namespace sdf_ccd {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+[[noreturn]] void refuse(const YAML::Mark& mark, const std::string& reason) {
+  throw std::runtime_error("line " + std::to_string(mark.line + 1) + ": " + reason);
+}
+
+bool toInteger(const std::string& text, int& number) {
+  static const std::regex kInteger("[-+]?(0|[1-9][0-9]*|0[0-7]+|0x[0-9a-fA-F]+)");
+  if (!std::regex_match(text, kInteger)) return false;
+  errno = 0;
+  const long value = std::strtol(text.c_str(), nullptr, 0);
+  number = static_cast<int>(value);
+  return errno == 0 && value == number;
+}
+
+bool toReal(const std::string& text, double& number) {
+  static const std::regex kReal("[-+]?([0-9]+\\.[0-9]*|\\.[0-9]+)([eE][-+][0-9]+)?");
+  if (!std::regex_match(text, kReal)) return false;
+  number = std::strtod(text.c_str(), nullptr);
+  return true;
+}
+
+XmlRpcValue toScalar(const YAML::Node& node) {
+  static const std::set<std::string> kTrue = {"yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"};
+  static const std::set<std::string> kFalse = {"no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"};
+  const std::string& text = node.Scalar();
+  const bool is_plain = node.Tag() != "!";  // else it is quoted
+  int integer = 0;
+  double real = 0.0;
+  if (!is_plain) return XmlRpcValue(text);
+  if (kTrue.count(text) + kFalse.count(text) > 0) return XmlRpcValue(kTrue.count(text) > 0);
+  if (toInteger(text, integer)) return XmlRpcValue(integer);
+  if (toReal(text, real)) return XmlRpcValue(real);
+  return XmlRpcValue(text);
+}
+
+/// Makes values of nodes. What anchors and aliases expand to is counted: a few lines can mean 10⁹ values, or endless
+/// ones.
+class ValueReader {
+ public:
+  XmlRpcValue value(const YAML::Node& node) {
+    constexpr int kMostValues = 100'000, kMostLevels = 64;
+    if (++values_ > kMostValues) refuse(node.Mark(), "more than " + std::to_string(kMostValues) + " values");
+    if (levels_ == kMostLevels) refuse(node.Mark(), "nested more than " + std::to_string(kMostLevels) + " levels deep");
+    ++levels_;
+    XmlRpcValue made = node.IsScalar() ? toScalar(node) : node.IsSequence() ? sequence(node) : structure(node);
+    --levels_;
+    return made;
+  }
+
+ private:
+  XmlRpcValue sequence(const YAML::Node& node) {
+    XmlRpcValue made;
+    made.setSize(static_cast<int>(node.size()));
+    for (std::size_t i = 0; i < node.size(); ++i) made[static_cast<int>(i)] = value(node[i]);
+    return made;
+  }
+
+  XmlRpcValue structure(const YAML::Node& node) {
+    if (!node.IsMap()) refuse(node.Mark(), "a value is missing");
+    XmlRpcValue made;
+    made.begin();  // makes it a struct, also without members
+    for (const auto& member : node) {
+      if (!member.first.IsScalar()) refuse(member.first.Mark(), "the name of a parameter is not a text");
+      if (member.second.IsNull()) refuse(member.first.Mark(), "parameter " + member.first.Scalar() + " has no value");
+      setMember(made, member.first, member.first.Scalar(), member.second);
+    }
+    return made;
+  }
+
+  /// @param key  what is left of `name`: slashes lead into structs.
+  void setMember(XmlRpcValue& tree, const YAML::Node& name, const std::string& key, const YAML::Node& node) {
+    if (tree.valid() && tree.getType() != XmlRpcValue::TypeStruct) {
+      refuse(name.Mark(), "parameter " + name.Scalar() + " lies in one that is a value itself");
+    }
+    const std::size_t slash = key.find('/');
+    if (slash != std::string::npos) return setMember(tree[key.substr(0, slash)], name, key.substr(slash + 1), node);
+    if (tree.hasMember(key)) refuse(name.Mark(), "parameter " + name.Scalar() + " is there twice");
+    tree[key] = value(node);
+  }
+
+  int values_ = 0, levels_ = 0;
+};
+
+}  // namespace
+
+XmlRpcValue loadYamlParameters(const std::string& file) {
+  try {
+    const std::string text = readRegularFile(file, kMaxYamlBytes);
+    requireSoundYaml(text);
+    const YAML::Node document = YAML::Load(text);
+    if (document.IsNull()) return {};
+    if (!document.IsMap()) refuse(document.Mark(), "expected parameters, as in config/monitor.yaml");
+    return ValueReader().value(document);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+}  // namespace sdf_ccd

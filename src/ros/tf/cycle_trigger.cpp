@@ -1,0 +1,114 @@
+#include "ros/tf/cycle_trigger.h"
+
+#include <algorithm>
+
+namespace sdf_ccd {
+namespace {
+
+using std::chrono::nanoseconds;
+
+nanoseconds toNanoseconds(double seconds) {
+  return nanoseconds(static_cast<nanoseconds::rep>(1e9 * std::min(seconds, 1e6)));  // longer ones overflow clocks
+}
+
+}  // namespace
+
+nanoseconds nextOnGrid(nanoseconds begin, nanoseconds now, nanoseconds period) {
+  if (now < begin) return begin + period;
+  return begin + ((now - begin) / period + 1) * period;
+}
+
+void CycleTrigger::setOptions(const TriggerOptions& options) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    options_ = options;
+    takeNews();
+  }
+  changed_.notify_all();
+}
+
+bool CycleTrigger::wantsFrames() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return options_.kind == TriggerKind::kFrames;
+}
+
+void CycleTrigger::takeNews() {
+  news_ = false;
+  has_come_.assign(options_.frames.size(), 0);
+  to_come_ = options_.frames.size();
+}
+
+void CycleTrigger::bring(TriggerKind kind) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (options_.kind != kind || news_) return;
+    news_ = true;
+  }
+  changed_.notify_all();
+}
+
+void CycleTrigger::onFrame(const std::string& child) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (options_.kind != TriggerKind::kFrames || news_) return;
+    const auto found = std::find(options_.frames.begin(), options_.frames.end(), child);
+    if (found == options_.frames.end()) return;
+    char& has_come = has_come_[static_cast<std::size_t>(found - options_.frames.begin())];
+    if (has_come) return;
+    has_come = 1;
+    if (--to_come_ > 0) return;
+    news_ = true;
+  }
+  changed_.notify_all();
+}
+
+bool CycleTrigger::wait(const std::function<void()>& woken) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto now = [] { return nanoseconds(Clock::now().time_since_epoch()); };
+  const auto doBetween = [&] {
+    woken_ = false;
+    lock.unlock();
+    if (woken) woken();
+    lock.lock();
+  };
+  const auto waitUntil = [&](nanoseconds time, const auto& isDue) {
+    const Clock::time_point end(std::chrono::duration_cast<Clock::duration>(time));
+    while (changed_.wait_until(lock, end, [&] { return woken_ || isDue(); }) && !isDue()) doBetween();
+  };
+  const nanoseconds period = std::max(nanoseconds(1), toNanoseconds(options_.period));
+  if (due_.count() > 0) {
+    waitUntil(due_, [&] { return stop_; });
+    if (options_.kind != TriggerKind::kTimer) {
+      waitUntil(now() + toNanoseconds(options_.patience), [&] { return stop_ || news_; });
+    }
+  }
+  if (woken_ && !stop_) doBetween();
+  takeNews();
+  // A timer keeps its grid; what is triggered by others keeps the distance.
+  const bool is_timer = options_.kind == TriggerKind::kTimer && due_.count() > 0;
+  due_ = is_timer ? nextOnGrid(due_, now(), period) : now() + period;
+  return !stop_;
+}
+
+bool CycleTrigger::waitFor(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return !changed_.wait_for(lock, toNanoseconds(seconds), [&] { return stop_; });
+}
+
+void CycleTrigger::wake() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    woken_ = true;
+  }
+  changed_.notify_all();
+}
+
+void CycleTrigger::stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,176 @@
+#include "ros/tf/tf_chains.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace sdf_ccd {
+namespace {
+
+const TimePart kNever{ros::TIME_MAX, ros::Time()};
+
+}  // namespace
+
+TfChains::TfChains(std::vector<std::string> frames) : frames_(std::move(frames)) {
+  std::unordered_map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < frames_.size(); ++i) first_of_.push_back(first.emplace(frames_[i], i).first->second);
+}
+
+void TfChains::update(const TfTree& tree, int fixed_frame) {
+  if (topology_ == tree.topology(depends_on_all_)) return;
+  steps_.clear();
+  steps_to_.assign(tree.size(), -1);
+  ways_.resize(frames_.size());
+  tree.upwards(fixed_frame, above_);
+  depends_on_all_ = false;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (first_of_[i] == i) {
+      find(tree, fixed_frame, frames_[i], ways_[i]);
+    } else {
+      ways_[i] = ways_[first_of_[i]];
+    }
+  }
+  topology_ = tree.topology(depends_on_all_);
+}
+
+void TfChains::find(const TfTree& tree, int fixed_frame, const std::string& frame, Way& way) {
+  const std::string& fixed_name = tree.name(fixed_frame);
+  way = {};
+  const int number = tree.find(frame);
+  depends_on_all_ |= number == TfTree::kNone || !tree.isFollowed(number) || !tree.isFollowed(fixed_frame);
+  up_.clear();
+  down_ = above_;
+  if (number != TfTree::kNone) tree.upwards(number, up_);
+  if (up_.size() > kMostAbove || down_.size() > kMostAbove) {
+    way.problem = "the transforms above " + frame + " or " + fixed_name + " are a loop, or more than " +
+                  std::to_string(kMostAbove);
+    return;
+  }
+  const int root = number == TfTree::kNone ? TfTree::kNone : tree.root(number, up_);
+  const int fixed_root = tree.root(fixed_frame, down_);
+  if (root != fixed_root) {
+    way.problem = "no transform from " + frame + " to " + fixed_name + ": ";
+    if (up_.empty()) {
+      way.problem += "none of " + frame + " has come";
+    } else if (down_.empty()) {
+      way.problem += "tf's tree is rooted at " + tree.name(root) + ", not " + fixed_name;
+    } else {
+      way.problem +=
+          "its tree is rooted at " + tree.name(root) + ", that of " + fixed_name + " at " + tree.name(fixed_root);
+    }
+    return;
+  }
+  while (!up_.empty() && !down_.empty() && up_.back() == down_.back()) {
+    up_.pop_back();
+    down_.pop_back();
+  }
+  for (const int edge : down_) way.step = stepTo(tree.parent(edge), {edge, way.step, true});
+  for (auto edge = up_.rbegin(); edge != up_.rend(); ++edge) way.step = stepTo(*edge, {*edge, way.step, false});
+}
+
+/// Ways that lead to the same frame are the same up to there.
+int TfChains::stepTo(int frame, const Step& step) {
+  int& known = steps_to_[frame];
+  if (known < 0) {
+    known = static_cast<int>(steps_.size());
+    steps_.push_back(step);
+  }
+  return known;
+}
+
+void TfChains::spans(const TfTree& tree, bool any_late, std::vector<TfSpan>& spans) {
+  step_spans_.resize(steps_.size());
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    StepSpan span = steps_[i].before < 0 ? StepSpan() : step_spans_[steps_[i].before];
+    const TfEdge& edge = tree.edge(steps_[i].edge);
+    if (edge.version > span.version) {
+      span.version = edge.version;
+      span.changed = steps_[i].edge;
+    }
+    span.first = std::max(span.first, edge.first());
+    if (!edge.is_static) {
+      const ros::Time& last = edge.records.back().stamp;
+      span.last = span.is_static ? last : std::min(span.last, last);
+      span.is_static = false;
+    }
+    step_spans_[i] = span;
+  }
+  spans.resize(ways_.size());
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    const Way& way = ways_[i];
+    StepSpan known = way.step < 0 ? StepSpan() : step_spans_[way.step];
+    known.is_static &= way.problem.empty();
+    TfSpan& span = spans[i];
+    span.problem = way.problem;
+    span.is_static = known.is_static;
+    span.first = known.first;
+    span.last = known.last;
+    if (known.version > 0 && known.version != span.version) {
+      span.change = tree.name(known.changed) + " " + tree.edge(known.changed).change;
+    }
+    span.version = known.version;
+    span.late.clear();
+    for (int step = any_late ? way.step : -1; step >= 0; step = steps_[step].before) {
+      const TfEdge& edge = tree.edge(steps_[step].edge);
+      if (edge.late) span.late.push_back({tree.name(steps_[step].edge), edge.late->since, edge.late->until});
+    }
+  }
+}
+
+void TfChains::copy(const TfTree& tree, const std::vector<TimePart>& parts, const ros::Time& origin, TfWindow& window) {
+  step_parts_.assign(steps_.size(), kNever);
+  const auto extend = [&](int step, const TimePart& part) {
+    TimePart& known = step_parts_[step];
+    known = {std::min(known.from, part.from), std::max(known.until, part.until)};
+  };
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    if (ways_[i].step >= 0) extend(ways_[i].step, parts[i]);
+  }
+  for (std::size_t i = steps_.size(); i-- > 0;) {
+    if (steps_[i].before >= 0) extend(steps_[i].before, step_parts_[i]);
+  }
+  window.begin(origin, steps_.size(), ways_.size());
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    window.setStep(i, {&tree.edge(steps_[i].edge), steps_[i].before, steps_[i].is_inverse}, step_parts_[i]);
+  }
+  accounts_.assign(steps_.size(), {kNever});
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    const int step = ways_[i].step;
+    const Account known = step < 0 ? Account() : account(tree, step, parts[i]);
+    window.setFrame(i, {step, known.version, known.longest_gap}, parts[i]);
+    if (!ways_[i].problem.empty()) {
+      window.setProblem(i, ways_[i].problem);
+    } else if (known.problem) {
+      window.setProblem(i, tree.name(known.problem_edge) + " " + known.problem);
+    }
+  }
+}
+
+/// What is not known; of several problems, the one nearest to the fixed frame.
+const TfChains::Account& TfChains::account(const TfTree& tree, int step, const TimePart& part) {
+  Account& own = accounts_[step];
+  if (own.part.from == part.from && own.part.until == part.until) return own;
+  const int number = steps_[step].edge;
+  const TfEdge& edge = tree.edge(number);
+  const TfPoses& records = edge.records;
+  own = {part, edge.version};
+  if (part.from < edge.first() || (!edge.is_static && records.back().stamp < part.until)) {
+    own.problem = "is not known all the time";
+  }
+  for (std::size_t i = records.lastUpTo(part.from); i < records.size(); ++i) {
+    if (records[i].problem) own.problem = records[i].problem;
+    if (edge.is_static || records[i].stamp >= part.until || i + 1 == records.size()) break;
+    own.longest_gap = std::max(own.longest_gap, (records[i + 1].stamp - records[i].stamp).toSec());
+  }
+  own.problem_edge = number;
+  if (steps_[step].before < 0) return own;
+  const Account& before = account(tree, steps_[step].before, part);
+  own.version = std::max(own.version, before.version);
+  own.longest_gap = std::max(own.longest_gap, before.longest_gap);
+  if (before.problem) {
+    own.problem_edge = before.problem_edge;
+    own.problem = before.problem;
+  }
+  return own;
+}
+
+}  // namespace sdf_ccd

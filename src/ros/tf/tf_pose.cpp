@@ -1,0 +1,66 @@
+#include "ros/tf/tf_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdf_ccd/monitor/monitor.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kMaxNormError = 1e-2;   // of the squared length; tf2's
+constexpr double kTinyHalfAngle = 1e-9;  // below it slerp's weights are those of a line [rad]
+
+/// In [0, π/2]; from the difference and the sum, so that small angles are not lost as by the arc cosine of tf2.
+double halfAngle(const Quaterniond& a, const Quaterniond& b) {
+  const double difference = (a.coeffs() - b.coeffs()).norm(), sum = (a.coeffs() + b.coeffs()).norm();
+  return 2.0 * std::atan2(std::min(difference, sum), std::max(difference, sum));
+}
+
+}  // namespace
+
+TfPose toTfPose(const ros::Time& stamp, const geometry_msgs::Transform& transform) {
+  TfPose pose;
+  pose.stamp = stamp;
+  const auto& q = transform.rotation;
+  const auto& p = transform.translation;
+  const Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const Vector3d translation(p.x, p.y, p.z);
+  if (!translation.allFinite() || !rotation.coeffs().allFinite()) {
+    pose.problem = "has a transform that is not finite";
+  } else if (!(std::abs(rotation.squaredNorm() - 1.0) <= kMaxNormError)) {
+    pose.problem = "has a rotation that is no unit quaternion";
+  } else if (!(translation.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
+    pose.problem = "is more than 1e+08 m from its parent";
+  } else {
+    pose.rotation = rotation.normalized();
+    pose.translation = translation;
+  }
+  return pose;
+}
+
+bool isSamePlace(const TfPose& a, const TfPose& b) {
+  return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs() && a.problem == b.problem;
+}
+
+TfInterpolation::TfInterpolation(const TfPose& a, const TfPose& b)
+    : a_(a.rotation), b_(b.rotation), from_(a.translation), way_(b.translation - a.translation) {
+  if (a_.coeffs() == b_.coeffs()) return;
+  half_angle_ = halfAngle(a_, b_);
+  if (half_angle_ > kTinyHalfAngle) inverse_sine_ = 1.0 / std::sin(half_angle_);
+  if (a_.dot(b_) < 0.0) b_.coeffs() = -b_.coeffs();
+}
+
+Isometry3d TfInterpolation::at(double share) const {
+  const Vector3d translation = from_ + share * way_;
+  if (half_angle_ == 0.0) return Eigen::Translation3d(translation) * a_;
+  double weight_a = 1.0 - share, weight_b = share;
+  if (inverse_sine_ > 0.0) {
+    weight_a = std::sin(weight_a * half_angle_) * inverse_sine_;
+    weight_b = std::sin(weight_b * half_angle_) * inverse_sine_;
+  }
+  const Quaterniond rotation(weight_a * a_.coeffs() + weight_b * b_.coeffs());
+  return Eigen::Translation3d(translation) * rotation.normalized();
+}
+
+}  // namespace sdf_ccd

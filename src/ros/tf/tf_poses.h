@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ros/tf/tf_pose.h"
+
+namespace sdf_ccd {
+
+/// Transforms of a frame by their stamps, which increase. A ring: it takes memory only when it has to hold more than
+/// ever before.
+class TfPoses {
+ public:
+  bool empty() const { return size_ == 0; }
+  std::size_t size() const { return size_; }
+  const TfPose& operator[](std::size_t i) const { return ring_[place(i)]; }
+  const TfPose& front() const { return (*this)[0]; }
+  const TfPose& back() const { return (*this)[size_ - 1]; }
+
+  /// The last that is not after the time; 0 if all are. Times near the newest are found soonest.
+  std::size_t lastUpTo(const ros::Time& time) const;
+
+  /// Forgets all, and gives back what many took.
+  void clear();
+
+  void pushBack(const TfPose& pose) { insert(size_, pose); }
+
+  /// Behind the first `i` ones.
+  void insert(std::size_t i, const TfPose& pose);
+
+  void dropFront(std::size_t count);
+
+ private:
+  std::size_t place(std::size_t i) const { return first_ + i < ring_.size() ? first_ + i : first_ + i - ring_.size(); }
+  void grow();
+
+  std::vector<TfPose> ring_;
+  std::size_t first_ = 0, size_ = 0;
+};
+
+}  // namespace sdf_ccd

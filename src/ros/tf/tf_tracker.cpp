@@ -1,0 +1,308 @@
+#include "ros/tf/tf_tracker.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace sdf_ccd {
+namespace {
+
+const ros::Duration kJumpBack(1.0);         // as of TfHistory
+constexpr double kBackPerTime = 4.0;        // time checked again, over the time itself
+constexpr std::size_t kMostPoses = 300000;  // of all bodies in a cycle: about 100 MB with what is made of them
+
+/// Adds to those of the same frame.
+void merge(const LateTransforms& late, std::vector<LateTransforms>& all) {
+  const auto same =
+      std::find_if(all.begin(), all.end(), [&](const LateTransforms& other) { return other.frame == late.frame; });
+  if (same == all.end()) return all.push_back(late);
+  same->since = std::min(same->since, late.since);
+  same->until = std::max(same->until, late.until);
+}
+
+std::vector<std::string> framesOf(const std::vector<TrackedBody>& bodies) {
+  std::vector<std::string> frames;
+  for (const TrackedBody& body : bodies) frames.push_back(withoutLeadingSlash(body.frame));
+  return frames;
+}
+
+std::vector<BoundingBall> ballsOf(const std::vector<TrackedBody>& bodies) {
+  std::vector<BoundingBall> balls;
+  for (const TrackedBody& body : bodies) balls.push_back(body.ball_B);
+  return balls;
+}
+
+MotionSampling samplingOf(const TfTrackerOptions& options, std::size_t most_samples) {
+  MotionSampling sampling = options.sampling;
+  sampling.max_samples = most_samples;
+  return sampling;
+}
+
+}  // namespace
+
+std::string TfTracker::seconds(const ros::Duration& duration) {
+  return fmt::format("{:.2f} s", duration.toSec());
+}
+
+bool isTooFar(const Isometry3d& X_WB) {
+  return !(X_WB.translation().lpNorm<Eigen::Infinity>() <= kFarthestPose);
+}
+
+std::string tooFar(const std::string& frame) {
+  return fmt::format("{} is more than {:.0g} m from the origin", frame, kFarthestPose);
+}
+
+std::vector<TrackedBody> trackedBodies(const Scene& scene) {
+  std::vector<TrackedBody> bodies;
+  for (const Body& body : scene.bodies) bodies.push_back({body.frame, body.X_frame_B, motionBall(body)});
+  return bodies;
+}
+
+TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies, const std::vector<PlannedPair>& pairs,
+                     const TfTrackerOptions& options)
+    : history_(history),
+      bodies_(bodies),
+      frames_(framesOf(bodies)),
+      pairs_(pairs),
+      options_(options),
+      most_samples_(kMostPoses / (bodies.size() + 1)),
+      sampler_(ballsOf(bodies), samplingOf(options, most_samples_)),
+      chains_(frames_),
+      is_paired_(bodies.size(), 0) {
+  for (const TrackedBody& body : bodies_) {
+    distances_.push_back((body.X_frame_B * body.ball_B.center).norm() + body.ball_B.radius);
+  }
+  for (const PlannedPair& pair : pairs_) is_paired_[pair.body_a] = is_paired_[pair.body_b] = 1;
+  times_.assign(pairs_.size(), {});
+  reset();
+}
+
+void TfTracker::reset() {
+  last_end_ = ros::Time();
+  waits_since_ = ros::Time();
+  versions_.assign(bodies_.size(), 0);
+  changed_.assign(bodies_.size(), ros::Time());
+  are_together_ = false;
+  late_.clear();
+  too_late_.assign(bodies_.size(), "");
+  time_to_go_back_ = kBackPerTime * options_.max_cycle;
+  goes_back_ = 0.0;
+}
+
+TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
+  history_.watchClock(now);
+  const bool is_first = last_end_.isZero();
+  std::vector<std::string>& missing = cycle.motion.missing;
+  missing.assign(bodies_.size(), "");
+  look(now, missing);
+  const ros::Time end = is_first ? ros::Time() : foremostEnd(missing);
+  // The clock has gone back, or all frames have begun anew far behind.
+  if (history_.takeJump() || (!is_first && end < last_end_ && last_end_ - end > kJumpBack)) {
+    reset();
+    return Step::kJump;
+  }
+  if (waits_since_.isZero()) waits_since_ = now;
+  const bool waited_enough = now - waits_since_ > ros::Duration(options_.max_latency);
+  if (is_first ? !begin(waited_enough, missing) : end <= last_end_)
+    return waited_enough ? Step::kStalled : Step::kWaiting;
+  waits_since_ = now;
+  if (is_first) return Step::kWaiting;
+
+  time_to_go_back_ += kBackPerTime * (end - last_end_).toSec() - goes_back_;
+  time_to_go_back_ = std::min(time_to_go_back_, kBackPerTime * options_.max_cycle);
+  goes_back_ = 0.0;
+  cycle.start = last_end_;
+  cycle.end = last_end_ = end;
+  cycle.late.swap(late_);
+  late_.clear();
+  advancePairs(cycle);
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    if (hasChanged(body)) changed_[body] = cycle.end;
+    versions_[body] = spans_[body].version;
+    too_late_[body].clear();
+  }
+  try {
+    follow(cycle);
+  } catch (const std::exception& error) {
+    setMissing(error.what(), cycle);  // so that the pairs' times are told as not checked, and not lost
+  }
+  setSpans(cycle);
+  return Step::kCycle;
+}
+
+void TfTracker::look(const ros::Time& now, std::vector<std::string>& missing) {
+  history_.takeNews(chains_, spans_);
+  if (!last_end_.isZero()) goBackToLate();
+  ros::Time newest;
+  for (const TfSpan& span : spans_) newest = std::max(newest, span.last);
+  // Transforms may be stamped ahead of the clock, or come from a bag that is played without one.
+  reference_ = now.isZero() || newest.isZero() ? std::max(now, newest) : std::min(now, newest);
+  // Where time is simulated, a bag may bring older stamps than the clock's; the wall clock tells their age.
+  const ros::Time& clock = ros::Time::isSimTime() ? reference_ : now;
+  ends_.assign(bodies_.size(), ros::TIME_MAX);
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const TfSpan& span = spans_[body];
+    if (!span.problem.empty()) {
+      missing[body] = span.problem;
+    } else if (!span.is_static && clock > span.last && clock - span.last > ros::Duration(options_.max_latency)) {
+      missing[body] = frames_[body] + " is late by " + seconds(clock - span.last);
+    } else if (hasChanged(body)) {
+      missing[body] = span.change;
+    } else if (!too_late_[body].empty()) {
+      missing[body] = too_late_[body];
+    } else if (!span.is_static) {
+      ends_[body] = std::min(span.last, reference_);
+    }
+  }
+}
+
+bool TfTracker::hasChanged(std::size_t body) const {
+  return versions_[body] != 0 && versions_[body] != spans_[body].version;
+}
+
+/// Pairs that were checked by an interpolation that is known now to be wrong begin there again.
+void TfTracker::goBackToLate() {
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    for (const LateTransforms& late : spans_[body].late) {
+      if (late.until <= begin_) continue;
+      const ros::Time since = std::max(late.since, begin_);
+      bool contradicts = false;
+      takeApart();
+      for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        const bool is_its = pairs_[p].body_a == static_cast<int>(body) || pairs_[p].body_b == static_cast<int>(body);
+        if (!is_its || times_[p].until <= since) continue;
+        times_[p].until = since;
+        contradicts = true;
+      }
+      if (!contradicts) continue;
+      merge({late.frame, since, std::min(late.until, last_end_)}, late_);
+      const ros::Duration age = last_end_ - since;
+      if (age > ros::Duration(options_.max_cycle)) {
+        too_late_[body] = "transforms of " + late.frame + " came late, of " + seconds(age) + " before the cycle";
+      } else if (!mayGoBack(age)) {
+        too_late_[body] = "transforms of " + late.frame + " come late again and again, now by " + seconds(age);
+      }
+    }
+  }
+}
+
+/// All bodies that go back in a cycle share the time that is checked again.
+bool TfTracker::mayGoBack(const ros::Duration& age) {
+  if (age.toSec() > time_to_go_back_) return false;
+  goes_back_ = std::max(goes_back_, age.toSec());
+  return true;
+}
+
+/// The first cycle begins where all bodies are known, or, after some time, all but those that are missing.
+bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missing) {
+  const auto earliest = std::min_element(ends_.begin(), ends_.end());
+  const ros::Time start = earliest == ends_.end() || *earliest == ros::TIME_MAX ? reference_ : *earliest;
+  for (std::size_t body = 0; body < bodies_.size() && !waited_enough; ++body) {
+    if (!missing[body].empty() || spans_[body].first > start) return false;  // it may be on the way
+  }
+  if (start.isZero()) return false;
+  begin_ = last_end_ = start;
+  times_.assign(pairs_.size(), {start, start});
+  are_together_ = false;
+  return true;
+}
+
+ros::Time TfTracker::foremostEnd(const std::vector<std::string>& missing) const {
+  bool is_one = true;  // the end of all that is in a pair and moves
+  ros::Time foremost;
+  for (std::size_t body = 0; body < bodies_.size() && is_one; ++body) {
+    if (!is_paired_[body]) continue;
+    is_one = missing[body].empty() && (ends_[body] == ros::TIME_MAX || foremost.isZero() || ends_[body] == foremost);
+    if (ends_[body] != ros::TIME_MAX) foremost = ends_[body];
+  }
+  if (is_one) return foremost.isZero() ? reference_ : foremost;
+  foremost = ros::Time();
+  for (const PlannedPair& pair : pairs_) {
+    const ros::Time end = std::min(ends_[pair.body_a], ends_[pair.body_b]);
+    const bool is_known = missing[pair.body_a].empty() && missing[pair.body_b].empty();
+    if (is_known && end != ros::TIME_MAX) foremost = std::max(foremost, end);
+  }
+  return foremost.isZero() ? reference_ : foremost;
+}
+
+/// Mostly all pairs go on together, and nothing is to be said of each.
+bool TfTracker::goTogether(const TrackedCycle& cycle) const {
+  if (!are_together_) return false;
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    if (is_paired_[body] && (!cycle.motion.missing[body].empty() || ends_[body] < cycle.end)) return false;
+  }
+  return true;
+}
+
+/// Writes down the times of pairs that have gone together so far.
+void TfTracker::takeApart() {
+  if (are_together_) times_.assign(pairs_.size(), together_);
+  are_together_ = false;
+}
+
+void TfTracker::advancePairs(TrackedCycle& cycle) {
+  const std::vector<std::string>& missing = cycle.motion.missing;
+  cycle.origin = cycle.start;
+  cycle.complete_until = cycle.end;
+  cycle.delayed_since = ros::Time();
+  if (goTogether(cycle)) {
+    together_ = {cycle.start, cycle.end};
+    return;
+  }
+  takeApart();
+  is_known_.resize(pairs_.size());
+  bool are_together = true;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const int a = pairs_[p].body_a, b = pairs_[p].body_b;
+    const bool is_known = missing[a].empty() && missing[b].empty();
+    const ros::Time from = times_[p].until;
+    const ros::Time until = is_known ? std::max(from, std::min({ends_[a], ends_[b], cycle.end})) : cycle.end;
+    times_[p] = {from, until};
+    is_known_[p] = is_known;
+    are_together &= is_known && from == cycle.start && until == cycle.end;
+    cycle.complete_until = std::min(cycle.complete_until, until);
+    if (from == until) {
+      cycle.delayed_since = cycle.delayed_since.isZero() ? from : std::min(cycle.delayed_since, from);
+      continue;
+    }
+    cycle.origin = std::min(cycle.origin, from);
+  }
+  are_together_ = are_together;
+  together_ = {cycle.start, cycle.end};
+}
+
+void TfTracker::take(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs) {
+  begin_ = other.begin_;
+  last_end_ = other.last_end_;
+  waits_since_ = other.waits_since_;
+  time_to_go_back_ = other.time_to_go_back_;
+  goes_back_ = other.goes_back_;
+  late_.swap(other.late_);
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (bodies[body] < 0) continue;
+    const auto before = static_cast<std::size_t>(bodies[body]);
+    versions_[body] = other.versions_[before];
+    changed_[body] = other.changed_[before];
+    too_late_[body].swap(other.too_late_[before]);
+  }
+  are_together_ = other.are_together_;
+  together_ = other.together_;
+  for (std::size_t p = 0; p < pairs.size() && !are_together_ && !other.times_.empty(); ++p)
+    times_[p] = pairs[p] < 0 ? TimePart{last_end_, last_end_} : other.times_[static_cast<std::size_t>(pairs[p])];
+}
+
+void posesAt(const TfHistory& history, const std::vector<TrackedBody>& bodies, const ros::Time& time,
+             std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) {
+  X_WB.assign(bodies.size(), Isometry3d::Identity());
+  missing.resize(bodies.size());
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    Isometry3d X_WF;
+    const std::string frame = withoutLeadingSlash(bodies[body].frame);
+    if (!missing[body].empty() || !history.lookup(frame, time, X_WF, missing[body])) continue;
+    X_WB[body] = X_WF * bodies[body].X_frame_B;
+    if (isTooFar(X_WB[body])) missing[body] = tooFar(frame);
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,224 @@
+// How a TfTracker follows the bodies over a cycle.
+#include <algorithm>
+#include <stdexcept>
+
+#include "ros/tf/tf_tracker.h"
+
+namespace sdf_ccd {
+namespace {
+
+bool operator==(const TimePart& a, const TimePart& b) {
+  return a.from == b.from && a.until == b.until;
+}
+
+/// Sorts the values from a place on, each once.
+void sortOnce(std::vector<double>& values, std::size_t from) {
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(from);
+  std::sort(first, values.end());
+  values.erase(std::unique(first, values.end()), values.end());
+}
+
+/// From when to when a body is needed, by the clock of samples [s].
+struct Needed {
+  double from, until;
+};
+Needed secondsOf(const TimePart& part, const ros::Time& origin) {
+  return {(part.from - origin).toSec(), (part.until - origin).toSec()};
+}
+
+}  // namespace
+
+/// The motion is sampled where pairs need it, in parts that may lie apart: a frame that lags behind lets no body be
+/// followed over the time since then again.
+void TfTracker::follow(TrackedCycle& cycle) {
+  CycleMotion& motion = cycle.motion;
+  motion.times.clear();
+  motion.X_WB.resize(bodies_.size());
+  for (std::vector<Isometry3d>& poses : motion.X_WB) poses.clear();
+  motion.motion_error.assign(bodies_.size(), 0.0);
+  cycle.samples.clear();
+  cycle.recorded.clear();
+  findWindows(cycle);
+  for (const TimePart& part : windows_) {
+    findNeeded(part, cycle);
+    copyMotion(cycle, motion.missing);
+    sample(part, cycle);
+  }
+}
+
+/// Disjoint, increasing, and all that pairs are checked over; of pairs that are not checked, the ends.
+void TfTracker::findWindows(const TrackedCycle& cycle) {
+  windows_.clear();
+  if (are_together_) return windows_.push_back(together_);
+  checked_ = {{cycle.origin, cycle.origin}, {cycle.end, cycle.end}};
+  const auto add = [&](const TimePart& part) {
+    if (!(part == checked_.back())) checked_.push_back(part);
+  };
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto& [from, until] = times_[p];
+    if (from == until) continue;
+    if (is_known_[p]) {
+      add(times_[p]);
+    } else {
+      add({from, from});
+      add({until, until});
+    }
+  }
+  std::sort(checked_.begin(), checked_.end(), [](const TimePart& a, const TimePart& b) { return a.from < b.from; });
+  for (const TimePart& part : checked_) {
+    if (windows_.empty() || windows_.back().until < part.from) {
+      windows_.push_back(part);
+    } else {
+      windows_.back().until = std::max(windows_.back().until, part.until);
+    }
+  }
+}
+
+void TfTracker::findNeeded(const TimePart& part, const TrackedCycle& cycle) {
+  needed_.clear();
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const ros::Time at = std::max(std::min(cycle.end, ends_[body]), spans_[body].first);
+    needed_.push_back(are_together_ && is_paired_[body] ? part : TimePart{at, at});
+  }
+  if (are_together_) return;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto& [from, until] = times_[p];
+    if (!is_known_[p] || from == until || from < part.from || part.until < until) continue;
+    for (const int body : {pairs_[p].body_a, pairs_[p].body_b}) {
+      TimePart& needed = needed_[body];
+      const bool is_first = needed.from == needed.until;
+      needed = is_first ? times_[p] : TimePart{std::min(needed.from, from), std::max(needed.until, until)};
+    }
+  }
+}
+
+/// Copies what the pairs need of each body's motion, and finds what is not known of it.
+void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& missing) {
+  history_.copy(chains_, needed_, cycle.origin, window_);
+  const ros::Duration length = cycle.end - cycle.start;
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const std::string& frame = frames_[body];
+    const TfSpan& span = spans_[body];
+    const TimePart& needed = needed_[body];
+    if (!missing[body].empty()) continue;
+    const bool is_needed = needed.from < needed.until;
+    if (window_.version(body) != span.version) {
+      missing[body] = "the way to " + frame + " has just changed";
+    } else if (is_needed && needed.from < changed_[body]) {
+      missing[body] = span.change + " since then";
+    } else if (is_needed && !span.is_static && length > ros::Duration(options_.max_cycle)) {
+      missing[body] = "no cycle for " + seconds(length);
+    } else if (is_needed && span.first > needed.from) {
+      missing[body] = frame + " is known only since " + seconds(span.first - needed.from) + " after the cycle's start";
+    } else if (is_needed && window_.longestGap(body) > options_.max_cycle) {
+      missing[body] = "no transforms of " + frame + " for " + seconds(ros::Duration(window_.longestGap(body)));
+    } else {
+      missing[body] = window_.problem(body);
+    }
+  }
+}
+
+void TfTracker::sample(const TimePart& part, TrackedCycle& cycle) {
+  findSampleTimes(part, cycle);
+  if (cycle.samples.size() + sample_times_.size() > most_samples_) {
+    throw std::runtime_error("more transforms in one cycle than can be followed: " +
+                             std::to_string(sample_times_.size()));
+  }
+  pose_times_.assign(bodies_.size(), std::numeric_limits<double>::quiet_NaN());
+  poses_.assign(bodies_.size(), Isometry3d::Identity());
+  std::vector<std::string>& missing = cycle.motion.missing;
+  const MotionSource source = {
+      [&](double time, std::vector<Isometry3d>& X_WB) { posesDuring(time, X_WB, missing); },
+      [&](double start, double end, std::vector<double>& jerk) { boundJerks(start, end, jerk); }};
+  sampler_.add(sample_times_, source, cycle.motion);
+  cycle.samples.insert(cycle.samples.end(), sample_times_.begin(), sample_times_.end());
+}
+
+void TfTracker::setMissing(const std::string& why, TrackedCycle& cycle) {
+  needed_.assign(bodies_.size(), {});
+  cycle.samples.clear();
+  cycle.recorded.clear();
+  findWindows(cycle);
+  for (const TimePart& part : windows_) {
+    findSampleTimes(part, cycle);
+    cycle.samples.insert(cycle.samples.end(), sample_times_.begin(), sample_times_.end());
+  }
+  CycleMotion& motion = cycle.motion;
+  motion.missing.assign(bodies_.size(), why);
+  motion.times = cycle.samples;
+  motion.X_WB.assign(bodies_.size(), std::vector<Isometry3d>(motion.times.size(), Isometry3d::Identity()));
+  motion.motion_error.assign(bodies_.size(), 0.0);
+}
+
+/// Recorded transforms, and the ends of the part and of pairs' times within it.
+void TfTracker::findSampleTimes(const TimePart& part, TrackedCycle& cycle) {
+  std::vector<double>& times = sample_times_;
+  times = {(part.from - cycle.origin).toSec(), (part.until - cycle.origin).toSec()};
+  if (!are_together_) addPairTimes(part, cycle.origin);
+  listed_.clear();
+  for (std::size_t body = 0; body < needed_.size(); ++body) {
+    const bool is_needed = needed_[body].from < needed_[body].until;
+    if (is_needed && cycle.motion.missing[body].empty()) listed_.push_back(body);
+  }
+  const std::size_t first = cycle.recorded.size();
+  window_.addRecordedTimes(listed_, times, cycle.recorded);
+  sortOnce(times, 0);
+  sortOnce(cycle.recorded, first);
+}
+
+/// There are many pairs, and few times among them.
+void TfTracker::addPairTimes(const TimePart& part, const ros::Time& origin) {
+  pair_times_.clear();
+  for (const TimePart& pair : times_) {
+    if (pair.from == pair.until) continue;
+    for (const ros::Time& end : {pair.from, pair.until}) {
+      if (end < part.from || part.until < end) continue;
+      const auto place = std::lower_bound(pair_times_.begin(), pair_times_.end(), end);
+      if (place == pair_times_.end() || *place != end) pair_times_.insert(place, end);
+    }
+  }
+  for (const ros::Time& end : pair_times_) sample_times_.push_back((end - origin).toSec());
+}
+
+/// Outside the part that its pairs need a body rests, so that it costs nothing there.
+void TfTracker::posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) {
+  const Needed together = secondsOf(together_, window_.origin());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    if (!missing[body].empty()) continue;
+    const auto [from, until] =
+        are_together_ && is_paired_[body] ? together : secondsOf(needed_[body], window_.origin());
+    const double known = spans_[body].is_static ? from : std::min(std::max(time, from), until);
+    if (known == pose_times_[body]) continue;
+    pose_times_[body] = known;
+    poses_[body] = window_.pose(body, known) * bodies_[body].X_frame_B;
+    if (isTooFar(poses_[body])) missing[body] = tooFar(frames_[body]);
+  }
+  X_WB = poses_;
+}
+
+void TfTracker::boundJerks(double start, double end, std::vector<double>& jerk) {
+  const Needed together = secondsOf(together_, window_.origin());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const auto [from, until] =
+        are_together_ && is_paired_[body] ? together : secondsOf(needed_[body], window_.origin());
+    const bool rests = from == until || end <= from || start >= until;
+    jerk[body] = rests ? 0.0 : window_.derivatives(body, distances_[body], start, end).third;
+  }
+}
+
+void TfTracker::setSpans(TrackedCycle& cycle) const {
+  const std::vector<double>& times = cycle.motion.times;
+  if (are_together_) return cycle.motion.spans.assign(pairs_.size(), {0, times.size() - 1});
+  const auto waypointAt = [&](const ros::Time& time) {
+    const auto waypoint = std::lower_bound(times.begin(), times.end(), (time - cycle.origin).toSec());
+    return static_cast<std::size_t>(waypoint - times.begin());
+  };
+  std::vector<WaypointSpan>& spans = cycle.motion.spans;
+  spans.clear();
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const bool is_as_last = p > 0 && times_[p] == times_[p - 1];
+    spans.push_back(is_as_last ? spans.back() : WaypointSpan{waypointAt(times_[p].from), waypointAt(times_[p].until)});
+  }
+}
+
+}  // namespace sdf_ccd

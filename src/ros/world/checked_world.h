@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ros/tf/tf_tracker.h"
+#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/robot/unreachable_pairs.h"
+
+namespace sdf_ccd {
+
+/// A version of the world, and what is known of it beside the core: never changed, and shared by cycles and answers.
+struct CheckedWorld {
+  std::shared_ptr<const WorldSnapshot> snapshot;
+  std::vector<UnreachablePair> unreachable;  ///< left out, as long as joints keep to their limits
+  std::vector<TrackedBody> bodies;
+
+  CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out)
+      : snapshot(std::move(of_snapshot)), unreachable(std::move(left_out)), bodies(trackedBodies(*snapshot->scene)) {}
+
+  std::uint64_t version() const { return snapshot->version; }
+  const Scene& scene() const { return *snapshot->scene; }
+  const SceneDescription& description() const { return *snapshot->description; }
+};
+
+/// The world that a scene was built for, when nothing has changed it yet: version 1.
+inline std::shared_ptr<const CheckedWorld> firstWorld(std::shared_ptr<const Scene> scene,
+                                                      const SceneDescription& description,
+                                                      const std::vector<UnreachablePair>& unreachable) {
+  auto snapshot = std::make_shared<WorldSnapshot>();
+  snapshot->version = 1;
+  snapshot->scene = std::move(scene);
+  snapshot->description = std::make_shared<const SceneDescription>(description);
+  return std::make_shared<const CheckedWorld>(std::move(snapshot), unreachable);
+}
+
+}  // namespace sdf_ccd

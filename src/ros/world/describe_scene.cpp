@@ -1,0 +1,91 @@
+#include "ros/world/describe_scene.h"
+
+#include <stdexcept>
+
+#include "common/shown_text.h"
+#include "robot_monitor/overlapping_pairs.h"
+#include "ros/parameters/world_file.h"
+#include "ros/world/fetch_http.h"
+#include "ros/world/world_bodies.h"
+
+namespace sdf_ccd {
+namespace {
+
+bool isHttp(const std::string& uri) {
+  return uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0;
+}
+
+}  // namespace
+
+ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http) {
+  return [packages, directory, allow_http](const std::string& uri) {
+    if (!isHttp(uri)) return loadLocalResource(uri, packages, directory);
+    if (!allow_http) {
+      throw std::runtime_error(shownText(uri) +
+                               ": http and https are fetched only if the parameter allow_http is true");
+    }
+    try {
+      return Resource{fetchHttp(uri), uri, ""};
+    } catch (const std::exception& error) {
+      throw std::runtime_error(shownText(uri) + ": " + error.what());
+    }
+  };
+}
+
+DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader) {
+  const auto robot = std::make_shared<const RobotModel>(parameters.urdf, parameters.urdf_source);
+  const Srdf srdf = parameters.srdf.empty() ? Srdf() : parseSrdf(parameters.srdf, parameters.srdf_source);
+  const std::string prefix = parameters.tf_prefix.empty() ? "" : parameters.tf_prefix + "/";
+
+  DescribedScene described;
+  described.robot = robot;
+  described.root_frame = prefix + robot->root();
+  described.tf_prefix = prefix;
+  for (const auto& [name, child] : srdf.virtual_joints) {
+    if (child == robot->root()) described.base_joint = name;
+  }
+  described.fixed_frame = parameters.fixed_frame.empty() ? described.root_frame : parameters.fixed_frame;
+  described.scene = describeRobot(*robot, srdf, loader, parameters.robot, described.warnings);
+
+  // The core knows the robot's frames by the names of its links, tf by these with the prefix.
+  const auto frameOf = [&](const std::string& frame) {
+    const std::string resolved = frame.empty() ? described.fixed_frame : withoutLeadingSlash(frame);
+    return resolved == described.root_frame ? robot->root() : resolved;
+  };
+  std::vector<WorldObject> world = parameters.world;
+  if (!parameters.world_file.empty()) {
+    const std::vector<WorldObject> from_file = loadWorldFile(parameters.world_file);
+    world.insert(world.end(), from_file.begin(), from_file.end());
+  }
+  for (const WorldObject& object : world)
+    described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));
+  if (!parameters.octomap.file.empty()) {
+    described.scene.bodies.push_back(toBody("octomap", parameters.octomap, frameOf(parameters.octomap.frame)));
+  }
+  disableUnreachable(*robot, described.scene);
+  applyRules(parameters.pairs, described.scene, described.warnings);
+  described.kept = parameters.pairs.checked;
+  for (const auto& [a, b] : srdf.enabled) described.kept.push_back({a, b});
+  described.leave_out_overlapping = parameters.leave_out_overlapping;
+  described.unreachable = unreachablePairs(*robot, described.scene);
+  for (BodyDescription& body : described.scene.bodies) {
+    if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
+  }
+  return described;
+}
+
+ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options) {
+  ScenePlan plan = planScene(described.scene, planOptions(options));
+  plan.expected = std::make_shared<const SceneCost>(affordableCost(described.scene, plan, options));
+  return plan;
+}
+
+std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
+                                            const BodyOptions& options,
+                                            const std::function<void(const std::string&, double)>& progress) {
+  Scene scene = buildScene(described.scene, plan, options, progress);
+  if (described.leave_out_overlapping) leaveOutOverlapping(*described.robot, described.kept, scene);
+  return std::make_shared<const Scene>(std::move(scene));
+}
+
+}  // namespace sdf_ccd

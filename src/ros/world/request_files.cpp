@@ -1,0 +1,53 @@
+#include "ros/world/request_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/shown_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "file://";
+
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+bool isBelow(const fs::path& path, const fs::path& root) {
+  const auto [end, rest] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
+  (void)rest;
+  return end == root.end();
+}
+
+}  // namespace
+
+RequestFiles::RequestFiles(const std::vector<std::string>& roots, ResourceLoader loader) : loader_(std::move(loader)) {
+  for (const std::string& root : roots) {
+    std::error_code error;
+    const fs::path canonical = fs::canonical(root, error);
+    if (!error) roots_.push_back(canonical.string());  // what is not there holds no file
+  }
+}
+
+std::string RequestFiles::path(const std::string& file) const {
+  const fs::path named = startsWith(file, kFile) ? file.substr(std::string(kFile).size()) : file;
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(named, error);
+  const bool allowed = !error && named.is_absolute() && std::any_of(roots_.begin(), roots_.end(), [&](const auto& root) {
+    return isBelow(canonical, root);
+  });
+  if (!allowed)
+    throw std::runtime_error(shownText(file) + ": is not an absolute path below one of the parameter resource_roots");
+  return canonical.string();
+}
+
+Resource RequestFiles::resource(const std::string& uri) const {
+  const bool is_elsewhere = uri.find("://") != std::string::npos && !startsWith(uri, kFile);
+  return loader_(is_elsewhere ? uri : path(uri));
+}
+
+}  // namespace sdf_ccd
