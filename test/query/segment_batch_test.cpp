@@ -12,10 +12,10 @@
 #ifdef SDF_CCD_HIGHWAY
 #include <hwy/targets.h>
 
-#include "oracle/failure.h"
 #include "query/lanes/segment_lanes.h"
 #endif
 
+#include "oracle/failure.h"
 #include "oracle/random.h"
 #include "oracle/sampled_function.h"
 #include "oracle/shapes.h"
