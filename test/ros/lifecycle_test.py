@@ -53,26 +53,35 @@ class Lifecycle(unittest.TestCase):
 
     @classmethod
     def start(cls, *command):
-        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        # A group of its own: what it starts, as `rosbag play` its player, is to end with it.
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         cls.children.append(child)
         return child
+
+    @staticmethod
+    def kill(child):
+        if child.poll() is None:
+            os.killpg(child.pid, signal.SIGKILL)
+        child.wait()
 
     @classmethod
     def start_master(cls):
         cls.master = start_master(cls.port, PATIENCE)
-        cls.children.append(cls.master)
 
     @classmethod
     def tearDownClass(cls):
         for child in reversed(cls.children):
-            if child.poll() is None:
-                child.kill()
-            child.wait()
+            cls.kill(child)
+        cls.master.kill()
+        cls.master.wait()
         cls.folder.cleanup()
 
     def play(self, *options):
-        subprocess.run(['rosbag', 'play', '--quiet', '--clock', '--hz=100', '--wait-for-subscribers', *options, self.bag], timeout=PATIENCE,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.start_player('--wait-for-subscribers', *options).wait(PATIENCE)
+
+    @classmethod
+    def start_player(cls, *options):
+        return cls.start('rosbag', 'play', '--quiet', '--clock', '--hz=100', '--delay=1', *options, cls.bag)
 
     @staticmethod
     def ended(messages):
@@ -98,7 +107,7 @@ class Lifecycle(unittest.TestCase):
     def test_3_a_bag_that_loops(self):
         self.contacts.clear()
         self.states.clear()
-        player = self.start('rosbag', 'play', '--quiet', '--clock', '--loop', '--hz=100', '-r', '3', self.bag)
+        player = self.start_player('--loop', '-r', '3')
         self.assertTrue(self.contacts.wait(lambda all: len(self.ended(all)) >= 4))
         player.send_signal(signal.SIGINT)
         player.wait(PATIENCE)
@@ -110,10 +119,9 @@ class Lifecycle(unittest.TestCase):
     def test_4_a_publisher_that_dies_and_one_that_takes_its_place(self):
         self.contacts.clear()
         for _ in range(2):
-            player = self.start('rosbag', 'play', '--quiet', '--clock', '--hz=100', '--wait-for-subscribers', self.bag)
+            player = self.start_player('--wait-for-subscribers')
             self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
-            player.kill()
-            player.wait()
+            self.kill(player)
             self.contacts.clear()
         self.play()
         self.assertTrue(self.contacts.wait(lambda all: len(self.ended(all)) >= 1))
