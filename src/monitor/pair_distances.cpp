@@ -44,14 +44,17 @@ void PairDistances::forget() {
   near_.clear();
 }
 
-void PairDistances::take(const PairDistances& before, const std::vector<int>& pairs_now) {
-  for (const PairDistance& near : before.near_) {
+void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_now) {
+  near_.swap(before.near_);
+  const auto isGone = [&](const PairDistance& near) { return pairs_now[near.pair] < 0; };
+  near_.erase(std::remove_if(near_.begin(), near_.end(), isGone), near_.end());
+  for (PairDistance& near : near_) {
     const int now = pairs_now[near.pair];
-    if (now < 0) continue;
     pairs_[now] = before.pairs_[near.pair];
-    pairs_[now].last.pair = now;
-    pairs_[now].last.body_a = scene_->pairs[now].body_a;
-    pairs_[now].last.body_b = scene_->pairs[now].body_b;
+    near.pair = now;
+    near.body_a = scene_->pairs[now].body_a;
+    near.body_b = scene_->pairs[now].body_b;
+    pairs_[now].last = near;
   }
 }
 

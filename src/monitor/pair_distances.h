@@ -49,10 +49,10 @@ class PairDistances {
 
   void forget();
 
-  /// Goes on from another scene's, between two cycles: what was near there, and is the same pair here, stays known until
-  /// it is measured. Only pairs that are delayed need it.
+  /// Goes on from another scene's, between two cycles, and leaves it empty: what was near there, and is the same pair
+  /// here, stays known until it is measured. Only pairs that are delayed need it.
   /// @param pairs_now  per pair there: the same pair here; −1 if there is none.
-  void take(const PairDistances& before, const std::vector<int>& pairs_now);
+  void take(PairDistances& before, const std::vector<int>& pairs_now);
 
  private:
   struct Pair {

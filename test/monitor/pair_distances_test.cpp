@@ -165,5 +165,26 @@ TEST_F(PairDistancesTest, OfPairsThatAreDelayedTheLastOneStands) {
   EXPECT_TRUE(distances_.update(motion, result_, kRange).empty());
 }
 
+TEST_F(PairDistancesTest, TwoScenesTakenOverInARowKeepIt) {
+  const std::vector<Isometry3d> rest = {test::translation({0.4, 0, 0.5}), test::translation({0, 0, 0.5}),
+                                        test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
+  ASSERT_EQ(cycle(rest, rest).size(), 1u);
+  std::vector<int> same(scene_->pairs.size());
+  for (std::size_t p = 0; p < same.size(); ++p) same[p] = static_cast<int>(p);
+  PairDistances next(scene_), last(scene_);
+  next.take(distances_, same);
+  last.take(next, same);
+  CycleMotion motion;
+  motion.times = {0.0, 0.1};
+  for (const Isometry3d& X : rest) motion.X_WB.push_back({X, X});
+  motion.spans.assign(scene_->pairs.size(), {0, 0});
+  result_ = monitor_.run(motion, {true, 3});
+  EXPECT_EQ(last.update(motion, result_, kRange).size(), 1u);
+  std::fill(same.begin(), same.end(), -1);  // no pair stays
+  PairDistances other(scene_);
+  other.take(last, same);
+  EXPECT_TRUE(other.update(motion, result_, kRange).empty());
+}
+
 }  // namespace
 }  // namespace sdf_ccd
