@@ -99,7 +99,7 @@ struct Monitor::Impl {
   std::vector<std::uint32_t> waited;        // per pair: cycles in which it was postponed, up to now
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
-  bool are_of_cycle = false;      // what results say of pairs that are not due is of the last cycle, and of no later one
+  bool are_of_cycle = false;  // what results say of pairs that are not due is of the last cycle, and of no later one
   std::atomic<std::size_t> last_waypoint{0};  // that all results' spans end at; 0 if they differ
 };
 
@@ -222,7 +222,8 @@ ErrorBound Monitor::Impl::errorOf(int pair) const {
   return error;
 }
 
-void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& with) {
+void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
+                          PairMemory& with) {
   checkCancelled();
   const auto i = static_cast<std::size_t>(due.pair);
   checkers[i].run(motion, *bodies, request, with, result.pairs[i]);
@@ -233,7 +234,9 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
   if (due.empty()) return;
   bodies->take(motion, result.pairs, due);
   if (request.max_time > 0.0)
-    return checkInTime(motion, request, start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.max_time)));
+    return checkInTime(
+        motion, request,
+        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.max_time)));
   const auto checkRange = [&](std::size_t first, std::size_t last) {
     std::unique_ptr<PairMemory> taken = memory->take();
     for (std::size_t k = first; k < last; ++k) check(due[k], motion, request, *taken);

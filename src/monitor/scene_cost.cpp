@@ -137,10 +137,11 @@ void SceneCost::add(const BodyCost& body) {
 
 std::vector<char> shellsThatDecide(const SceneDescription& description, const ScenePlan& plan) {
   std::vector<char> decides(description.bodies.size(), 0);
+  std::vector<char> has_triangles;
+  for (const BodyDescription& body : description.bodies) has_triangles.push_back(whyNoShell(body).empty());
   for (const PlannedPair& pair : plan.pairs) {
-    const auto has_no_triangles = [&](int body) { return !whyNoShell(description.bodies[body]).empty(); };
-    if (has_no_triangles(pair.body_a)) decides[pair.body_b] = 1;
-    if (has_no_triangles(pair.body_b)) decides[pair.body_a] = 1;
+    if (!has_triangles[pair.body_a]) decides[pair.body_b] = 1;
+    if (!has_triangles[pair.body_b]) decides[pair.body_a] = 1;
   }
   return decides;
 }

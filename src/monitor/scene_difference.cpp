@@ -1,10 +1,8 @@
 #include "scene_difference.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <unordered_map>
-
-#include "model/name_pair.h"
 
 namespace sdf_ccd {
 namespace {
@@ -51,8 +49,8 @@ std::vector<BodyRun> SceneDifference::bodyRuns() const {
   for (std::size_t b = 0; b < bodies_before_.size(); ++b) {
     if (bodies_before_[b] < 0) continue;
     const auto from = static_cast<std::size_t>(bodies_before_[b]);
-    const bool goes_on = !runs.empty() && runs.back().to + runs.back().count == b &&
-                         runs.back().from + runs.back().count == from;
+    const bool goes_on =
+        !runs.empty() && runs.back().to + runs.back().count == b && runs.back().from + runs.back().count == from;
     if (goes_on) {
       ++runs.back().count;
     } else {
@@ -72,13 +70,19 @@ std::vector<std::pair<std::string, std::string>> pairNames(const Scene& scene) {
 
 std::vector<int> findPairs(const std::vector<std::pair<std::string, std::string>>& pairs,
                            const std::vector<std::pair<std::string, std::string>>& others) {
-  std::map<NamePair, int> places;
-  for (std::size_t i = 0; i < others.size(); ++i)
-    places[namePair(others[i].first, others[i].second)] = static_cast<int>(i);
+  std::unordered_map<std::string, int> bodies;  // numbered as they come
+  const auto keyOfNames = [&](const std::pair<std::string, std::string>& names) {
+    const int a = bodies.try_emplace(names.first, static_cast<int>(bodies.size())).first->second;
+    const int b = bodies.try_emplace(names.second, static_cast<int>(bodies.size())).first->second;
+    return keyOf(std::min(a, b), std::max(a, b));
+  };
+  std::unordered_map<std::uint64_t, int> places;
+  places.reserve(others.size());
+  for (std::size_t i = 0; i < others.size(); ++i) places[keyOfNames(others[i])] = static_cast<int>(i);
   std::vector<int> found;
   found.reserve(pairs.size());
-  for (const auto& [a, b] : pairs) {
-    const auto place = places.find(namePair(a, b));
+  for (const auto& names : pairs) {
+    const auto place = places.find(keyOfNames(names));
     found.push_back(place == places.end() ? -1 : place->second);
   }
   return found;

@@ -40,7 +40,8 @@ SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan
   std::set<std::pair<int, int>> stay;
   for (const PlannedPair& pair : scene.pairs) stay.emplace(pair.body_a, pair.body_b);
   std::map<std::pair<int, int>, const std::string*> reasons;
-  for (const LeftOut& left_out : scene.left_out) reasons.emplace(std::pair(left_out.body_a, left_out.body_b), &left_out.reason);
+  for (const LeftOut& left_out : scene.left_out)
+    reasons.emplace(std::pair(left_out.body_a, left_out.body_b), &left_out.reason);
   for (const PlannedPair& pair : plan.pairs) {
     if (stay.count({pair.body_a, pair.body_b}) > 0) continue;
     const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
@@ -141,9 +142,10 @@ void WorldEditor::Impl::requireAffordable(const SceneDescription& description, c
   for (std::size_t b = 0; b < keys.size(); ++b) {
     const BodyDescription& body = description.bodies[b];
     if (!body.failure.empty() || !needs[b].of_body.any() || bodies.find(keys[b], needs[b])) continue;
-    const bool has_mesh = std::any_of(
-        body.geometry.begin(), body.geometry.end(),
-        [this](const GeometryDescription& part) { return !std::holds_alternative<Primitive>(part.shape) && !fieldOf(part); });
+    const bool has_mesh =
+        std::any_of(body.geometry.begin(), body.geometry.end(), [this](const GeometryDescription& part) {
+          return !std::holds_alternative<Primitive>(part.shape) && !fieldOf(part);
+        });
     const bool is_large_primitive = !has_mesh && plan.needs_shell[b] && !plan.edges_only[b];
     if (!has_mesh && !is_large_primitive) continue;  // they cost next to nothing
     missing.bodies.push_back(body);
@@ -245,8 +247,8 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
     if (prepared[b]) prepared[b]->used = version;
     if (prepared[b]) bodies[b] = prepared[b]->body;
     const auto known = impl_->named.find(body.name);
-    const bool same = known != impl_->named.end() && known->second.prepared == bodies[b] &&
-                      samePlace(*known->second.body, body);
+    const bool same =
+        known != impl_->named.end() && known->second.prepared == bodies[b] && samePlace(*known->second.body, body);
     scene.bodies.push_back(same ? known->second.body : placed(bodies[b] ? *bodies[b] : Body(), body));
     if (!same && bodies[b]) ++snapshot->shared;
     scene.reports.push_back(prepared[b] ? prepared[b]->report : BodyReport());
