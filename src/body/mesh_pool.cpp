@@ -30,7 +30,7 @@ PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   if (voxels) {
     validate(mesh);
     pooled.mesh = mesh;
-    pooled.made.voxels = VoxelSolid::of(mesh);
+    pooled.made.may_be_voxels = true;
   } else {
     OrientedMesh oriented = orientOutward(mesh);
     pooled.mesh = std::move(oriented.mesh);

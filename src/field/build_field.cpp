@@ -24,16 +24,11 @@ namespace {
 bool needsSamples(const BrickSampler& sampler, const GridShape& shape, const std::vector<float>& corners,
                   const Vector3i& brick) {
   const double side = GridShape::kBrick * shape.cell;
-  double nearest = TriangleTree::kInfinity;
   int negative = 0;
-  for (int k = 0; k < 8; ++k) {
-    const float c = corners[shape.cornerIndex(brick + cubeCorner(k))];
-    nearest = std::min(nearest, std::abs(double(c)));
-    negative += c < 0.0F;
-  }
+  for (int k = 0; k < 8; ++k) negative += corners[shape.cornerIndex(brick + cubeCorner(k))] < 0.0F;
   if (negative % 8 != 0) return true;
   const double needed = shape.band + shape.cell;
-  if (nearest > needed + 2.0 * kHalfSqrt3 * side) return false;
+  if (nearestCorner(shape, corners, brick) > needed + 2.0 * kHalfSqrt3 * side) return false;
   const Vector3d center = shape.origin + side * (brick.cast<double>().array() + 0.5).matrix();
   const double reach = needed + kHalfSqrt3 * side;
   return sampler.surface().tree().closestPoint(center, reach).distance < reach;
@@ -41,19 +36,14 @@ bool needsSamples(const BrickSampler& sampler, const GridShape& shape, const std
 
 /// What no sample of a brick exceeds: distances differ by no more than their points are apart.
 double largestSample(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick) {
-  double nearest = TriangleTree::kInfinity;
-  for (int k = 0; k < 8; ++k) {
-    nearest = std::min(nearest, std::abs(double(corners[shape.cornerIndex(brick + cubeCorner(k))])));
-  }
-  return nearest + 2.0 * kHalfSqrt3 * GridShape::kBrick * shape.cell;
+  return nearestCorner(shape, corners, brick) + 2.0 * kHalfSqrt3 * GridShape::kBrick * shape.cell;
 }
 
 std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOptions& options,
                                                const Progress& progress) {
   GridShape shape = uniformShape(boundingBox(solid.boundary()), options);
   const std::size_t bricks = shape.brickCount();
-  const std::size_t coarse_bytes = shape.cornerCount() * sizeof(float) + bricks * sizeof(std::int32_t);
-  requireBytes(coarse_bytes, shape, options);
+  requireBytes(shape.coarseBytes(), shape, options);
 
   const BrickSampler sampler(solid, shape);
   GridData data;
@@ -90,7 +80,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
         largest = std::max(largest, largestSample(shape, data.corners, b));
       }
   const std::size_t samples = sampled.size() * GridShape::kSamples;
-  const std::size_t bytes = coarse_bytes + samples * sizeof(std::int16_t);
+  const std::size_t bytes = shape.coarseBytes() + samples * sizeof(std::int16_t);
   requireBytes(bytes, shape, options);
 
   shape.step = GridShape::stepFor(largest);

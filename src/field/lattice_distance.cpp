@@ -51,8 +51,7 @@ void LatticeDistance::transform(bool to_occupied, std::vector<Squared>& squares)
   along_y_.assign(layer * static_cast<std::size_t>(count_.z()), kNone);
   for (int k = 0; k < count_.z(); ++k)
     for (int j = 0; j < count_.y(); ++j) {
-      const Squared* const from =
-          along_x_.data() + length * static_cast<std::size_t>(k * count_.y() + j);
+      const Squared* const from = along_x_.data() + length * static_cast<std::size_t>(k * count_.y() + j);
       if (isNone(from, length)) continue;
       for (int y = 0; y < size_.y(); ++y)
         takeLeast(from, length, squared(1, y, j),

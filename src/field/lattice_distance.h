@@ -20,7 +20,8 @@ namespace sdf_ccd {
 class LatticeDistance {
  public:
   /// @param low, size    the lattice's first point, and how many along each axis.
-  /// @param first, last  voxels that are looked at; the window's cells and the lattice's span at most 140 along an axis.
+  /// @param first, last  voxels that are looked at; the window's cells and the lattice's span at most 140 along an
+  /// axis.
   /// @param is_in        whether voxel (x, y, z) is occupied.
   template <class IsIn>
   void compute(int cells_per_voxel, const Vector3i& low, const Vector3i& size, const Vector3i& first,

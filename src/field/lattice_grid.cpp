@@ -16,7 +16,10 @@ LatticeGrid::LatticeGrid(const AlignedBox3d& box, const Vector3d& origin, const 
   shape = uniformShape(box, wider);
   shape.band = band;
   // The box's corners are on the lattice, so it is enough that the padding is a whole number of cells.
-  low = ((shape.origin - origin) / shape.cell).array().unaryExpr([](double c) { return std::floor(c + 1e-6); }).cast<int>();
+  low = ((shape.origin - origin) / shape.cell)
+            .array()
+            .unaryExpr([](double c) { return std::floor(c + 1e-6); })
+            .cast<int>();
   shape.origin = origin + shape.cell * low.cast<double>();
   shape.step = GridShape::stepFor(farthestSample(shape) * shape.cell);
 }

@@ -29,9 +29,9 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelPlace& place) {
   TriangleMesh mesh;
   std::vector<int> vertices(std::size_t{kCorners} * kCorners * kCorners, -1);
   const auto vertex = [&](const Vector3i& corner) {
-    int& known = vertices[(static_cast<std::size_t>(corner.z()) * kCorners + static_cast<std::size_t>(corner.y())) *
-                              kCorners +
-                          static_cast<std::size_t>(corner.x())];
+    int& known =
+        vertices[(static_cast<std::size_t>(corner.z()) * kCorners + static_cast<std::size_t>(corner.y())) * kCorners +
+                 static_cast<std::size_t>(corner.x())];
     if (known < 0) {
       known = static_cast<int>(mesh.vertices.size());
       mesh.vertices.push_back(place.origin + place.size * corner.cast<double>());
@@ -78,7 +78,8 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelPlac
     return inside && block.occupied[VoxelBlock::index(x, y, z)];
   };
   // What is beyond the free voxels around the block is free too; there the occupied ones count.
-  distances.compute(kCells, grid.low, shape.cells().array() + 1, Vector3i::Constant(-1), Vector3i::Constant(kSide), isIn);
+  distances.compute(kCells, grid.low, shape.cells().array() + 1, Vector3i::Constant(-1), Vector3i::Constant(kSide),
+                    isIn);
 
   GridData data;
   data.corners.resize(shape.cornerCount());
@@ -93,8 +94,7 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelPlac
   for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
     for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
       for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x())
-        if (samples.take(distances, GridShape::kBrick * b, shape))
-          data.slots[shape.brickIndex(b)] = samples.bricks - 1;
+        if (samples.take(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
   data.samples = std::move(samples.samples);
   return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
 }

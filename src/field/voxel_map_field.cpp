@@ -27,8 +27,8 @@ int floorDivide(int a, int b) {
   return a / b - (a % b != 0 && (a < 0) != (b < 0));
 }
 
-/// Squared distances from the bricks' corners to the voxels that are occupied, or that are free [cells²]: one axis after
-/// the other, as LatticeDistance, each corner from its nearest rows and layers on.
+/// Squared distances from the bricks' corners to the voxels that are occupied, or that are free [cells²]: one axis
+/// after the other, as LatticeDistance, each corner from its nearest rows and layers on.
 class CornerSquares {
  public:
   CornerSquares(const VoxelSolid& solid, const LatticeGrid& grid, bool to_occupied)
@@ -63,8 +63,11 @@ class CornerSquares {
       for (int cz = 0; cz < corners_.z(); ++cz) {
         const float away = squaredGap(z, low_.z() + GridShape::kBrick * cz);
         for (int y = 0; y < corners_.y(); ++y) {
-          float* const to = squares.data() + (static_cast<std::size_t>(cz) * static_cast<std::size_t>(corners_.y()) + static_cast<std::size_t>(y)) *
-                                                 static_cast<std::size_t>(corners_.x()) + static_cast<std::size_t>(from);
+          float* const to =
+              squares.data() +
+              (static_cast<std::size_t>(cz) * static_cast<std::size_t>(corners_.y()) + static_cast<std::size_t>(y)) *
+                  static_cast<std::size_t>(corners_.x()) +
+              static_cast<std::size_t>(from);
           const float* const of = layer.data() + kWidth * y;
           for (int x = 0; x < width; ++x) to[x] = std::min(to[x], of[x] + away);
         }
@@ -136,14 +139,11 @@ class CornerSquares {
 class MapGrid {
  public:
   MapGrid(const VoxelSolid& solid, const FieldOptions& options)
-      : solid_(solid), options_(options), grid_(solid.box(), solid.origin(), options), n_(cellsPerVoxel(solid, grid_.shape.cell)) {
-    requireBytes(coarseBytes(), shape(), options);
+      : solid_(solid), grid_(solid.box(), solid.origin(), options), n_(cellsPerVoxel(solid, grid_.shape.cell)) {
+    requireBytes(shape().coarseBytes(), shape(), options);
   }
 
   const GridShape& shape() const { return grid_.shape; }
-  std::size_t coarseBytes() const {
-    return shape().cornerCount() * sizeof(float) + shape().brickCount() * sizeof(std::int32_t);
-  }
 
   std::vector<float> corners() const {
     std::vector<float> outside = squares(true);
@@ -168,13 +168,9 @@ class MapGrid {
 
   /// Whether a brick may have samples, by its corners.
   bool mayBeNear(const Vector3i& brick, const std::vector<float>& corners) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 8; ++k) {
-      const Vector3i corner = brick + Vector3i(k & 1, k >> 1 & 1, k >> 2);
-      nearest = std::min(nearest, std::abs(double(corners[shape().cornerIndex(corner)])));
-    }
     // Any of its points is no farther from one of its corners than half of its diagonal.
-    return nearest <= shape().band + (1.0 + kHalfSqrt3 * (1 + GridShape::kBrick)) * shape().cell;
+    return nearestCorner(shape(), corners, brick) <=
+           shape().band + (1.0 + kHalfSqrt3 * (1 + GridShape::kBrick)) * shape().cell;
   }
 
   /// The bricks of a block that have samples, and these. @param mayBe  what says of a brick whether it may be one.
@@ -218,7 +214,6 @@ class MapGrid {
   }
 
   const VoxelSolid& solid_;
-  const FieldOptions& options_;
   const LatticeGrid grid_;
   const int n_;
 };
@@ -249,11 +244,12 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
   std::vector<std::vector<std::int16_t>> made(blocks);
   std::vector<std::vector<std::size_t>> bricks(blocks);
   std::mutex mutex;
-  std::size_t bytes = map.coarseBytes();
+  std::size_t bytes = shape.coarseBytes();
   ProgressCounter counter(progress, blocks);
   parallelFor(std::size_t{0}, blocks, [&](std::size_t i) {
     BrickSamples samples;
-    map.make(map.blockAt(i), [&](const Vector3i& brick) { return map.mayBeNear(brick, data.corners); }, bricks[i], samples);
+    map.make(
+        map.blockAt(i), [&](const Vector3i& brick) { return map.mayBeNear(brick, data.corners); }, bricks[i], samples);
     made[i] = std::move(samples.samples);
     {
       const std::lock_guard<std::mutex> lock(mutex);
@@ -285,12 +281,13 @@ FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options) {
   for (; tested < blocks && (tested < kFewest || threadSeconds() - start < kSeconds); ++tested) {
     std::vector<std::size_t> found;
     BrickSamples samples;
-    map.make(map.blockAt(order[tested]), [](const Vector3i&) { return true; }, found, samples);
+    map.make(
+        map.blockAt(order[tested]), [](const Vector3i&) { return true; }, found, samples);
     bricks += found.size();
   }
   const double share = double(blocks) / double(tested);
   FieldCost cost;
-  cost.bytes = double(map.coarseBytes()) + share * double(bricks) * kBrickBytes;
+  cost.bytes = double(map.shape().coarseBytes()) + share * double(bricks) * kBrickBytes;
   cost.seconds = map.cornerSeconds() + share * (threadSeconds() - start);
   cost.bytes_error = cost.seconds_error = tested < blocks ? 1.0 / std::sqrt(double(tested)) : 0.0;
   return cost;

@@ -16,6 +16,12 @@ const Solid& SolidSource::solid() const {
   return *made_->solid;
 }
 
+const VoxelSolid* SolidSource::voxels() const {
+  if (!made_->may_be_voxels) return nullptr;
+  if (!made_->voxels) made_->voxels = VoxelSolid::of(mesh_);
+  return made_->voxels->get();
+}
+
 const ClosedSolid& SolidSource::closed() const {
   solid();
   if (!made_->closed) made_->closed = std::make_shared<const ClosedSolid>(made_->solid);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "geometry/openings.h"
 #include "geometry/solid_boundary.h"
@@ -25,7 +26,8 @@ class ClosedSolid {
 struct MadeSolid {
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ClosedSolid> closed;
-  std::shared_ptr<const VoxelSolid> voxels;  ///< if it is known to be a boundary of voxels
+  bool may_be_voxels = false;  ///< whether it is worth to look whether the mesh is a boundary of voxels
+  std::optional<std::shared_ptr<const VoxelSolid>> voxels;
 };
 
 /// A mesh whose solid is made when it is first asked for, for what is mostly found in a cache.
@@ -41,7 +43,7 @@ class SolidSource {
   const TriangleMesh& mesh() const { return mesh_; }
   const Solid& solid() const;
   const ClosedSolid& closed() const;
-  const VoxelSolid* voxels() const { return made_->voxels.get(); }
+  const VoxelSolid* voxels() const;  ///< null if it is none of voxels
 
  private:
   const TriangleMesh& mesh_;

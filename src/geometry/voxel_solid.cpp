@@ -14,8 +14,7 @@ class Lattice {
   explicit Lattice(const TriangleMesh& mesh) : mesh_(mesh), box_(boundingBox(mesh)) {
     const Vector3i& t = mesh.triangles.front();
     size_ = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k)
-      size_ = std::min(size_, (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm());
+    for (int k = 0; k < 3; ++k) size_ = std::min(size_, (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm());
   }
 
   double size() const { return size_; }
@@ -24,7 +23,8 @@ class Lattice {
 
   /// Of a vertex. @return false if it is none of the lattice's points.
   bool place(int vertex, Vector3i& point) const {
-    constexpr double kOff = 1e-4;  // of a voxel: coordinates of 65536 of them, rounded to single precision, are off by less
+    constexpr double kOff =
+        1e-4;  // of a voxel: coordinates of 65536 of them, rounded to single precision, are off by less
     const Vector3d exact = (mesh_.vertices[vertex] - origin()) / size_;
     point = exact.array().round().cast<int>();
     return (exact - point.cast<double>()).lpNorm<Eigen::Infinity>() < kOff;
@@ -73,7 +73,8 @@ std::shared_ptr<const VoxelSolid> VoxelSolid::of(const TriangleMesh& mesh, std::
   std::sort(across_z.begin(), across_z.end());
   across_z.erase(std::unique(across_z.begin(), across_z.end()), across_z.end());
   if (across_z.size() % 2 != 0) return nullptr;
-  solid->bits_.assign(solid->words_ * static_cast<std::size_t>(solid->count_.y()) * static_cast<std::size_t>(solid->count_.z()), 0);
+  solid->bits_.assign(
+      solid->words_ * static_cast<std::size_t>(solid->count_.y()) * static_cast<std::size_t>(solid->count_.z()), 0);
   for (std::size_t i = 0; i < across_z.size(); i += 2) {
     const auto& [y, x, begin] = across_z[i];
     const auto& [other_y, other_x, end] = across_z[i + 1];
@@ -106,11 +107,14 @@ void VoxelSolid::runs(int y, int z, std::vector<Run>& found) const {
 /// Between an occupied voxel and a free one: as many as the mesh has, if it is the boundary of these voxels.
 double VoxelSolid::faces() const {
   const std::vector<std::uint64_t> nothing(words_, 0);
-  const auto rowOrNone = [&](int y, int z) { return y < count_.y() && z < count_.z() && y >= 0 && z >= 0 ? row(y, z) : nothing.data(); };
+  const auto rowOrNone = [&](int y, int z) {
+    return y < count_.y() && z < count_.z() && y >= 0 && z >= 0 ? row(y, z) : nothing.data();
+  };
   double faces = 0.0;
   for (int z = 0; z <= count_.z(); ++z)
     for (int y = 0; y <= count_.y(); ++y) {
-      const std::uint64_t *const here = rowOrNone(y, z), *const before_y = rowOrNone(y - 1, z), *const before_z = rowOrNone(y, z - 1);
+      const std::uint64_t *const here = rowOrNone(y, z), *const before_y = rowOrNone(y - 1, z),
+                                 *const before_z = rowOrNone(y, z - 1);
       std::uint64_t carried = 0;
       for (std::size_t w = 0; w < words_; ++w) {
         const std::uint64_t bits = here[w], shifted = bits << 1 | carried;

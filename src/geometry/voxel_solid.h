@@ -13,7 +13,8 @@ namespace sdf_ccd {
 class VoxelSolid {
  public:
   /// @return null if the mesh is no boundary of cubes of one size on one lattice, or their box has more than that many.
-  static std::shared_ptr<const VoxelSolid> of(const TriangleMesh& mesh, std::uint64_t max_voxels = std::uint64_t{1} << 33);
+  static std::shared_ptr<const VoxelSolid> of(const TriangleMesh& mesh,
+                                              std::uint64_t max_voxels = std::uint64_t{1} << 33);
 
   double size() const { return size_; }               ///< of a voxel [m]
   const Vector3d& origin() const { return origin_; }  ///< lowest corner of the voxel 0 0 0 [m]
@@ -35,7 +36,8 @@ class VoxelSolid {
  private:
   VoxelSolid() = default;
   const std::uint64_t* row(int y, int z) const {
-    return bits_.data() + words_ * (static_cast<std::size_t>(z) * static_cast<std::size_t>(count_.y()) + static_cast<std::size_t>(y));
+    return bits_.data() +
+           words_ * (static_cast<std::size_t>(z) * static_cast<std::size_t>(count_.y()) + static_cast<std::size_t>(y));
   }
   std::uint64_t* row(int y, int z) { return const_cast<std::uint64_t*>(std::as_const(*this).row(y, z)); }
   double faces() const;

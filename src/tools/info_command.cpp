@@ -87,7 +87,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
               << describe(boundingBox(mesh)) << std::endl;
     if (!wants_field) return std::nullopt;
     MadeSolid made;
-    made.voxels = VoxelSolid::of(mesh);
+    made.may_be_voxels = true;
     return buildWithBar("field", SolidSource(mesh, made), arguments.resolution.fieldOptions(voxel_size / 2.0));
   }
   const OrientedMesh oriented = orientWithWarning(file, loadMesh(file));

@@ -24,11 +24,11 @@ class Voxels {
         for (v.x() = 0; v.x() < count.x(); ++v.x()) {
           const double r = (v.cast<double>() - 0.5 * count.cast<double>()).norm() / double(count.minCoeff());
           const double chance = uniform(random, 0.0, 1.0);
-          occupied_[indexOf(v)] = kind == kDust        ? chance < 0.01
-                                  : kind == kWalls     ? v.z() == 1 || v.x() == count.x() / 2
+          occupied_[indexOf(v)] = kind == kDust         ? chance < 0.01
+                                  : kind == kWalls      ? v.z() == 1 || v.x() == count.x() / 2
                                   : kind == kHollowBall ? r < 0.48 && r > 0.2
-                                  : kind == kNoise     ? chance < 0.5
-                                                       : v.sum() == 0 || v == Vector3i(count.array() - 1);
+                                  : kind == kNoise      ? chance < 0.5
+                                                        : v.sum() == 0 || v == Vector3i(count.array() - 1);
         }
   }
 
@@ -43,7 +43,8 @@ class Voxels {
       if (!isIn(v)) return;
       for (int axis = 0; axis < 3; ++axis)
         for (const int side : {0, 1}) {
-          const Vector3i unit = Vector3i::Unit(axis), u = Vector3i::Unit((axis + 1) % 3), w = Vector3i::Unit((axis + 2) % 3);
+          const Vector3i unit = Vector3i::Unit(axis), u = Vector3i::Unit((axis + 1) % 3),
+                         w = Vector3i::Unit((axis + 2) % 3);
           if (isIn(v + (2 * side - 1) * unit)) continue;
           const Vector3i low = v + side * unit;
           const int first = int(mesh.vertices.size());
@@ -68,7 +69,9 @@ class Voxels {
   }
 
  private:
-  std::size_t indexOf(const Vector3i& v) const { return std::size_t((v.z() * count_.y() + v.y()) * count_.x() + v.x()); }
+  std::size_t indexOf(const Vector3i& v) const {
+    return std::size_t((v.z() * count_.y() + v.y()) * count_.x() + v.x());
+  }
 
   template <class Visit>
   void each(const Visit& visit, int ring = 0) const {

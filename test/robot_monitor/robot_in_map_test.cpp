@@ -113,8 +113,8 @@ class RobotInMap : public ::testing::Test {
     map.geometry.push_back(voxels);
     description_.bodies.push_back(map);
     const BodyOptions options = optionsFor(Accuracy{5e-3});
-    scene_ = std::make_shared<const Scene>(
-        buildScene(description_, planScene(description_, planOptions(options)), options));
+    scene_ =
+        std::make_shared<const Scene>(buildScene(description_, planScene(description_, planOptions(options)), options));
   }
 
   /// Per body, the robot standing there; the map at its own place.
@@ -152,7 +152,9 @@ TEST_F(RobotInMap, SweepsAreCaughtAtTheRightVoxels) {
   for (int sweep = 0; sweep < 15; ++sweep) {
     // Beside something that is occupied, as robots stand.
     Isometry3d X_WR = Isometry3d::Identity();
-    X_WR.translation() = occupied.any(random) + Vector3d(test::uniform(random, -0.8, 0.8), test::uniform(random, -0.8, 0.8), test::uniform(random, -0.5, 0.3));
+    X_WR.translation() =
+        occupied.any(random) +
+        Vector3d(test::uniform(random, -0.8, 0.8), test::uniform(random, -0.8, 0.8), test::uniform(random, -0.5, 0.3));
     JointPositions positions = {{"shoulder_pan_joint", test::uniform(random, -3.0, 3.0)},
                                 {"shoulder_lift_joint", test::uniform(random, -2.0, 0.0)},
                                 {"elbow_joint", test::uniform(random, -1.5, 1.5)}};

@@ -34,6 +34,8 @@ struct GridShape {
   Vector3i cells() const { return kBrick * bricks; }
   std::size_t brickCount() const { return std::size_t(bricks.x()) * bricks.y() * bricks.z(); }
   std::size_t cornerCount() const { return std::size_t(bricks.x() + 1) * (bricks.y() + 1) * (bricks.z() + 1); }
+  /// What a grid takes whatever its samples are.
+  std::size_t coarseBytes() const { return cornerCount() * sizeof(float) + brickCount() * sizeof(std::int32_t); }
   std::size_t brickIndex(const Vector3i& b) const {
     return (std::size_t(b.z()) * bricks.y() + b.y()) * bricks.x() + b.x();
   }

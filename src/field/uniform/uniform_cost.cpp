@@ -26,7 +26,7 @@ class BrickSample {
     const double all = double(shape_.brickCount()), share = double(needed_.size()) / double(tested_);
     const double share_error =
         double(tested_) < all ? std::sqrt((1.0 - share) / std::max<double>(1.0, needed_.size())) : 0;
-    const double coarse = double(shape_.cornerCount()) * sizeof(float) + all * sizeof(std::int32_t);
+    const double coarse = double(shape_.coarseBytes());
     FieldCost cost;
     cost.bytes = coarse + share * all * GridShape::kSamples * bytes_per_sample;
     const double samples = share * all * brick_seconds_.mean();

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "field/cube_corner.h"
 
 namespace sdf_ccd {
 namespace {
@@ -31,6 +34,13 @@ GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& opti
   shape.bricks = bricks.cast<int>();
   shape.origin = shape.surface_box.center() - 0.5 * shape.cell * shape.cells().cast<double>();
   return shape;
+}
+
+double nearestCorner(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 8; ++k)
+    nearest = std::min(nearest, std::abs(double(corners[shape.cornerIndex(brick + cubeCorner(k))])));
+  return nearest;
 }
 
 void requireBytes(std::size_t bytes, const GridShape& shape, const FieldOptions& options) {

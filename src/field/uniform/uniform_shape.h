@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field/build_field.h"
 
@@ -8,6 +10,9 @@ namespace sdf_ccd {
 /// The grid about a surface in this box for options that have cells or a cell_size.
 /// @throws std::length_error if it would have too many cells along one side.
 GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& options);
+
+/// Least magnitude of the distances at a brick's corners [m]. @param corners  of all bricks, in the order of cornerIndex().
+double nearestCorner(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick);
 
 /// @throws std::length_error if that is more than the options allow; it says which cells would fit.
 void requireBytes(std::size_t bytes, const GridShape& shape, const FieldOptions& options);
