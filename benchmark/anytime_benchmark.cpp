@@ -6,7 +6,6 @@
 #include <tbb/global_control.h>
 
 #include "common/seconds_since.h"
-#include "model/error_budget.h"
 #include "monitor/box_world.h"
 #include "monitor/cycle_times.h"
 #include "results.h"
@@ -17,7 +16,7 @@ namespace sdf_ccd::benchmark {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr double kPeriod = 1e-3;                                             // [s]
+constexpr double kPeriod = 1e-3;                                        // [s]
 constexpr double kBudgets[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 0};  // [us]; the last one is none
 
 /// The poses at the ends of all cycles, the first one's start in front.
@@ -68,15 +67,11 @@ Said listen(Monitor& limited, Monitor& unlimited, const Waypoints& waypoints, co
 void study(const Robot& robot, Proximity proximity, const std::string& name, const StudyOptions& options) {
   const BoxWorld world = makeBoxWorld(robot, proximity, kPeriod * options.cycles, kSeed);
   MonitorOptions monitor_options;
-  BodyOptions body_options;
-  body_options.field.cell_size = 0.004;
-  body_options.shell.spacing = 0.005;
-  body_options.motion_margin = ErrorBudget::kChords * monitor_options.chords.tolerance;
+  const BodyOptions body_options = preparedAsMonitored(monitor_options);
   const auto scene = std::make_shared<const Scene>(
       buildScene(world.scene, planScene(world.scene, planOptions(body_options)), body_options));
   Waypoints waypoints;
-  for (int k = 0; k <= options.cycles; ++k)
-    waypoints.push_back(world.motion.posesAt(kPeriod * k, world.scene.bodies));
+  for (int k = 0; k <= options.cycles; ++k) waypoints.push_back(world.motion.posesAt(kPeriod * k, world.scene.bodies));
 
   Monitor limited(scene, monitor_options), unlimited(scene, monitor_options);
   for (const double budget : kBudgets) {

@@ -1,8 +1,5 @@
 """Table of the study `anytime`."""
-
-
-def number(value):
-    return '-' if value is None else '%.3g' % value
+from results import number
 
 
 def budgets(results):

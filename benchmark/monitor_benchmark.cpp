@@ -5,7 +5,7 @@
 
 #include <tbb/global_control.h>
 
-#include "model/error_budget.h"
+#include "common/seconds_since.h"
 #include "monitor/box_world.h"
 #include "monitor/cycle_times.h"
 #include "monitor/fcl_scene.h"
@@ -25,10 +25,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSecondsPerRun = 2.0;  // of a system: slower ones are measured on every so many cycles
 constexpr int kTruthPoses = 10;         // within a cycle
 constexpr std::uint64_t kSeed = 1;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The poses at the ends of all cycles, the first one's start in front.
 struct Waypoints {
@@ -130,13 +126,6 @@ std::size_t strideFor(MonitorSystem& system, const Waypoints& waypoints) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(seconds / kSecondsPerRun));
 }
 
-BodyOptions bodyOptions(double max_error, MonitorOptions& monitor) {
-  if (max_error > 0.0) monitor.max_error = max_error;
-  BodyOptions options = optionsForContacts();
-  options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
-  return options;
-}
-
 /// A scene that is built once, for motions at several rates.
 struct Built {
   std::string name;
@@ -148,7 +137,8 @@ struct Built {
 
 Built build(const Robot& robot, Proximity proximity, const std::string& name, double max_error, double seconds) {
   Built built{name, &robot, makeBoxWorld(robot, proximity, seconds, kSeed), nullptr, {}};
-  const BodyOptions options = bodyOptions(max_error, built.options);
+  if (max_error > 0.0) built.options.max_error = max_error;
+  const BodyOptions options = preparedAsMonitored(built.options);
   const auto start = Clock::now();
   built.scene = std::make_shared<const Scene>(
       buildScene(built.world.scene, planScene(built.world.scene, planOptions(options)), options));

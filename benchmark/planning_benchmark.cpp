@@ -5,6 +5,7 @@
 
 #include <tbb/global_control.h>
 
+#include "common/seconds_since.h"
 #include "monitor/box_world.h"
 #include "monitor/fcl_scene.h"
 #include "monitor/monitor_system.h"
@@ -23,10 +24,6 @@ constexpr double kMostMisses = 1e-4;     // of the edges: a system that misses f
 constexpr int kFinest = 512;             // poses an edge, which tell the truth
 constexpr double kSecondsPerRun = 20.0;  // a system expected to take longer is left out
 constexpr std::uint64_t kSeed = 1;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());

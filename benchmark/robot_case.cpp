@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "model/error_budget.h"
+#include "robot/joint_kind.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd::benchmark {
@@ -34,7 +36,7 @@ Robot loadRobot(const std::string& argument) {
 }
 
 bool isDriven(const urdf::Joint& joint) {
-  return !joint.mimic && joint.type >= urdf::Joint::REVOLUTE && joint.type <= urdf::Joint::PRISMATIC;
+  return !joint.mimic && hasPosition(joint);
 }
 
 JointRange rangeOf(const urdf::Joint& joint) {
@@ -52,6 +54,12 @@ JointPositions randomPositions(const RobotModel& robot, std::mt19937_64& random)
     positions[name] = range.low + (range.high - range.low) * uniform(random);
   }
   return positions;
+}
+
+BodyOptions preparedAsMonitored(const MonitorOptions& monitor) {
+  BodyOptions options = optionsForContacts();
+  options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
+  return options;
 }
 
 }  // namespace sdf_ccd::benchmark

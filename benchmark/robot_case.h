@@ -3,7 +3,9 @@
 #include <random>
 #include <string>
 
+#include "sdf_ccd/body/body_options.h"
 #include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_model.h"
 
 namespace sdf_ccd::benchmark {
@@ -30,5 +32,8 @@ JointRange rangeOf(const urdf::Joint& joint);
 
 /// Positions of all driven joints within their ranges.
 JointPositions randomPositions(const RobotModel& robot, std::mt19937_64& random);
+
+/// Bodies as the monitor prepares them if nothing is configured. @param monitor  that they are for.
+BodyOptions preparedAsMonitored(const MonitorOptions& monitor);
 
 }  // namespace sdf_ccd::benchmark

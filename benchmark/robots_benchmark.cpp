@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "model/error_budget.h"
+#include "common/seconds_since.h"
 #include "monitor/scene_cost.h"
 #include "results.h"
 #include "robot_case.h"
@@ -15,17 +15,6 @@ namespace sdf_ccd::benchmark {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-BodyOptions sceneOptions(double max_error, MonitorOptions& monitor) {
-  monitor.max_error = max_error;
-  BodyOptions options = optionsForContacts();
-  options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;
-  return options;
-}
 
 /// A cycle from one pose of the robot towards another, as far as it turns by 0.02 rad or moves by 2 cm.
 CycleMotion shortCycle(const Robot& robot, const Scene& scene, const JointPositions& from, const JointPositions& to) {
@@ -45,7 +34,8 @@ CycleMotion shortCycle(const Robot& robot, const Scene& scene, const JointPositi
 
 void study(const Robot& robot, double max_error, const StudyOptions& options) {
   MonitorOptions monitor_options;
-  const BodyOptions scene_options = sceneOptions(max_error, monitor_options);
+  monitor_options.max_error = max_error;
+  const BodyOptions scene_options = preparedAsMonitored(monitor_options);
   const ScenePlan plan = planScene(robot.scene, planOptions(scene_options));
   const SceneCost expected = expectedCost(robot.scene, plan, scene_options);
   const auto start = Clock::now();
