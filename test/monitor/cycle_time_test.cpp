@@ -168,7 +168,8 @@ TEST(CycleTimeOfTwo, WhatGotInsideMeanwhileIsFound) {
   request.max_time = kNoTime;
   // The post is in the box all the time, so that some pair is always due.
   const auto motionOf = [&](double from, double to) {
-    return cycle(0.1, {still(Isometry3d::Identity()), {translation({from, 0, 0}), translation({to, 0, 0})},
+    return cycle(0.1, {still(Isometry3d::Identity()),
+                       {translation({from, 0, 0}), translation({to, 0, 0})},
                        still(translation({0, 0.25, 0.0}))});
   };
   const auto verdictOf = [&](const CycleResult& result) {

@@ -29,8 +29,7 @@ std::vector<Contact> ContactRecords::contacts() const {
 
 std::string contactColumns() {
   return "id,body_a,body_b,verdict,start,end,depth,depth_error,error_bound,contact_error_bound,deepest_at,x,y,z,nx,ny,"
-         "nz,max_"
-         "force,cycles,seen_at_samples,is_lost\n";
+         "nz,max_force,cycles,seen_at_samples,is_lost\n";
 }
 
 std::string toRow(const Contact& c) {
