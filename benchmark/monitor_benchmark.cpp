@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 
 #include <tbb/global_control.h>
 
@@ -44,13 +45,14 @@ Waypoints waypointsOf(const BoxWorld& world, double rate, std::size_t cycles) {
 /// Our monitor as a system.
 class Ours : public MonitorSystem {
  public:
-  Ours(std::shared_ptr<const Scene> scene, const MonitorOptions& options, bool wrenches, double period)
-      : monitor_(std::move(scene), options), request_{wrenches, 0, false, wrenches} {
+  Ours(std::string name, const CycleRequest& request, std::shared_ptr<const Scene> scene, const MonitorOptions& options,
+       double period)
+      : name_(std::move(name)), monitor_(std::move(scene), options), request_(request) {
     motion_.times = {0.0, period};
     motion_.X_WB.assign(monitor_.scene().bodies.size(), std::vector<Isometry3d>(2, Isometry3d::Identity()));
   }
 
-  std::string name() const override { return request_.wrenches ? "sdf_ccd_wrench" : "sdf_ccd"; }
+  std::string name() const override { return name_; }
 
   void take(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) {
     for (std::size_t b = 0; b < X_WB_start.size(); ++b) {
@@ -67,10 +69,48 @@ class Ours : public MonitorSystem {
   }
 
  private:
+  std::string name_;
   Monitor monitor_;
   CycleRequest request_;
   CycleMotion motion_;
 };
+
+/// Whether pairs touch, and no more.
+CycleRequest verdictsAlone() {
+  CycleRequest request;
+  request.wrenches = request.skipped_pairs = request.contacts = false;
+  return request;
+}
+
+CycleRequest withContacts(bool wrenches, Refinement refine) {
+  CycleRequest request;
+  request.wrenches = wrenches;
+  request.skipped_pairs = false;
+  request.refine = refine;
+  return request;
+}
+
+/// What is said about how far the deepest depths may be off, over all contacts of all cycles: no place is deeper by
+/// more.
+void printDepthErrors(Ours& system, const Waypoints& waypoints, const std::string& name) {
+  system.reset();
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < waypoints.cycles(); ++i) {
+    system.take(waypoints.X_WB[i], waypoints.X_WB[i + 1]);
+    for (const PairResult& pair : system.run().pairs) {
+      if (pair.verdict != Verdict::kContact || pair.skipped || pair.intervals.empty()) continue;
+      errors.push_back(pair.first_touch ? pair.deepest.depth_error : pair.contact_error.total());
+    }
+  }
+  if (errors.empty()) return;
+  std::sort(errors.begin(), errors.end());
+  const auto row = [&](const char* metric, double share) {
+    const double error = errors[static_cast<std::size_t>(share * double(errors.size() - 1))];
+    print({"monitor", name, system.name(), metric, 1e3 * error, "mm", 1});
+  };
+  row("depth_error_median", 0.5);
+  row("depth_error_p99", 0.99);
+}
 
 /// What verdicts say over all cycles, and where FCL contradicts them.
 struct Verdicts {
@@ -133,12 +173,13 @@ struct Built {
   BoxWorld world;
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
+  std::shared_ptr<const Scene> exact_scene;  // to measure depths on
 };
 
 Built build(const Robot& robot, Proximity proximity, const std::string& name, double max_error, double seconds) {
-  Built built{name, &robot, makeBoxWorld(robot, proximity, seconds, kSeed), nullptr, {}};
+  Built built{name, &robot, makeBoxWorld(robot, proximity, seconds, kSeed), nullptr, {}, nullptr};
   if (max_error > 0.0) built.options.max_error = max_error;
-  const BodyOptions options = preparedAsMonitored(built.options);
+  BodyOptions options = preparedAsMonitored(built.options);
   const auto start = Clock::now();
   built.scene = std::make_shared<const Scene>(
       buildScene(built.world.scene, planScene(built.world.scene, planOptions(options)), options));
@@ -151,6 +192,9 @@ Built build(const Robot& robot, Proximity proximity, const std::string& name, do
   row("pairs", double(built.scene->pairs.size()), "pairs");
   row("start_up", build_seconds, "s");
   row("memory", 1e-6 * bytes, "MB");
+  options.exact_depths = true;
+  built.exact_scene = std::make_shared<const Scene>(
+      buildScene(built.world.scene, planScene(built.world.scene, planOptions(options)), options));
   return built;
 }
 
@@ -180,29 +224,34 @@ void studyTransforms(const Built& built, double period, std::size_t cycles, cons
 void study(const Built& built, double rate, const std::string& name, const StudyOptions& options) {
   const Waypoints waypoints =
       waypointsOf(built.world, rate, static_cast<std::size_t>(std::lround(options.cycles * rate / 1000.0)));
-  Ours ours(built.scene, built.options, false, waypoints.period);
-  Ours with_wrenches(built.scene, built.options, true, waypoints.period);
+  std::deque<Ours> systems;
+  const auto add = [&](const char* system, const CycleRequest& request, const std::shared_ptr<const Scene>& scene) {
+    systems.emplace_back(system, request, scene, built.options, waypoints.period);
+  };
+  add("sdf_ccd", verdictsAlone(), built.scene);
+  add("sdf_ccd_wrench", withContacts(true, Refinement::kNone), built.scene);
+  add("sdf_ccd_deepest", withContacts(false, Refinement::kDeepest), built.exact_scene);
   MonitorSystems peers;
   for (const MonitorPeerFactory& factory : monitorPeers()) factory(built.world.scene, built.scene->pairs, peers);
   const auto isLeftOut = [&](const auto& peer) { return !isWanted(options.systems, peer->name()); };
   peers.erase(std::remove_if(peers.begin(), peers.end(), isLeftOut), peers.end());
 
   std::vector<CycleTimes> times;
-  for (int k = 0; k < 2; ++k) times.emplace_back(waypoints.cycles(), 1);  // skips go from cycle to cycle: all of them
+  for (std::size_t k = 0; k < systems.size(); ++k)
+    times.emplace_back(waypoints.cycles(), 1);  // skips go from cycle to cycle: all of them
   for (const auto& peer : peers) times.emplace_back(waypoints.cycles(), strideFor(*peer, waypoints));
   for (int run = 0; run < options.measure.runs; ++run) {
-    for (int k = 0; k < 2; ++k) {
-      Ours& system = k == 0 ? ours : with_wrenches;
-      system.reset();
-      times[std::size_t(k)].run([&](std::size_t i) { system.take(waypoints.X_WB[i], waypoints.X_WB[i + 1]); },
-                                [&](std::size_t) { system.run(); });
+    for (std::size_t k = 0; k < systems.size(); ++k) {
+      systems[k].reset();
+      times[k].run([&](std::size_t i) { systems[k].take(waypoints.X_WB[i], waypoints.X_WB[i + 1]); },
+                   [&](std::size_t) { systems[k].run(); });
     }
     for (std::size_t k = 0; k < peers.size(); ++k)
-      times[2 + k].run([](std::size_t) {},
-                       [&](std::size_t i) { peers[k]->check(waypoints.X_WB[i], waypoints.X_WB[i + 1]); });
+      times[systems.size() + k].run([](std::size_t) {},
+                                    [&](std::size_t i) { peers[k]->check(waypoints.X_WB[i], waypoints.X_WB[i + 1]); });
   }
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const std::string system = k == 0 ? ours.name() : k == 1 ? with_wrenches.name() : peers[k - 2]->name();
+    const std::string system = k < systems.size() ? systems[k].name() : peers[k - systems.size()]->name();
     const auto row = [&](const char* metric, double share) {
       print({"monitor", name, system, metric, 1e6 * times[k].quantile(share), "us", options.measure.runs});
     };
@@ -210,12 +259,13 @@ void study(const Built& built, double rate, const std::string& name, const Study
     row("us_p99", 0.99);
     row("us_p999", 0.999);
   }
+  for (std::size_t k = 1; k < systems.size(); ++k) printDepthErrors(systems[k], waypoints, name);
 #ifdef SDF_CCD_WITH_ROS
   if (isWanted(options.systems, "sdf_ccd_tf"))
     studyTransforms(built, waypoints.period, waypoints.cycles(), name, options.measure.runs);
 #endif
   if (!isWanted(options.systems, "fcl")) return;
-  const Verdicts verdicts = verdictsOf(ours, built.world.scene, waypoints);
+  const Verdicts verdicts = verdictsOf(systems.front(), built.world.scene, waypoints);
   const auto row = [&](const char* metric, double value, const char* unit) {
     print({"monitor", name, "sdf_ccd", metric, value, unit, 1});
   };

@@ -59,6 +59,19 @@ class Collector {
   std::vector<std::vector<Vector3d>> components;
 };
 
+/// See BodyTriangles::solids.
+std::vector<std::shared_ptr<const Solid>> solidsOf(const BodyDescription& description, MeshPool& pool) {
+  std::vector<std::shared_ptr<const Solid>> solids;
+  for (const GeometryDescription& geometry : description.geometry) {
+    solids.emplace_back();
+    if (std::holds_alternative<Primitive>(geometry.shape)) continue;
+    PooledMesh& pooled = pool.find(geometry);
+    if (!SolidSource(pooled.mesh, pooled.made).solid().closed()) return {};
+    solids.back() = pooled.made.solid;
+  }
+  return solids;
+}
+
 }  // namespace
 
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
@@ -91,6 +104,7 @@ std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& descript
     if (!isClosed(pooled.mesh)) all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
   }
   made->components = std::move(all.components);
+  if (pool.exactDepths() && all.triangles.size() == open) made->solids = solidsOf(description, pool);
   if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(std::move(all.triangles));
   return made;
 }

@@ -22,6 +22,10 @@ struct BodyTriangles {
   /// so many directions. One that is outside a solid whose surface the component does not meet tells that all of it is.
   std::vector<std::vector<Vector3d>> components;
 
+  /// Per element the solid of its mesh, null of a primitive; empty unless BodyOptions::exact_depths asks for them, and
+  /// of a body that has a mesh which is not closed.
+  std::vector<std::shared_ptr<const Solid>> solids;
+
   const BoxTree& closedTree() const { return closed ? *closed : tree; }
 };
 

@@ -32,6 +32,9 @@ class MeshPool {
   /// The mesh of this geometry's content. The reference stays valid.
   PooledMesh& find(const GeometryDescription& geometry);
 
+  /// See BodyOptions.
+  bool exactDepths() const { return options_.exact_depths; }
+
   struct Made {
     bool now = false;  ///< false: it was there already, for another body
     CacheOutcome outcome;

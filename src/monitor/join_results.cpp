@@ -61,6 +61,8 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   if (!piece.intervals.empty() && (pair.intervals.empty() || piece.deepest.depth > pair.deepest.depth)) {
     pair.deepest = later(piece.deepest, start);
   }
+  if (piece.first_touch && !pair.first_touch)
+    pair.first_touch = Interval{start + piece.first_touch->enter, start + piece.first_touch->exit};
   for (const Interval& interval : piece.intervals) {
     const bool goes_on = !pair.intervals.empty() && interval.enter <= kAtEnd * length &&
                          pair.intervals.back().exit >= start - kAtEnd * length;

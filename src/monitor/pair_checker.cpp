@@ -41,6 +41,7 @@ void clear(PairResult& result) {
   result.clearance = -1.0;
   result.intervals.clear();
   result.deepest = {};
+  result.first_touch.reset();
   result.on_a_W = {};
   result.on_b_W = {};
   result.points.clear();
@@ -63,6 +64,8 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
   if (pair.a_witnesses_b_field) addRole(pair.body_a, pair.body_b, ShellPurpose::kWitnesses);
   if (pair.b_witnesses_a_field) addRole(pair.body_b, pair.body_a, ShellPurpose::kWitnesses);
   if (hasTriangles(scene, pair)) surfaces_.emplace(scene, pair, 0.5 * options.max_error);
+  if (surfaces_ && ContactRefinement::isPossible(scene, pair))
+    refinement_.emplace(scene, pair, surfaces_->resolution());
   bound_ = pairBound(scene, pair);
 }
 
@@ -212,6 +215,8 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   if (crossing || std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
     forgetClearance();
     findContacts(motion, request, crossing, result);
+    if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
+      refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
     return setSurfaceError(by_surfaces.is_near, surface_error, result);
   }
   outside_ = true;

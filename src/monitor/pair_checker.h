@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact_collector.h"
+#include "contact_refinement.h"
 #include "pair_role.h"
 #include "surface_pair.h"
 
@@ -18,6 +19,7 @@ struct PairMemory {
   ContactCollector collector;
   std::vector<RelativeMotionBounds> bounds;  ///< of the surfaces' motion
   SeparationMemory separation;
+  ContactRefinement::Memory refinement;
 };
 
 /// As new, but with its memory and its span.
@@ -37,8 +39,8 @@ class PairChecker {
            PairResult& result);
 
   /// Leaves the pair untested, over a span that is not empty.
-  /// @param clearance  lower bound of the distance of the bodies all over the span, below zero how far they may overlap at
-  /// most [m]; −∞ if nothing is known.
+  /// @param clearance  lower bound of the distance of the bodies all over the span, below zero how far they may overlap
+  /// at most [m]; −∞ if nothing is known.
   void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairResult& result);
 
   /// Forgets how far apart the bodies were, and all else of earlier cycles.
@@ -93,12 +95,13 @@ class PairChecker {
   const PlannedPair& pair_;
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
-  std::vector<PairRole> roles_;          // one to four
-  bool open_;                            // some field has openings
-  std::optional<SurfacePair> surfaces_;  // if both bodies are all triangles
-  bool outside_ = false;                 // neither had a part wholly inside the other at the last cycle's end
-  ErrorBound bound_;                     // of field and gap
-  double clearance_ = kUnknown;          // lower bound of the surfaces' distance at the last cycle's end [m]
+  std::vector<PairRole> roles_;                  // one to four
+  bool open_;                                    // some field has openings
+  std::optional<SurfacePair> surfaces_;          // if both bodies are all triangles
+  std::optional<ContactRefinement> refinement_;  // if depths can be measured on these
+  bool outside_ = false;                         // neither had a part wholly inside the other at the last cycle's end
+  ErrorBound bound_;                             // of field and gap
+  double clearance_ = kUnknown;                  // lower bound of the surfaces' distance at the last cycle's end [m]
   Isometry3d X_FP_last_;  // of the surfaces or the first role, at the last cycle's end; valid if the clearance is known
   double travel_ = 0.0;   // no point of either body goes farther against the other in this cycle [m]
   double motion_error_ = 0.0;     // of the modelled motion, and of computing with its poses [m]

@@ -112,6 +112,51 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) c
   return contact;
 }
 
+std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr int kMostHalvings = 60;
+  const BoxTree &f = field_->triangles->tree, &p = shell_->triangles->tree;
+  SeparationOptions options;
+  // Poses on a part of a step differ from the step's by rounding.
+  options.margin = motion_error + deviation_ + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
+  options.resolution = resolution_;
+  const auto over = [&](std::size_t step, double start, double end) {
+    const TwoBodyMotion whole = motion_.motion(step);
+    const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
+    const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
+    const double length = end - start;
+    const TwoBodyMotion part{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration};
+    return separation(f, p, part, options, witness_, memory);
+  };
+  const auto timeAt = [&](std::size_t step, double s) {
+    const TwoBodyMotion motion = motion_.motion(step);
+    return s == 1.0 ? motion.t_end : motion.t_start + s * (motion.t_end - motion.t_start);
+  };
+  std::optional<Interval> touch;
+  for (std::size_t step = 0; step < motion_.steps(); ++step) {
+    const Separation found = over(step, 0.0, 1.0);
+    if (found.state == SeparationState::kApart) continue;
+    double apart = 0.0, end = 1.0, crossing = kInfinity;  // apart until, not known to be apart at, surely crossing at
+    if (found.state == SeparationState::kCrossing) end = crossing = found.s;
+    for (int i = 0; !touch && i < kMostHalvings && (end - apart) * motion_.bounds(step).travel > resolution_; ++i) {
+      const double middle = 0.5 * (apart + end);
+      const Separation part = over(step, apart, middle);
+      if (part.state == SeparationState::kApart) {
+        apart = middle;
+      } else {
+        const bool crosses = part.state == SeparationState::kCrossing;
+        end = crosses ? apart + part.s * (middle - apart) : middle;
+        if (crosses) crossing = end;
+      }
+    }
+    if (!touch) touch = Interval{timeAt(step, apart), kInfinity};
+    if (crossing == kInfinity) continue;
+    touch->exit = timeAt(step, crossing);
+    break;
+  }
+  return touch;
+}
+
 bool SurfacePair::isOutside() const {
   return componentsAreOutside(*shell_, *field_, motion_.end()) &&
          componentsAreOutside(*field_, *shell_, motion_.end().inverse());

@@ -57,6 +57,11 @@ class SurfacePair {
   /// @param motion_error  the bodies are no farther than this from where the motion has them, both together [m].
   Answer decide(double motion_error, SeparationMemory& memory);
 
+  /// When the surfaces first touch: apart before `enter`, and surely crossing at `exit`, which is infinite where no
+  /// crossing is certain. `exit` is no later than `enter` by more than the surfaces take to go the resolution, but
+  /// where they graze. Nothing if they are apart all along, as also of a body that is wholly inside the other [s].
+  std::optional<Interval> firstTouch(double motion_error, SeparationMemory& memory);
+
   /// Whether neither body has a component wholly inside the other (design §3.15) at the motion's end, given that the
   /// surfaces are apart. False also if that is not known.
   bool isOutside() const;

@@ -109,6 +109,16 @@ TEST(YamlParameters, PairsByRule) {
   EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of check leave_out"), std::string::npos);
 }
 
+TEST(YamlParameters, WhatIsMeasuredOnTrianglesIsPreparedForIt) {
+  const MonitorParameters defaults = parseParameters(load(""), "~");
+  EXPECT_EQ(defaults.refine, Refinement::kNone);
+  EXPECT_FALSE(defaults.scene.exact_depths);
+  const MonitorParameters refined = parseParameters(load("refine: deepest"), "~");
+  EXPECT_EQ(refined.refine, Refinement::kDeepest);
+  EXPECT_TRUE(refined.scene.exact_depths);
+  EXPECT_NE(errorOf("refine: all").find("expected one of none deepest"), std::string::npos);
+}
+
 TEST(YamlParameters, MaxErrorIsOfVerdictsAndLeavesFieldsAndShells) {
   const auto parse = [](const std::string& text) { return parseParameters(load(text), "~"); };
   const MonitorParameters none = parse(""), fine = parse("max_error: 0.00001"), coarse = parse("max_error: 0.01");

@@ -30,6 +30,10 @@ struct BodyOptions {
   double motion_error = 0.0;    ///< of it what two bodies' motions are off by, whatever the chords [m]
   std::string cache_directory;  ///< empty: nothing is read or written
 
+  /// Whether meshes that triangles decide about keep their solids, to measure depths on: CycleRequest::refine. It takes
+  /// memory like the mesh some times over.
+  bool exact_depths = false;
+
   std::optional<double> max_error;  ///< the bound wanted of every verdict [m]; the plan says whether it is kept
 
   /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,14 @@
 #include "sdf_ccd/query/verdict.h"
 
 namespace sdf_ccd {
+
+/// What contacts are measured on beyond fields and shells.
+enum class Refinement {
+  kNone,
+  /// How deep a contact gets, where and when, and when it begins, on the triangles of both bodies. Of pairs of closed
+  /// bodies that are all triangles, of a scene with BodyOptions::exact_depths; others stay as they are.
+  kDeepest,
+};
 
 /// What a cycle is asked for; what nobody reads is not computed.
 struct CycleRequest {
@@ -27,6 +36,8 @@ struct CycleRequest {
   /// When that much of the cycle's time is up, no other pair is tested [s], but one in every cycle; 0: no limit. Those
   /// that are left are PairResult::postponed, and the first to be tested in the next cycle.
   double max_time = 0.0;
+
+  Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
 
   bool wantsContacts() const { return contacts || wrenches || max_points > 0; }
 };
@@ -57,7 +68,11 @@ struct PairResult {
   double clearance = 0.0;    ///< a lower bound of the distance at the span's end, whatever the motion is off
                              ///< by [m]; negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
-  ContactPoint deepest;             ///< valid if intervals is not empty
+  ContactPoint deepest;             ///< valid if intervals is not empty. Its depth_error, where refined: no place
+                                    ///< of either surface gets deeper into the other body by more in this span
+  /// Where refined, and the surfaces cross: they are apart before `enter`, and surely touch by `exit`, with which the
+  /// first interval begins at the latest; `exit` is infinite if no certain crossing was found.
+  std::optional<Interval> first_touch;
   Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
   Wrench on_b_W;                    ///< the same on B, about B's origin
   std::vector<ContactPoint> points;

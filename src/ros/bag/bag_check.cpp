@@ -12,7 +12,9 @@ constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // beyond them c
 void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters, MonitorLoop& loop,
               BagObserver& observer) {
   const ros::Duration period(std::clamp(1.0 / parameters.rate, kShortestPeriod, kLongestPeriod));
-  const CycleRequest request{true, parameters.max_points};
+  CycleRequest request;
+  request.max_points = parameters.max_points;
+  request.refine = parameters.refine;
   TfTracker::Step last = TfTracker::Step::kWaiting;
   const auto stepAt = [&](const ros::Time& now) {
     ros::Time::setNow(now);

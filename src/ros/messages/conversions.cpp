@@ -100,6 +100,7 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
     message.intervals[i].start = cycle.start + ros::Duration(pair.intervals[i].enter);
     message.intervals[i].end = cycle.start + ros::Duration(pair.intervals[i].exit);
   }
+  message.apart_until = pair.first_touch ? cycle.start + ros::Duration(pair.first_touch->enter) : ros::Time();
   message.in_contact_at_samples = touchesAtSamples(pair, cycle);
   if (pair.intervals.empty()) {
     message.first_contact = ros::Time();

@@ -293,6 +293,7 @@ void CollisionMonitor::cycle() {
   hearStaticAgain();
   CycleRequest request = outputs_->request(parameters_.max_points);
   request.max_time = parameters_.max_cycle_time;
+  request.refine = parameters_.refine;
   switch (loop_->step(ros::Time::now(), request)) {
     case TfTracker::Step::kWaiting:
       if (!isSilent()) return diagnostics_->update(health_);

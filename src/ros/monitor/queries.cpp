@@ -82,6 +82,7 @@ Queries::Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene
       sampling_(parameters.tf.sampling),
       options_(parameters.monitor),
       max_points_(parameters.max_points),
+      refine_(parameters.refine),
       max_age_(parameters.tf.max_latency),
       history_(history),
       limits_(limits),
@@ -135,6 +136,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   }
   CycleRequest wanted;
   wanted.max_points = max_points_;
+  wanted.refine = refine_;
   MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
   if (drawn_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(world->description());

@@ -69,6 +69,7 @@ class Queries {
   MotionSampling sampling_;
   MonitorOptions options_;
   int max_points_;
+  Refinement refine_;
   double max_age_;  // of transforms that need no note [s]
   const TfHistory& history_;
   ros::Publisher drawn_;  // nothing is drawn without

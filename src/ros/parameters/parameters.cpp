@@ -199,6 +199,8 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
 
   parameters.proximity = readProximity(reader);
   parameters.max_points = reader.integer("max_points", 20, 0);
+  parameters.refine = static_cast<Refinement>(reader.choice("refine", {"none", "deepest"}, 0));
+  parameters.scene.exact_depths = parameters.refine == Refinement::kDeepest;
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
   // The descriptions may stand here too.

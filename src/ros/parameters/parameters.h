@@ -71,6 +71,7 @@ struct MonitorParameters {
   double max_cycle_time = 0.0;  ///< CycleRequest::max_time of a running monitor [s]
   TriggerOptions trigger;
   int max_points = 0;
+  Refinement refine = Refinement::kNone;  ///< CycleRequest::refine of cycles, bags and planned motions
   std::vector<std::string> unknown;  ///< what nothing reads, with what may be meant; in groups it is refused
 };
 

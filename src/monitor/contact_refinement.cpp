@@ -1,0 +1,100 @@
+#include "contact_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr int kMostPieces = 20000;  // some tens of milliseconds
+
+bool canBeMeasured(const Body& body) {
+  return body.triangles && !body.triangles->solids.empty();
+}
+
+/// Empty if no pair needs the body's fields.
+std::vector<SolidPart> partsOf(const Body& body) {
+  std::vector<SolidPart> parts;
+  for (std::size_t i = 0; i < body.parts.size(); ++i)
+    parts.push_back({body.parts[i].X_BG.inverse(), &body.parts[i].field, body.triangles->solids[i].get()});
+  return parts;
+}
+
+/// The times of an interval that holds the time; of none of them that time alone, which is one then.
+void setTimes(std::vector<Interval>& intervals, ContactPoint& point) {
+  for (const Interval& interval : intervals) {
+    if (point.time < interval.enter || point.time > interval.exit) continue;
+    point.enter = interval.enter;
+    point.exit = interval.exit;
+    return;
+  }
+  point.enter = point.exit = point.time;
+  intervals.push_back({point.time, point.time});
+  mergeIntervals(intervals, 0.0);
+}
+
+}  // namespace
+
+bool ContactRefinement::isPossible(const Scene& scene, const PlannedPair& pair) {
+  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+  return canBeMeasured(a) && canBeMeasured(b) && !(a.parts.empty() && b.parts.empty());
+}
+
+ContactRefinement::ContactRefinement(const Scene& scene, const PlannedPair& pair, double resolution)
+    : scene_(scene), resolution_(resolution) {
+  const auto add = [&](int f, int p) {
+    const Body &solid = scene.bodies[f], &surface = scene.bodies[p];
+    if (!solid.parts.empty())
+      directions_.push_back({f, p, {&surface.triangles->tree, partsOf(surface)}, partsOf(solid)});
+  };
+  add(pair.body_b, pair.body_a);
+  add(pair.body_a, pair.body_b);
+}
+
+void ContactRefinement::run(const SweptBodies& bodies, SurfacePair& surfaces, double motion_error, Memory& memory,
+                            PairResult& result) const {
+  const std::optional<Interval> touch = surfaces.firstTouch(motion_error, memory.separation);
+  if (touch) {
+    result.first_touch = touch;
+    if (std::isfinite(touch->exit) && touch->exit < result.intervals.front().enter) {
+      result.intervals.push_back({touch->exit, result.intervals.front().enter});
+      mergeIntervals(result.intervals, 0.0);
+    }
+  }
+  findDeepest(bodies, motion_error + surfaces.deviation(), memory, result);
+}
+
+/// @param error  of places, but for what the search leaves [m].
+void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const {
+  DeepestSearch& search = memory.search;
+  search.restart(resolution_);
+  std::vector<std::pair<const Direction*, TwoBodyMotion>> ways;
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const Direction& direction = directions_[i];
+    RelativeMotion relative(scene_, direction.f, direction.p);
+    relative.take(bodies, result.span, memory.bounds[i]);
+    for (std::size_t step = 0; step < relative.steps(); ++step) {
+      const TwoBodyMotion motion = relative.motion(step);
+      search.add(direction.surface, direction.solid, motion, relative.bounds(step).travel);
+      ways.emplace_back(&direction, motion);
+    }
+  }
+  search.run(kMostPieces);
+  ContactPoint point = result.deepest;
+  if (search.found()) {
+    const DeepestPoint& found = search.deepest();
+    const auto& [direction, motion] = ways[found.way];
+    const Isometry3d X_WF = motion.X_WF.pose(found.s);
+    point.time = found.s == 1.0 ? motion.t_end : motion.t_start + found.s * (motion.t_end - motion.t_start);
+    point.p_W = X_WF * found.p_F;
+    // Out of the solid: from A to B if that is A's.
+    point.normal_W = (direction->f == result.body_a ? 1.0 : -1.0) * (X_WF.linear() * found.out_F);
+  }
+  point.depth = search.deepest().depth;
+  point.depth_error = search.error() + error;
+  if (search.found()) setTimes(result.intervals, point);
+  if (point.depth > error) result.verdict = Verdict::kContact;
+  result.deepest = point;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,350 @@
+#include "deepest_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kNear = 2.5;  // times the size of a piece: what is looked at of the solid's triangles
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// At one place [m], in the element's frame.
+struct PartDepth {
+  double depth = -kInfinity;
+  int triangle = -1;                // the nearest, of a mesh
+  Vector3d out = Vector3d::Zero();  // unit, or zero where there is none
+};
+
+Vector3d unitOf(const Vector3d& v) {
+  const double length = v.norm();
+  return length > 0.0 ? Vector3d(v / length) : Vector3d(Vector3d::Zero());
+}
+
+Vector3d normalOf(const MeasuredTriangle& t) {
+  return unitOf((t.b() - t.a()).cross(t.c() - t.a()));
+}
+
+PartDepth depthIn(const SolidPart& part, const Vector3d& p_G) {
+  if (!part.solid) {
+    const FieldValue value = part.field->interpolate(p_G);
+    return {-value.value, -1, unitOf(value.gradient)};
+  }
+  const TriangleTree& tree = part.solid->tree();
+  const TriangleTree::ClosestPoint nearest = tree.closestPoint(p_G);
+  const DistanceBounds bounds = part.field->bounds(p_G);
+  const bool inside = bounds.high < 0.0 || (bounds.low <= 0.0 && part.solid->inside(p_G));
+  const MeasuredTriangle& triangle = tree.triangle(nearest.triangle);
+  Vector3d out = (inside ? 1.0 : -1.0) * (nearest.point - p_G);
+  // On the surface, to rounding, the triangle itself tells.
+  if (!(nearest.distance > 1e-9 * (1.0 + p_G.norm())))
+    out = (triangle.b() - triangle.a()).cross(triangle.c() - triangle.a());
+  return {inside ? nearest.distance : -nearest.distance, nearest.triangle, unitOf(out)};
+}
+
+/// Of all elements.
+PartDepth depthIn(const std::vector<SolidPart>& solid, const Vector3d& p) {
+  PartDepth deepest;
+  for (const SolidPart& part : solid) {
+    const Vector3d p_G = part.X_GB * p;
+    if (-part.field->lowerBound(p_G) <= deepest.depth) continue;
+    PartDepth depth = depthIn(part, p_G);
+    if (depth.depth <= deepest.depth) continue;
+    depth.out = part.X_GB.linear().transpose() * depth.out;
+    deepest = depth;
+  }
+  return deepest;
+}
+
+}  // namespace
+
+/// One of its ways.
+class DeepestSearch::Look {
+ public:
+  Look(DeepestSearch& search, int way)
+      : search_(search),
+        index_(way),
+        way_(search.ways_[way]),
+        surface_(way_.surface),
+        solid_(way_.solid),
+        motion_(way_.motion) {}
+
+  void offerBoxes(int node_index) {
+    const BoxTree& tree = *surface_.triangles;
+    const BoxTree::Node& node = tree.node(node_index);
+    for (int i = 0; i < node.count; ++i) {
+      const Vector3d center = tree.origin() + Vector3d(node.center[0][i], node.center[1][i], node.center[2][i]);
+      const double reach = node.reach[i];
+      if (isHidden(center, reach)) continue;
+      // No point is farther than half of the travel from where it is halfway.
+      const double bound = boundAround(way_.X_middle * center, reach + 0.5 * way_.travel);
+      if (BoxTree::isTriangle(node.below[i])) {
+        const RoundedTriangle& triangle = tree.triangle(BoxTree::triangleOf(node.below[i]));
+        add({bound, index_, -1, triangle.corners, triangle.radius, 0.0, 1.0});
+      } else {
+        search_.push({bound, index_, node.below[i]});
+      }
+    }
+  }
+
+  /// In time or along the longest edge, whichever is longer.
+  void divide(const Piece& piece) {
+    const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
+    const double length = piece.end - piece.start;
+    double way = motion_.acceleration * length * length / 8.0, longest = -1.0;
+    int edge = 0;
+    for (int k = 0; k < 3; ++k) {
+      way = std::max(way, (X_end * piece.corners[k] - X_start * piece.corners[k]).norm());
+      const double side = (piece.corners[(k + 1) % 3] - piece.corners[k]).norm();
+      if (side > longest) edge = k;
+      longest = std::max(longest, side);
+    }
+    // What is a point that rests has nothing left to divide.
+    const bool is_short = length < 1e-9;
+    if (longest == 0.0 && (way == 0.0 || is_short)) {
+      search_.highest_left_ = std::max(search_.highest_left_, piece.bound);
+      return;
+    }
+    Piece first = piece, second = piece;
+    if (way > longest && !is_short) {
+      first.end = second.start = 0.5 * (piece.start + piece.end);
+    } else {
+      const Vector3d center = (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
+      if (isHidden(center, longest + piece.radius)) return;
+      const int next = (edge + 1) % 3;
+      first.corners[next] = second.corners[edge] = 0.5 * (piece.corners[edge] + piece.corners[next]);
+    }
+    add(first);
+    add(second);
+  }
+
+ private:
+  /// Of what lies within `radius` of a place: by the fields alone.
+  double boundAround(const Vector3d& p_F, double radius) const {
+    double bound = -kInfinity;
+    for (const SolidPart& part : solid_) bound = std::max(bound, radius - part.field->lowerBound(part.X_GB * p_F));
+    return bound;
+  }
+
+  /// Whether all within `radius` of a place surely is inside the surface's own body.
+  bool isHidden(const Vector3d& p_P, double radius) const {
+    return std::any_of(surface_.parts.begin(), surface_.parts.end(), [&](const SolidPart& part) {
+      return part.field->bounds(part.X_GB * p_P).high < -radius - search_.resolution_;
+    });
+  }
+
+  /// Three corners at the start, then at the end.
+  using Corners6 = std::array<double, 6>;
+
+  /// Of all within the hull of a triangle's corners at both ends.
+  struct PartBound {
+    double bound = -kInfinity;
+    Corners6 deepest = {};  // of each corner itself, where it may be deeper than what is known
+  };
+
+  /// Measures a piece and keeps it, if something in it may be deeper than what is known.
+  void add(Piece piece) {
+    if (!search_.isDone(piece.bound)) measure(piece);
+    search_.push(piece);
+  }
+
+  void measure(Piece& piece) {
+    const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
+    std::array<Vector3d, 6> corners;
+    Vector3d center = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = X_start * piece.corners[k];
+      corners[k + 3] = X_end * piece.corners[k];
+      center += (corners[k] + corners[k + 3]) / 6.0;
+    }
+    double size = 0.0;
+    for (const Vector3d& corner : corners) size = std::max(size, (corner - center).norm());
+    const double length = piece.end - piece.start;
+    const double beyond = motion_.acceleration * length * length / 8.0 + piece.radius;
+    double highest = -kInfinity;
+    Corners6 deepest;
+    deepest.fill(-kInfinity);
+    for (const SolidPart& part : solid_) {
+      const Vector3d c = part.X_GB * center;
+      PartBound bound;
+      bound.bound = size - part.field->lowerBound(c);
+      if (!search_.isDone(bound.bound + beyond)) bound = boundIn(part, c, size, corners);
+      for (int k = 0; k < 6; ++k) deepest[k] = std::max(deepest[k], bound.deepest[k]);
+      highest = std::max(highest, bound.bound);
+    }
+    piece.bound = std::min(piece.bound, highest + beyond);
+    if (search_.isDone(piece.bound)) return;
+    if (piece.radius > 0.0) return offerRound(piece, X_start);
+    const int best = static_cast<int>(std::max_element(deepest.begin(), deepest.end()) - deepest.begin());
+    if (!search_.isDone(deepest[best]))
+      offer(piece.corners[best % 3], corners[best], best < 3 ? piece.start : piece.end);
+  }
+
+  /// Of a hull of corners, none of which is farther from c than `size`.
+  PartBound boundIn(const SolidPart& part, const Vector3d& c, double size,
+                    const std::array<Vector3d, 6>& corners_F) const {
+    const PartDepth depth = depthIn(part, c);
+    PartBound found;
+    found.bound = depth.depth + size;
+    found.deepest.fill(found.bound);
+    if (!part.solid && depth.out.isZero()) return found;
+    std::array<Vector3d, 6> corners;
+    for (int k = 0; k < 6; ++k) corners[k] = part.X_GB * corners_F[k];
+    std::array<Corners6, 5> sides;  // bounds at the corners, each convex between them
+    std::size_t count = 0;
+    double least = kInfinity;
+    std::size_t best = 0;
+    const auto take = [&](const Corners6& bounds) {
+      const double most = *std::max_element(bounds.begin(), bounds.end());
+      found.bound = std::min(found.bound, most);
+      for (int k = 0; k < 6; ++k) found.deepest[k] = std::min(found.deepest[k], bounds[k]);
+      if (most < least) best = count;
+      least = std::min(least, most);
+      sides[count++] = bounds;
+    };
+    const auto takeSide = [&](const PartDepth& side, const Vector3d& place) {
+      Corners6 bounds;
+      for (int k = 0; k < 6; ++k) {
+        bounds[k] = part.solid ? part.solid->tree().distanceTo(side.triangle, corners[k])
+                               : side.depth - side.out.dot(corners[k] - place);
+      }
+      take(bounds);
+    };
+    const auto takePlane = [&](const Vector3d& n) {
+      if (const std::optional<Corners6> bounds = behindPlane(part, c, n, size, corners)) take(*bounds);
+    };
+    takeSide(depth, c);
+    if (part.solid && !search_.isDone(found.bound)) {
+      part.solid->tree().trianglesWithin(c, kNear * size, search_.near_);
+      takePlane(normalOf(part.solid->tree().triangle(depth.triangle)));
+      takePlane(depth.out);
+    }
+    if (search_.isDone(found.bound)) return found;
+    // Another side may be nearer where that bound is highest.
+    const Vector3d place = corners[std::max_element(sides[best].begin(), sides[best].end()) - sides[best].begin()];
+    if (part.solid) {
+      PartDepth side;
+      side.triangle = part.solid->tree().closestPoint(place).triangle;
+      takeSide(side, place);
+      takePlane(normalOf(part.solid->tree().triangle(side.triangle)));
+    } else if (const PartDepth side = depthIn(part, place); !side.out.isZero()) {
+      takeSide(side, place);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (const double weight : {0.25, 0.5, 0.75}) {
+          double most = -kInfinity;
+          for (int k = 0; k < 6; ++k) most = std::max(most, (1.0 - weight) * sides[i][k] + weight * sides[j][k]);
+          found.bound = std::min(found.bound, most);
+        }
+      }
+    }
+    return found;
+  }
+
+  /// By a plane across n that holds all of the solid that is near; nothing if there is none.
+  ///
+  /// Within a ball about c no triangle reaches farther along n than h; what of the ball lies beyond is all inside or
+  /// all outside, and is asked for. If it is outside, the way along n from an inner place x of the hull leaves the
+  /// solid by the plane at the latest, after h − n·x, as long as that is still in the ball. What is beyond the plane is
+  /// as far from the solid, or as what is outside the ball.
+  std::optional<Corners6> behindPlane(const SolidPart& part, const Vector3d& c, const Vector3d& n, double size,
+                                      const std::array<Vector3d, 6>& corners) const {
+    const double radius = kNear * size;
+    const TriangleTree& tree = part.solid->tree();
+    double h = -radius;
+    for (const int i : search_.near_) {
+      const MeasuredTriangle& t = tree.triangle(i);
+      h = std::max({h, n.dot(t.a() - c), n.dot(t.b() - c), n.dot(t.c() - c)});
+    }
+    if (!(h < radius) || n.isZero()) return std::nullopt;
+    Corners6 behind;
+    for (int k = 0; k < 6; ++k) behind[k] = std::max(h - n.dot(corners[k] - c), size - radius);
+    if (size + *std::max_element(behind.begin(), behind.end()) > radius) return std::nullopt;
+    if (part.solid->inside(c + radius * n)) return std::nullopt;
+    return behind;
+  }
+
+  /// The place of a rounded corner that faces into the solid, at the piece's start.
+  void offerRound(const Piece& piece, const Isometry3d& X_start) {
+    const Vector3d p_F = X_start * piece.corners[0];
+    const Vector3d out = depthIn(solid_, p_F).out;
+    const Vector3d into = out.squaredNorm() > 0.0 ? Vector3d(-out) : Vector3d(Vector3d::UnitX());
+    const Vector3d x_F = p_F + piece.radius * into;
+    offer(X_start.inverse() * x_F, x_F, piece.start);
+  }
+
+  void offer(const Vector3d& p_P, const Vector3d& p_F, double s) {
+    const PartDepth depth = depthIn(solid_, p_F);
+    if (!(depth.depth > search_.best_.depth) || isInside(p_P)) return;
+    search_.best_ = {depth.depth, index_, s, p_F, depth.out};
+  }
+
+  /// Whether a place is inside the surface's own body, and none of its surface.
+  bool isInside(const Vector3d& p_P) const {
+    return !surface_.parts.empty() && depthIn(surface_.parts, p_P).depth > search_.resolution_;
+  }
+
+  Isometry3d poseAt(double s) const { return relativePose(motion_.X_WF.pose(s), motion_.X_WP.pose(s)); }
+
+  DeepestSearch& search_;
+  int index_;
+  const Way& way_;
+  const EnteringSurface& surface_;
+  const std::vector<SolidPart>& solid_;
+  const TwoBodyMotion& motion_;
+};
+
+void DeepestSearch::restart(double resolution) {
+  resolution_ = resolution;
+  best_ = {};
+  highest_left_ = 0.0;
+  ways_.clear();
+  left_.clear();
+}
+
+void DeepestSearch::add(const EnteringSurface& surface, const std::vector<SolidPart>& solid,
+                        const TwoBodyMotion& motion, double travel) {
+  ways_.push_back({surface, solid, motion, travel, relativePose(motion.X_WF.pose(0.5), motion.X_WP.pose(0.5))});
+}
+
+/// Keeps the piece if something in it may be deeper than what is known.
+void DeepestSearch::push(const Piece& piece) {
+  if (isDone(piece.bound)) {
+    highest_left_ = std::max(highest_left_, piece.bound);
+    return;
+  }
+  left_.push_back(piece);
+  std::push_heap(left_.begin(), left_.end(), isLess);
+}
+
+void DeepestSearch::run(int max_pieces) {
+  CancelTicks<64> cancel;
+  for (int way = 0; way < static_cast<int>(ways_.size()); ++way)
+    Look(*this, way).offerBoxes(ways_[way].surface.triangles->root().node);
+  for (int pieces = 0; !left_.empty();) {
+    cancel.check();
+    std::pop_heap(left_.begin(), left_.end(), isLess);
+    const Piece piece = left_.back();
+    left_.pop_back();
+    if (isDone(piece.bound) || pieces >= max_pieces) {
+      // None of the others is deeper.
+      highest_left_ = std::max(highest_left_, piece.bound);
+      return;
+    }
+    Look look(*this, piece.way);
+    if (piece.node >= 0) {
+      look.offerBoxes(piece.node);
+    } else {
+      ++pieces;
+      look.divide(piece);
+    }
+  }
+}
+
+}  // namespace sdf_ccd

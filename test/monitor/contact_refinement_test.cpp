@@ -1,0 +1,177 @@
+#include "monitor/contact_refinement.h"
+
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+#include "oracle/drawn_meshes.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+BodyOptions coarse(bool exact_depths = true) {
+  BodyOptions options = fine(0.02);
+  options.field.cells = 12;
+  options.exact_depths = exact_depths;
+  return options;
+}
+
+CycleRequest refined() {
+  CycleRequest request;
+  request.refine = Refinement::kDeepest;
+  return request;
+}
+
+constexpr double kHalf = 0.05, kTop = 0.02;  // of a cube, and of the slab that it comes down on [m]
+
+/// A cube whose corner points down; so far is that from its middle [m].
+Isometry3d onCorner() {
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
+  return Isometry3d(turn);
+}
+const double kCorner = std::sqrt(3.0) * kHalf;
+
+struct Landing {
+  Shape slab, cube;
+  bool is_swapped;
+};
+
+std::vector<Landing> landings() {
+  const Shape slab_mesh = meshShape(boxMesh({0.3, 0.3, kTop})), slab_box = Primitive(Box{{0.3, 0.3, kTop}});
+  const Shape cube_mesh = meshShape(boxMesh({kHalf, kHalf, kHalf})), cube_box = Primitive(Box{{kHalf, kHalf, kHalf}});
+  return {{slab_mesh, cube_mesh, false},
+          {slab_mesh, cube_mesh, true},
+          {slab_box, cube_mesh, false},
+          {slab_mesh, cube_box, true},
+          {slab_box, cube_box, false}};
+}
+
+TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
+  // From 6 mm above to 3 mm deep in 90 ms: it touches at 60 ms.
+  for (const Landing& landing : landings()) {
+    const BodyDescription slab = body("slab", landing.slab), cube = body("cube", landing.cube);
+    const auto scene = landing.is_swapped ? build({cube, slab}, coarse()) : build({slab, cube}, coarse());
+    Monitor monitor(scene, soft());
+    const auto at = [](double height) { return translation({0.013, 0.021, kTop + kCorner + height}) * onCorner(); };
+    std::vector<std::vector<Isometry3d>> poses{still(Isometry3d::Identity()), {at(0.006), at(-0.003)}};
+    if (landing.is_swapped) std::swap(poses[0], poses[1]);
+    CycleRequest request = refined();
+    request.max_points = 5;
+    const PairResult& pair = monitor.run(cycle(0.09, poses), request).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    EXPECT_NEAR(pair.deepest.depth, 0.003, 1e-9);
+    EXPECT_LE(pair.deepest.depth_error, 1e-4);
+    EXPECT_LE(0.003, pair.deepest.depth + pair.deepest.depth_error);
+    EXPECT_NEAR(pair.deepest.time, 0.09, 1e-12);
+    EXPECT_NEAR((pair.deepest.p_W - Vector3d(0.013, 0.021, kTop - 0.003)).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((pair.deepest.normal_W - Vector3d(0, 0, landing.is_swapped ? -1 : 1)).norm(), 0.0, 1e-6);
+    ASSERT_TRUE(pair.first_touch);
+    EXPECT_LE(pair.first_touch->enter, 0.06 + 1e-12);
+    EXPECT_GE(pair.first_touch->exit, 0.06 - 1e-12);
+    EXPECT_LE(pair.first_touch->exit - pair.first_touch->enter, 0.002);  // 0.2 mm
+    ASSERT_EQ(pair.intervals.size(), 1u);
+    EXPECT_LE(pair.intervals[0].enter, pair.first_touch->exit);
+    EXPECT_EQ(pair.intervals[0].exit, 0.09);
+    EXPECT_EQ(pair.deepest.exit, 0.09);
+  }
+}
+
+/// A cube swings by with its edge, deepest halfway.
+TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
+  const auto scene = build(
+      {body("slab", meshShape(boxMesh({0.3, 0.3, kTop}))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+      coarse());
+  Monitor monitor(scene, soft());
+  constexpr double kArm = 0.2;
+  const double edge = std::sqrt(2.0) * kHalf, reach = kArm + edge;
+  for (const auto& [half_angle, depth] : {std::pair{0.01, 1e-5}, {0.1, 8e-4}}) {
+    const Vector3d pivot(0, 0, kTop - depth + reach);
+    const auto at = [&](double angle) {
+      return translation(pivot) * pose({0, 0, 0}, angle, {0, 1, 0}) * translation({0, 0, -kArm}) *
+             pose({0, 0, 0}, kPi / 4, {0, 1, 0});
+    };
+    monitor.reset();
+    const CycleMotion motion = cycle(1.0, {still(Isometry3d::Identity()), {at(-half_angle), at(half_angle)}});
+    const PairResult& pair = monitor.run(motion, refined()).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    EXPECT_LE(pair.deepest.depth, depth + 1e-12);
+    EXPECT_LE(depth, pair.deepest.depth + pair.deepest.depth_error);
+    EXPECT_LE(pair.deepest.depth_error, 1e-4);
+    // It touches where its edge, on a circle, comes down to the top.
+    const double angle = std::acos((reach - depth) / reach), begin = 0.5 - 0.5 * angle / half_angle;
+    ASSERT_TRUE(pair.first_touch);
+    EXPECT_LE(pair.first_touch->enter, begin + 1e-9);
+    EXPECT_GE(pair.first_touch->exit, begin - 1e-9);
+  }
+}
+
+TEST(ContactRefinement, OfWhatRestsFlatIsTight) {
+  const auto scene = build(
+      {body("slab", meshShape(boxMesh({0.3, 0.3, kTop}))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+      coarse());
+  Monitor monitor(scene, soft());
+  const Isometry3d X = pose({0.03, 0.02, 0}, 0.7, {0, 0, 1});
+  for (const double depth : {1e-5, 1e-3}) {
+    const auto poses = still(translation({0, 0, kTop + kHalf - depth}) * X);
+    const PairResult& pair = monitor.run(cycle(1e-3, {still(Isometry3d::Identity()), poses}), refined()).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    EXPECT_NEAR(pair.deepest.depth, depth, 5e-5);  // the resolution
+    EXPECT_LE(depth, pair.deepest.depth + pair.deepest.depth_error);
+    EXPECT_LE(pair.deepest.depth_error, 1e-4);
+    EXPECT_GT(pair.deepest.normal_W.z(), 0.999);
+    ASSERT_TRUE(pair.first_touch);
+    EXPECT_EQ(pair.first_touch->enter, 0.0);
+  }
+}
+
+TEST(ContactRefinement, WhatLiesInsideHasNoFirstTouch) {
+  const auto scene =
+      build({body("slab", meshShape(boxMesh({0.3, 0.3, 0.1}))), body("cube", meshShape(boxMesh({0.01, 0.01, 0.01})))},
+            coarse());
+  Monitor monitor(scene, soft());
+  const PairResult& pair =
+      monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.06}))}), refined()).pairs[0];
+  EXPECT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_NEAR(pair.deepest.depth, 0.05, 1e-9);  // its lower corners
+  EXPECT_LE(pair.deepest.depth_error, 1e-4);
+  EXPECT_FALSE(pair.first_touch);
+}
+
+TEST(ContactRefinement, OnlyWhereItIsAskedForAndPossible) {
+  const Shape slab = meshShape(boxMesh({0.3, 0.3, kTop}));
+  const std::vector<std::vector<Isometry3d>> poses{still(Isometry3d::Identity()),
+                                                   still(translation({0, 0, kTop + kHalf - 0.003}))};
+  const auto run = [&](const Shape& other, const BodyOptions& options, const CycleRequest& request) {
+    Monitor monitor(build({body("slab", slab), body("other", other)}, options), soft());
+    return monitor.run(cycle(0.1, poses), request).pairs[0];
+  };
+  const Shape cube = meshShape(boxMesh({kHalf, kHalf, kHalf}));
+  EXPECT_TRUE(run(cube, coarse(), refined()).first_touch);
+  EXPECT_FALSE(run(cube, coarse(), {}).first_touch);
+  EXPECT_FALSE(run(cube, coarse(false), refined()).first_touch);
+  const Shape open = meshShape(openBox(Vector3d::Constant(-kHalf), Vector3d::Constant(kHalf)));
+  const PairResult of_open = run(open, coarse(), refined());
+  EXPECT_FALSE(of_open.first_touch);
+  EXPECT_NE(of_open.verdict, Verdict::kClear);
+  EXPECT_FALSE(run(Primitive(HalfSpace{}), coarse(), refined()).first_touch);
+}
+
+TEST(ContactRefinement, OfRoundBodiesToo) {
+  const auto scene =
+      build({body("ball", Primitive(Sphere{0.03})), body("post", Primitive(Cylinder{0.02, 0.1}))}, coarse());
+  Monitor monitor(scene, soft());
+  const auto at = [](double depth) { return translation({0.05 - depth, 0, 0}); };
+  const PairResult& pair =
+      monitor.run(cycle(0.1, {{at(-0.002), at(0.002)}, still(Isometry3d::Identity())}), refined()).pairs[0];
+  ASSERT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_NEAR(pair.deepest.depth, 0.002, 1e-4);
+  EXPECT_LE(0.002, pair.deepest.depth + pair.deepest.depth_error);
+  EXPECT_LE(pair.deepest.depth_error, 2e-4);
+  ASSERT_TRUE(pair.first_touch);
+  EXPECT_NEAR(pair.first_touch->enter, 0.05, 0.003);
+  EXPECT_GE(pair.first_touch->exit, 0.05 - 1e-3);
+}
+
+}  // namespace
+}  // namespace sdf_ccd

@@ -1,0 +1,236 @@
+#include "query/deepest_point.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "oracle/long_screw.h"
+#include "oracle/random.h"
+#include "oracle/rounded_triangles.h"
+#include "oracle/shapes.h"
+#include "oracle/triangle_distance.h"
+#include "sdf_ccd/field/build_field.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::LongScrew;
+using test::Random;
+using test::Real;
+using test::treeOf;
+using test::Vector3r;
+
+/// The truth about a closed mesh: all triangles, one after the other.
+class MeshTruth {
+ public:
+  explicit MeshTruth(const TriangleMesh& mesh) {
+    for (const Vector3i& t : mesh.triangles)
+      triangles_.push_back(
+          test::exact(std::array<Vector3d, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}));
+  }
+
+  /// Negative outside.
+  Real depth(const Vector3r& p) const {
+    Real nearest = 1e300L, angles = 0.0L;
+    for (const test::Triangle3r& t : triangles_) {
+      nearest = std::min(nearest, test::triangleDistance(t, {p, p, p}));
+      const Vector3r a = t[0] - p, b = t[1] - p, c = t[2] - p;
+      const Real la = a.norm(), lb = b.norm(), lc = c.norm();
+      angles += 2.0L * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
+    }
+    return std::abs(angles) > 6.0L ? nearest : -nearest;
+  }
+
+ private:
+  std::vector<test::Triangle3r> triangles_;
+};
+
+/// A mesh as the solid that others go into.
+struct MeshSolid {
+  explicit MeshSolid(const TriangleMesh& mesh, const Isometry3d& X_BG = Isometry3d::Identity())
+      : solid(mesh), field(buildField(mesh, coarse(mesh))), parts{{X_BG.inverse(), &field, &solid}} {}
+
+  static FieldOptions coarse(const TriangleMesh& mesh) {
+    FieldOptions options;
+    options.cell_size = 0.06 * boundingBox(mesh).sizes().maxCoeff();
+    return options;
+  }
+
+  Solid solid;
+  DistanceField field;
+  std::vector<SolidPart> parts;
+};
+
+Vector3r inFrame(const test::LongPose& X_WF, const Vector3r& p_W) {
+  return X_WF.R.transpose() * (p_W - X_WF.p);
+}
+
+/// The deepest place found, and all that is needed to tell whether it is.
+struct Found {
+  DeepestPoint point;
+  double error;
+};
+
+Found search(const EnteringSurface& surface, const std::vector<SolidPart>& solid, const ScrewMotion& X_WF,
+             const ScrewMotion& X_WP, double resolution, int max_pieces = 20000) {
+  const RelativeMotionBounds bounds =
+      relativeMotionBounds(worldTwist(X_WF, {Vector3d::Zero(), 1.0}), worldTwist(X_WP, surface.triangles->ball()));
+  const TwoBodyMotion motion{0.0, 1.0, X_WF, X_WP, bounds.acceleration};
+  DeepestSearch search;
+  search.restart(resolution);
+  search.add(surface, solid, motion, bounds.travel);
+  search.run(max_pieces);
+  return {search.deepest(), search.error()};
+}
+
+/// The deepest place that samples of the surface and of the motion, and climbing from the best of them, come to.
+Real deepestSample(const TriangleMesh& surface, const MeshTruth& solid, const LongScrew& X_WF, const LongScrew& X_WP,
+                   Random& random) {
+  struct Place {
+    int triangle;
+    Real u, v, s;
+  };
+  const auto depthAt = [&](const Place& place) {
+    const Vector3i& t = surface.triangles[place.triangle];
+    const Vector3r a = surface.vertices[t[0]].cast<Real>(), b = surface.vertices[t[1]].cast<Real>(),
+                   c = surface.vertices[t[2]].cast<Real>();
+    const Vector3r p = a + place.u * (b - a) + place.v * (c - a);
+    return solid.depth(inFrame(X_WF.pose(place.s), X_WP.pose(place.s) * p));
+  };
+  const auto valid = [](Place place) {
+    place.u = std::clamp<Real>(place.u, 0.0L, 1.0L);
+    place.v = std::clamp<Real>(place.v, 0.0L, 1.0L - place.u);
+    place.s = std::clamp<Real>(place.s, 0.0L, 1.0L);
+    return place;
+  };
+  Place best{};
+  Real most = -1e300L;
+  const auto offer = [&](const Place& place) {
+    const Real depth = depthAt(place);
+    if (!(depth > most)) return false;
+    most = depth;
+    best = place;
+    return true;
+  };
+  for (int i = 0; i < 500; ++i)
+    offer(valid({int(random() % surface.triangles.size()), test::uniform(random, 0.0, 1.0),
+                 test::uniform(random, 0.0, 1.0), test::uniform(random, -0.1, 1.1)}));
+  Real step = 0.3L;
+  for (int i = 0; i < 250; ++i) {
+    const int triangle = i % 4 == 3 ? int(random() % surface.triangles.size()) : best.triangle;
+    const auto by = [&] { return step * Real(test::uniform(random, -1.0, 1.0)); };
+    if (!offer(valid({triangle, best.u + by(), best.v + by(), best.s + by()}))) step = std::max(1e-5L, 0.97L * step);
+  }
+  return most;
+}
+
+TEST(DeepestPoint, NoPlaceIsDeeperAndItsOwnDepthIsExact) {
+  Random random(7);
+  const TriangleMesh box = test::boxMesh({0.05, 0.04, 0.03}), ball = test::icosphere(0.05, 1),
+                     torus = test::torusMesh(0.05, 0.02, 12, 8);
+  const std::vector<const TriangleMesh*> meshes{&box, &ball, &torus};
+  int deep = 0;
+  for (const TriangleMesh* inside : meshes) {
+    const MeshSolid solid(*inside);
+    const MeshTruth truth(*inside);
+    for (const TriangleMesh* surface : meshes) {
+      const BoxTree tree = treeOf(*surface);
+      for (int i = 0; i < 12; ++i) {
+        const double scale = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.02 : 1.0;  // of the motion: none, a cycle's, a plan's
+        const Isometry3d X_WF = test::pose(random, 1.0, 1.0), X_FP = test::pose(random, 2.0, 0.07);
+        const ScrewMotion f(X_WF, X_WF * test::pose(random, 1.5 * scale, 0.03 * scale));
+        const ScrewMotion p(X_WF * X_FP, X_WF * X_FP * test::pose(random, 1.5 * scale, 0.05 * scale));
+        constexpr double kResolution = 5e-5;
+        const Found found = search({&tree, {}}, solid.parts, f, p, kResolution);
+        const LongScrew long_f(f.start(), f.end()), long_p(p.start(), p.end());
+        EXPECT_LE(found.error, kResolution);
+        EXPECT_LE(double(deepestSample(*surface, truth, long_f, long_p, random)),
+                  found.point.depth + found.error + 1e-12);
+        if (found.point.depth == 0.0) continue;
+        ++deep;
+        EXPECT_NEAR(double(truth.depth(found.point.p_F.cast<Real>())), found.point.depth, 1e-12);
+        // It is a place of the surface at that time.
+        const Vector3r p_P =
+            inFrame(long_p.pose(found.point.s), long_f.pose(found.point.s) * found.point.p_F.cast<Real>());
+        Real off = 1e300L;
+        for (const RoundedTriangle& t : test::roundedTriangles(*surface))
+          off = std::min(off, test::triangleDistance(test::exact(t.corners), {p_P, p_P, p_P}));
+        EXPECT_LT(double(off), 1e-12);
+        // Its normal leads out.
+        const Vector3d outside = found.point.p_F + (found.point.depth + 1e-7) * found.point.out_F;
+        EXPECT_LT(double(truth.depth(outside.cast<Real>())), 0.0);
+      }
+    }
+  }
+  EXPECT_GT(deep, 60);
+}
+
+TEST(DeepestPoint, OfABallIsWhereItFacesIn) {
+  // Into the face at z = 0.03 of a box, by 2 mm.
+  const TriangleMesh box = test::boxMesh({0.05, 0.04, 0.03});
+  const MeshSolid solid(box);
+  const BoxTree ball({RoundedTriangle{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}, 0.02}});
+  const ScrewMotion rest(Isometry3d::Identity(), Isometry3d::Identity());
+  const Isometry3d high(Eigen::Translation3d(0.01, 0.005, 0.06)), low(Eigen::Translation3d(0.01, 0.005, 0.048));
+  const Found found = search({&ball, {}}, solid.parts, rest, ScrewMotion(high, low), 1e-5);
+  EXPECT_NEAR(found.point.depth, 0.002, 1e-5);
+  EXPECT_LE(0.002, found.point.depth + found.error + 1e-12);
+  EXPECT_LE(found.error, 2e-5);
+  EXPECT_NEAR((found.point.p_F - Vector3d(0.01, 0.005, 0.028)).norm(), 0.0, 1e-4);
+}
+
+TEST(DeepestPoint, OfPrimitivesIsExact) {
+  const DistanceField field(Primitive(Box{Vector3d(0.05, 0.04, 0.03)}));
+  const std::vector<SolidPart> solid{{Isometry3d::Identity(), &field, nullptr}};
+  const TriangleMesh ball = test::icosphere(0.02, 3);
+  const BoxTree tree = treeOf(ball);
+  const ScrewMotion rest(Isometry3d::Identity(), Isometry3d::Identity());
+  const Isometry3d at(Eigen::Translation3d(0.0, 0.0, 0.045));
+  const Found found = search({&tree, {}}, solid, rest, ScrewMotion(at, at), 1e-6);
+  double lowest = 1.0;
+  for (const Vector3d& v : ball.vertices) lowest = std::min(lowest, v.z() + 0.045);
+  EXPECT_NEAR(found.point.depth, 0.03 - lowest, 1e-12);
+  EXPECT_LE(found.error, 1e-6);
+}
+
+TEST(DeepestPoint, WhatIsInsideItsOwnBodyDoesNotCount) {
+  // Two boxes overlap in one body; a face of the lower one's end is inside the upper one, deeper than what shows.
+  const MeshSolid ground(test::boxMesh({0.2, 0.2, 0.1}));  // its top at z = 0.1
+  const TriangleMesh upper = test::translated(test::boxMesh({0.02, 0.02, 0.02}), {0, 0, 0.115});
+  const TriangleMesh hidden = test::translated(test::boxMesh({0.005, 0.005, 0.005}), {0, 0, 0.115});
+  const MeshSolid own(upper);
+  TriangleMesh both = upper;
+  for (const Vector3i& t : hidden.triangles)
+    both.triangles.push_back(t + Vector3i::Constant(int(upper.vertices.size())));
+  both.vertices.insert(both.vertices.end(), hidden.vertices.begin(), hidden.vertices.end());
+  const BoxTree tree = treeOf(both), inner = treeOf(hidden);
+  const ScrewMotion rest(Isometry3d::Identity(), Isometry3d::Identity());
+  EXPECT_NEAR(search({&tree, own.parts}, ground.parts, rest, rest, 1e-5).point.depth, 0.005, 1e-9);
+  const Isometry3d down(Eigen::Translation3d(0, 0, -0.02));
+  const ScrewMotion lower(down, down);
+  EXPECT_GT(search({&inner, {}}, ground.parts, rest, lower, 1e-5).point.depth, 0.0);
+  EXPECT_EQ(search({&inner, own.parts}, ground.parts, rest, lower, 1e-5).point.depth, 0.0);
+}
+
+TEST(DeepestPoint, WhatIsLeftWithoutTimeIsInTheError) {
+  Random random(3);
+  const TriangleMesh torus = test::torusMesh(0.05, 0.02, 12, 8);
+  const MeshSolid solid(torus);
+  const MeshTruth truth(torus);
+  const BoxTree tree = treeOf(torus);
+  const Isometry3d X(Eigen::Translation3d(0.06, 0.01, 0.0));
+  const ScrewMotion f(Isometry3d::Identity(), Isometry3d::Identity()), p(X, X * test::pose(random, 1.0, 0.03));
+  double last = 1.0;
+  for (const int pieces : {0, 1, 10, 100, 20000}) {
+    const Found found = search({&tree, {}}, solid.parts, f, p, 1e-6, pieces);
+    EXPECT_LE(double(deepestSample(torus, truth, LongScrew(f.start(), f.end()), LongScrew(p.start(), p.end()), random)),
+              found.point.depth + found.error + 1e-12)
+        << pieces;
+    EXPECT_LE(found.error, last + 1e-6);
+    last = found.error;
+  }
+  EXPECT_LE(last, 1e-5);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
