@@ -329,8 +329,9 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
                   request.wrenches && role.bearsForce());
   }
   collector.finish(request, result);
+  // Of a crossing between the points fields know nothing: so it is no deeper than what they may miss.
+  if (crossing || !result.intervals.empty()) result.contact_error = result.error;
   if (crossing && result.intervals.empty()) return setCrossing(*crossing, result);
-  if (!result.intervals.empty()) result.contact_error = result.error;
   // Whatever lies between the points, and wherever in the band: one of the surface is deeper than the motion is off by.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;
   result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;

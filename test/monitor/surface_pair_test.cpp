@@ -47,6 +47,28 @@ TEST(SurfacePair, TellsATenthOfAMillimetre) {
   }
 }
 
+/// Edges that cross between the points of both shells: no point is inside, and no depth is known but by the error.
+TEST(SurfacePair, CrossingBetweenPointsIsAsDeepAsItsErrorAllows) {
+  constexpr double kHalf = 0.01, kOverlap = 1e-3;
+  const Primitive rod = Box{{0.2, kHalf, kHalf}};
+  BodyOptions options = coarse();
+  options.field.cells = 64;
+  const auto scene = build({body("rod", rod), body("other", rod)}, options);
+  Monitor monitor(scene, soft());
+  const Isometry3d turned = pose({0, 0, 0}, kPi / 4, {1, 0, 0});  // an edge on top, and one below
+  int without_depth = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Vector3d p(-0.05 + 0.0037 * i, 0.0023 * i, 2.0 * std::sqrt(2.0) * kHalf - kOverlap);
+    const Isometry3d across = translation(p) * pose({0, 0, 0}, kPi / 2, {0, 0, 1}) * turned;
+    monitor.reset();
+    const PairResult pair = monitor.run(cycle(0.1, {still(turned), still(across)}), {}).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    if (pair.deepest.depth == 0.0) ++without_depth;
+    EXPECT_LE(std::abs(pair.deepest.depth - kOverlap / std::sqrt(2.0)), pair.contact_error.total()) << i;
+  }
+  EXPECT_GT(without_depth, 0);
+}
+
 /// A cube tumbles over a slab and is nearest on its edge, halfway: how near is known. The bound holds from both sides,
 /// whatever max_error is.
 TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
