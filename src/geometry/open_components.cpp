@@ -48,6 +48,22 @@ class Caster {
     }
   }
 
+  /// Whether the patch, as it is drawn, bounds a solid: the winding number before its front is a whole one, 0 or more.
+  bool boundsSolid(std::int32_t patch, int points) const {
+    constexpr double kBefore = 1e-7, kWhole = 0.05;  // [m]; cracks of meshes that are closed take less
+    const std::vector<std::int32_t>& triangles = patches_[patch].triangles;
+    Sequence random(static_cast<std::uint64_t>(patch));
+    for (int i = 0; i < points; ++i) {
+      const std::int32_t triangle = triangles[(triangles.size() - 1) * i / points];
+      const Vector3d normal = areaNormal(mesh_, triangle).normalized();
+      if (!normal.allFinite() || normal.isZero()) continue;
+      const double winding = tree_.windingNumber(pointOn(triangle, random) + kBefore * normal);
+      const double whole = std::round(winding);
+      if (!(std::abs(winding - whole) <= kWhole && whole >= 0.0)) return false;
+    }
+    return true;
+  }
+
   /// Casts rays from both sides, at points spread evenly over the area; none where the patch, one of `patches`, is too
   /// small for its share of all rays to tell anything.
   Votes cast(std::int32_t patch, std::size_t patches) const {
@@ -115,6 +131,7 @@ class Caster {
 
 std::vector<char> seenFromBehind(const TriangleMesh& mesh, const std::vector<Patch>& patches) {
   constexpr int kSweeps = 16;
+  constexpr std::size_t kManyPatches = 4096;
   std::vector<char> turned(patches.size(), 0);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -123,6 +140,11 @@ std::vector<char> seenFromBehind(const TriangleMesh& mesh, const std::vector<Pat
   if (open.empty()) return turned;
 
   const Caster caster(mesh, patches);
+  // Of solids that overlap, the outside sees the faces of one in part, and the other's inside their fronts: rays say
+  // the wrong thing then. What winding numbers say is beyond doubt where they are whole.
+  const int points = open.size() > kManyPatches ? 1 : 8;
+  if (std::all_of(open.begin(), open.end(), [&](std::int32_t i) { return caster.boundsSolid(i, points); }))
+    return turned;
   std::vector<Votes> votes(patches.size());
   parallelFor(std::size_t{0}, open.size(), [&](std::size_t i) { votes[open[i]] = caster.cast(open[i], open.size()); });
 

@@ -13,6 +13,9 @@ namespace sdf_ccd {
 /// the same space, outside or inside (Borodin et al. 2004), and are counted with what is known of the other side: that
 /// of a closed patch, or of an open one as it is turned so far. A patch with no clear majority stays as it is.
 ///
+/// None is turned if all of them bound a solid as they are drawn, as those of solids that overlap, whose triangles do
+/// not share their edges' vertices: rays do not tell what is outside of these.
+///
 /// The same rays each time; their number is bounded, so that the cost is that of a tree over the mesh and at most two
 /// million rays.
 /// @param mesh  closed patches turned rightly; about 1 m large and near the origin. Triangles of no patch hide others.

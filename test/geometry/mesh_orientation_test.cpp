@@ -10,9 +10,12 @@ namespace sdf_ccd {
 namespace {
 
 using test::boxMesh;
+using test::direction;
 using test::flipped;
 using test::icosphere;
+using test::Random;
 using test::translated;
+using test::uniform;
 
 bool isInside(const TriangleMesh& oriented, const Vector3d& p) {
   return TriangleTree(oriented).inside(p, TriangleTree::Inside::kNotZero);
@@ -98,6 +101,46 @@ TEST(MeshOrientation, OpenPartsAreTurnedForWhatSeesThem) {
         EXPECT_LT(tree.windingNumber(X * (size * Vector3d(0.1, 0.2, 0.2))), 0.5) << size << " at " << offset.x();
       }
     }
+  }
+}
+
+/// A box whose faces are divided each in another way, so that no edge of one is an edge of the next.
+TriangleMesh boxOfDividedFaces(const Vector3d& half_size) {
+  TriangleMesh mesh;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face % 3, n = 2 + face;
+    const double side = face < 3 ? 1.0 : -1.0;
+    const auto corner = [&](int i, int k) {
+      Vector3d p;
+      p[axis] = side * half_size[axis];
+      p[(axis + 1) % 3] = side * half_size[(axis + 1) % 3] * (2.0 * i / n - 1.0);
+      p[(axis + 2) % 3] = half_size[(axis + 2) % 3] * (2.0 * k / n - 1.0);
+      return p;
+    };
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < n; ++k) {
+        const int first = static_cast<int>(mesh.vertices.size());
+        for (const Vector3d& p : {corner(i, k), corner(i + 1, k), corner(i + 1, k + 1), corner(i, k + 1)})
+          mesh.vertices.push_back(p);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first, first + 2, first + 3});
+      }
+    }
+  }
+  return mesh;
+}
+
+/// Rays from faces inside the other box meet its back: they were turned, and what was inside counted as outside.
+TEST(MeshOrientation, FacesOfBoxesThatOverlapStayAsDrawnThoughTheirEdgesDoNotMeet) {
+  Random random(7);
+  for (int i = 0; i < 50; ++i) {
+    const Vector3d half_a(uniform(random, 0.05, 0.5), uniform(random, 0.05, 0.5), uniform(random, 0.05, 0.5));
+    const Vector3d half_b(uniform(random, 0.05, 0.5), uniform(random, 0.05, 0.5), uniform(random, 0.05, 0.5));
+    const Vector3d offset = uniform(random, 0.0, 0.4) * direction(random);
+    const TriangleMesh drawn = merged(boxOfDividedFaces(half_a), translated(boxOfDividedFaces(half_b), offset));
+    const OrientedMesh oriented = orientOutward(drawn);
+    EXPECT_EQ(oriented.quality.inverted_sheets, 0) << i;
+    EXPECT_NEAR(oriented.quality.volume, 8.0 * (half_a.prod() + half_b.prod()), 1e-9) << i;
   }
 }
 
