@@ -2,10 +2,17 @@
 
 #include <utility>
 
+#include "conforming_mesh.h"
+
 namespace sdf_ccd {
 
 ClosedSolid::ClosedSolid(std::shared_ptr<const Solid> solid) : solid_(std::move(solid)) {
   if (solid_->closed()) return;
+  ConformingMesh joined = conformingMesh(welded(solid_->boundary()));
+  if (isClosed(joined.mesh)) {
+    solid_ = std::make_shared<const Solid>(std::move(joined.mesh));
+    return;
+  }
   openings_ = findOpenings(solid_->boundary());
   if (openings_.reach.empty()) return;
   solid_ = std::make_shared<const Solid>(welded(merged(solid_->boundary(), openings_.caps)));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "closed_components.h"
+#include "conforming_mesh.h"
 #include "duplicate_triangles.h"
 #include "hidden_walls.h"
 #include "mesh_patches.h"
@@ -30,35 +31,51 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
   }
 }
 
+/// Turns triangles of `mesh` as their parts were turned.
+/// @return whether all parts of each triangle agree.
+bool turnAsParts(const std::vector<Vector3i>& before, const ConformingMesh& parts, TriangleMesh& mesh) {
+  std::vector<char> turned(mesh.triangles.size(), 0), seen(mesh.triangles.size(), 0);
+  bool agree = true;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const std::int32_t source = parts.source[i];
+    const char turn = parts.mesh.triangles[i] != before[i];
+    agree = agree && (!seen[source] || turned[source] == turn);
+    seen[source] = 1;
+    turned[source] = turn;
+  }
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (turned[i]) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+  }
+  return agree;
+}
+
 /// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `walls`.
 void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
   MeshQuality& quality = result.quality;
-  const std::vector<Patch> patches = orientConsistently(result.mesh);
+  ConformingMesh joined = conformingMesh(result.mesh);
+  const std::vector<Vector3i> as_drawn = joined.mesh.triangles;
+  const std::vector<Patch> patches = orientConsistently(joined.mesh);
   checkCancelled();
-  TriangleMesh likeness = normalized(result.mesh);
+  TriangleMesh likeness = normalized(joined.mesh);
   bool doubtful = false;
   const std::vector<ClosedComponent> closed = inspectClosed(likeness, patches);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     quality.inverted_components += closed[i].turn;
     quality.negative_triangles += closed[i].negative_triangles;
     doubtful = doubtful || closed[i].doubtful;
-    if (closed[i].turn) {
-      flip(likeness, patches[i]);
-      flip(result.mesh, patches[i]);
-    }
+    if (closed[i].turn) flip(likeness, patches[i]);
   }
   TriangleMesh hiding = likeness;
   hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
   const std::vector<char> from_behind = seenFromBehind(hiding, patches);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     quality.inverted_sheets += from_behind[i];
-    if (from_behind[i] != 0) {
-      flip(likeness, patches[i]);
-      flip(result.mesh, patches[i]);
-    }
+    if (from_behind[i] != 0) flip(likeness, patches[i]);
   }
   const std::vector<char> hidden = hiddenWalls(likeness, patches, walls);
-  quality.sign_trusted = isClosed(result.mesh) && !doubtful;
+  joined.mesh.triangles = likeness.triangles;
+  doubtful = !turnAsParts(as_drawn, joined, result.mesh) || doubtful;
+  quality.sign_trusted = isClosed(joined.mesh) && !doubtful;
 
   std::size_t kept = 0;
   for (std::size_t i = 0; i < walls.size(); ++i) {

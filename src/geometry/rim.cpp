@@ -2,48 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "geometry/triangle_tree.h"
 #include "mesh_edges.h"
 
 namespace sdf_ccd {
-namespace {
-
-/// For every vertex of the edges, the edges that come near it.
-class EdgeSearch {
- public:
-  EdgeSearch(const TriangleMesh& mesh, const std::vector<std::pair<std::pair<int, int>, int>>& edges) {
-    TriangleMesh segments;
-    for (const auto& [edge, n] : edges) {
-      const int first = static_cast<int>(segments.vertices.size());
-      segments.vertices.push_back(mesh.vertices[edge.first]);
-      segments.vertices.push_back(mesh.vertices[edge.second]);
-      segments.triangles.emplace_back(first, first + 1, first + 1);
-      vertices_.push_back(edge.first);
-      vertices_.push_back(edge.second);
-    }
-    std::sort(vertices_.begin(), vertices_.end());
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    constexpr double kSmallestMesh = 1e-8;  // [m], below which a tree refuses it
-    if (boundingBox(segments).sizes().maxCoeff() > kSmallestMesh) tree_.emplace(segments);
-  }
-
-  /// In ascending order.
-  const std::vector<int>& vertices() const { return vertices_; }
-
-  void find(const Vector3d& p, double distance, std::vector<int>& found) const {
-    found.clear();
-    if (tree_) tree_->trianglesWithin(p, distance, found);
-  }
-
- private:
-  std::vector<int> vertices_;
-  std::optional<TriangleTree> tree_;
-};
-
-}  // namespace
-
 Rim::Rim(const TriangleMesh& mesh) : mesh_(mesh) {
   forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
     const int n = imbalance(first, last);
@@ -72,9 +34,15 @@ void Rim::join(double tolerance) {
   if (!empty()) splitEdges(tolerance);
 }
 
+EdgeSearch Rim::searchOf(const std::vector<std::pair<Edge, int>>& edges) const {
+  std::vector<Edge> places;
+  for (const auto& [edge, n] : edges) places.push_back(edge);
+  return EdgeSearch(mesh_, places);
+}
+
 void Rim::mergeVertices(double tolerance) {
   const std::vector<std::pair<Edge, int>> before = edges();
-  const EdgeSearch search(mesh_, before);
+  const EdgeSearch search = searchOf(before);
   std::map<int, int> target;  // those that stay are targets of themselves, and farther than the tolerance apart
   std::vector<int> near;
   bool any = false;
@@ -107,7 +75,7 @@ void Rim::mergeVertices(double tolerance) {
 
 void Rim::splitEdges(double tolerance) {
   const std::vector<std::pair<Edge, int>> before = edges();
-  const EdgeSearch search(mesh_, before);
+  const EdgeSearch search = searchOf(before);
   std::vector<std::vector<int>> through(before.size());
   std::vector<int> near;
   for (const int vertex : search.vertices()) {

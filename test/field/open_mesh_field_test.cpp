@@ -3,6 +3,7 @@
 #include "geometry/openings.h"
 #include "geometry/solid_boundary.h"
 #include "geometry/triangle.h"
+#include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/parameter_name.h"
 #include "oracle/random.h"
@@ -109,6 +110,33 @@ TEST(OpenMeshField, CracksAreNoOpenings) {
       const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.4), Vector3d::Constant(0.4)});
       const FieldSample a = field.sample(p), b = closed.sample(p);
       ASSERT_LE(std::abs(a.value - b.value), a.error + b.error + 1e-4);
+    }
+  }
+}
+
+/// Faces that lie in the other box are no surface, though the boxes are closed by their places alone.
+TEST(OpenMeshField, BoxesOfDividedFacesHaveTheDepthOfTheirUnion) {
+  const Vector3d half(0.3, 0.2, 0.2), offset(0.25, 0.05, 0.03);
+  const TriangleMesh drawn =
+      merged(test::boxOfDividedFaces(half), test::translated(test::boxOfDividedFaces(half), offset));
+  const AlignedBox3d first(-half, half), second(offset - half, offset + half);
+  const auto depthIn = [](const AlignedBox3d& box, const Vector3d& p) {
+    return std::min((p - box.min()).minCoeff(), (box.max() - p).minCoeff());
+  };
+  Random random(5);
+  for (const FieldOptions& options : bothKinds(0.005, 64)) {
+    const DistanceField field = buildField(orientOutward(drawn).mesh, options);
+    EXPECT_FALSE(field.openings());
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d p = test::uniformIn(random, first.merged(second));
+      const double depth = std::max(depthIn(first, p), depthIn(second, p));  // at least, where positive
+      const FieldSample sample = field.sample(p);
+      if (depth > 0.0) {
+        ASSERT_LE(sample.value - sample.error, -depth + 1e-9);
+      }
+      if (depth < -sample.error) {
+        ASSERT_GE(sample.value + sample.error, 0.0);
+      }
     }
   }
 }

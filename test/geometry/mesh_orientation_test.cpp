@@ -10,6 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 using test::boxMesh;
+using test::boxOfDividedFaces;
 using test::direction;
 using test::flipped;
 using test::icosphere;
@@ -104,32 +105,6 @@ TEST(MeshOrientation, OpenPartsAreTurnedForWhatSeesThem) {
   }
 }
 
-/// A box whose faces are divided each in another way, so that no edge of one is an edge of the next.
-TriangleMesh boxOfDividedFaces(const Vector3d& half_size) {
-  TriangleMesh mesh;
-  for (int face = 0; face < 6; ++face) {
-    const int axis = face % 3, n = 2 + face;
-    const double side = face < 3 ? 1.0 : -1.0;
-    const auto corner = [&](int i, int k) {
-      Vector3d p;
-      p[axis] = side * half_size[axis];
-      p[(axis + 1) % 3] = side * half_size[(axis + 1) % 3] * (2.0 * i / n - 1.0);
-      p[(axis + 2) % 3] = half_size[(axis + 2) % 3] * (2.0 * k / n - 1.0);
-      return p;
-    };
-    for (int i = 0; i < n; ++i) {
-      for (int k = 0; k < n; ++k) {
-        const int first = static_cast<int>(mesh.vertices.size());
-        for (const Vector3d& p : {corner(i, k), corner(i + 1, k), corner(i + 1, k + 1), corner(i, k + 1)})
-          mesh.vertices.push_back(p);
-        mesh.triangles.push_back({first, first + 1, first + 2});
-        mesh.triangles.push_back({first, first + 2, first + 3});
-      }
-    }
-  }
-  return mesh;
-}
-
 /// Rays from faces inside the other box meet its back: they were turned, and what was inside counted as outside.
 TEST(MeshOrientation, FacesOfBoxesThatOverlapStayAsDrawnThoughTheirEdgesDoNotMeet) {
   Random random(7);
@@ -140,7 +115,31 @@ TEST(MeshOrientation, FacesOfBoxesThatOverlapStayAsDrawnThoughTheirEdgesDoNotMee
     const TriangleMesh drawn = merged(boxOfDividedFaces(half_a), translated(boxOfDividedFaces(half_b), offset));
     const OrientedMesh oriented = orientOutward(drawn);
     EXPECT_EQ(oriented.quality.inverted_sheets, 0) << i;
+    EXPECT_TRUE(oriented.quality.sign_trusted) << i;
     EXPECT_NEAR(oriented.quality.volume, 8.0 * (half_a.prod() + half_b.prod()), 1e-9) << i;
+  }
+}
+
+/// Closed parts are known as such though no edges meet, so that cavities and parts inside out are told apart; also
+/// where corners are rounded to floats, and where triangles without height fill the seams.
+TEST(MeshOrientation, BoxesOfDividedFacesAreTurnedAsClosedOnes) {
+  const TriangleMesh shell = merged(boxOfDividedFaces({0.4, 0.3, 0.2}), flipped(boxOfDividedFaces({0.3, 0.2, 0.1})));
+  const TriangleMesh drawn = merged(shell, flipped(translated(boxOfDividedFaces({0.2, 0.2, 0.2}), {-0.55, 0.1, 0.05})));
+  TriangleMesh as_floats = drawn, with_seams = drawn;
+  for (Vector3d& v : as_floats.vertices) v = v.cast<float>().cast<double>();
+  const int first = static_cast<int>(with_seams.vertices.size());
+  for (const double x : {-0.4, 0.1, 0.4}) with_seams.vertices.emplace_back(x, -0.3, -0.2);
+  with_seams.triangles.emplace_back(first, first + 1, first + 2);
+  for (const auto& [name, mesh] :
+       {std::pair("doubles", drawn), std::pair("floats", as_floats), std::pair("seams", with_seams)}) {
+    SCOPED_TRACE(name);
+    const OrientedMesh oriented = orientOutward(mesh);
+    EXPECT_TRUE(oriented.quality.sign_trusted);
+    EXPECT_EQ(oriented.quality.inverted_components, 1);
+    EXPECT_EQ(oriented.quality.inverted_sheets, 0);
+    EXPECT_TRUE(isInside(oriented.mesh, {0.35, 0.01, 0.02}));
+    EXPECT_TRUE(isInside(oriented.mesh, {-0.6, 0.15, 0.07}));
+    EXPECT_FALSE(isInside(oriented.mesh, {0.01, 0.02, 0.03}));
   }
 }
 

@@ -118,4 +118,25 @@ struct CrossedTetrahedra {
   }
 };
 
+/// A box whose faces are divided each in another way, so that no edge of one is an edge of the next.
+inline TriangleMesh boxOfDividedFaces(const Vector3d& half_size) {
+  TriangleMesh mesh;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face % 3, n = 2 + face;
+    const double side = face < 3 ? 1.0 : -1.0;
+    const auto corner = [&](int i, int k) {
+      Vector3d p;
+      p[axis] = side * half_size[axis];
+      p[(axis + 1) % 3] = side * half_size[(axis + 1) % 3] * (2.0 * i / n - 1.0);
+      p[(axis + 2) % 3] = half_size[(axis + 2) % 3] * (2.0 * k / n - 1.0);
+      return p;
+    };
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < n; ++k)
+        addQuad(mesh, {corner(i, k), corner(i + 1, k), corner(i + 1, k + 1), corner(i, k + 1)});
+    }
+  }
+  return mesh;
+}
+
 }  // namespace sdf_ccd::test

@@ -1,0 +1,125 @@
+#include "conforming_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+
+#include "edge_search.h"
+
+namespace sdf_ccd {
+namespace {
+
+using Edge = std::pair<int, int>;  // ascending
+using Points = std::vector<int>;   // vertices on a side, as it runs
+
+/// Edges with an odd number of triangles.
+std::vector<Edge> oddEdges(const TriangleMesh& mesh) {
+  std::vector<Edge> odd;
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    if ((last - first) % 2 == 1) odd.emplace_back(first->low, first->high);
+  });
+  return odd;
+}
+
+/// Whether a corner lies on the opposite side: such a triangle is a seam, not a surface.
+bool isSeam(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
+  const Vector3i& t = mesh.triangles[triangle];
+  double longest = 0.0;
+  for (int k = 0; k < 3; ++k) longest = std::max(longest, (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).norm());
+  return areaNormal(mesh, static_cast<int>(triangle)).norm() <= tolerance * longest;
+}
+
+/// Per edge, the vertices on it from its lower end to the higher one.
+std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double tolerance) {
+  constexpr std::size_t kMostPerEdge = 16;  // on an average; more is no tessellation but noise
+  const std::vector<Edge> odd = oddEdges(mesh);
+  std::map<Edge, Points> on;
+  if (odd.empty()) return on;
+  const EdgeSearch search(mesh, odd);
+  CancelTicks<256> cancel;
+  std::vector<int> near;
+  std::size_t count = 0;
+  for (const int vertex : search.vertices()) {
+    cancel.check();
+    const Vector3d& p = mesh.vertices[vertex];
+    search.find(p, tolerance, near);
+    for (const int i : near) {
+      const Vector3d &a = mesh.vertices[odd[i].first], &b = mesh.vertices[odd[i].second];
+      if ((p - a).norm() <= tolerance || (p - b).norm() <= tolerance) continue;
+      on[odd[i]].push_back(vertex);
+      if (++count > kMostPerEdge * odd.size()) return {};
+    }
+  }
+  for (auto& [edge, vertices] : on) {
+    const Vector3d &a = mesh.vertices[edge.first], along = mesh.vertices[edge.second] - a;
+    const auto share = [&](int vertex) { return along.dot(mesh.vertices[vertex] - a); };
+    std::sort(vertices.begin(), vertices.end(),
+              [&](int p, int q) { return std::pair(share(p), p) < std::pair(share(q), q); });
+  }
+  return on;
+}
+
+/// Adds the parts of a triangle with vertices on its sides; side k runs from corner k to the next one.
+void split(const Vector3i& corners, const std::array<Points, 3>& on, std::vector<Vector3i>& parts) {
+  for (int k = 0; k < 3; ++k) {
+    if (on[k].empty()) continue;
+    const auto middle = on[k].begin() + static_cast<std::ptrdiff_t>(on[k].size() / 2);
+    const int next = (k + 1) % 3, last = (k + 2) % 3;
+    split({corners[last], corners[k], *middle}, {on[last], Points(on[k].begin(), middle), Points()}, parts);
+    split({*middle, corners[next], corners[last]}, {Points(middle + 1, on[k].end()), on[next], Points()}, parts);
+    return;
+  }
+  parts.push_back(corners);
+}
+
+/// The mesh split at vertices within a distance of its sides [m], and without triangles that are no higher.
+ConformingMesh splitWithin(const TriangleMesh& mesh, double tolerance) {
+  ConformingMesh result;
+  result.mesh.vertices = mesh.vertices;
+  TriangleMesh surface;
+  surface.vertices = mesh.vertices;
+  std::vector<std::int32_t> source;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (isSeam(mesh, i, tolerance)) continue;
+    surface.triangles.push_back(mesh.triangles[i]);
+    source.push_back(static_cast<std::int32_t>(i));
+  }
+  const std::map<Edge, Points> on_edges = verticesOnEdges(surface, tolerance);
+  std::vector<Vector3i> parts;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const Vector3i& t = surface.triangles[i];
+    std::array<Points, 3> on;
+    for (int k = 0; k < 3; ++k) {
+      const int from = t[k], to = t[(k + 1) % 3];
+      const auto found = on_edges.find(std::minmax(from, to));
+      if (found == on_edges.end()) continue;
+      on[k] = found->second;
+      if (from > to) std::reverse(on[k].begin(), on[k].end());
+    }
+    parts.clear();
+    split(t, on, parts);
+    result.mesh.triangles.insert(result.mesh.triangles.end(), parts.begin(), parts.end());
+    result.source.insert(result.source.end(), parts.size(), source[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+ConformingMesh conformingMesh(const TriangleMesh& mesh) {
+  constexpr double kDoubleDigits = 0x1p-48, kFloatDigits = 0x1p-22;  // of the largest coordinate
+  constexpr double kMost = 1e-6;                                     // of the mesh's size, far from the origin
+  ConformingMesh result{mesh, std::vector<std::int32_t>(mesh.triangles.size())};
+  std::iota(result.source.begin(), result.source.end(), 0);
+  if (oddEdges(mesh).empty()) return result;
+  const AlignedBox3d box = boundingBox(mesh);
+  const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  for (const double digits : {kDoubleDigits, kFloatDigits}) {
+    ConformingMesh next = splitWithin(mesh, std::min(digits * reach, kMost * box.sizes().maxCoeff()));
+    if (oddEdges(next.mesh).empty()) return next;
+  }
+  return result;
+}
+
+}  // namespace sdf_ccd

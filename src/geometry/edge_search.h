@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+
+/// Finds the edges that come near a place.
+class EdgeSearch {
+ public:
+  /// @param edges  between two vertices of the mesh each.
+  EdgeSearch(const TriangleMesh& mesh, const std::vector<std::pair<int, int>>& edges);
+
+  /// Those of the edges, in ascending order.
+  const std::vector<int>& vertices() const { return vertices_; }
+
+  /// Edges within a distance [m] of p, by their place in the list.
+  void find(const Vector3d& p, double distance, std::vector<int>& found) const;
+
+ private:
+  std::vector<int> vertices_;
+  std::optional<TriangleTree> tree_;
+};
+
+}  // namespace sdf_ccd
