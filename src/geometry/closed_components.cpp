@@ -115,9 +115,7 @@ class Inspection {
       const std::set<std::int32_t> touched = touchedBy(patches_[i].triangles);
       long around = 0;
       for (const std::int32_t holder : candidates(i)) {
-        if (touched.count(holder) != 0) continue;
-        const long number = std::lround(components_[holder].tree->windingNumber(components_[i].witness));
-        around += result[holder].turn ? -number : number;
+        if (touched.count(holder) == 0) around += (result[holder].turn ? -1 : 1) * numberIn(holder, i);
       }
       if (around == 0) {
         result[i].turn = !result[i].turn;
@@ -139,16 +137,40 @@ class Inspection {
     triangles_ = std::move(all.triangles);
   }
 
-  /// Whether all patches that lie in no other one, as far as their witnesses tell, face their insides.
+  /// Whether all patches that lie in no other one face their insides.
   bool isInsideOut() const {
     bool any = false;
+    std::vector<std::int32_t> perhaps_held;  // by their witnesses, but those may lie in what they only overlap
     for (const std::int32_t i : closed_) {
       const Component& component = components_[i];
-      if (std::abs(tree_->windingNumber(component.witness) - component.own_number) > 0.5) continue;
+      if (std::abs(tree_->windingNumber(component.witness) - component.own_number) > 0.5) {
+        perhaps_held.push_back(i);
+        continue;
+      }
       if (!component.inward) return false;
       any = true;
     }
+    for (const std::int32_t i : perhaps_held) {
+      const bool inward = components_[i].inward;
+      if ((inward && any) || isHeld(i)) continue;
+      if (!inward) return false;
+      any = true;
+    }
     return any;
+  }
+
+  /// Whether the patch lies in another one, which it does not cut or touch.
+  bool isHeld(std::int32_t inner) const {
+    const std::set<std::int32_t> holders = candidates(inner);
+    if (holders.empty()) return false;
+    const std::set<std::int32_t> touched = touchedBy(patches_[inner].triangles);
+    return std::any_of(holders.begin(), holders.end(),
+                       [&](std::int32_t holder) { return touched.count(holder) == 0 && numberIn(holder, inner) != 0; });
+  }
+
+  /// A patch's winding number at another one.
+  long numberIn(std::int32_t holder, std::int32_t inner) const {
+    return std::lround(components_[holder].tree->windingNumber(components_[inner].witness));
   }
 
   /// Patches whose box holds this one's and that a ray from its witness along x may cross, in order.

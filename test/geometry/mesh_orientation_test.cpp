@@ -154,6 +154,22 @@ TEST(MeshOrientation, AFileInsideOutKeepsItsCavities) {
   }
 }
 
+/// It holds the block's outermost corners on its side, so that the block seems to lie in it.
+TEST(MeshOrientation, APartInsideOutAcrossTheEndOfABlockLeavesItsCavity) {
+  const TriangleMesh hollow = merged(boxMesh({0.4, 0.3, 0.2}), flipped(boxMesh({0.3, 0.2, 0.1})));
+  for (const double x : {0.55, -0.55}) {
+    const TriangleMesh part = flipped(translated(boxMesh({0.2, 0.2, 0.2}), {x, 0.1, 0.05}));
+    const TriangleMesh hood = flipped(translated(boxMesh({0.2, 0.35, 0.25}), {x, 0.0, 0.0}));  // around the whole end
+    for (const TriangleMesh& across : {part, hood}) {
+      const OrientedMesh result = orientOutward(merged(hollow, across));
+      EXPECT_EQ(result.quality.inverted_components, 1) << x;
+      EXPECT_FALSE(isInside(result.mesh, {0.01, 0.02, 0.03})) << x;
+      EXPECT_TRUE(isInside(result.mesh, {0.35, 0.01, 0.02})) << x;
+      EXPECT_TRUE(result.quality.sign_trusted) << x;
+    }
+  }
+}
+
 TEST(MeshOrientation, ABallInACavityIsNoCavity) {
   const TriangleMesh hollow = merged(boxMesh({1, 1, 1}), flipped(icosphere(0.8, 2)));
   const TriangleMesh ball = icosphere(0.3, 2);
@@ -238,13 +254,13 @@ TEST(MeshOrientation, SoupsOfSolidsTurnedAtRandomAreTheirUnion) {
           std::any_of(bodies.begin(), bodies.end(), [&](const Body& b) { return b.mayHold(body) || body.mayHold(b); });
       if (!nested) bodies.push_back(body);
     }
-    // One that is as it should be, so that the file is not inside out as a whole.
-    TriangleMesh mesh = translated(boxMesh({0.1, 0.1, 0.1}), {5, 0, 0});
+    // The first is as it should be, wherever it lies among the others: the file is not inside out as a whole.
+    TriangleMesh mesh = bodies[0].mesh(false);
     int inverted = 0;
-    for (const Body& body : bodies) {
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
       const bool invert = random() % 2 == 0;
       inverted += invert;
-      mesh = merged(mesh, body.mesh(invert));
+      mesh = merged(mesh, bodies[i].mesh(invert));
     }
     // Cavities may cut each other's: then the number is below zero there, and the sign is not trusted.
     const OrientedMesh result = orientOutward(mesh);
