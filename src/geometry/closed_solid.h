@@ -9,7 +9,8 @@
 
 namespace sdf_ccd {
 
-/// A solid, with caps in its openings if it is not closed (see findOpenings()).
+/// A solid; if it is not closed, joined where faces were tessellated apart (see conformingMesh()) if that closes it,
+/// else with caps in its openings (see findOpenings()).
 class ClosedSolid {
  public:
   explicit ClosedSolid(std::shared_ptr<const Solid> solid);

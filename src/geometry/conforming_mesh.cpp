@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "edge_search.h"
+#include "triangle_cut.h"
 
 namespace sdf_ccd {
 namespace {
@@ -24,9 +25,7 @@ std::vector<Edge> oddEdges(const TriangleMesh& mesh) {
 
 /// Whether a corner lies on the opposite side: such a triangle is a seam, not a surface.
 bool isSeam(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
-  const Vector3i& t = mesh.triangles[triangle];
-  double longest = 0.0;
-  for (int k = 0; k < 3; ++k) longest = std::max(longest, (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).norm());
+  const double longest = longestEdge(cornersOf(mesh, static_cast<int>(triangle)));
   return areaNormal(mesh, static_cast<int>(triangle)).norm() <= tolerance * longest;
 }
 
@@ -51,12 +50,7 @@ std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double toleranc
       if (++count > kMostPerEdge * odd.size()) return {};
     }
   }
-  for (auto& [edge, vertices] : on) {
-    const Vector3d &a = mesh.vertices[edge.first], along = mesh.vertices[edge.second] - a;
-    const auto share = [&](int vertex) { return along.dot(mesh.vertices[vertex] - a); };
-    std::sort(vertices.begin(), vertices.end(),
-              [&](int p, int q) { return std::pair(share(p), p) < std::pair(share(q), q); });
-  }
+  for (auto& [edge, vertices] : on) sortAlong(mesh, edge, vertices);
   return on;
 }
 

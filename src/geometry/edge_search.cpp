@@ -25,4 +25,11 @@ void EdgeSearch::find(const Vector3d& p, double distance, std::vector<int>& foun
   if (tree_) tree_->trianglesWithin(p, distance, found);
 }
 
+void sortAlong(const TriangleMesh& mesh, const std::pair<int, int>& edge, std::vector<int>& vertices) {
+  const Vector3d &a = mesh.vertices[edge.first], along = mesh.vertices[edge.second] - a;
+  const auto share = [&](int vertex) { return along.dot(mesh.vertices[vertex] - a); };
+  std::sort(vertices.begin(), vertices.end(),
+            [&](int p, int q) { return std::pair(share(p), p) < std::pair(share(q), q); });
+}
+
 }  // namespace sdf_ccd

@@ -25,4 +25,7 @@ class EdgeSearch {
   std::optional<TriangleTree> tree_;
 };
 
+/// Sorts vertices by where they are along an edge, from its first end on.
+void sortAlong(const TriangleMesh& mesh, const std::pair<int, int>& edge, std::vector<int>& vertices);
+
 }  // namespace sdf_ccd

@@ -31,20 +31,19 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
   }
 }
 
-/// Turns triangles of `mesh` as their parts were turned.
+/// Turns triangles of `mesh` as their parts are turned in `turned`.
 /// @return whether all parts of each triangle agree.
-bool turnAsParts(const std::vector<Vector3i>& before, const ConformingMesh& parts, TriangleMesh& mesh) {
-  std::vector<char> turned(mesh.triangles.size(), 0), seen(mesh.triangles.size(), 0);
+bool turnAsParts(const ConformingMesh& parts, const TriangleMesh& turned, TriangleMesh& mesh) {
+  std::vector<char> turn(mesh.triangles.size(), 0);
   bool agree = true;
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (std::size_t i = 0; i < parts.source.size(); ++i) {
     const std::int32_t source = parts.source[i];
-    const char turn = parts.mesh.triangles[i] != before[i];
-    agree = agree && (!seen[source] || turned[source] == turn);
-    seen[source] = 1;
-    turned[source] = turn;
+    const char turns = turned.triangles[i] != parts.mesh.triangles[i];
+    agree = agree && (i == 0 || parts.source[i - 1] != source || turn[source] == turns);
+    turn[source] = turns;
   }
-  for (std::size_t i = 0; i < turned.size(); ++i) {
-    if (turned[i]) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    if (turn[i]) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
   }
   return agree;
 }
@@ -52,11 +51,11 @@ bool turnAsParts(const std::vector<Vector3i>& before, const ConformingMesh& part
 /// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `walls`.
 void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
   MeshQuality& quality = result.quality;
-  ConformingMesh joined = conformingMesh(result.mesh);
-  const std::vector<Vector3i> as_drawn = joined.mesh.triangles;
-  const std::vector<Patch> patches = orientConsistently(joined.mesh);
+  const ConformingMesh joined = conformingMesh(result.mesh);
+  TriangleMesh likeness = joined.mesh;
+  const std::vector<Patch> patches = orientConsistently(likeness);
   checkCancelled();
-  TriangleMesh likeness = normalized(joined.mesh);
+  likeness = normalized(std::move(likeness));
   bool doubtful = false;
   const std::vector<ClosedComponent> closed = inspectClosed(likeness, patches);
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -73,9 +72,8 @@ void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
     if (from_behind[i] != 0) flip(likeness, patches[i]);
   }
   const std::vector<char> hidden = hiddenWalls(likeness, patches, walls);
-  joined.mesh.triangles = likeness.triangles;
-  doubtful = !turnAsParts(as_drawn, joined, result.mesh) || doubtful;
-  quality.sign_trusted = isClosed(joined.mesh) && !doubtful;
+  doubtful = !turnAsParts(joined, likeness, result.mesh) || doubtful;
+  quality.sign_trusted = isClosed(likeness) && !doubtful;
 
   std::size_t kept = 0;
   for (std::size_t i = 0; i < walls.size(); ++i) {

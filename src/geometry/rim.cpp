@@ -3,9 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge_search.h"
 #include "mesh_edges.h"
 
 namespace sdf_ccd {
+namespace {
+
+EdgeSearch searchOf(const TriangleMesh& mesh, const std::vector<std::pair<std::pair<int, int>, int>>& edges) {
+  std::vector<std::pair<int, int>> places;
+  for (const auto& [edge, n] : edges) places.push_back(edge);
+  return EdgeSearch(mesh, places);
+}
+
+}  // namespace
+
 Rim::Rim(const TriangleMesh& mesh) : mesh_(mesh) {
   forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
     const int n = imbalance(first, last);
@@ -34,15 +45,9 @@ void Rim::join(double tolerance) {
   if (!empty()) splitEdges(tolerance);
 }
 
-EdgeSearch Rim::searchOf(const std::vector<std::pair<Edge, int>>& edges) const {
-  std::vector<Edge> places;
-  for (const auto& [edge, n] : edges) places.push_back(edge);
-  return EdgeSearch(mesh_, places);
-}
-
 void Rim::mergeVertices(double tolerance) {
   const std::vector<std::pair<Edge, int>> before = edges();
-  const EdgeSearch search = searchOf(before);
+  const EdgeSearch search = searchOf(mesh_, before);
   std::map<int, int> target;  // those that stay are targets of themselves, and farther than the tolerance apart
   std::vector<int> near;
   bool any = false;
@@ -75,7 +80,7 @@ void Rim::mergeVertices(double tolerance) {
 
 void Rim::splitEdges(double tolerance) {
   const std::vector<std::pair<Edge, int>> before = edges();
-  const EdgeSearch search = searchOf(before);
+  const EdgeSearch search = searchOf(mesh_, before);
   std::vector<std::vector<int>> through(before.size());
   std::vector<int> near;
   for (const int vertex : search.vertices()) {
@@ -87,10 +92,7 @@ void Rim::splitEdges(double tolerance) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     const auto& [edge, n] = before[i];
     if (through[i].empty()) continue;
-    const Vector3d &a = mesh_.vertices[edge.first], along = mesh_.vertices[edge.second] - a;
-    const auto share = [&](int vertex) { return along.dot(mesh_.vertices[vertex] - a); };
-    std::sort(through[i].begin(), through[i].end(),
-              [&](int p, int q) { return std::pair(share(p), p) < std::pair(share(q), q); });
+    sortAlong(mesh_, edge, through[i]);
     int last = edge.first;
     for (const int vertex : through[i]) {
       fill(last, edge.second, vertex, n);  // last→end becomes last→vertex→end

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "edge_search.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd {
@@ -36,7 +35,6 @@ class Rim {
 
   void add(int from, int to, int n);
   std::vector<std::pair<Edge, int>> edges() const { return {edges_.begin(), edges_.end()}; }
-  EdgeSearch searchOf(const std::vector<std::pair<Edge, int>>& edges) const;
   void mergeVertices(double tolerance);
   void splitEdges(double tolerance);
 
