@@ -1,13 +1,14 @@
 # catkin, the messages and catkin_package(): everything that must come before the targets.
 find_package(catkin REQUIRED COMPONENTS
-  diagnostic_updater geometry_msgs message_generation nodelet pluginlib resource_retriever rosbag roscpp roslib
-  sensor_msgs shape_msgs std_msgs std_srvs tf2 tf2_msgs trajectory_msgs visualization_msgs)
+  diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pluginlib resource_retriever rosbag
+  roscpp roslib sensor_msgs shape_msgs std_msgs std_srvs tf2 tf2_msgs trajectory_msgs visualization_msgs)
 
 file(GLOB SDF_CCD_MESSAGES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 file(GLOB SDF_CCD_SERVICES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/srv CONFIGURE_DEPENDS srv/*.srv)
 add_message_files(DIRECTORY msg FILES ${SDF_CCD_MESSAGES})
 add_service_files(DIRECTORY srv FILES ${SDF_CCD_SERVICES})
 generate_messages(DEPENDENCIES geometry_msgs shape_msgs std_msgs trajectory_msgs)
+generate_dynamic_reconfigure_options(cfg/CollisionMonitor.cfg cfg/VelocityScale.cfg)
 
 catkin_package(
   INCLUDE_DIRS include

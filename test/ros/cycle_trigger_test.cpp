@@ -39,6 +39,23 @@ TEST(CycleTrigger, ATimerIsNeverEarlyAndDoesNotDrift) {
   EXPECT_LE(cycles, elapsed / 0.001 + 1.0);
 }
 
+TEST(CycleTrigger, AHigherRateHoldsForWhoWaitsAlready) {
+  CycleTrigger trigger;
+  trigger.setOptions({TriggerKind::kTimer, {}, 1000.0, 0.1});
+  ASSERT_TRUE(trigger.wait());
+  const auto start = Clock::now();
+  std::thread setter([&] {
+    std::this_thread::sleep_for(milliseconds(50));
+    trigger.wake();
+  });
+  int cycles = 0;
+  const auto setRate = [&] { trigger.setOptions({TriggerKind::kTimer, {}, 0.01, 0.1}); };
+  while (cycles < 20 && trigger.wait(setRate)) ++cycles;
+  setter.join();
+  EXPECT_EQ(cycles, 20);
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(10));
+}
+
 /// How many cycles begin while news come.
 template <class Bring>
 int cyclesWhile(const TriggerOptions& options, int times, const Bring& bring) {

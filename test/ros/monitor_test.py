@@ -7,6 +7,7 @@ import time
 
 import rospy
 import rostest
+import dynamic_reconfigure.client
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import WrenchStamped
 from std_msgs.msg import Float64
@@ -135,6 +136,51 @@ class MonitorTest(MonitorCase):
         for recorder in (distances, scales):
             recorder.close()
 
+    def test_parameters_change_while_it_runs(self):
+        monitor = dynamic_reconfigure.client.Client('/collision_monitor', timeout=20.0)
+        scale = dynamic_reconfigure.client.Client('/collision_monitor/velocity_scale', timeout=20.0)
+        before, promised = dict(monitor.get_configuration()), dict(scale.get_configuration())
+        self.assertEqual((before['warning_distance'], before['stop_distance'], before['max_points']), (0.1, 0.02, 20))
+        self.assertEqual((promised['max_acceleration'], promised['max_age']), (0.2, 5.0))
+        distances = Recorder('/collision_monitor/distances', DistanceArray)
+        scales = Recorder('/collision_monitor/velocity_scale', Float64)
+        self.wait_for(distances)
+        try:
+            # 0.18 m away from the plate: neither near nor slowed, but then both.
+            self.rest_at(0.3)
+            self.assertIsNotNone(self.states.find(lambda m: m.proximity == MonitorState.FREE))
+            self.assertIsNotNone(scales.find(lambda m: m.data > 0.2))
+            set_now = monitor.update_configuration({'warning_distance': 0.19, 'report_distance': 0.25, 'max_points': 1})
+            self.assertEqual((set_now['warning_distance'], set_now['stop_distance']), (0.19, 0.02))
+            scale.update_configuration({'reaction_time': 2.0, 'max_speed': 5.0})
+            self.states.clear()
+            scales.clear()
+            self.rest_at(0.3)
+            self.assertIsNotNone(self.states.find(lambda m: m.proximity == MonitorState.WARNING))
+            self.assertIsNotNone(scales.find(lambda m: m.data < 0.1))
+            self.assertIsNotNone(distances.find(lambda m: m.range == 0.25))
+            self.assertEqual(rospy.get_param('/collision_monitor/warning_distance'), 0.19)
+            # What cannot be stays as it was; what is beyond the limits is cut off there.
+            for wrong in ({'stop_distance': 0.2}, {'hysteresis': float('nan'), 'stop_distance': 0.05}):
+                self.assertEqual(monitor.update_configuration(wrong)['stop_distance'], 0.02)
+            self.assertEqual(monitor.update_configuration({'hysteresis': -1.0})['hysteresis'], 0.0)
+            self.contacts.clear()
+            self.send(0.47)
+            self.send(0.53)
+            self.send(0.53)
+            touching = self.contacts.find(self.touching)
+            self.assertIsNotNone(touching)
+            self.assertEqual(len(pair_of(touching, 'ball', 'plate').points), 1)
+        finally:
+            monitor.update_configuration({name: before[name] for name in before if name != 'groups'})
+            scale.update_configuration({name: promised[name] for name in promised if name != 'groups'})
+            for client in (monitor, scale, distances, scales):
+                client.close()
+
+    def rest_at(self, ball):
+        for _ in range(6):
+            self.send(ball)
+
     def wait_for(self, recorder):
         """Until the monitor has seen that somebody listens."""
         end = time.monotonic() + 10.0
@@ -246,6 +292,11 @@ class MonitorTest(MonitorCase):
         for _ in range(60):
             self.send(0.0)
         self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'transforms') == DiagnosticStatus.WARN))
+
+    def test_rate_is_told_and_kept(self):
+        diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'rate') == DiagnosticStatus.OK))
+        diagnostics.close()
 
     def test_old_stamp_of_one_frame_clears_nothing(self):
         for i in range(30):

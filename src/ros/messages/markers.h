@@ -27,6 +27,11 @@ class MarkerDrawer {
   MarkerDrawer(const std::string& fixed_frame, const MarkerOptions& options)
       : fixed_frame_(fixed_frame), options_(options), states_(options.hold) {}
 
+  void setOptions(const MarkerOptions& options) {
+    options_ = options;
+    states_.setHold(options.hold);
+  }
+
   /// Markers of all pairs that touch, deletions of those that no longer do, and the status.
   /// @param now  the status tells how long ago things were as they are drawn.
   visualization_msgs::MarkerArray draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now);

@@ -25,6 +25,8 @@ class PairStates {
   /// @param hold  how long contacts stay [s].
   explicit PairStates(double hold) : hold_(hold) {}
 
+  void setHold(double hold) { hold_ = hold; }
+
   void update(const CycleResult& result, const CycleContext& cycle);
 
   /// Goes on with other pairs. @param before  per pair: its index until now; -1 if it is new.

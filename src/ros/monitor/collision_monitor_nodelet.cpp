@@ -44,6 +44,7 @@ CollisionMonitor::~CollisionMonitor() {
   }
   service_queue_.disable();  // the spinner wakes up at once
   if (service_spinner_) service_spinner_->stop();
+  reconfiguration_.reset();
   live_map_.reset();
   scene_editor_.reset();
   queries_.reset();
@@ -103,10 +104,7 @@ void CollisionMonitor::setUpThenCycle() {
   TriggerOptions trigger = parameters_.trigger;
   if (!health_.failure.empty()) trigger = {TriggerKind::kTimer, {}, kIdlePeriod, 0.0};
   trigger_.setOptions(trigger);
-  // A world that is ready meanwhile is taken over at once: this is between two cycles.
-  while (trigger_.wait([this] {
-    if (scene_editor_) scene_editor_->adopt();
-  }) && ros::ok()) {
+  while (trigger_.wait([this] { betweenCycles(); }) && ros::ok()) {
     try {
       health_.failure.empty() ? cycle() : idle(health_.failure);
     } catch (const std::exception& error) {
@@ -152,6 +150,9 @@ void CollisionMonitor::setUp() {
   first_world_.reset();
   if (!parameters_.live_map.topic.empty())
     live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(), stop_);
+  ros::NodeHandle served(getPrivateNodeHandle());
+  served.setCallbackQueue(&service_queue_);
+  reconfiguration_ = std::make_unique<Reconfiguration>(served, parameters_, wake);
   health_.building.clear();
   forget("waiting for transforms");
   const std::lock_guard<std::mutex> lock(ready_mutex_);
@@ -193,11 +194,11 @@ void CollisionMonitor::buildFields() {
     health_.warnings.push_back(over);
   }
   health_.wanted_rate = parameters_.rate;
+  health_.is_timed = parameters_.trigger.kind == TriggerKind::kTimer;
   health_.max_error = parameters_.scene.max_error.value_or(0.0);
   health_.pairs = static_cast<int>(scene->pairs.size());
-  health_.pairs_left_out =
-      static_cast<int>(std::count_if(scene->left_out.begin(), scene->left_out.end(),
-                                     [](const LeftOut& left_out) { return left_out.body_a >= 0; }));
+  health_.pairs_left_out = static_cast<int>(std::count_if(
+      scene->left_out.begin(), scene->left_out.end(), [](const LeftOut& left_out) { return left_out.body_a >= 0; }));
   publishPlan(*first_world_);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
                described_.fixed_frame.c_str(), planTable(*scene).c_str());
@@ -284,7 +285,18 @@ void CollisionMonitor::sayWhatIsDropped() {
   health_.not_kept = not_kept;
 }
 
+/// A world that is ready meanwhile, and parameters that were set, are taken over at once.
+void CollisionMonitor::betweenCycles() {
+  if (scene_editor_) scene_editor_->adopt();
+  if (!reconfiguration_ || !reconfiguration_->apply(parameters_)) return;
+  trigger_.setOptions(parameters_.trigger);
+  proximity_->setParameters(parameters_.proximity);
+  outputs_->setMarkers(parameters_.markers);
+  health_.wanted_rate = parameters_.rate;
+}
+
 void CollisionMonitor::cycle() {
+  diagnostics_->tick();
   if (reset_asked_.exchange(false)) {
     loop_->reset();
     forget("reset");
@@ -331,6 +343,7 @@ void CollisionMonitor::publishCycle() {
   setMonitorState(*loop_, sent, *state);
   outputs_->publish(state, proximity_->measure(*loop_, sent, *state));
   health_.stalled = false;
+  health_.world_version = loop_->world()->version();
   health_.latency = state->latency;
   health_.run_time = state->run_time;
   health_.error = loop_->result().error;

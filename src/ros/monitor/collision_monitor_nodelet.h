@@ -15,6 +15,7 @@
 #include "ros/monitor/live_map.h"
 #include "ros/monitor/outputs.h"
 #include "ros/monitor/queries.h"
+#include "ros/monitor/reconfiguration.h"
 #include "ros/monitor/scene_editor.h"
 #include "ros/tf/joint_watch.h"
 #include "sdf_ccd/GetPlan.h"
@@ -46,6 +47,7 @@ namespace sdf_ccd {
 ///   update_scene  sdf_ccd/UpdateScene  changes the world's objects and the pairs, while the monitor runs
 ///   get_plan      sdf_ccd/GetPlan      what is checked now
 ///   reset         std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
+///   what Reconfiguration does
 ///
 /// Building and cycles have a thread of their own, and so has what publishes and draws them; transforms have a callback
 /// queue and a thread, services a queue and a thread per query that is answered at a time. Unloading ends all of them
@@ -69,6 +71,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void hearStaticAgain();
   void take(const tf2_msgs::TFMessage& message, bool is_static);
   void sayWhatIsDropped();
+  void betweenCycles();
   void cycle();
   bool isSilent() const;
   void publishWorld();
@@ -104,6 +107,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::unique_ptr<SceneEditor> scene_editor_;
   std::unique_ptr<LiveMap> live_map_;
   std::unique_ptr<JointWatch> joint_watch_;
+  std::unique_ptr<Reconfiguration> reconfiguration_;
 
   std::unique_ptr<Diagnostics> diagnostics_;
   MonitorHealth health_;

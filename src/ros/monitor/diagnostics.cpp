@@ -3,6 +3,9 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kRateTolerance = 0.1;
+constexpr int kRateWindow = 10;  // of updates, which come once a second
+
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
@@ -13,7 +16,7 @@ void addLines(const std::string& key, const std::vector<std::string>& lines, Dia
 }  // namespace
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name)
-    : updater_(node, private_node, name) {
+    : updater_(node, private_node, name), rate_({&least_rate_, &largest_rate_, kRateTolerance, kRateWindow}, "rate") {
   updater_.setHardwareID("none");
   updater_.add("cycles", [this](DiagnosticStatusWrapper& status) { cycles(status); });
   updater_.add("transforms", [this](DiagnosticStatusWrapper& status) { transforms(status); });
@@ -22,7 +25,20 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
 
 void Diagnostics::update(const MonitorHealth& health, bool at_once) {
   health_ = health;
+  // The rate is measured by the clock of ROS, which a player may run at any speed.
+  const bool is_real = !ros::Time::isSimTime();
+  least_rate_ = is_real && health.is_timed ? health.wanted_rate : 0.0;
+  largest_rate_ = is_real ? health.wanted_rate : std::numeric_limits<double>::infinity();
   at_once ? updater_.force_update() : updater_.update();
+}
+
+void Diagnostics::tick() {
+  if (!ticks_) {
+    ticks_ = true;
+    rate_.clear();
+    updater_.add(rate_);
+  }
+  rate_.tick();
 }
 
 void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
@@ -87,6 +103,7 @@ void Diagnostics::bodies(DiagnosticStatusWrapper& status) const {
   } else {
     status.summary(DiagnosticStatus::OK, "all can be checked");
   }
+  status.add("world version", health_.world_version);
   addLines("not checked", health_.bad_bodies, status);
   addLines("warning", health_.warnings, status);
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <diagnostic_updater/update_functions.h>
 
 #include "sdf_ccd/query/verdict.h"
 
@@ -15,13 +18,15 @@ struct MonitorHealth {
   std::string building;        ///< what is being built; empty if all is
   bool stalled = false;        ///< no transforms arrive
   double wanted_rate = 0.0;    ///< [Hz]
+  bool is_timed = false;       ///< cycles begin at that rate; else no more often
   double rate = 0.0;           ///< of cycles [Hz]
   double latency = 0.0;        ///< of the last cycle [s]
   double run_time = 0.0;       ///< of the last check [s]
   ErrorBound error;            ///< of the last cycle's pair where it is largest
   double contact_error = 0.0;  ///< CycleResult::contact_error of the last cycle [m]
   double max_error = 0.0;      ///< wanted [m]; 0: none
-  int pairs = 0;               ///< to be checked in each cycle
+  std::uint64_t world_version = 0;
+  int pairs = 0;  ///< to be checked in each cycle
   int pairs_left_out = 0;
   std::vector<std::string> missing;     ///< "body: reason" of the last cycle
   std::vector<std::string> bad_bodies;  ///< "body: reason" of those without field or shell
@@ -38,13 +43,17 @@ struct MonitorHealth {
 };
 
 /// Publishes:
-///   /diagnostics  diagnostic_msgs/DiagnosticArray  once a second: cycles, transforms, bodies
+///   /diagnostics  diagnostic_msgs/DiagnosticArray  once a second: cycles, transforms, bodies, and, once there are
+///                                                  cycles, their rate
 class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name);
 
   /// Publishes if a second has passed, or `at_once`: as after the clock has jumped back.
   void update(const MonitorHealth& health, bool at_once = false);
+
+  /// A cycle begins, whether or not there is anything to check.
+  void tick();
 
  private:
   void cycles(diagnostic_updater::DiagnosticStatusWrapper& status) const;
@@ -53,6 +62,9 @@ class Diagnostics {
 
   diagnostic_updater::Updater updater_;
   MonitorHealth health_;
+  double least_rate_ = 0.0, largest_rate_ = std::numeric_limits<double>::infinity();  // [Hz]
+  diagnostic_updater::FrequencyStatus rate_;
+  bool ticks_ = false;
 };
 
 }  // namespace sdf_ccd

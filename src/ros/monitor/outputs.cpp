@@ -27,6 +27,7 @@ Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, cons
       state_(state),
       world_publisher_(world),
       torques_(described),
+      marker_options_(options),
       drawer_(loop.fixedFrame(), options) {
   contacts_ = node_.advertise<ContactArray>("contacts", 100);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 10);
@@ -102,6 +103,7 @@ void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost:
   if (torques_wanted_) report.torques = torques_.toMessage(loop_);
   report.draws_markers = markers_wanted_;
   report.draws_links = links_wanted_;
+  report.marker_options = marker_options_;
   if (contacts_wanted_) {
     report.contacts = contact_messages_.take();
     setContactArray(loop_, *report.contacts);
@@ -183,6 +185,7 @@ void Outputs::draw(const Report& report) {
   } else if (finishes_ || (!report.draws_markers && !report.draws_links)) {
     return;
   } else {
+    drawer_.setOptions(report.marker_options);
     const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(
         drawer_.draw(report.snapshot.result(), report.snapshot.context(), ros::Time::now()));
     if (report.draws_markers) markers_.publish(markers);

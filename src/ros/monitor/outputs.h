@@ -72,6 +72,9 @@ class Outputs {
   /// The world is drawn once more, as after a jump of time, when rviz drops what it shows.
   void drawWorldAgain() { world_drawn_ = 0; }
 
+  /// How it is drawn from now on.
+  void setMarkers(const MarkerOptions& options) { marker_options_ = options; }
+
   /// What the subscribers want to know of the next cycle.
   CycleRequest request(int max_points);
 
@@ -97,7 +100,8 @@ class Outputs {
     std::vector<std::pair<ros::Publisher, WrenchMessage>> wrenches;
     CycleSnapshot snapshot;
     bool draws_markers = false, draws_links = false;  // of the snapshot
-    std::shared_ptr<const CheckedWorld> world;        // that this is about; null if nothing is drawn
+    MarkerOptions marker_options;
+    std::shared_ptr<const CheckedWorld> world;  // that this is about; null if nothing is drawn
     bool draws_world = false;
     bool is_unchecked = false;
     std::string reason;  // why
@@ -117,6 +121,7 @@ class Outputs {
   ros::Publisher state_, world_publisher_, contacts_, markers_, links_;
   std::vector<LinkWrench> wrenches_;
   TorqueOutput torques_;
+  MarkerOptions marker_options_;
   std::uint64_t world_drawn_ = 0;  // its version
   ros::WallTime world_drawn_at_;
 

@@ -18,10 +18,19 @@ nanoseconds nextOnGrid(nanoseconds begin, nanoseconds now, nanoseconds period) {
   return begin + ((now - begin) / period + 1) * period;
 }
 
+nanoseconds CycleTrigger::now() {
+  return Clock::now().time_since_epoch();
+}
+
+nanoseconds CycleTrigger::period() const {
+  return std::max(nanoseconds(1), toNanoseconds(options_.period));
+}
+
 void CycleTrigger::setOptions(const TriggerOptions& options) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     options_ = options;
+    if (due_.count() > 0) due_ = std::min(due_, now() + period());
     takeNews();
   }
   changed_.notify_all();
@@ -64,18 +73,16 @@ void CycleTrigger::onFrame(const std::string& child) {
 
 bool CycleTrigger::wait(const std::function<void()>& woken) {
   std::unique_lock<std::mutex> lock(mutex_);
-  const auto now = [] { return nanoseconds(Clock::now().time_since_epoch()); };
   const auto doBetween = [&] {
     woken_ = false;
     lock.unlock();
     if (woken) woken();
     lock.lock();
   };
-  const auto waitUntil = [&](nanoseconds time, const auto& isDue) {
-    const Clock::time_point end(std::chrono::duration_cast<Clock::duration>(time));
-    while (changed_.wait_until(lock, end, [&] { return woken_ || isDue(); }) && !isDue()) doBetween();
+  const auto waitUntil = [&](const nanoseconds& time, const auto& isDue) {
+    const auto end = [&] { return Clock::time_point(std::chrono::duration_cast<Clock::duration>(time)); };
+    while (changed_.wait_until(lock, end(), [&] { return woken_ || isDue(); }) && !isDue()) doBetween();
   };
-  const nanoseconds period = std::max(nanoseconds(1), toNanoseconds(options_.period));
   if (due_.count() > 0) {
     waitUntil(due_, [&] { return stop_; });
     if (options_.kind != TriggerKind::kTimer) {
@@ -86,7 +93,7 @@ bool CycleTrigger::wait(const std::function<void()>& woken) {
   takeNews();
   // A timer keeps its grid; what is triggered by others keeps the distance.
   const bool is_timer = options_.kind == TriggerKind::kTimer && due_.count() > 0;
-  due_ = is_timer ? nextOnGrid(due_, now(), period) : now() + period;
+  due_ = is_timer ? nextOnGrid(due_, now(), period()) : now() + period();
   return !stop_;
 }
 

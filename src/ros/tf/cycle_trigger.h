@@ -32,6 +32,7 @@ std::chrono::nanoseconds nextOnGrid(std::chrono::nanoseconds begin, std::chrono:
 /// Says when the next cycle is due. One thread waits; any may bring news.
 class CycleTrigger {
  public:
+  /// Also while a thread waits, whose cycle is due no later than the new period tells.
   void setOptions(const TriggerOptions& options);
 
   /// News: transforms of these frames, without leading slashes; joint states.
@@ -57,6 +58,8 @@ class CycleTrigger {
  private:
   using Clock = std::chrono::steady_clock;
 
+  static std::chrono::nanoseconds now();
+  std::chrono::nanoseconds period() const;
   void bring(TriggerKind kind);
   void takeNews();
 

@@ -1,0 +1,122 @@
+#include "ros/monitor/reconfiguration.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdf_ccd {
+namespace {
+
+CollisionMonitorConfig configOf(const MonitorParameters& parameters) {
+  CollisionMonitorConfig config = CollisionMonitorConfig::__getDefault__();
+  config.rate = parameters.rate;
+  config.max_cycle_time = parameters.max_cycle_time;
+  config.report_distance = parameters.proximity.report_distance;
+  config.warning_distance = parameters.proximity.thresholds.warning;
+  config.stop_distance = parameters.proximity.thresholds.stop;
+  config.hysteresis = parameters.proximity.thresholds.hysteresis;
+  config.max_points = parameters.max_points;
+  config.marker_scale = parameters.markers.scale;
+  config.marker_hold = parameters.markers.hold;
+  return config;
+}
+
+VelocityScaleConfig configOf(const StoppingPromise& promise) {
+  VelocityScaleConfig config = VelocityScaleConfig::__getDefault__();
+  config.max_speed = promise.max_speed;
+  config.max_acceleration = promise.max_acceleration;
+  config.deceleration = promise.deceleration;
+  config.reaction_time = promise.reaction_time;
+  config.period = promise.period;
+  config.max_age = promise.max_age;
+  return config;
+}
+
+void apply(const CollisionMonitorConfig& config, MonitorParameters& parameters) {
+  parameters.rate = config.rate;
+  parameters.trigger.period = 1.0 / config.rate;
+  parameters.max_cycle_time = config.max_cycle_time;
+  parameters.proximity.report_distance = config.report_distance;
+  parameters.proximity.thresholds = {config.warning_distance, config.stop_distance, config.hysteresis};
+  if (parameters.proximity.promise) parameters.proximity.promise->stop_distance = config.stop_distance;
+  parameters.max_points = config.max_points;
+  parameters.markers.scale = config.marker_scale;
+  parameters.markers.hold = config.marker_hold;
+}
+
+void apply(const VelocityScaleConfig& config, StoppingPromise& promise) {
+  promise.max_speed = config.max_speed;
+  promise.max_acceleration = config.max_acceleration;
+  promise.deceleration = config.deceleration;
+  promise.reaction_time = config.reaction_time;
+  promise.period = config.period;
+  promise.max_age = config.max_age;
+}
+
+/// NaN passes the limits of dynamic_reconfigure.
+template <class Config>
+std::string notFinite(const Config& config) {
+  dynamic_reconfigure::Config message;
+  config.__toMessage__(message);
+  const auto bad = std::find_if(message.doubles.begin(), message.doubles.end(),
+                                [](const auto& number) { return !std::isfinite(number.value); });
+  return bad == message.doubles.end() ? "" : bad->name + " is not finite";
+}
+
+std::string whyNot(const CollisionMonitorConfig& config) {
+  if (config.warning_distance > 0.0 && config.warning_distance < config.stop_distance) {
+    return "warning_distance is less than stop_distance";
+  }
+  return notFinite(config);
+}
+
+}  // namespace
+
+template <class Config>
+ConfigServer<Config>::ConfigServer(const ros::NodeHandle& node, const Config& start,
+                                   std::function<std::string(const Config&)> why_not, std::function<void()> changed)
+    : in_force_(start), why_not_(std::move(why_not)), changed_(std::move(changed)), server_(node) {
+  server_.setCallback([this](Config& config, std::uint32_t) { set(config); });
+}
+
+template <class Config>
+void ConfigServer<Config>::set(Config& config) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string why_not = why_not_(config);
+  if (!why_not.empty()) ROS_WARN("set_parameters refused: %s", why_not.c_str());
+  // The server's own first configuration is cut off at its limits.
+  if (begins_ || !why_not.empty()) {
+    config = in_force_;
+    begins_ = false;
+    return;
+  }
+  in_force_ = config;
+  is_new_ = true;
+  changed_();
+}
+
+template <class Config>
+std::optional<Config> ConfigServer<Config>::take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!is_new_) return std::nullopt;
+  is_new_ = false;
+  return in_force_;
+}
+
+Reconfiguration::Reconfiguration(const ros::NodeHandle& private_node, const MonitorParameters& parameters,
+                                 const std::function<void()>& changed)
+    : monitor_(private_node, configOf(parameters), whyNot, changed) {
+  if (!parameters.proximity.promise) return;
+  velocity_scale_ = std::make_unique<ConfigServer<VelocityScaleConfig>>(ros::NodeHandle(private_node, "velocity_scale"),
+                                                                        configOf(*parameters.proximity.promise),
+                                                                        notFinite<VelocityScaleConfig>, changed);
+}
+
+bool Reconfiguration::apply(MonitorParameters& parameters) {
+  const std::optional<CollisionMonitorConfig> monitor = monitor_.take();
+  if (monitor) sdf_ccd::apply(*monitor, parameters);
+  const std::optional<VelocityScaleConfig> scale = velocity_scale_ ? velocity_scale_->take() : std::nullopt;
+  if (scale) sdf_ccd::apply(*scale, *parameters.proximity.promise);
+  return monitor || scale;
+}
+
+}  // namespace sdf_ccd
