@@ -57,9 +57,9 @@ Interior::Interior(const TriangleMesh& mesh, std::shared_ptr<const TriangleTree>
   if (!closed_) groups_.push_back({std::move(tree), Inside::kAboveHalf});
 }
 
-bool Interior::contains(const Vector3d& p) const {
+bool Interior::contains(const Vector3d& p, std::size_t* visited) const {
   return std::any_of(groups_.begin(), groups_.end(),
-                     [&](const Group& group) { return group.tree->inside(p, group.rule); });
+                     [&](const Group& group) { return group.tree->inside(p, group.rule, visited); });
 }
 
 }  // namespace sdf_ccd

@@ -21,7 +21,8 @@ class Interior {
   Interior(const TriangleMesh& mesh, std::shared_ptr<const TriangleTree> tree);
 
   bool closed() const { return closed_; }  ///< see isClosed()
-  bool contains(const Vector3d& p) const;
+  /// @param visited  see TriangleTree::inside().
+  bool contains(const Vector3d& p, std::size_t* visited = nullptr) const;
 
  private:
   struct Group {

@@ -128,9 +128,11 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
 
   std::vector<std::vector<SurfacePart>> parts(sides.size());
   const TriangleCutter cutter(mesh, *all, interior_, tolerance);
-  const std::size_t most_steps = limits.steps / std::max<std::size_t>(cut.size(), 1);
+  constexpr std::size_t kLeastVisits = 50'000;
+  const std::size_t count = std::max<std::size_t>(cut.size(), 1);
+  const TriangleCutter::Limits each{limits.steps / count, std::max(kLeastVisits, limits.visits / count)};
   parallelFor(std::size_t{0}, cut.size(),
-              [&](std::size_t i) { parts[cut[i]] = cutter.parts(cut[i], cuts.of[cut[i]], most_steps); });
+              [&](std::size_t i) { parts[cut[i]] = cutter.parts(cut[i], cuts.of[cut[i]], each); });
   BoundaryWriter writer(mesh, tolerance, report_);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const int triangle = static_cast<int>(i);

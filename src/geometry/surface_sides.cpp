@@ -20,7 +20,7 @@ SideTest::Place middle(const TriangleMesh& mesh, int triangle) {
 
 }  // namespace
 
-Sides SideTest::at(const Place& place, const std::vector<int>& layers) const {
+Sides SideTest::at(const Place& place, const std::vector<int>& layers, std::size_t* visited) const {
   thread_local std::vector<int> near;
   double free = 0.1 * place.clearance;
   tree_.trianglesWithin(place.point, free + tolerance_.closest, near);
@@ -31,8 +31,8 @@ Sides SideTest::at(const Place& place, const std::vector<int>& layers) const {
   }
   const double step = 0.5 * free;
   if (step <= 4.0 * tolerance_.layer) return Sides::kUnknown;
-  const bool front = interior_.contains(place.point + step * place.normal);
-  const bool back = interior_.contains(place.point - step * place.normal);
+  const bool front = interior_.contains(place.point + step * place.normal, visited);
+  const bool back = interior_.contains(place.point - step * place.normal, visited);
   if (front) return back ? Sides::kBuried : Sides::kInward;
   return back ? Sides::kOutward : Sides::kSheet;
 }

@@ -48,8 +48,8 @@ double heightAt(const Other& other, const Vector2d& x) {
 
 class TriangleCutter::Task {
  public:
-  Task(const TriangleCutter& cutter, int triangle, std::size_t most_steps)
-      : cutter_(cutter), triangle_(triangle), steps_left_(most_steps) {
+  Task(const TriangleCutter& cutter, int triangle, const Limits& limits)
+      : cutter_(cutter), triangle_(triangle), left_(limits) {
     const Vector3i& t = cutter.mesh_.triangles[triangle];
     for (int k = 0; k < 3; ++k) corners_[k] = cutter.mesh_.vertices[t[k]];
     normal_ = areaNormal(cutter.mesh_, triangle).normalized();
@@ -197,11 +197,11 @@ class TriangleCutter::Task {
 
   std::vector<SurfacePart> divide(const FlatPiece& piece, std::vector<int> near) {
     if (out_of_steps_) return {};
-    if (near.size() >= steps_left_) {
+    if (near.size() >= left_.steps) {
       out_of_steps_ = true;
       return {};
     }
-    steps_left_ -= near.size() + 1;
+    left_.steps -= near.size() + 1;
     Relation longest;
     int cutting = -1;
     bool unclear = false;
@@ -234,12 +234,15 @@ class TriangleCutter::Task {
     return parts;
   }
 
-  Sides sides(const FlatPiece& piece, const std::vector<int>& layers) const {
+  Sides sides(const FlatPiece& piece, const std::vector<int>& layers) {
     const Vector2d middle = piece.centroid();
     const double clearance = piece.depth(middle);
     if (clearance <= 8.0 * cutter_.tolerance_.border) return Sides::kUnknown;
     const Vector3d place = corners_[0] + middle.x() * u_ + middle.y() * v_;
-    const Sides found = cutter_.test_.at({place, normal_, clearance, triangle_}, layers);
+    std::size_t visited = 0;
+    const Sides found = cutter_.test_.at({place, normal_, clearance, triangle_}, layers, &visited);
+    out_of_steps_ = visited >= left_.visits;
+    left_.visits -= std::min(left_.visits, visited);
     // Of faces that lie on each other all have the same sides, whichever way they are turned. The first one stays.
     const bool has_sides = found == Sides::kOutward || found == Sides::kInward;
     const bool is_first = layers.empty() || layers.front() > triangle_;
@@ -251,14 +254,14 @@ class TriangleCutter::Task {
   std::array<Vector3d, 3> corners_;
   Vector3d normal_, u_, v_;
   std::vector<Other> others_;  ///< ascending
-  std::size_t steps_left_;
+  Limits left_;
   bool out_of_steps_ = false;
   bool doubtful_ = false;  ///< another triangle is nearly a layer
 };
 
 std::vector<SurfacePart> TriangleCutter::parts(int triangle, const std::vector<int>& others,
-                                               std::size_t most_steps) const {
-  return Task(*this, triangle, most_steps).run(others).value_or(std::vector<SurfacePart>());
+                                               const Limits& limits) const {
+  return Task(*this, triangle, limits).run(others).value_or(std::vector<SurfacePart>());
 }
 
 }  // namespace sdf_ccd

@@ -26,10 +26,14 @@ class TriangleCutter {
                  const SurfaceTolerance& tolerance)
       : mesh_(mesh), tolerance_(tolerance), test_(tree, interior, tolerance) {}
 
+  /// What a triangle may cost at most; empty parts if that does not do.
+  struct Limits {
+    std::size_t steps;   ///< in each of which one other is compared with one part
+    std::size_t visits;  ///< of nodes and triangles of which winding numbers are summed
+  };
   /// Parts that cover the triangle; neighbours of like sides are joined where one cut has made them.
   /// @param others  that cut it or lie on it, ascending.
-  /// @param most_steps  in each of which one other is compared with one part; empty if they do not do.
-  std::vector<SurfacePart> parts(int triangle, const std::vector<int>& others, std::size_t most_steps) const;
+  std::vector<SurfacePart> parts(int triangle, const std::vector<int>& others, const Limits& limits) const;
 
  private:
   class Task;

@@ -121,6 +121,7 @@ TriangleTree::BoundedNumber TriangleTree::boundedNumber(const Vector3d& p, doubl
   stack[size++] = 0;
   while (size > 0) {
     const std::int32_t index = stack[--size];
+    ++sum.visited;
     const Vector3d r = expansions_[index].center - p;
     const double distance2 = r.squaredNorm();
     if (distance2 > accuracy2 * expansions_[index].radius2) {
@@ -137,6 +138,7 @@ TriangleTree::BoundedNumber TriangleTree::boundedNumber(const Vector3d& p, doubl
       stack[size++] = node.first + 1;
       continue;
     }
+    sum.visited += static_cast<std::size_t>(node.count);
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
       sum.value += solidAngleFraction(triangles_[i].a(), triangles_[i].b(), triangles_[i].c(), p);
     }
@@ -148,13 +150,14 @@ double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
   return boundedNumber(p, accuracy, kInfinity).value;
 }
 
-bool TriangleTree::inside(const Vector3d& p, Inside rule) const {
+bool TriangleTree::inside(const Vector3d& p, Inside rule, std::size_t* visited) const {
   constexpr double kRounding = 1e-6;
   // Bounds below one half, which decide next to an open mesh, are mostly met at once with a little more accuracy.
   const double accuracy = rule == Inside::kAboveHalf ? 2.5 : kLeastAccuracy;
   BoundedNumber number;
   for (const double bound : {kInfinity, 5e-3, 5e-4, 5e-5, 0.0}) {
     number = boundedNumber(p, accuracy, bound);
+    if (visited) *visited += number.visited;
     const double error = number.error + kRounding;
     if (rule == Inside::kAboveHalf) {
       if (std::abs(number.value - 0.5) > error) break;

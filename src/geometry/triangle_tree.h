@@ -71,7 +71,8 @@ class TriangleTree {
   /// Whether p is inside. Each expansion's remainder is bounded, and nodes are opened until the bounds' sum cannot
   /// change the answer; what is left is rounding, which decides on the surface (and, of an open mesh, where the number
   /// is one half).
-  bool inside(const Vector3d& p, Inside rule) const;
+  /// @param visited  if given, the number of nodes and triangles that were asked is added to it.
+  bool inside(const Vector3d& p, Inside rule, std::size_t* visited = nullptr) const;
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -115,6 +116,7 @@ class TriangleTree {
   struct BoundedNumber {
     double value = 0.0;
     double error = 0.0;
+    std::size_t visited = 0;  ///< nodes and triangles
   };
   static BoundedNumber evaluate(const Expansion& expansion, const Vector3d& r, double distance2);
   /// Opens nodes nearer than accuracy × their radius, at least twice that, and those whose own bound is larger.

@@ -68,7 +68,7 @@ TriangleTree::BoundedNumber TriangleTree::evaluate(const Expansion& expansion, c
   const double inverse2 = 1 / distance2;
   const double inverse3 = inverse2 * std::sqrt(inverse2);
   return {inverse3 / kFourPi * (expansion.dipole.dot(r) + inverse2 * (-3 * first + 15 * inverse2 * second)),
-          inverse3 * inverse2 * (4.9 + 20.4 * expansion.radius2 * inverse2) / kFourPi * expansion.spread};
+          inverse3 * inverse2 * (4.9 + 20.4 * expansion.radius2 * inverse2) / kFourPi * expansion.spread, 0};
 }
 
 }  // namespace sdf_ccd

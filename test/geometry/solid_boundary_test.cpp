@@ -147,6 +147,22 @@ TEST(Solid, BeyondTheLimitsAllTrianglesStayAndTheReportSaysSo) {
   EXPECT_NE(warning(some.report()), "");
 }
 
+/// Of layers a tenth of a micrometre apart winding numbers open most of the mesh, for each of thousands of pieces.
+TEST(Solid, WhatTellingTheSidesOfPiecesCostsIsLimitedToo) {
+  Random random(7);
+  TriangleMesh layers;
+  for (int i = 0; i < 25; ++i) {
+    const Isometry3d X = test::pose(random, 1e-7, 1e-7);
+    layers = merged(layers, transformed(test::boxMesh({0.4, 0.3, 0.2}), X));
+  }
+  SolidLimits few_visits;
+  few_visits.visits = 1;
+  const SolidReport all = Solid(layers).report(), some = Solid(layers, few_visits).report();
+  EXPECT_LT(all.doubtful_area, 0.2);
+  EXPECT_GT(some.doubtful_area, 0.5);
+  EXPECT_LT(some.pieces, all.pieces / 2);
+}
+
 /// Boxes that lie on each other, share edges, are nearly so, or are turned by next to nothing.
 std::vector<OrientedBox> nastyBoxes(Random& random) {
   const auto small = [&] { return std::pow(10.0, test::uniform(random, -17, -1)); };
