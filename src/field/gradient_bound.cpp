@@ -36,7 +36,7 @@ struct Ways {
     for (int i = 0; i < 27; ++i) {
       x[i] = i % 3 - 1;
       y[i] = i / 3 % 3 - 1;
-      z[i] = i / 9 - 1;
+      z[i] = static_cast<double>(i / 9 - 1);
     }
   }
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -16,7 +17,10 @@ class SpreadOrder {
   }
 
   std::size_t size() const { return count_; }
-  std::size_t operator[](std::size_t i) const { return i % count_ * step_ % count_; }
+  std::size_t operator[](std::size_t i) const {
+    assert(count_ > 0);
+    return i % count_ * step_ % count_;
+  }
 
  private:
   std::size_t count_;

@@ -53,7 +53,7 @@ std::vector<Vector3i> triangulatePolygon(const std::vector<Vector3d>& corners) {
     for (std::size_t tried = 0; tried < n && !isEar(points, rest, tip); ++tried) tip = (tip + 1) % n;
     triangles.emplace_back(rest[(tip + n - 1) % n], rest[tip], rest[(tip + 1) % n]);
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(tip));
-    tip = (tip + 1) % rest.size();  // the next ear elsewhere, or a convex polygon becomes a fan of slivers
+    tip = (tip + 1) % (n - 1);  // the next ear elsewhere, or a convex polygon becomes a fan of slivers
   }
   triangles.emplace_back(rest[0], rest[1], rest[2]);
   return triangles;

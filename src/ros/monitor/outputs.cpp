@@ -18,7 +18,7 @@ const ros::WallDuration kWorldPeriod(1.0);
 
 }  // namespace
 
-Outputs::Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world,
+Outputs::Outputs(const ros::NodeHandle& private_node, const ros::Publisher& state, const ros::Publisher& world,
                  MonitorLoop& loop, const DescribedScene& described, const MarkerOptions& options,
                  ProximityOutputs& proximity)
     : node_(private_node),

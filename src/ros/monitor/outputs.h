@@ -42,8 +42,9 @@ class Outputs {
  public:
   /// @param state  publishes the states that are given.
   /// @param world  publishes the world's objects.
-  Outputs(ros::NodeHandle private_node, const ros::Publisher& state, const ros::Publisher& world, MonitorLoop& loop,
-          const DescribedScene& described, const MarkerOptions& options, ProximityOutputs& proximity);
+  Outputs(const ros::NodeHandle& private_node, const ros::Publisher& state, const ros::Publisher& world,
+          MonitorLoop& loop, const DescribedScene& described, const MarkerOptions& options,
+          ProximityOutputs& proximity);
 
   ~Outputs();
 
