@@ -15,7 +15,7 @@ import rostest
 from std_msgs.msg import Header
 
 from monitor_case import MovingBalls, Recorder, wait_for_service
-from sdf_ccd.msg import ContactArray
+from sdf_ccd.msg import ContactArray, Plan
 from sdf_ccd.srv import GetPlan
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)) + '/../../scripts')
@@ -108,6 +108,13 @@ class MapTest(unittest.TestCase):
         self.send(message(voxels_near(0.3, 0.0, 0.0, 0.1), is_binary=False))
         self.robot.ball = 0.3
         self.assertIsNotNone(self.find_touching_map())
+
+    def test_the_plan_is_that_of_the_last_map(self):
+        plans = Recorder('/collision_monitor/plan', Plan)
+        for x in (0.3, 0.4, 0.5):
+            version = self.send(message(voxels_near(x, 0.0, 0.0, 0.05)))
+        self.assertIsNotNone(plans.find(lambda m: m.scene_version == version))
+        plans.close()
 
     def test_a_map_from_a_bag(self):
         file = os.path.join(tempfile.mkdtemp(), 'map.bag')

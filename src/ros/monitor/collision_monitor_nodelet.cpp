@@ -23,6 +23,7 @@ constexpr double kLateShown = 3.0;     // a contradiction by late transforms, in
 constexpr double kSending = 0.05;      // until the last messages have left [s]
 constexpr double kPatience = 2.0;      // until it is warned of what is not checked [s]
 constexpr double kWarnPeriod = 10.0;   // of such warnings [s]
+constexpr double kPlanPeriod = 1.0;    // of plans, at most, with a live map [s]
 constexpr double kStaticPeriod = 2.0;  // at most as often static transforms are asked for again [s]
 
 /// What a thread has freed, glibc keeps for the heap of that thread: of threads that build and end, for nothing.
@@ -148,10 +149,13 @@ void CollisionMonitor::setUp() {
                                                 SceneEditor::Parts{*loop_, *outputs_, *queries_}, wake,
                                                 [this](const CheckedWorld& world) { publishPlan(world); });
   first_world_.reset();
-  if (!parameters_.live_map.topic.empty())
-    live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(), stop_);
   ros::NodeHandle served(getPrivateNodeHandle());
   served.setCallbackQueue(&service_queue_);
+  plan_timer_ = served.createWallTimer(
+      ros::WallDuration(kPlanPeriod), [this](const ros::WallTimerEvent&) { publishPlan(*queries_->world()); }, true,
+      false);
+  if (!parameters_.live_map.topic.empty())
+    live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(), stop_);
   reconfiguration_ = std::make_unique<Reconfiguration>(served, parameters_, wake);
   health_.building.clear();
   forget("waiting for transforms");
@@ -208,8 +212,14 @@ void CollisionMonitor::publishPlan(const CheckedWorld& world) {
   const ros::WallTime now = ros::WallTime::now();
   {
     const std::lock_guard<std::mutex> lock(plan_mutex_);
-    const bool is_soon = !plan_published_.isZero() && now - plan_published_ < ros::WallDuration(1.0);
-    if (is_soon && live_map_) return;  // there will be another one
+    const ros::WallDuration wait = plan_published_ + ros::WallDuration(kPlanPeriod) - now;
+    if (!parameters_.live_map.topic.empty() && !plan_published_.isZero() &&
+        wait.toSec() > 0.0) {  // another one may come before that
+      plan_timer_.stop();
+      plan_timer_.setPeriod(wait);
+      plan_timer_.start();
+      return;
+    }
     plan_published_ = now;
   }
   plan_publisher_.publish(boost::make_shared<Plan>(toPlan(world, described_.fixed_frame, ros::Time::now())));

@@ -123,6 +123,7 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   std::mutex plan_mutex_;
   ros::WallTime plan_published_;
+  ros::WallTimer plan_timer_;  // for the last one of a live map
 
   MessagePool<MonitorState> state_messages_;
   ros::Publisher state_publisher_;
