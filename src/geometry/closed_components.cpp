@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <set>
 
@@ -21,7 +22,21 @@ struct Component {
   std::vector<std::int32_t> facing_in;   ///< and others
   Vector3d witness = Vector3d::Zero();   ///< a point next to its surface
   double own_number = 0.0;               ///< its winding number there
+  bool flat = false;                     ///< a sheet that is drawn from both sides
+  bool unmeasured = false;               ///< its volume is zero, but it is not flat
 };
+
+/// Whether all triangles lie in a plane.
+bool isFlat(const TriangleMesh& mesh, double size) {
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3d n = areaNormal(mesh, static_cast<int>(i));
+    if (n.squaredNorm() > normal.squaredNorm()) normal = n;
+  }
+  normal.normalize();
+  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                     [&](const Vector3d& v) { return std::abs(normal.dot(v - mesh.vertices.front())) <= 1e-6 * size; });
+}
 
 Component measure(const TriangleMesh& mesh, const Patch& patch) {
   Component result;
@@ -30,7 +45,12 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
   if (!patch.closed) return result;
   const double volume = signedVolume(part), size = result.box.sizes().maxCoeff();
   result.inward = volume < 0.0;
-  if (!(std::abs(volume) > 1e-7 * size * surfaceArea(part)) || !(size > 1e-9)) return result;  // flat, or a mere point
+  if (!(size > 1e-9)) return result;  // a mere point
+  if (!(std::abs(volume) > 1e-7 * size * surfaceArea(part))) {
+    result.flat = isFlat(part, size);
+    result.unmeasured = !result.flat;
+    return result;
+  }
   result.tree = std::make_unique<TriangleTree>(part);
 
   const std::size_t count = part.triangles.size();
@@ -86,18 +106,31 @@ class Inspection {
   std::vector<ClosedComponent> run() {
     std::vector<ClosedComponent> result(patches_.size());
     const auto inward = std::count_if(closed_.begin(), closed_.end(), [&](auto i) { return components_[i].inward; });
+    if (inward > 0) uniteClosed();
     if (inward == static_cast<std::ptrdiff_t>(closed_.size())) {
-      for (const std::int32_t i : closed_) result[i].turn = true;
+      for (const std::int32_t i : closed_) result[i] = {true, 0, closed_.size() > 1 && isHeld(i)};
     } else if (inward > 0) {
       decide(result);
+      doubtWhatTurnedOnesHold(result);
     }
-    for (const std::int32_t i : closed_) findLobes(i, result);
+    for (const std::int32_t i : closed_) {
+      // Of two parts that meet in edges one alone may be inside out.
+      result[i].doubtful = result[i].doubtful || (result[i].turn && crossesItself(patches_[i]));
+      findLobes(i, result);
+    }
+    // So many sheets may enclose something.
+    constexpr std::ptrdiff_t kFaces = 4;
+    const bool encloses = std::count_if(components_.begin(), components_.end(),
+                                        [](const Component& component) { return component.flat; }) >= kFaces;
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      const Component& component = components_[i];
+      result[i].doubtful = result[i].doubtful || component.unmeasured || (component.flat && encloses);
+    }
     return result;
   }
 
  private:
   void decide(std::vector<ClosedComponent>& result) {
-    uniteClosed();
     const bool all_turned = isInsideOut();
     if (all_turned) {
       for (const std::int32_t i : closed_) result[i].turn = true;
@@ -114,16 +147,30 @@ class Inspection {
     for (const std::int32_t i : inward) {
       const std::set<std::int32_t> touched = touchedBy(patches_[i].triangles);
       long around = 0;
+      bool in_touched = false;
       for (const std::int32_t holder : candidates(i)) {
-        if (touched.count(holder) == 0) around += (result[holder].turn ? -1 : 1) * numberIn(holder, i);
+        const long number = (result[holder].turn ? -1 : 1) * numberIn(holder, i);
+        if (touched.count(holder) == 0)
+          around += number;
+        else
+          in_touched = in_touched || number != 0;
       }
       if (around == 0) {
         result[i].turn = !result[i].turn;
+        result[i].doubtful = in_touched;
         continue;
       }
       is_cavity[i] = 1;
-      result[i].doubtful = all_turned;
+      result[i].doubtful = all_turned || in_touched || around != 1;
       for (const std::int32_t other : touched) result[i].doubtful = result[i].doubtful || is_cavity[other] != 0;
+    }
+  }
+
+  /// What lies in a part that is inside out, and faces outward, may be its cavity.
+  void doubtWhatTurnedOnesHold(std::vector<ClosedComponent>& result) const {
+    for (const std::int32_t i : closed_) {
+      if (components_[i].inward || result[i].turn) continue;
+      result[i].doubtful = isHeld(i, [&](std::int32_t holder) { return result[holder].turn; });
     }
   }
 
@@ -160,12 +207,15 @@ class Inspection {
   }
 
   /// Whether the patch lies in another one, which it does not cut or touch.
-  bool isHeld(std::int32_t inner) const {
-    const std::set<std::int32_t> holders = candidates(inner);
+  /// @param counts  which of the others may be that.
+  bool isHeld(std::int32_t inner, const std::function<bool(std::int32_t)>& counts = {}) const {
+    std::vector<std::int32_t> holders;
+    for (const std::int32_t holder : candidates(inner)) {
+      if ((!counts || counts(holder)) && numberIn(holder, inner) != 0) holders.push_back(holder);
+    }
     if (holders.empty()) return false;
     const std::set<std::int32_t> touched = touchedBy(patches_[inner].triangles);
-    return std::any_of(holders.begin(), holders.end(),
-                       [&](std::int32_t holder) { return touched.count(holder) == 0 && numberIn(holder, inner) != 0; });
+    return std::any_of(holders.begin(), holders.end(), [&](auto holder) { return touched.count(holder) == 0; });
   }
 
   /// A patch's winding number at another one.
@@ -211,15 +261,27 @@ class Inspection {
     const Component& component = components_[i];
     const std::vector<std::int32_t>& lobe = component.inward ? component.facing_out : component.facing_in;
     result[i].negative_triangles = static_cast<int>(lobe.size());
-    if (lobe.empty() || closed_.size() < 2) return;
+    if (lobe.empty()) return;
+    // Parts that meet in edges are one patch, and may cancel each other in it.
+    result[i].doubtful = result[i].doubtful || crossesItself(patches_[i]);
+    if (closed_.size() < 2) return;
     uniteClosed();
-    result[i].doubtful = result[i].doubtful || !touchedBy(lobe).empty();
+    // A triangle may be of the lobe in part.
+    result[i].doubtful = result[i].doubtful || !touchedBy(patches_[i].triangles).empty();
     for (const std::int32_t other : closed_) {
       if (result[i].doubtful) return;
       if (other == i) continue;
       const double number = component.tree->windingNumber(components_[other].witness);
       result[i].doubtful = (component.inward ? -number : number) < -0.5 || holds(other, lobe);
     }
+  }
+
+  /// Whether more than two of the patch's triangles meet in an edge.
+  bool crossesItself(const Patch& patch) const {
+    bool found = false;
+    forEachEdge(edgeUses(extract(mesh_, patch)),
+                [&](const EdgeUse* first, const EdgeUse* last) { found = found || last - first > 2; });
+    return found;
   }
 
   /// Whether a triangle lies in the other patch, which none of them cuts.

@@ -11,8 +11,11 @@ struct ClosedComponent {
   bool turn = false;
   int negative_triangles = 0;  ///< behind them the patch's own winding number is not above zero, though it is turned
                                ///< rightly as a whole: they bound a lobe of a patch that crosses itself
-  bool doubtful = false;  ///< such a lobe meets another patch, or two cavities cut each other: there winding numbers
-                          ///< may cancel; or a cavity was drawn as a solid in one that is inside out
+  /// Winding numbers may cancel where a solid is: such a lobe's patch meets another one or itself in edges, two
+  /// cavities cut each other, the volume is zero though the patch is not flat, flat ones may enclose something. Or a
+  /// cavity may be filled: drawn as a solid in one that is inside out, turned though what it touches may hold it, or in
+  /// two.
+  bool doubtful = false;
 };
 
 /// Which closed patches of a mesh must be turned so that the winding number, of all of them together, is not zero

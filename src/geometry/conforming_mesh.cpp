@@ -23,6 +23,15 @@ std::vector<Edge> oddEdges(const TriangleMesh& mesh) {
   return odd;
 }
 
+/// Those, and edges that are not run through as often either way: two parts may have one each there.
+std::vector<Edge> unbalancedEdges(const TriangleMesh& mesh) {
+  std::vector<Edge> edges;
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    if (imbalance(first, last) != 0) edges.emplace_back(first->low, first->high);
+  });
+  return edges;
+}
+
 /// Whether a corner lies on the opposite side: such a triangle is a seam, not a surface.
 bool isSeam(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
   const double longest = longestEdge(cornersOf(mesh, static_cast<int>(triangle)));
@@ -32,10 +41,10 @@ bool isSeam(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
 /// Per edge, the vertices on it from its lower end to the higher one.
 std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double tolerance) {
   constexpr std::size_t kMostPerEdge = 16;  // on an average; more is no tessellation but noise
-  const std::vector<Edge> odd = oddEdges(mesh);
+  const std::vector<Edge> edges = unbalancedEdges(mesh);
   std::map<Edge, Points> on;
-  if (odd.empty()) return on;
-  const EdgeSearch search(mesh, odd);
+  if (edges.empty()) return on;
+  const EdgeSearch search(mesh, edges);
   CancelTicks<256> cancel;
   std::vector<int> near;
   std::size_t count = 0;
@@ -44,10 +53,10 @@ std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double toleranc
     const Vector3d& p = mesh.vertices[vertex];
     search.find(p, tolerance, near);
     for (const int i : near) {
-      const Vector3d &a = mesh.vertices[odd[i].first], &b = mesh.vertices[odd[i].second];
+      const Vector3d &a = mesh.vertices[edges[i].first], &b = mesh.vertices[edges[i].second];
       if ((p - a).norm() <= tolerance || (p - b).norm() <= tolerance) continue;
-      on[odd[i]].push_back(vertex);
-      if (++count > kMostPerEdge * odd.size()) return {};
+      on[edges[i]].push_back(vertex);
+      if (++count > kMostPerEdge * edges.size()) return {};
     }
   }
   for (auto& [edge, vertices] : on) sortAlong(mesh, edge, vertices);
@@ -106,7 +115,7 @@ ConformingMesh conformingMesh(const TriangleMesh& mesh) {
   constexpr double kMost = 1e-6;                                     // of the mesh's size, far from the origin
   ConformingMesh result{mesh, std::vector<std::int32_t>(mesh.triangles.size())};
   std::iota(result.source.begin(), result.source.end(), 0);
-  if (oddEdges(mesh).empty()) return result;
+  if (unbalancedEdges(mesh).empty()) return result;
   const AlignedBox3d box = boundingBox(mesh);
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   for (const double digits : {kDoubleDigits, kFloatDigits}) {

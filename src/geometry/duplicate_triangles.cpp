@@ -11,6 +11,7 @@ namespace {
 struct Key {
   Vector3i corners;  // ascending
   std::int32_t triangle;
+  bool even;  // of the triangle's corners, as a permutation of these
 };
 
 std::vector<Key> sortedKeys(const TriangleMesh& mesh) {
@@ -18,8 +19,9 @@ std::vector<Key> sortedKeys(const TriangleMesh& mesh) {
   keys.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Vector3i t = mesh.triangles[i];
+    const bool even = (t[0] < t[1]) + (t[1] < t[2]) + (t[2] < t[0]) == 2;
     std::sort(t.data(), t.data() + 3);
-    keys.push_back({t, static_cast<std::int32_t>(i)});
+    keys.push_back({t, static_cast<std::int32_t>(i), even});
   }
   CancelTicks<4096> cancel;
   std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
@@ -65,10 +67,14 @@ std::vector<char> walls(const TriangleMesh& mesh, const std::vector<char>& doubl
 DistinctTriangles distinctTriangles(const TriangleMesh& mesh) {
   const std::vector<Key> keys = sortedKeys(mesh);
   std::vector<std::int32_t> copies(mesh.triangles.size(), -1);  // of the first of equal ones
+  std::vector<char> one_way(mesh.triangles.size(), 0);          // all of them are drawn the same way round
   bool any_copy = false;
   for (std::size_t i = 0; i < keys.size();) {
     const std::size_t first = i;
-    while (i < keys.size() && keys[i].corners == keys[first].corners) ++i;
+    bool same = true;
+    for (; i < keys.size() && keys[i].corners == keys[first].corners; ++i)
+      same = same && keys[i].even == keys[first].even;
+    one_way[keys[first].triangle] = same;
     copies[keys[first].triangle] = static_cast<std::int32_t>(i - first - 1);
     any_copy = any_copy || i - first > 1;
   }
@@ -79,17 +85,26 @@ DistinctTriangles distinctTriangles(const TriangleMesh& mesh) {
     return result;
   }
   std::vector<char> doubled;
+  std::vector<std::int32_t> source;
   for (std::size_t i = 0; i < copies.size(); ++i) {
     if (copies[i] < 0) continue;
     result.mesh.triangles.push_back(mesh.triangles[i]);
     doubled.push_back(copies[i] > 0);
+    source.push_back(static_cast<std::int32_t>(i));
     result.copies += copies[i];
     result.copied_area += copies[i] * areaNormal(mesh, static_cast<int>(i)).norm() / 2;
   }
   const std::vector<char> wall = walls(result.mesh, doubled);
+  std::vector<Vector3i> shared;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < wall.size(); ++i) {
-    if (wall[i]) {
+    if (wall[i] && one_way[source[i]]) {
+      const auto others = static_cast<std::size_t>(copies[source[i]]);
+      shared.insert(shared.end(), others, result.mesh.triangles[i]);
+      result.copies -= static_cast<int>(others);
+      result.copied_area -= static_cast<double>(others) * areaNormal(result.mesh, static_cast<int>(i)).norm() / 2;
+      result.mesh.triangles[kept++] = result.mesh.triangles[i];
+    } else if (wall[i]) {
       result.walls.push_back(result.mesh.triangles[i]);
       --result.copies;
       result.copied_area -= areaNormal(result.mesh, static_cast<int>(i)).norm() / 2;
@@ -98,6 +113,7 @@ DistinctTriangles distinctTriangles(const TriangleMesh& mesh) {
     }
   }
   result.mesh.triangles.resize(kept);
+  result.mesh.triangles.insert(result.mesh.triangles.end(), shared.begin(), shared.end());
   return result;
 }
 

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// The triangles of a welded mesh, each once.
+/// The triangles of a welded mesh, each once but for faces that parts share.
 struct DistinctTriangles {
   TriangleMesh mesh;            ///< without `walls`
   std::vector<Vector3i> walls;  ///< corners in `mesh`, one triangle of each pair
@@ -19,6 +19,8 @@ struct DistinctTriangles {
 /// Walls are the exception: patches of such faces whose every border edge carries at least two other triangles. Without
 /// them the rest may be the skin of a solid and the wall between two of its parts, or a sheet across an opening; with
 /// one of their sides the rest would be open. What they are is decided when the rest is oriented (see hiddenWalls()).
+/// Where all copies are drawn the same way round, such a patch is a face that parts share, one of which lies in the
+/// other: then all copies stay, each of them closes a part.
 DistinctTriangles distinctTriangles(const TriangleMesh& mesh);
 
 }  // namespace sdf_ccd

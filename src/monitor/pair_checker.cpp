@@ -217,14 +217,24 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     findContacts(motion, request, crossing, result);
     if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
       refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
+    if (!crossing) doubt(result);
     return setSurfaceError(by_surfaces.is_near, surface_error, result);
   }
-  outside_ = true;
   // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
   double clearance = std::numeric_limits<double>::infinity();
   for (const PairRole& role : roles_) clearance = std::min(clearance, role.pointClearanceAtEnd(0.5 * near));
   setClear(clearance - bound_.gap, result);
+  doubt(result);
+  outside_ = result.verdict == Verdict::kClear;
   setSurfaceError(false, surface_error, result);
+}
+
+/// Fields do not know what is inside a body where that is doubtful.
+void PairChecker::doubt(PairResult& result) {
+  if (!surfaces_ || !surfaces_->isDoubtful() || result.verdict == Verdict::kNotChecked) return;
+  result.verdict = Verdict::kUncertain;
+  result.clearance = PairResult().clearance;
+  forgetClearance();
 }
 
 /// @param clearance  lower bound of the distance at the span's end, of bodies at the given poses [m].

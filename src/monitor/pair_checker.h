@@ -83,6 +83,7 @@ class PairChecker {
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
+  void doubt(PairResult& result);
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
   bool clearFromAfar(double margin, PairResult& result);

@@ -66,6 +66,10 @@ class SurfacePair {
   /// surfaces are apart. False also if that is not known.
   bool isOutside() const;
 
+  /// Whether what is inside one of the bodies is doubtful: then only surfaces tell, that cross, or that are apart from
+  /// what is outside.
+  bool isDoubtful() const { return field_->triangles->doubtful || shell_->triangles->doubtful; }
+
  private:
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;

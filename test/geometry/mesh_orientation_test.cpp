@@ -32,17 +32,51 @@ TEST(MeshOrientation, AWebDrawnFromBothSidesStaysInAnOpenWheel) {
 }
 
 TEST(MeshOrientation, AWallInsideASolidIsLeftOutAndSaid) {
-  for (const bool second_inverted : {false, true}) {
-    TriangleMesh second = translated(boxMesh({1, 1, 1}), {2, 0, 0});
-    if (second_inverted) second = flipped(second);
-    const MeshQuality quality = orientOutward(merged(boxMesh({1, 1, 1}), second)).quality;
-    EXPECT_EQ(quality.triangles, 20);
-    EXPECT_EQ(quality.hidden_triangles, 4);
-    EXPECT_NEAR(quality.hidden_area, 8, 1e-12);
-    EXPECT_TRUE(quality.sign_trusted);
-    EXPECT_NE(summary(quality).find("4 triangles of walls inside left out (8 m^2)"), std::string::npos)
-        << summary(quality);
+  const TriangleMesh first = boxMesh({1, 1, 1}), second = translated(first, {2, 0, 0});
+  const MeshQuality quality = orientOutward(merged(first, second)).quality;
+  EXPECT_EQ(quality.triangles, 20);
+  EXPECT_EQ(quality.hidden_triangles, 4);
+  EXPECT_NEAR(quality.hidden_area, 8, 1e-12);
+  EXPECT_TRUE(quality.sign_trusted);
+  EXPECT_NE(summary(quality).find("4 triangles of walls inside left out (8 m^2)"), std::string::npos)
+      << summary(quality);
+  // If one is inside out they could also be drawn into each other: its face is the other's, the same way round.
+  const OrientedMesh inverted = orientOutward(merged(first, flipped(second)));
+  EXPECT_FALSE(inverted.quality.sign_trusted);
+  for (const double x : {0.1, 2.1}) EXPECT_TRUE(isInside(inverted.mesh, {x, 0.2, 0.3}));
+}
+
+/// Which of two copies of a face drawn the same way round is whose must not turn one of the parts.
+TEST(MeshOrientation, PartsThatShareAFaceOneWithinTheOtherStayAsDrawn) {
+  const auto block = [](const Vector3d& low, const Vector3d& high) {
+    return translated(boxMesh(0.5 * (high - low)), 0.5 * (high + low));
+  };
+  for (const double low : {0.5, -0.5}) {  // one shorter, or longer, from the same end
+    const OrientedMesh result = orientOutward(merged(block({0, 0, 0}, {1, 1, 1}), block({0, 0, low}, {1, 1, 1})));
+    EXPECT_TRUE(result.quality.sign_trusted) << low;
+    EXPECT_TRUE(isInside(result.mesh, {0.4, 0.3, 0.75})) << low;
+    EXPECT_TRUE(isInside(result.mesh, {0.4, 0.3, 0.25})) << low;
   }
+}
+
+/// What cancels within a patch, or is filled though it may be a cavity, is not trusted.
+TEST(MeshOrientation, WhatMayCancelOrBeACavityIsDoubtful) {
+  const TriangleMesh box = boxMesh({0.5, 0.5, 0.5}), cavity = boxMesh({0.3, 0.3, 0.3});
+  TriangleMesh turned = flipped(box), half = flipped(box);  // mirrored: with the other diagonals
+  for (Vector3d& v : turned.vertices) v.x() = -v.x();
+  for (Vector3d& v : half.vertices) v = Vector3d(-v.x(), v.y(), 0.5 * v.z() + 0.25);
+  const TriangleMesh apart = translated(box, {3, 0, 0});
+  const std::pair<const char*, TriangleMesh> drawn[] = {
+      {"a box and its inverted copy", merged(box, flipped(turned))},
+      {"the same beside another", merged(merged(box, flipped(turned)), apart)},
+      {"stacked, one inverted, and a third over it",
+       merged(merged(box, flipped(translated(turned, {0, 0, 1}))), translated(boxMesh({0.3, 0.3, 0.3}), {0, 0, 1}))},
+      {"a hollow part inside out beside a good one", merged(merged(flipped(box), cavity), apart)},
+      {"a hull inside out around a cavity", merged(flipped(box), flipped(cavity))},
+      {"a hull twice, a cavity once", merged(merged(box, turned), flipped(cavity))},
+      {"a part that shares edges with the hull", merged(merged(box, flipped(cavity)), half)},
+  };
+  for (const auto& [name, mesh] : drawn) EXPECT_FALSE(orientOutward(mesh).quality.sign_trusted) << name;
 }
 
 TEST(MeshOrientation, AWallAcrossARingStaysAndTheRingIsTrusted) {

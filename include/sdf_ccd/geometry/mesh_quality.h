@@ -43,10 +43,13 @@ struct OrientedMesh {
 /// out, so is the file, and everything is turned (cavities that come of it are kept, but the sign is not trusted).
 /// Parts that are not closed are turned if what can see them sees their back.
 ///
-/// Triangles with the same corners are one, except walls drawn from both sides whose border lies on other triangles:
-/// both sides are left out if they are certainly inside a solid, and kept if not. Then they face each other, add
-/// nothing to any winding number, and distances to them are positive on both sides. The quality report describes what
-/// was found on the way.
+/// Where parts that meet in edges may cancel each other, or what is turned or filled may be a cavity, the sign is not
+/// trusted.
+///
+/// Triangles with the same corners are one, except faces that two parts share, one in the other, and walls drawn from
+/// both sides whose border lies on other triangles: both sides are left out if they are certainly inside a solid, and
+/// kept if not. Then they face each other, add nothing to any winding number, and distances to them are positive on
+/// both sides. The quality report describes what was found on the way.
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 OrientedMesh orientOutward(const TriangleMesh& mesh);
 

@@ -1,0 +1,70 @@
+// Meshes that are closed, but nobody can tell what is inside: only surfaces decide.
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+#include "oracle/shapes.h"
+
+namespace sdf_ccd {
+namespace {
+
+using test::boxMesh;
+using test::flipped;
+using test::translated;
+using test::translation;
+
+/// A small box that moves in the mesh's frame from `start` to `end`.
+Verdict verdictOf(const TriangleMesh& mesh, const Vector3d& start, const Vector3d& end) {
+  const auto scene =
+      test::build({test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}})), test::body("part", test::meshShape(mesh))},
+                  test::fine(0.02));
+  Monitor monitor(scene, test::soft());
+  return monitor
+      .run(test::cycle(0.1, {{translation(start), translation(end)}, test::still(Isometry3d::Identity())}), {})
+      .pairs.front()
+      .verdict;
+}
+
+/// With the other diagonals than boxMesh() has.
+TriangleMesh mirroredBox(const Vector3d& half_size) {
+  TriangleMesh mesh = flipped(boxMesh(half_size));
+  for (Vector3d& v : mesh.vertices) v.x() = -v.x();
+  return mesh;
+}
+
+TriangleMesh block(const Vector3d& low, const Vector3d& high) {
+  return translated(boxMesh(0.5 * (high - low)), 0.5 * (high + low));
+}
+
+TEST(DoubtfulMesh, WhatIsInsideIsNeverClear) {
+  const TriangleMesh box = boxMesh({0.3, 0.3, 0.3});
+  const TriangleMesh sheets = merged(box, flipped(mirroredBox({0.3, 0.3, 0.3})));
+  const TriangleMesh stacked = merged(merged(box, flipped(translated(mirroredBox({0.3, 0.3, 0.3}), {0, 0, 0.6}))),
+                                      translated(boxMesh({0.2, 0.2, 0.2}), {0, 0, 0.6}));
+  EXPECT_EQ(verdictOf(sheets, {0, 0, 0}, {0.01, 0, 0}), Verdict::kUncertain);
+  EXPECT_EQ(verdictOf(stacked, {0, 0, 0.6}, {0.01, 0, 0.6}), Verdict::kUncertain);
+  for (const TriangleMesh& mesh : {sheets, stacked}) {
+    EXPECT_EQ(verdictOf(mesh, {0.4, 0, 0}, {0.4, 0.1, 0}), Verdict::kClear);
+    EXPECT_EQ(verdictOf(mesh, {0.4, 0, 0}, {0.2, 0, 0}), Verdict::kContact);
+    EXPECT_EQ(verdictOf(mesh, {0.3, 0, 0}, {0.3, 0, 0}), Verdict::kContact);
+  }
+}
+
+TEST(DoubtfulMesh, WhatIsInACavityThatMayBeFilledIsNoContact) {
+  const TriangleMesh box = boxMesh({0.3, 0.3, 0.3}), cavity = boxMesh({0.2, 0.2, 0.2});
+  for (const TriangleMesh& mesh :
+       {merged(merged(box, mirroredBox({0.3, 0.3, 0.3})), flipped(cavity)),
+        merged(merged(flipped(box), cavity), translated(box, {2, 0, 0})), merged(flipped(box), flipped(cavity))}) {
+    EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.01, 0, 0}), Verdict::kUncertain);
+    EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.2, 0, 0}), Verdict::kContact);
+  }
+}
+
+TEST(DoubtfulMesh, BoxesThatShareAnEndAreNotDoubtful) {
+  const TriangleMesh mesh = merged(block({0, 0, 0}, {0.5, 0.5, 0.5}), block({0, 0, 0.25}, {0.5, 0.5, 0.5}));
+  EXPECT_EQ(verdictOf(mesh, {0.2, 0.2, 0.4}, {0.21, 0.2, 0.4}), Verdict::kContact);
+  EXPECT_EQ(verdictOf(mesh, {0.2, 0.2, 0.1}, {0.21, 0.2, 0.1}), Verdict::kContact);
+  EXPECT_EQ(verdictOf(mesh, {0.2, 0.2, 0.6}, {0.21, 0.2, 0.6}), Verdict::kClear);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
