@@ -118,11 +118,10 @@ std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& descript
     if (std::holds_alternative<Primitive>(geometry.shape)) continue;
     PooledMesh& pooled = pool.find(geometry);
     // Of a mesh that is not closed the solid's boundary is all of it, and with the caps it is closed.
-    if (!isClosed(pooled.mesh)) {
-      all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
-    } else {
-      doubtful = doubtful || !pooled.quality.sign_trusted;
-    }
+    const std::size_t before = all.triangles.size();
+    if (!isClosed(pooled.mesh)) all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
+    // Closed, if only by where its corners lie.
+    if (all.triangles.size() == before) doubtful = doubtful || !pooled.quality.sign_trusted;
   }
   if (doubtful) made->doubtful = std::make_unique<TriangleTree>(meshAround(all.triangles));
   made->components = std::move(all.components);

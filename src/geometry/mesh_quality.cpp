@@ -64,6 +64,9 @@ void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
     doubtful = doubtful || closed[i].doubtful;
     if (closed[i].turn) flip(likeness, patches[i]);
   }
+  // Two parts that were tessellated apart may be linked over an edge of both, and cancel each other.
+  const bool is_joined = joined.mesh.triangles.size() != result.mesh.triangles.size();
+  doubtful = doubtful || (is_joined && quality.negative_triangles > 0);
   TriangleMesh hiding = likeness;
   hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
   const std::vector<char> from_behind = seenFromBehind(hiding, patches);
