@@ -14,22 +14,41 @@ namespace {
 using Edge = std::pair<int, int>;  // ascending
 using Points = std::vector<int>;   // vertices on a side, as it runs
 
-/// Edges with an odd number of triangles.
-std::vector<Edge> oddEdges(const TriangleMesh& mesh) {
-  std::vector<Edge> odd;
-  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
-    if ((last - first) % 2 == 1) odd.emplace_back(first->low, first->high);
-  });
+/// Whether an edge has an odd number of triangles.
+bool isOdd(const TriangleMesh& mesh) {
+  bool odd = false;
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) { odd = odd || (last - first) % 2 == 1; });
   return odd;
 }
 
-/// Those, and edges that are not run through as often either way: two parts may have one each there.
+/// Edges that are not run through as often either way: open ones, and those of which two parts have one side each.
 std::vector<Edge> unbalancedEdges(const TriangleMesh& mesh) {
   std::vector<Edge> edges;
   forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
     if (imbalance(first, last) != 0) edges.emplace_back(first->low, first->high);
   });
   return edges;
+}
+
+/// Lets triangles at such edges share vertices that are within a distance of each other [m].
+void joinVertices(TriangleMesh& mesh, double tolerance) {
+  const std::vector<Edge> edges = unbalancedEdges(mesh);
+  if (edges.empty()) return;
+  const EdgeSearch search(mesh, edges);
+  CancelTicks<256> cancel;
+  std::vector<int> joined(mesh.vertices.size()), near;
+  std::iota(joined.begin(), joined.end(), 0);
+  for (const int vertex : search.vertices()) {
+    cancel.check();
+    search.find(mesh.vertices[vertex], tolerance, near);
+    for (const int i : near) {
+      for (const int end : {edges[i].first, edges[i].second}) {
+        const bool here = (mesh.vertices[end] - mesh.vertices[vertex]).norm() <= tolerance;
+        if (here) joined[vertex] = std::min(joined[vertex], joined[end]);
+      }
+    }
+  }
+  for (Vector3i& t : mesh.triangles) t = {joined[t[0]], joined[t[1]], joined[t[2]]};
 }
 
 /// Whether a corner lies on the opposite side: such a triangle is a seam, not a surface.
@@ -76,8 +95,10 @@ void split(const Vector3i& corners, const std::array<Points, 3>& on, std::vector
   parts.push_back(corners);
 }
 
-/// The mesh split at vertices within a distance of its sides [m], and without triangles that are no higher.
-ConformingMesh splitWithin(const TriangleMesh& mesh, double tolerance) {
+/// The mesh joined at vertices, and split at those on its sides, within a distance [m]; without triangles that are no
+/// higher.
+ConformingMesh joinedWithin(TriangleMesh mesh, double tolerance) {
+  joinVertices(mesh, tolerance);
   ConformingMesh result;
   result.mesh.vertices = mesh.vertices;
   TriangleMesh surface;
@@ -119,8 +140,8 @@ ConformingMesh conformingMesh(const TriangleMesh& mesh) {
   const AlignedBox3d box = boundingBox(mesh);
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   for (const double digits : {kDoubleDigits, kFloatDigits}) {
-    ConformingMesh next = splitWithin(mesh, std::min(digits * reach, kMost * box.sizes().maxCoeff()));
-    if (oddEdges(next.mesh).empty()) return next;
+    ConformingMesh next = joinedWithin(mesh, std::min(digits * reach, kMost * box.sizes().maxCoeff()));
+    if (!isOdd(next.mesh)) return next;
   }
   return result;
 }

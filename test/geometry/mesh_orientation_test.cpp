@@ -155,17 +155,22 @@ TEST(MeshOrientation, FacesOfBoxesThatOverlapStayAsDrawnThoughTheirEdgesDoNotMee
 }
 
 /// Closed parts are known as such though no edges meet, so that cavities and parts inside out are told apart; also
-/// where corners are rounded to floats, and where triangles without height fill the seams.
+/// where corners are rounded to floats, where each face's differ in the last digits, and where triangles without height
+/// fill the seams.
 TEST(MeshOrientation, BoxesOfDividedFacesAreTurnedAsClosedOnes) {
   const TriangleMesh shell = merged(boxOfDividedFaces({0.4, 0.3, 0.2}), flipped(boxOfDividedFaces({0.3, 0.2, 0.1})));
   const TriangleMesh drawn = merged(shell, flipped(translated(boxOfDividedFaces({0.2, 0.2, 0.2}), {-0.55, 0.1, 0.05})));
-  TriangleMesh as_floats = drawn, with_seams = drawn;
+  TriangleMesh as_floats = drawn, with_seams = drawn, last_bits = drawn, last_floats = drawn;
   for (Vector3d& v : as_floats.vertices) v = v.cast<float>().cast<double>();
+  Random random(8);
+  for (Vector3d& v : last_bits.vertices) v += 4e-16 * direction(random);
+  for (Vector3d& v : last_floats.vertices) v += 4e-8 * direction(random);
   const int first = static_cast<int>(with_seams.vertices.size());
   for (const double x : {-0.4, 0.1, 0.4}) with_seams.vertices.emplace_back(x, -0.3, -0.2);
   with_seams.triangles.emplace_back(first, first + 1, first + 2);
   for (const auto& [name, mesh] :
-       {std::pair("doubles", drawn), std::pair("floats", as_floats), std::pair("seams", with_seams)}) {
+       {std::pair("doubles", drawn), std::pair("floats", as_floats), std::pair("seams", with_seams),
+        std::pair("last bits", last_bits), std::pair("last bits of floats", last_floats)}) {
     SCOPED_TRACE(name);
     const OrientedMesh oriented = orientOutward(mesh);
     EXPECT_TRUE(oriented.quality.sign_trusted);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "monitor/scene_case.h"
+#include "oracle/drawn_meshes.h"
+#include "oracle/random.h"
 #include "oracle/shapes.h"
 
 namespace sdf_ccd {
@@ -64,6 +66,15 @@ TEST(DoubtfulMesh, BoxesThatShareAnEndAreNotDoubtful) {
   EXPECT_EQ(verdictOf(mesh, {0.2, 0.2, 0.4}, {0.21, 0.2, 0.4}), Verdict::kContact);
   EXPECT_EQ(verdictOf(mesh, {0.2, 0.2, 0.1}, {0.21, 0.2, 0.1}), Verdict::kContact);
   EXPECT_EQ(verdictOf(mesh, {0.2, 0.2, 0.6}, {0.21, 0.2, 0.6}), Verdict::kClear);
+}
+
+TEST(DoubtfulMesh, AHullOfFacesThatMeetButForTheLastDigitsHasItsCavity) {
+  test::Random random(3);
+  TriangleMesh hull = test::boxOfDividedFaces({0.4, 0.3, 0.3});
+  for (Vector3d& v : hull.vertices) v += 4e-16 * test::direction(random);
+  const TriangleMesh mesh = merged(hull, flipped(boxMesh({0.2, 0.2, 0.2})));
+  EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.01, 0, 0}), Verdict::kClear);
+  EXPECT_EQ(verdictOf(mesh, {0.25, 0.25, 0}, {0.251, 0.25, 0}), Verdict::kContact);
 }
 
 }  // namespace
