@@ -43,7 +43,7 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
   if (tested.empty()) return {};
 
   std::vector<OverlappingPair> found;
-  const std::vector<PairState> at_rest = pairsIn(robot, scene, tested, JointPositions());
+  const std::vector<PairAtRest> at_rest = pairsIn(robot, scene, tested, JointPositions());
   std::vector<std::size_t> open;  // of scene.pairs
   for (std::size_t k = 0; k < tested.size(); ++k) {
     if (at_rest[k].verdict != Verdict::kContact) continue;

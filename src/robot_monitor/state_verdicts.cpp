@@ -63,10 +63,10 @@ std::shared_ptr<const Scene> sceneOf(const Scene& scene, const std::vector<std::
 
 }  // namespace
 
-std::vector<PairState> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
-                               const JointPositions& state) {
+std::vector<PairAtRest> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
+                                const JointPositions& state) {
   StateTester tester(robot, sceneOf(scene, pairs));
-  std::vector<PairState> states;
+  std::vector<PairAtRest> states;
   for (const PairResult& pair : tester.test(state, true))
     states.push_back({tester.verdict(pair), pair.intervals.empty() ? 0.0 : std::max(0.0, pair.deepest.depth)});
   return states;

@@ -7,15 +7,15 @@
 
 namespace sdf_ccd {
 
-/// A pair in one state.
-struct PairState {
+/// A pair in one state of the robot.
+struct PairAtRest {
   Verdict verdict = Verdict::kNotChecked;
   double depth = 0.0;  ///< of the deepest point found, if they are in contact [m]
 };
 
 /// Of pairs of the scene, by index, in their order; all else as for verdictsOf().
-std::vector<PairState> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
-                               const JointPositions& state);
+std::vector<PairAtRest> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
+                                const JointPositions& state);
 
 /// Whether pairs touch in states at rest, in parallel over the states; UNCERTAIN also where they are CLEAR, but nearer
 /// than the scene's bound, as states between these may be.
