@@ -10,6 +10,7 @@
 
 #include "body/body_shell.h"
 #include "body/coarsen.h"
+#include "body/doubtful_surface.h"
 #include "body/element_options.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
@@ -53,6 +54,8 @@ class BodyBuilder {
   }
 
   const std::string& warning() const { return warning_; }
+
+  std::shared_ptr<const TriangleTree> doubtful() const { return doubtfulSurface(description_, pool_); }
 
   std::vector<BodyPart> makeParts(const Progress& progress) {
     std::vector<BodyPart> parts;
@@ -179,6 +182,7 @@ BoundingBall surfaceBall(const Body& body) {
 
 void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
   body.warning = builder.warning();
+  body.doubtful = builder.doubtful();
   if (needs.field) body.parts = builder.makeParts(progress);
   if (needs.witnesses) body.witnesses = builder.makeWitnesses();
   if (needs.witnesses) body.witness_tree = buildSphereTree(body.witnesses);

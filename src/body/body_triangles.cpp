@@ -72,22 +72,6 @@ std::vector<std::shared_ptr<const Solid>> solidsOf(const BodyDescription& descri
   return solids;
 }
 
-/// With boxes around balls.
-TriangleMesh meshAround(const std::vector<RoundedTriangle>& triangles) {
-  TriangleMesh mesh;
-  for (const RoundedTriangle& triangle : triangles) {
-    if (triangle.radius > 0.0) {
-      const Isometry3d X_BG(Eigen::Translation3d(triangle.corners[0]));
-      mesh = merged(std::move(mesh), transformed(tessellate(Box{Vector3d::Constant(triangle.radius)}, 1.0), X_BG));
-      continue;
-    }
-    const int first = static_cast<int>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), triangle.corners.begin(), triangle.corners.end());
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  return mesh;
-}
-
 }  // namespace
 
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
@@ -113,17 +97,12 @@ std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& descript
   auto made = std::make_shared<BodyTriangles>(BoxTree(all.triangles));
   made->deviation = deviation;
   const std::size_t open = all.triangles.size();
-  bool doubtful = false;
   for (const GeometryDescription& geometry : description.geometry) {
     if (std::holds_alternative<Primitive>(geometry.shape)) continue;
     PooledMesh& pooled = pool.find(geometry);
     // Of a mesh that is not closed the solid's boundary is all of it, and with the caps it is closed.
-    const std::size_t before = all.triangles.size();
     if (!isClosed(pooled.mesh)) all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
-    // Closed, if only by where its corners lie.
-    if (all.triangles.size() == before) doubtful = doubtful || !pooled.quality.sign_trusted;
   }
-  if (doubtful) made->doubtful = std::make_unique<TriangleTree>(meshAround(all.triangles));
   made->components = std::move(all.components);
   if (pool.exactDepths() && all.triangles.size() == open) made->solids = solidsOf(description, pool);
   if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(std::move(all.triangles));

@@ -5,7 +5,6 @@
 
 #include "body/mesh_pool.h"
 #include "geometry/box_tree.h"
-#include "geometry/triangle_tree.h"
 #include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {
@@ -22,10 +21,6 @@ struct BodyTriangles {
   /// Of each component of the surface, caps too (what is connected over shared vertices), its corners farthest out, in
   /// so many directions. One that is outside a solid whose surface the component does not meet tells that all of it is.
   std::vector<std::vector<Vector3d>> components;
-
-  /// Of all of them, where a mesh is closed, but which places are inside is doubtful (MeshQuality::sign_trusted): what
-  /// a ray leads to without meeting any is outside. With boxes for balls. Null else.
-  std::unique_ptr<const TriangleTree> doubtful;
 
   /// Per element the solid of its mesh, null of a primitive; empty unless BodyOptions::exact_depths asks for them, and
   /// of a body that has a mesh which is not closed.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <set>
 
 #include "common/parallel_for.h"
 #include "geometry/triangle_tree.h"
+#include "self_crossing.h"
 #include "triangle_cut.h"
 
 namespace sdf_ccd {
@@ -20,7 +20,8 @@ struct Component {
   bool inward = false;                   ///< most of what is seen of it from outside is its back
   std::vector<std::int32_t> facing_out;  ///< triangles of the mesh behind which its winding number is above zero,
   std::vector<std::int32_t> facing_in;   ///< and others
-  Vector3d witness = Vector3d::Zero();   ///< a point next to its surface
+  Vector3d witness = Vector3d::Zero();   ///< a point on its surface,
+  Vector3d behind = Vector3d::Zero();    ///< and one behind it
   double own_number = 0.0;               ///< its winding number there
   bool flat = false;                     ///< a sheet that is drawn from both sides
   bool unmeasured = false;               ///< its volume is zero, but it is not flat
@@ -77,8 +78,10 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
     if (number == 1) area_out += area;
     if (number == 0) area_in += area;
     if (behind[i].x() > farthest) {
+      const Corners c = cornersOf(part, static_cast<int>(i));
       farthest = behind[i].x();
-      result.witness = behind[i];
+      result.witness = (c[0] + c[1] + c[2]) / 3.0;
+      result.behind = behind[i];
       result.own_number = numbers[i];
     }
   }
@@ -108,14 +111,18 @@ class Inspection {
     const auto inward = std::count_if(closed_.begin(), closed_.end(), [&](auto i) { return components_[i].inward; });
     if (inward > 0) uniteClosed();
     if (inward == static_cast<std::ptrdiff_t>(closed_.size())) {
-      for (const std::int32_t i : closed_) result[i] = {true, 0, closed_.size() > 1 && isHeld(i)};
+      all_turned_ = true;
+      for (const std::int32_t i : closed_) {
+        result[i].turn = true;
+        result[i].doubtful = closed_.size() > 1 && isHeld(i);
+      }
     } else if (inward > 0) {
       decide(result);
-      doubtWhatTurnedOnesHold(result);
     }
+    if (closed_.size() > 1) doubtNested(result);
     for (const std::int32_t i : closed_) {
       // Of two parts that meet in edges one alone may be inside out.
-      result[i].doubtful = result[i].doubtful || (result[i].turn && crossesItself(patches_[i]));
+      doubt(result[i], result[i].turn && branches(extract(mesh_, patches_[i])));
       findLobes(i, result);
     }
     // So many sheets may enclose something.
@@ -123,16 +130,20 @@ class Inspection {
     const bool encloses = std::count_if(components_.begin(), components_.end(),
                                         [](const Component& component) { return component.flat; }) >= kFaces;
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-      const Component& component = components_[i];
-      result[i].doubtful = result[i].doubtful || component.unmeasured || (component.flat && encloses);
+      result[i].flat = components_[i].flat;
+      doubt(result[i], components_[i].unmeasured || (components_[i].flat && encloses));
     }
     return result;
   }
 
  private:
+  static void doubt(ClosedComponent& component, bool is_doubtful) {
+    component.doubtful = component.doubtful || is_doubtful;
+  }
+
   void decide(std::vector<ClosedComponent>& result) {
-    const bool all_turned = isInsideOut();
-    if (all_turned) {
+    all_turned_ = isInsideOut();
+    if (all_turned_) {
       for (const std::int32_t i : closed_) result[i].turn = true;
     }
     std::vector<std::int32_t> inward;
@@ -143,7 +154,6 @@ class Inspection {
     std::stable_sort(inward.begin(), inward.end(), [&](std::int32_t a, std::int32_t b) {
       return components_[a].box.diagonal().squaredNorm() > components_[b].box.diagonal().squaredNorm();
     });
-    std::vector<char> is_cavity(patches_.size(), 0);
     for (const std::int32_t i : inward) {
       const std::set<std::int32_t> touched = touchedBy(patches_[i].triangles);
       long around = 0;
@@ -157,20 +167,30 @@ class Inspection {
       }
       if (around == 0) {
         result[i].turn = !result[i].turn;
-        result[i].doubtful = in_touched;
         continue;
       }
-      is_cavity[i] = 1;
-      result[i].doubtful = all_turned || in_touched || around != 1;
-      for (const std::int32_t other : touched) result[i].doubtful = result[i].doubtful || is_cavity[other] != 0;
+      result[i].cavity = true;
+      doubt(result[i], all_turned_ || in_touched || around != 1);
+      for (const std::int32_t other : touched) doubt(result[i], result[other].cavity);
     }
   }
 
-  /// What lies in a part that is inside out, and faces outward, may be its cavity.
-  void doubtWhatTurnedOnesHold(std::vector<ClosedComponent>& result) const {
+  /// What lies in another one is a cavity or a solid by which way it faces: if that is not certain of both, neither is
+  /// what it is.
+  void doubtNested(std::vector<ClosedComponent>& result) {
+    std::vector<char> uncertain(patches_.size(), 0);
+    bool any = false;
     for (const std::int32_t i : closed_) {
-      if (components_[i].inward || result[i].turn) continue;
-      result[i].doubtful = isHeld(i, [&](std::int32_t holder) { return result[holder].turn; });
+      uncertain[i] = patches_[i].mixed || (result[i].turn && !all_turned_);
+      any = any || uncertain[i] != 0;
+    }
+    if (!any) return;
+    uniteClosed();
+    for (const std::int32_t i : closed_) {
+      for (const std::int32_t holder : candidates(i)) {
+        if (result[i].doubtful) break;
+        doubt(result[i], (uncertain[i] != 0 || uncertain[holder] != 0) && numberIn(holder, i) != 0);
+      }
     }
   }
 
@@ -190,7 +210,7 @@ class Inspection {
     std::vector<std::int32_t> perhaps_held;  // by their witnesses, but those may lie in what they only overlap
     for (const std::int32_t i : closed_) {
       const Component& component = components_[i];
-      if (std::abs(tree_->windingNumber(component.witness) - component.own_number) > 0.5) {
+      if (std::abs(tree_->windingNumber(component.behind) - component.own_number) > 0.5) {
         perhaps_held.push_back(i);
         continue;
       }
@@ -207,20 +227,23 @@ class Inspection {
   }
 
   /// Whether the patch lies in another one, which it does not cut or touch.
-  /// @param counts  which of the others may be that.
-  bool isHeld(std::int32_t inner, const std::function<bool(std::int32_t)>& counts = {}) const {
+  bool isHeld(std::int32_t inner) const {
     std::vector<std::int32_t> holders;
     for (const std::int32_t holder : candidates(inner)) {
-      if ((!counts || counts(holder)) && numberIn(holder, inner) != 0) holders.push_back(holder);
+      if (numberIn(holder, inner) != 0) holders.push_back(holder);
     }
     if (holders.empty()) return false;
     const std::set<std::int32_t> touched = touchedBy(patches_[inner].triangles);
     return std::any_of(holders.begin(), holders.end(), [&](auto holder) { return touched.count(holder) == 0; });
   }
 
-  /// A patch's winding number at another one.
+  /// A patch's winding number at another one: just behind it where they touch, as a wall between them may be thinner
+  /// than that is.
   long numberIn(std::int32_t holder, std::int32_t inner) const {
-    return std::lround(components_[holder].tree->windingNumber(components_[inner].witness));
+    constexpr double kWhole = 0.25;
+    const TriangleTree& tree = *components_[holder].tree;
+    const double at = tree.windingNumber(components_[inner].witness), whole = std::round(at);
+    return std::lround(std::abs(at - whole) < kWhole ? whole : tree.windingNumber(components_[inner].behind));
   }
 
   /// Patches whose box holds this one's and that a ray from its witness along x may cross, in order.
@@ -263,25 +286,18 @@ class Inspection {
     result[i].negative_triangles = static_cast<int>(lobe.size());
     if (lobe.empty()) return;
     // Parts that meet in edges are one patch, and may cancel each other in it.
-    result[i].doubtful = result[i].doubtful || crossesItself(patches_[i]);
+    const TriangleMesh part = extract(mesh_, patches_[i]);
+    doubt(result[i], branches(part) || mayHidePockets(part, *component.tree));
     if (closed_.size() < 2) return;
     uniteClosed();
     // A triangle may be of the lobe in part.
-    result[i].doubtful = result[i].doubtful || !touchedBy(patches_[i].triangles).empty();
+    doubt(result[i], !touchedBy(patches_[i].triangles).empty());
     for (const std::int32_t other : closed_) {
       if (result[i].doubtful) return;
       if (other == i) continue;
       const double number = component.tree->windingNumber(components_[other].witness);
       result[i].doubtful = (component.inward ? -number : number) < -0.5 || holds(other, lobe);
     }
-  }
-
-  /// Whether more than two of the patch's triangles meet in an edge.
-  bool crossesItself(const Patch& patch) const {
-    bool found = false;
-    forEachEdge(edgeUses(extract(mesh_, patch)),
-                [&](const EdgeUse* first, const EdgeUse* last) { found = found || last - first > 2; });
-    return found;
   }
 
   /// Whether a triangle lies in the other patch, which none of them cuts.
@@ -297,6 +313,7 @@ class Inspection {
   const TriangleMesh& mesh_;
   const std::vector<Patch>& patches_;
   double eps_;                           ///< see cutTolerance()
+  bool all_turned_ = false;              ///< the file is inside out
   std::vector<Component> components_;    ///< per patch
   std::vector<std::int32_t> label_;      ///< of each triangle: its closed patch, or -1
   std::vector<std::int32_t> closed_;     ///< patches

@@ -9,12 +9,14 @@ namespace sdf_ccd {
 /// What is to be done with a closed patch, and what is known of it then.
 struct ClosedComponent {
   bool turn = false;
+  bool cavity = false;
+  bool flat = false;           ///< a sheet drawn from both sides
   int negative_triangles = 0;  ///< behind them the patch's own winding number is not above zero, though it is turned
                                ///< rightly as a whole: they bound a lobe of a patch that crosses itself
   /// Winding numbers may cancel where a solid is: such a lobe's patch meets another one or itself in edges, two
   /// cavities cut each other, the volume is zero though the patch is not flat, flat ones may enclose something. Or a
-  /// cavity may be filled: drawn as a solid in one that is inside out, turned though what it touches may hold it, or in
-  /// two.
+  /// cavity may be filled, or a solid taken for one: it lies in another, and one of the two is inside out, or mixed
+  /// (see Patch), or it lies in several.
   bool doubtful = false;
 };
 

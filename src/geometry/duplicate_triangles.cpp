@@ -96,6 +96,7 @@ DistinctTriangles distinctTriangles(const TriangleMesh& mesh) {
   }
   const std::vector<char> wall = walls(result.mesh, doubled);
   std::vector<Vector3i> shared;
+  std::vector<char>& both_ways = result.both_ways;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < wall.size(); ++i) {
     if (wall[i] && one_way[source[i]]) {
@@ -103,17 +104,20 @@ DistinctTriangles distinctTriangles(const TriangleMesh& mesh) {
       shared.insert(shared.end(), others, result.mesh.triangles[i]);
       result.copies -= static_cast<int>(others);
       result.copied_area -= static_cast<double>(others) * areaNormal(result.mesh, static_cast<int>(i)).norm() / 2;
+      both_ways.push_back(0);
       result.mesh.triangles[kept++] = result.mesh.triangles[i];
     } else if (wall[i]) {
       result.walls.push_back(result.mesh.triangles[i]);
       --result.copies;
       result.copied_area -= areaNormal(result.mesh, static_cast<int>(i)).norm() / 2;
     } else {
+      both_ways.push_back(one_way[source[i]] == 0);
       result.mesh.triangles[kept++] = result.mesh.triangles[i];
     }
   }
   result.mesh.triangles.resize(kept);
   result.mesh.triangles.insert(result.mesh.triangles.end(), shared.begin(), shared.end());
+  both_ways.resize(result.mesh.triangles.size(), 0);
   return result;
 }
 

@@ -10,6 +10,7 @@ namespace sdf_ccd {
 struct DistinctTriangles {
   TriangleMesh mesh;            ///< without `walls`
   std::vector<Vector3i> walls;  ///< corners in `mesh`, one triangle of each pair
+  std::vector<char> both_ways;  ///< per triangle of `mesh`, whether copies of it faced the other way; empty if of none
   int copies = 0;               ///< triangles left out because the same corners are there already, either way round
   double copied_area = 0.0;     ///< of those [m²]
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <unordered_map>
+#include <utility>
 
 namespace sdf_ccd {
 namespace {
@@ -28,11 +29,17 @@ std::vector<std::array<Neighbour, 3>> neighbours(const TriangleMesh& mesh, const
   return result;
 }
 
-/// Labels the connected sets and turns each one's triangles; returns a label per triangle.
-std::vector<std::int32_t> turnBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
+/// Connected sets of triangles.
+struct TurnedSets {
+  std::vector<std::int32_t> label;  ///< of each triangle
+  std::vector<char> mixed;          ///< per label, whether some of its triangles were turned, but not all
+};
+
+/// Turns each set's triangles until they agree.
+TurnedSets turnBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   const auto adjacent = neighbours(mesh, uses);
   std::vector<std::int32_t> label(mesh.triangles.size(), -1);
-  std::vector<char> turned(mesh.triangles.size(), 0);
+  std::vector<char> turned(mesh.triangles.size(), 0), mixed;
   std::vector<std::int32_t> set;
   std::int32_t sets = 0;
   CancelTicks<4096> cancel;
@@ -58,9 +65,10 @@ std::vector<std::int32_t> turnBySets(TriangleMesh& mesh, const std::vector<EdgeU
     for (const std::int32_t triangle : set) {
       if ((turned[triangle] != 0) == keep_turned) std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
     }
+    mixed.push_back(std::any_of(set.begin(), set.end(), [&](auto triangle) { return turned[triangle] != 0; }));
     ++sets;
   }
-  return label;
+  return {std::move(label), std::move(mixed)};
 }
 
 /// Which labels have every edge balanced. `uses` must be of the mesh as it is now.
@@ -80,7 +88,7 @@ std::vector<char> balanced(const std::vector<EdgeUse>& uses, const std::vector<s
 }  // namespace
 
 std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
-  const std::vector<std::int32_t> label = turnBySets(mesh, edgeUses(mesh));
+  const auto [label, mixed] = turnBySets(mesh, edgeUses(mesh));
   const std::vector<EdgeUse> uses = edgeUses(mesh);
   const std::vector<char> closed_alone = balanced(uses, label);
 
@@ -114,6 +122,7 @@ std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
       patches.push_back({{}, is_closed});
     }
     patches[index].triangles.push_back(static_cast<std::int32_t>(i));
+    patches[index].mixed = patches[index].mixed || mixed[label[i]] != 0;
   }
   return patches;
 }

@@ -11,6 +11,7 @@ namespace sdf_ccd {
 struct Patch {
   std::vector<std::int32_t> triangles;
   bool closed = false;  ///< along each of its edges as many triangles run forward as backward
+  bool mixed = false;   ///< parts of it are drawn one way round, others the other way, or both ways
 };
 
 /// Turns triangles until neighbours over two-triangle edges agree wherever that is possible; of each connected

@@ -1,5 +1,6 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -48,25 +49,70 @@ bool turnAsParts(const ConformingMesh& parts, const TriangleMesh& turned, Triang
   return agree;
 }
 
-/// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `walls`.
-void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
+/// What turning a mesh's closed patches has shown of them together.
+struct ClosedPatches {
+  int closed = 0, turned = 0, cavities = 0, flat = 0, mixed = 0;
+  bool doubtful = false;
+
+  /// Whether nothing but whole solids, side by side or over each other, has been found.
+  bool isPlain() const { return (turned == 0 || turned == closed) && cavities == 0 && flat == 0 && mixed == 0; }
+};
+
+/// Whether a patch that was turned meets others in an edge, so that it may have been cut from them, or they from it.
+bool turnedMeetsOthers(const std::vector<Patch>& patches, const std::vector<ClosedComponent>& closed,
+                       const TriangleMesh& mesh) {
+  std::vector<char> turned(mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (!closed[i].turn) continue;
+    for (const std::int32_t triangle : patches[i].triangles) turned[triangle] = 1;
+  }
+  bool found = false;
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    if (last - first <= 2 || found) return;
+    const auto of_turned = std::count_if(first, last, [&](const EdgeUse& use) { return turned[use.triangle] != 0; });
+    found = of_turned > 0 && of_turned < last - first;
+  });
+  return found;
+}
+
+ClosedPatches turnClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, MeshQuality& quality) {
+  ClosedPatches all;
+  const std::vector<ClosedComponent> closed = inspectClosed(mesh, patches);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    all.closed += patches[i].closed;
+    all.turned += closed[i].turn;
+    all.cavities += closed[i].cavity;
+    all.flat += closed[i].flat;
+    all.mixed += patches[i].closed && patches[i].mixed;
+    all.doubtful = all.doubtful || closed[i].doubtful;
+    quality.negative_triangles += closed[i].negative_triangles;
+    if (closed[i].turn) flip(mesh, patches[i]);
+  }
+  quality.inverted_components = all.turned;
+  all.doubtful = all.doubtful || (all.turned > 0 && turnedMeetsOthers(patches, closed, mesh));
+  return all;
+}
+
+/// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `distinct`.
+void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
+  std::vector<Vector3i>& walls = distinct.walls;
   MeshQuality& quality = result.quality;
   const ConformingMesh joined = conformingMesh(result.mesh);
   TriangleMesh likeness = joined.mesh;
-  const std::vector<Patch> patches = orientConsistently(likeness);
+  std::vector<Patch> patches = orientConsistently(likeness);
+  for (Patch& patch : patches) {
+    patch.mixed = patch.mixed || std::any_of(patch.triangles.begin(), patch.triangles.end(), [&](auto triangle) {
+                    return !distinct.both_ways.empty() && distinct.both_ways[joined.source[triangle]] != 0;
+                  });
+  }
   checkCancelled();
   likeness = normalized(std::move(likeness));
-  bool doubtful = false;
-  const std::vector<ClosedComponent> closed = inspectClosed(likeness, patches);
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    quality.inverted_components += closed[i].turn;
-    quality.negative_triangles += closed[i].negative_triangles;
-    doubtful = doubtful || closed[i].doubtful;
-    if (closed[i].turn) flip(likeness, patches[i]);
-  }
+  const ClosedPatches closed = turnClosed(patches, likeness, quality);
   // Two parts that were tessellated apart may be linked over an edge of both, and cancel each other.
   const bool is_joined = joined.mesh.triangles.size() != result.mesh.triangles.size();
-  doubtful = doubtful || (is_joined && quality.negative_triangles > 0);
+  bool doubtful = closed.doubtful || (is_joined && quality.negative_triangles > 0);
+  // A part that is drawn twice may be solid once, and once not.
+  doubtful = doubtful || (closed.cavities > 0 && quality.duplicate_triangles > 0);
   TriangleMesh hiding = likeness;
   hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
   const std::vector<char> from_behind = seenFromBehind(hiding, patches);
@@ -76,7 +122,6 @@ void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
   }
   const std::vector<char> hidden = hiddenWalls(likeness, patches, walls);
   doubtful = !turnAsParts(joined, likeness, result.mesh) || doubtful;
-  quality.sign_trusted = isClosed(likeness) && !doubtful;
 
   std::size_t kept = 0;
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -90,6 +135,9 @@ void turnOutward(std::vector<Vector3i>& walls, OrientedMesh& result) {
     quality.hidden_area += (b - a).cross(c - a).norm();
   }
   walls.resize(kept);
+  // Such walls may be what is left of a part that another one cancels.
+  quality.doubtful = doubtful || (!walls.empty() && (quality.negative_triangles > 0 || !closed.isPlain()));
+  quality.sign_trusted = isClosed(likeness) && !quality.doubtful;
 }
 
 }  // namespace
@@ -105,7 +153,7 @@ OrientedMesh orientOutward(const TriangleMesh& mesh) {
   DistinctTriangles distinct = distinctTriangles(weld);
   quality.duplicate_triangles = distinct.copies;
   quality.duplicate_area = distinct.copied_area;
-  std::vector<Vector3i>& walls = distinct.walls;
+  const std::vector<Vector3i>& walls = distinct.walls;
 
   result.mesh = distinct.mesh;
   result.mesh.triangles.insert(result.mesh.triangles.end(), walls.begin(), walls.end());
@@ -118,7 +166,7 @@ OrientedMesh orientOutward(const TriangleMesh& mesh) {
   quality.box = boundingBox(result.mesh);
 
   result.mesh = std::move(distinct.mesh);
-  turnOutward(walls, result);
+  turnOutward(distinct, result);
   for (const Vector3i& wall : walls) {
     result.mesh.triangles.push_back(wall);
     result.mesh.triangles.emplace_back(wall[0], wall[2], wall[1]);

@@ -7,11 +7,11 @@
 namespace sdf_ccd {
 namespace {
 
-/// Where the ray enters the box, or infinity if it does not before `last`.
-double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse, double last) {
+/// Where the ray comes within `slack` of the box, or infinity if it does not before `last`.
+double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse, double slack, double last) {
   double enter = 0.0, exit = last;
   for (int k = 0; k < 3; ++k) {
-    const double a = (box.min()[k] - p[k]) * inverse[k], b = (box.max()[k] - p[k]) * inverse[k];
+    const double a = (box.min()[k] - slack - p[k]) * inverse[k], b = (box.max()[k] + slack - p[k]) * inverse[k];
     // A ray in the plane of a side gives NaN, with which comparisons leave both ends as they are.
     const double low = a < b ? a : b, high = a < b ? b : a;
     if (low > enter) enter = low;
@@ -20,20 +20,48 @@ double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse
   return enter <= exit * (1.0 + 1e-12) ? enter : TriangleTree::kInfinity;
 }
 
-/// Distance along the ray to the triangle, infinity if it is missed (Möller & Trumbore 1997).
-double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& direction) {
+/// Distance along the ray to the triangle, infinity if it is missed (Möller & Trumbore 1997) by more than `slack`
+/// beyond a side's line.
+double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& direction, double slack) {
   const Vector3d ab = t.b() - t.a(), ac = t.c() - t.a(), across = direction.cross(ac);
   const double determinant = ab.dot(across);
   if (determinant == 0.0) return TriangleTree::kInfinity;
   const Vector3d from = p - t.a(), along = from.cross(ab);
   const double u = from.dot(across) / determinant, v = direction.dot(along) / determinant;
   constexpr double kLeast = -1e-12;
-  return u >= kLeast && v >= kLeast && u + v <= 1.0 - kLeast ? ac.dot(along) / determinant : TriangleTree::kInfinity;
+  double least_u = kLeast, least_v = kLeast, least_w = kLeast;
+  if (slack > 0.0) {  // how fast they change across the ray
+    const double steep = slack / std::abs(determinant);
+    least_u -= steep * across.norm();
+    least_v -= steep * direction.cross(ab).norm();
+    least_w -= steep * direction.cross(ac - ab).norm();
+  }
+  const bool meets = u >= least_u && v >= least_v && 1.0 - u - v >= least_w;
+  return meets ? ac.dot(along) / determinant : TriangleTree::kInfinity;
 }
 
 }  // namespace
 
 int TriangleTree::firstHit(const Vector3d& p, const Vector3d& direction, double min_distance) const {
+  return firstHit(p, direction, min_distance, 0.0);
+}
+
+bool TriangleTree::seesOutside(const Vector3d& p) const {
+  constexpr double kCracks = 4e-6;
+  const double slack = kCracks * nodes_[0].box.sizes().maxCoeff();
+  // A spiral from pole to pole, even over the sphere: the golden angle apart.
+  constexpr int kRays = 128;
+  constexpr double kGoldenAngle = 2.39996322972865332;
+  for (int i = 0; i < kRays; ++i) {
+    const int k = 37 * i % kRays;  // far apart one after the other
+    const double z = (2 * k + 1.0) / kRays - 1.0, radius = std::sqrt(1.0 - z * z), angle = kGoldenAngle * k;
+    const Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), z);
+    if (firstHit(p, direction, 0.0, slack) < 0) return true;
+  }
+  return false;
+}
+
+int TriangleTree::firstHit(const Vector3d& p, const Vector3d& direction, double min_distance, double slack) const {
   struct Pending {
     double enter;
     std::int32_t node;
@@ -43,21 +71,21 @@ int TriangleTree::firstHit(const Vector3d& p, const Vector3d& direction, double 
   int found = -1;
   std::array<Pending, 128> stack;  // the builder keeps the depth below 96
   int size = 0;
-  stack[size++] = {entry(nodes_[0].box, p, inverse, best), 0};
+  stack[size++] = {entry(nodes_[0].box, p, inverse, slack, best), 0};
   while (size > 0) {
     const Pending pending = stack[--size];
     if (!(pending.enter < best)) continue;
     const Node& node = nodes_[pending.node];
     if (node.count == 0) {
-      Pending near = {entry(nodes_[node.first].box, p, inverse, best), node.first};
-      Pending far = {entry(nodes_[node.first + 1].box, p, inverse, best), node.first + 1};
+      Pending near = {entry(nodes_[node.first].box, p, inverse, slack, best), node.first};
+      Pending far = {entry(nodes_[node.first + 1].box, p, inverse, slack, best), node.first + 1};
       if (far.enter < near.enter) std::swap(near, far);
       stack[size++] = far;
       stack[size++] = near;
       continue;
     }
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const double distance = hit(triangles_[i], p, direction);
+      const double distance = hit(triangles_[i], p, direction, slack);
       if (distance > min_distance && distance < best) {
         best = distance;
         found = ids_[i];

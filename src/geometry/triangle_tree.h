@@ -51,6 +51,11 @@ class TriangleTree {
   /// than `min_distance` from p; -1 if there is none. To rounding: a ray along an edge may meet either side or none.
   int firstHit(const Vector3d& p, const Vector3d& direction, double min_distance) const;
 
+  /// Whether some ray from p meets no triangle, and passes none by less than 4e-6 of the mesh's size: through cracks
+  /// that conformingMesh() closes nothing is seen. False wherever triangles close p in, whichever way they face; true
+  /// of most other places.
+  bool seesOutside(const Vector3d& p) const;
+
   /// Visits triangles for which mayMatter(center, radius) [m] says that a ball that holds them may matter: balls of
   /// ever fewer triangles are asked for, at last of one.
   template <typename MayMatter, typename Visit>
@@ -111,6 +116,7 @@ class TriangleTree {
   /// Of a quad's nodes, squared: what their boxes and their cylinders say.
   static void leastDistances2(const Quad& quad, const Vector3d& p, double* least);
   void search(const Vector3d& p, double best2, ClosestPoint& best) const;
+  int firstHit(const Vector3d& p, const Vector3d& direction, double min_distance, double slack) const;
   static Expansion expand(const Triangle* begin, const Triangle* end);
   /// A winding number, and a bound on its error but for rounding.
   struct BoundedNumber {

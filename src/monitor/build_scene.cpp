@@ -8,9 +8,9 @@
 #include "body/body_triangles.h"
 #include "common/seconds_since.h"
 #include "monitor/scene_cost.h"
+#include "scene_totals.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
-#include "scene_totals.h"
 #include "surface_crossing.h"
 
 namespace sdf_ccd {
@@ -107,7 +107,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     scene.reports.push_back(std::move(built.report));
   }
   for (const PlannedPair& pair : scene.pairs) {
-    if (!hasOpenings(bodies[pair.body_a]) && !hasOpenings(bodies[pair.body_b])) continue;
+    if (!mayHoldNothing(bodies[pair.body_a]) && !mayHoldNothing(bodies[pair.body_b])) continue;
     for (const int i : {pair.body_a, pair.body_b}) {
       Body& body = bodies[i];
       if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
@@ -147,9 +147,8 @@ void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
     if (reasons[p].empty()) {
       stay.push_back(pair);
     } else {
-      scene.left_out.push_back(
-          {"pair " + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name, reasons[p], pair.body_a,
-           pair.body_b});
+      scene.left_out.push_back({"pair " + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name,
+                                reasons[p], pair.body_a, pair.body_b});
     }
   }
   if (stay.size() == scene.pairs.size()) return;

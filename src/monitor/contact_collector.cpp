@@ -57,6 +57,7 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
 void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
                            const ContactOptions& options, bool with_impulse) {
   bool have_poses = false;
+  is_doubtful_ = role.field().doubtful != nullptr;
   const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
     const BodyPart& part = role.field().parts[p];
@@ -122,7 +123,7 @@ bool ContactCollector::needsErrors(const DistanceField& field) const {
 
 /// Takes over what integrate() has found of the hits.
 void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
-  const bool certain = !input.field.openings();
+  const bool certain = !input.field.openings() && !is_doubtful_;
   for (std::size_t h = 0; h < hits_.size(); ++h) {
     const ShellHit& hit = hits_[h];
     const HitDepth& depth = impulse_.depths[h];

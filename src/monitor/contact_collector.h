@@ -76,7 +76,8 @@ class ContactCollector {
   std::size_t most_found_ = 0, most_intervals_ = 0;  // before they are put together
   ContactImpulse impulse_;
   bool crosses_ = false;
-  double path_error_ = 0.0;  // [m]
+  double path_error_ = 0.0;   // [m]
+  bool is_doubtful_ = false;  // what is inside the role's field's body
   double certain_depth_ = 0.0;
   std::vector<ShellHit> bearing_hits_;
   ContactImpulse bearing_impulse_;

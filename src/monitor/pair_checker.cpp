@@ -53,7 +53,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
       pair_(pair),
       siblings_(siblings),
       options_(options),
-      open_(hasOpenings(scene.bodies[pair.body_a]) || hasOpenings(scene.bodies[pair.body_b])) {
+      open_(mayHoldNothing(scene.bodies[pair.body_a]) || mayHoldNothing(scene.bodies[pair.body_b])) {
   const auto addRole = [&](int shell, int field, ShellPurpose purpose) {
     PairRole role(scene, shell, field, purpose);
     if (role.shell().size() > 0 && !scene.bodies[field].parts.empty()) roles_.push_back(role);
@@ -205,7 +205,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     motion_error_ += given_error;
     setError(bound_, kRootTolerance * travel_, result);
   } else if (clearFromAfar(margin, result)) {
-    return;
+    return doubt(result);
   }
 
   cutRoles(result);
@@ -231,10 +231,25 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
 
 /// Fields do not know what is inside a body where that is doubtful.
 void PairChecker::doubt(PairResult& result) {
-  if (!surfaces_ || !surfaces_->isDoubtful() || result.verdict == Verdict::kNotChecked) return;
+  if (result.verdict == Verdict::kNotChecked || isCertain(result)) return;
   result.verdict = Verdict::kUncertain;
   result.clearance = PairResult().clearance;
   forgetClearance();
+}
+
+/// Whether a verdict by fields stands, for all that is doubtful about the bodies.
+bool PairChecker::isCertain(const PairResult& result) const {
+  if (surfaces_) return !surfaces_->isDoubtful();
+  if (result.verdict != Verdict::kClear) return true;  // of contacts fields say themselves what is certain
+  for (const int body : {pair_.body_a, pair_.body_b}) {
+    const Body& other = scene_.bodies[body == pair_.body_a ? pair_.body_b : pair_.body_a];
+    const bool is_bounded = other.shell.size() > 0 || other.witnesses.size() > 0;  // half-spaces lie in no body
+    if (!scene_.bodies[body].doubtful || !is_bounded) continue;
+    const auto role =
+        std::find_if(roles_.begin(), roles_.end(), [&](const PairRole& role) { return role.fieldBody() == body; });
+    if (role == roles_.end() || !role->isOutsideAtEnd()) return false;
+  }
+  return true;
 }
 
 /// @param clearance  lower bound of the distance at the span's end, of bodies at the given poses [m].

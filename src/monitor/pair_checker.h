@@ -84,6 +84,7 @@ class PairChecker {
   void setClear(double clearance, PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   void doubt(PairResult& result);
+  bool isCertain(const PairResult& result) const;
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
   bool clearFromAfar(double margin, PairResult& result);
@@ -97,7 +98,7 @@ class PairChecker {
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
   std::vector<PairRole> roles_;                  // one to four
-  bool open_;                                    // some field has openings
+  bool open_;                                    // a place inside some field may be none inside its body
   std::optional<SurfacePair> surfaces_;          // if both bodies are all triangles
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on these
   bool outside_ = false;                         // neither had a part wholly inside the other at the last cycle's end

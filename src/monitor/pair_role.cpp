@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/triangle_tree.h"
 #include "may_approach.h"
 #include "pose_rounding.h"
 #include "sdf_ccd/common/cancel.h"
@@ -63,6 +64,18 @@ double PairRole::pointClearanceAtEnd(double slack) const {
     nearest = std::min(nearest, clearance(part.field, *tree_, *shell_, X_GP, slack));
   }
   return nearest;
+}
+
+bool PairRole::isOutsideAtEnd() const {
+  const TriangleTree* surface = field_body_->doubtful.get();
+  if (!surface) return true;
+  CancelTicks<64> cancel;
+  return std::all_of(shell_->points.begin(), shell_->points.end(), [&](const Vector3d& p_P) {
+    cancel.check();
+    const Vector3d p_F = motion_.end() * p_P;
+    const BoundingBall& ball = field_body_->ball;
+    return (p_F - ball.center).norm() > ball.radius || surface->seesOutside(p_F);
+  });
 }
 
 bool PairRole::mayComeNearer(double distance) {

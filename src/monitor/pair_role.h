@@ -60,6 +60,10 @@ class PairRole {
   /// what the fields know.
   double pointClearanceAtEnd(double slack) const;
 
+  /// Whether the shell's points are surely outside the field's body at the end, given that they are by its fields:
+  /// these are not enough where it is doubtful what is inside the body.
+  bool isOutsideAtEnd() const;
+
   /// False only if no point of the shell comes nearer than `distance` [m] to any part: conservative at any distance.
   bool mayComeNearer(double distance);
 

@@ -118,9 +118,9 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
   return found;
 }
 
-bool hasOpenings(const Body& body) {
-  return std::any_of(body.parts.begin(), body.parts.end(),
-                     [](const BodyPart& part) { return part.field.openings() != nullptr; });
+bool mayHoldNothing(const Body& body) {
+  return body.doubtful || std::any_of(body.parts.begin(), body.parts.end(),
+                                      [](const BodyPart& part) { return part.field.openings() != nullptr; });
 }
 
 }  // namespace sdf_ccd

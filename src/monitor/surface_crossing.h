@@ -33,7 +33,8 @@ struct SurfaceCrossing {
 /// Cost: as many tests as triangles meet, at most 10⁵; then the answer is none.
 std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const Isometry3d& X_BA, double pose_error);
 
-/// True if some field of the body has openings.
-bool hasOpenings(const Body& body);
+/// Whether a place inside the body's fields may be none inside the body: some field has openings, or what is inside a
+/// mesh is doubtful.
+bool mayHoldNothing(const Body& body);
 
 }  // namespace sdf_ccd

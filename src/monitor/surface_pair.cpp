@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/triangle_tree.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -18,22 +20,10 @@ bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
   return false;
 }
 
-/// Whether some ray from a point meets no triangle.
-bool isSeenFromOutside(const TriangleTree& triangles, const Vector3d& p) {
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        // Along no axis, and in no plane of two, as meshes have many faces and edges there.
-        const Vector3d direction(x + 0.0123, y - 0.0271, z + 0.0379);
-        if (triangles.firstHit(p, direction.normalized(), 0.0) < 0) return true;
-      }
-  return false;
-}
-
 /// Whether a point is surely outside the solid of the body, frame B.
 bool isOutsideSolid(const Body& body, const Vector3d& p) {
   if (isOutsideBox(body.triangles->closedTree(), p)) return true;
-  if (body.triangles->doubtful) return isSeenFromOutside(*body.triangles->doubtful, p);
+  if (body.doubtful) return body.doubtful->seesOutside(p);
   return !body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), [&](const BodyPart& part) {
     return part.field.lowerBound(part.X_BG.inverse() * p) > 0.0;
   });

@@ -68,7 +68,7 @@ class SurfacePair {
 
   /// Whether what is inside one of the bodies is doubtful: then only surfaces tell, that cross, or that are apart from
   /// what is outside.
-  bool isDoubtful() const { return field_->triangles->doubtful || shell_->triangles->doubtful; }
+  bool isDoubtful() const { return field_->doubtful || shell_->doubtful; }
 
  private:
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,

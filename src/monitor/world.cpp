@@ -226,7 +226,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   };
   for (std::size_t b = 0; b < count; ++b) prepare(b);
   for (std::size_t b = 0; b < count; ++b) prepare(b);  // what one of equal content has got since
-  const auto isOpen = [&](int b) { return prepared[b] && hasOpenings(*prepared[b]->body); };
+  const auto isOpen = [&](int b) { return prepared[b] && mayHoldNothing(*prepared[b]->body); };
   for (const PlannedPair& pair : plan.pairs) {
     if (!isOpen(pair.body_a) && !isOpen(pair.body_b)) continue;
     for (const int b : {pair.body_a, pair.body_b}) {

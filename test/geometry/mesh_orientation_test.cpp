@@ -59,6 +59,26 @@ TEST(MeshOrientation, PartsThatShareAFaceOneWithinTheOtherStayAsDrawn) {
   }
 }
 
+/// With other diagonals in the face whose triangles come first.
+TriangleMesh likeButOneFace(TriangleMesh box) {
+  const Vector3i a = box.triangles[0], b = box.triangles[1];
+  const auto own = [](const Vector3i& of, const Vector3i& other) {
+    for (int k = 0; k < 3; ++k)
+      if ((other.array() != of[k]).all()) return k;
+    return 0;
+  };
+  const int i = own(a, b), j = own(b, a);
+  box.triangles[0] = {a[i], a[(i + 1) % 3], b[j]};
+  box.triangles[1] = {b[j], b[(j + 1) % 3], a[i]};
+  return box;
+}
+
+/// With the first triangles the other way round.
+TriangleMesh withTurned(TriangleMesh mesh, int count) {
+  for (int i = 0; i < count; ++i) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+  return mesh;
+}
+
 /// What cancels within a patch, or is filled though it may be a cavity, is not trusted.
 TEST(MeshOrientation, WhatMayCancelOrBeACavityIsDoubtful) {
   const TriangleMesh box = boxMesh({0.5, 0.5, 0.5}), cavity = boxMesh({0.3, 0.3, 0.3});
@@ -75,6 +95,13 @@ TEST(MeshOrientation, WhatMayCancelOrBeACavityIsDoubtful) {
       {"a hull inside out around a cavity", merged(flipped(box), flipped(cavity))},
       {"a hull twice, a cavity once", merged(merged(box, turned), flipped(cavity))},
       {"a part that shares edges with the hull", merged(merged(box, flipped(cavity)), half)},
+      {"a cavity and what fills it, alike", merged(merged(box, flipped(cavity)), cavity)},
+      {"the same the other way round", merged(merged(cavity, flipped(cavity)), box)},
+      {"a box and an inverted copy, in part alike", merged(box, flipped(likeButOneFace(box)))},
+      {"a cavity of which half the faces are turned", merged(box, withTurned(flipped(cavity), 6))},
+      {"a hull inside out around a cavity, beside a box", merged(merged(flipped(box), flipped(cavity)), apart)},
+      {"a hull twice, alike, and a cavity", merged(merged(box, box), flipped(cavity))},
+      {"an arm over an inverted lobe of its own", test::armOverItsLobe()},
   };
   for (const auto& [name, mesh] : drawn) EXPECT_FALSE(orientOutward(mesh).quality.sign_trusted) << name;
 }
@@ -179,6 +206,16 @@ TEST(MeshOrientation, BoxesOfDividedFacesAreTurnedAsClosedOnes) {
     EXPECT_TRUE(isInside(oriented.mesh, {0.35, 0.01, 0.02}));
     EXPECT_TRUE(isInside(oriented.mesh, {-0.6, 0.15, 0.07}));
     EXPECT_FALSE(isInside(oriented.mesh, {0.01, 0.02, 0.03}));
+  }
+}
+
+TEST(MeshOrientation, AHollowBoxOfWallsOfNearlyNoThicknessKeepsItsCavity) {
+  for (const double wall : {1e-5, 5e-7, 1e-9}) {
+    const TriangleMesh box = boxMesh({0.5, 0.5, 0.5}), cavity = boxMesh(Vector3d::Constant(0.5 - wall));
+    const OrientedMesh hollow = orientOutward(merged(box, flipped(cavity)));
+    EXPECT_EQ(hollow.quality.inverted_components, 0) << wall;
+    EXPECT_TRUE(hollow.quality.sign_trusted) << wall;
+    EXPECT_FALSE(isInside(hollow.mesh, {0.1, 0.2, 0.05})) << wall;
   }
 }
 

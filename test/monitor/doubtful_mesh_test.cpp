@@ -1,4 +1,6 @@
 // Meshes that are closed, but nobody can tell what is inside: only surfaces decide.
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "monitor/scene_case.h"
@@ -11,6 +13,7 @@ namespace {
 
 using test::boxMesh;
 using test::flipped;
+using test::Shape;
 using test::translated;
 using test::translation;
 
@@ -75,6 +78,44 @@ TEST(DoubtfulMesh, AHullOfFacesThatMeetButForTheLastDigitsHasItsCavity) {
   const TriangleMesh mesh = merged(hull, flipped(boxMesh({0.2, 0.2, 0.2})));
   EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.01, 0, 0}), Verdict::kClear);
   EXPECT_EQ(verdictOf(mesh, {0.25, 0.25, 0}, {0.251, 0.25, 0}), Verdict::kContact);
+}
+
+/// Of a link with a doubtful mesh, and another element.
+BodyDescription doubtfulLink(const std::optional<Shape>& beside) {
+  const TriangleMesh sheets = merged(boxMesh({0.3, 0.3, 0.3}), flipped(mirroredBox({0.3, 0.3, 0.3})));
+  BodyDescription link = test::body("part", test::meshShape(sheets));
+  if (beside) link.geometry.push_back({*beside, translation({2, 0, 0}), "beside", false});
+  return link;
+}
+
+/// Whatever decides about a pair: triangles, fields of half-spaces, or voxels.
+TEST(DoubtfulMesh, WhatIsInsideIsNeverClearWhateverItIs) {
+  TriangleMesh open = boxMesh({0.3, 0.3, 0.3});
+  open.triangles.pop_back();
+  BodyDescription voxel = test::body("bead", test::meshShape(boxMesh({0.02, 0.02, 0.02})));
+  voxel.geometry.front().watertight_voxels = true;
+  BodyDescription plane = test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}}));
+  plane.geometry.push_back({Primitive(HalfSpace{Vector3d::UnitZ(), -5.0}), Isometry3d::Identity(), "plane", false});
+  const BodyDescription box = test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}}));
+  const std::pair<BodyDescription, BodyDescription> pairs[] = {
+      {box, doubtfulLink(std::nullopt)},
+      {box, doubtfulLink(test::meshShape(open))},
+      {box, doubtfulLink(Primitive(HalfSpace{Vector3d::UnitZ(), -5.0}))},
+      {voxel, doubtfulLink(std::nullopt)},
+      {plane, doubtfulLink(std::nullopt)}};
+  int which = 0;
+  for (const auto& [bead, link] : pairs) {
+    SCOPED_TRACE(which++);
+    Monitor monitor(test::build({bead, link}, test::fine(0.02)), test::soft());
+    const auto verdict = [&](const Vector3d& start, const Vector3d& end) {
+      const CycleMotion motion =
+          test::cycle(0.1, {{translation(start), translation(end)}, test::still(Isometry3d::Identity())});
+      return monitor.run(motion, {}).pairs.front().verdict;
+    };
+    EXPECT_EQ(verdict({0, 0, 0}, {0.01, 0, 0}), Verdict::kUncertain);
+    EXPECT_EQ(verdict({0.5, 0, 0}, {0.5, 0.1, 0}), Verdict::kClear);
+    EXPECT_EQ(verdict({0.6, 0, 0}, {0.3, 0, 0}), Verdict::kContact);
+  }
 }
 
 }  // namespace

@@ -91,6 +91,27 @@ inline TriangleMesh bowTieMesh() {
   return lofted(rings);
 }
 
+/// A prism over a curve that crosses itself at the origin: a large part, a lobe inside out at 0 < x < 0.5, and over it,
+/// at 0.2 < x < 0.4, an arm of the large part, so that the winding number is zero in both; 0 < z < 1.
+inline TriangleMesh armOverItsLobe() {
+  const std::vector<Eigen::Vector2d> curve = {{-2, -2},  {0.5, 0.5}, {0.5, -0.5}, {-2, 2}, {-1.5, 2.5}, {0.2, 2.5},
+                                              {0.2, -3}, {0.4, -3},  {0.4, 3},    {-2, 3}, {-3, 3},     {-3, -2}};
+  TriangleMesh mesh;
+  for (const double z : {0.0, 1.0})
+    for (const Eigen::Vector2d& p : curve) mesh.vertices.emplace_back(p.x(), p.y(), z);
+  const int count = static_cast<int>(curve.size());
+  for (int i = 0; i < count; ++i) {
+    const int j = (i + 1) % count;
+    mesh.triangles.emplace_back(i, j, count + j);
+    mesh.triangles.emplace_back(i, count + j, count + i);
+  }
+  for (int i = 1; i + 1 < count; ++i) {  // fans: what they add beside the curve cancels
+    mesh.triangles.emplace_back(0, i + 1, i);
+    mesh.triangles.emplace_back(count, count + i, count + i + 1);
+  }
+  return mesh;
+}
+
 /// Two tetrahedra with the edge from (0, 0, -h) to (0, 0, h) in common, h = 0.15 m, the one at x < 0 with winding
 /// number 1, the other with -1: one closed component, a double cone over a quadrilateral that crosses itself.
 struct CrossedTetrahedra {

@@ -14,6 +14,7 @@ namespace sdf_ccd {
 
 struct BodySurface;
 struct BodyTriangles;
+class TriangleTree;
 
 /// One collision element with its field.
 struct BodyPart {
@@ -41,7 +42,11 @@ struct Body {
   std::shared_ptr<const BodySurface> surface;      ///< where a pair has a field with openings; null for a half-space
   std::shared_ptr<const BodyTriangles> triangles;  ///< what decides about it and another one that has them; null of a
                                                    ///< body that is not all triangles, or in no such pair
-  BoundingBall ball;                               ///< holds the body's surface, frame B; see kHalfSpaceRadius
+  /// All bounded geometry of a body that has a mesh of which it is doubtful what is inside (MeshQuality::doubtful),
+  /// with caps in openings and boxes around primitives, frame B: only what sees the outside past it is surely outside.
+  /// Null of other bodies, whose fields know.
+  std::shared_ptr<const TriangleTree> doubtful;
+  BoundingBall ball;  ///< holds the body's surface, frame B; see kHalfSpaceRadius
 
   /// The field of a body that is one element in the body's own frame.
   /// @throws std::logic_error if it is not.

@@ -26,8 +26,8 @@ struct MeshQuality {
   double volume = 0.0;           ///< signed, of the oriented mesh [m³]
   double area = 0.0;             ///< [m²]
   AlignedBox3d box;              ///< [m]
-  bool sign_trusted = false;  ///< closed after orientation, and no winding numbers cancel each other where two solids
-                              ///< are: inside and outside are beyond doubt
+  bool doubtful = false;         ///< winding numbers may cancel each other where solids are, or fill cavities
+  bool sign_trusted = false;     ///< closed after orientation, and not doubtful: inside and outside are certain
 };
 
 struct OrientedMesh {
@@ -43,8 +43,8 @@ struct OrientedMesh {
 /// out, so is the file, and everything is turned (cavities that come of it are kept, but the sign is not trusted).
 /// Parts that are not closed are turned if what can see them sees their back.
 ///
-/// Where parts that meet in edges may cancel each other, or what is turned or filled may be a cavity, the sign is not
-/// trusted.
+/// Where parts may cancel each other, or nobody can tell whether one that lies in another is a solid or a cavity, as
+/// one of them had to be turned or is drawn both ways round, the mesh is doubtful.
 ///
 /// Triangles with the same corners are one, except faces that two parts share, one in the other, and walls drawn from
 /// both sides whose border lies on other triangles: both sides are left out if they are certainly inside a solid, and

@@ -1,0 +1,94 @@
+#include "self_crossing.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "common/parallel_for.h"
+#include "mesh_edges.h"
+#include "triangle_cut.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Where the segment passes through the triangle.
+std::optional<Vector3d> piercing(const Vector3d& a, const Vector3d& b, const Corners& t) {
+  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double at_a = normal.dot(a - t[0]), at_b = normal.dot(b - t[0]);
+  if (at_a == at_b || at_a * at_b > 0.0) return std::nullopt;
+  const Vector3d p = a + at_a / (at_a - at_b) * (b - a);
+  for (int k = 0; k < 3; ++k) {
+    if ((t[(k + 1) % 3] - t[k]).cross(p - t[k]).dot(normal) < 0.0) return std::nullopt;
+  }
+  return p;
+}
+
+/// The middle of the stretch in which two triangles cross, if they do.
+std::optional<Vector3d> middleOfCrossing(const Corners& i, const Corners& j) {
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (int k = 0; k < 3; ++k) {
+    for (const auto& p : {piercing(i[k], i[(k + 1) % 3], j), piercing(j[k], j[(k + 1) % 3], i)}) {
+      if (!p) continue;
+      sum += *p;
+      ++count;
+    }
+  }
+  if (count < 2) return std::nullopt;
+  return sum / count;
+}
+
+/// Whether all places of number zero beside the crossing of two triangles see the outside, at a distance `step` [m]
+/// from both.
+bool allSeen(const TriangleMesh& mesh, const TriangleTree& tree, int first, int second, double step) {
+  constexpr double kFlat = 1e-4;
+  const Vector3d n = areaNormal(mesh, first).normalized(), m = areaNormal(mesh, second).normalized();
+  const double cosine = n.dot(m), squared_sine = n.cross(m).squaredNorm();
+  if (!(squared_sine > kFlat)) return false;
+  const std::optional<Vector3d> middle = middleOfCrossing(cornersOf(mesh, first), cornersOf(mesh, second));
+  if (!middle) return true;  // a point, in which others cross too
+  for (const double s : {-step, step}) {
+    for (const double t : {-step, step}) {
+      // n·d = s, m·d = t
+      const Vector3d d = ((s - cosine * t) * n + (t - cosine * s) * m) / squared_sine;
+      const Vector3d p = *middle + d;
+      if (std::lround(tree.windingNumber(p)) == 0 && !tree.seesOutside(p)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool branches(const TriangleMesh& mesh) {
+  bool found = false;
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) { found = found || last - first > 2; });
+  return found;
+}
+
+bool mayHidePockets(const TriangleMesh& mesh, const TriangleTree& tree) {
+  const double eps = cutTolerance(mesh), step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();
+  std::atomic<bool> found{false};
+  tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
+  parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
+    if (found) return;
+    const int triangle = static_cast<int>(i);
+    const Corners c = cornersOf(mesh, triangle);
+    const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
+    const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
+    std::vector<int>& near = near_of_thread.local();
+    tree.trianglesWithin(center, radius + eps, near);
+    for (const int other : near) {
+      if (other <= triangle || !cut(mesh, triangle, other, eps)) continue;
+      if (allSeen(mesh, tree, triangle, other, step)) continue;
+      found = true;
+      return;
+    }
+  });
+  return found;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "geometry/triangle_tree.h"
+
+namespace sdf_ccd {
+
+/// Whether more than two triangles of a mesh meet in an edge.
+bool branches(const TriangleMesh& mesh);
+
+/// Whether a closed surface may enclose places where its winding number is zero: where it crosses itself, a solid part
+/// and a lobe that is inside out may overlap and cancel each other. Such a place has a stretch of such a crossing on
+/// its border; so beside all of these it is looked whether each place where the number is zero sees the outside, on the
+/// cautious side. Places thinner than 1e-5 of the size may be missed.
+/// @param tree  over the same mesh.
+bool mayHidePockets(const TriangleMesh& mesh, const TriangleTree& tree);
+
+}  // namespace sdf_ccd
