@@ -54,8 +54,8 @@ struct ClosedPatches {
   int closed = 0, turned = 0, cavities = 0, flat = 0, mixed = 0;
   bool doubtful = false;
 
-  /// Whether nothing but whole solids, side by side or over each other, has been found.
-  bool isPlain() const { return (turned == 0 || turned == closed) && cavities == 0 && flat == 0 && mixed == 0; }
+  /// Whether nothing but whole solids as they are drawn, side by side or over each other, has been found.
+  bool isPlain() const { return turned == 0 && cavities == 0 && flat == 0 && mixed == 0; }
 };
 
 /// Whether a patch that was turned meets others in an edge, so that it may have been cut from them, or they from it.
@@ -112,7 +112,8 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   const bool is_joined = joined.mesh.triangles.size() != result.mesh.triangles.size();
   bool doubtful = closed.doubtful || (is_joined && quality.negative_triangles > 0);
   // A part that is drawn twice may be solid once, and once not.
-  doubtful = doubtful || (closed.cavities > 0 && quality.duplicate_triangles > 0);
+  const bool some_turned = closed.turned > 0 && closed.turned < closed.closed;
+  doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_turned));
   TriangleMesh hiding = likeness;
   hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
   const std::vector<char> from_behind = seenFromBehind(hiding, patches);

@@ -47,10 +47,11 @@ TEST(MeshOrientation, AWallInsideASolidIsLeftOutAndSaid) {
 }
 
 /// Which of two copies of a face drawn the same way round is whose must not turn one of the parts.
+TriangleMesh block(const Vector3d& low, const Vector3d& high) {
+  return translated(boxMesh(0.5 * (high - low)), 0.5 * (high + low));
+}
+
 TEST(MeshOrientation, PartsThatShareAFaceOneWithinTheOtherStayAsDrawn) {
-  const auto block = [](const Vector3d& low, const Vector3d& high) {
-    return translated(boxMesh(0.5 * (high - low)), 0.5 * (high + low));
-  };
   for (const double low : {0.5, -0.5}) {  // one shorter, or longer, from the same end
     const OrientedMesh result = orientOutward(merged(block({0, 0, 0}, {1, 1, 1}), block({0, 0, low}, {1, 1, 1})));
     EXPECT_TRUE(result.quality.sign_trusted) << low;
@@ -101,6 +102,8 @@ TEST(MeshOrientation, WhatMayCancelOrBeACavityIsDoubtful) {
       {"a cavity of which half the faces are turned", merged(box, withTurned(flipped(cavity), 6))},
       {"a hull inside out around a cavity, beside a box", merged(merged(flipped(box), flipped(cavity)), apart)},
       {"a hull twice, alike, and a cavity", merged(merged(box, box), flipped(cavity))},
+      {"a box, and in its end an inverted one",
+       merged(block({0, 0, 0}, {0.25, 0.25, 0.25}), flipped(block({0, 0, 0}, {0.25, 0.25, 0.5})))},
       {"an arm over an inverted lobe of its own", test::armOverItsLobe()},
   };
   for (const auto& [name, mesh] : drawn) EXPECT_FALSE(orientOutward(mesh).quality.sign_trusted) << name;
@@ -131,7 +134,8 @@ TEST(MeshOrientation, AWallAcrossARingStaysAndTheRingIsTrusted) {
   for (const TriangleMesh& drawn : {ring, flipped(ring)}) {
     const OrientedMesh result = orientOutward(drawn);
     EXPECT_EQ(result.quality.wall_triangles, 4);
-    EXPECT_TRUE(result.quality.sign_trusted) << summary(result.quality);
+    // A part that is inside out, and shares a face with another, leaves such walls too.
+    EXPECT_EQ(result.quality.sign_trusted, result.quality.inverted_components == 0) << summary(result.quality);
     EXPECT_TRUE(isInside(result.mesh, {0.75, 0.1, 0.1}));
     EXPECT_FALSE(isInside(result.mesh, {0.1, 0.05, 0.1}));
     EXPECT_LT(TriangleTree(result.mesh).closestPoint({0.1, 0.05, 0.2}).distance, 1e-12);
