@@ -123,6 +123,7 @@ class Inspection {
     for (const std::int32_t i : closed_) {
       // Of two parts that meet in edges one alone may be inside out.
       doubt(result[i], result[i].turn && branches(extract(mesh_, patches_[i])));
+      doubt(result[i], result[i].turn && isHeldByOpen(i));
       findLobes(i, result);
     }
     // So many sheets may enclose something.
@@ -235,6 +236,14 @@ class Inspection {
     if (holders.empty()) return false;
     const std::set<std::int32_t> touched = touchedBy(patches_[inner].triangles);
     return std::any_of(holders.begin(), holders.end(), [&](auto holder) { return touched.count(holder) == 0; });
+  }
+
+  /// Whether one that is not closed may hold it.
+  bool isHeldByOpen(std::int32_t inner) const {
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      if (!patches_[i].closed && components_[i].box.contains(components_[inner].box)) return true;
+    }
+    return false;
   }
 
   /// A patch's winding number at another one: just behind it where they touch, as a wall between them may be thinner
