@@ -88,7 +88,8 @@ std::vector<char> balanced(const std::vector<EdgeUse>& uses, const std::vector<s
 }  // namespace
 
 std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
-  const auto [label, mixed] = turnBySets(mesh, edgeUses(mesh));
+  const TurnedSets turned = turnBySets(mesh, edgeUses(mesh));
+  const std::vector<std::int32_t>& label = turned.label;
   const std::vector<EdgeUse> uses = edgeUses(mesh);
   const std::vector<char> closed_alone = balanced(uses, label);
 
@@ -122,7 +123,7 @@ std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
       patches.push_back({{}, is_closed});
     }
     patches[index].triangles.push_back(static_cast<std::int32_t>(i));
-    patches[index].mixed = patches[index].mixed || mixed[label[i]] != 0;
+    patches[index].mixed = patches[index].mixed || turned.mixed[label[i]] != 0;
   }
   return patches;
 }
