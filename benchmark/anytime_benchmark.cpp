@@ -1,6 +1,7 @@
 // Error against run time as a knob of the running monitor: cycles with budgets, and what verdicts they leave open.
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -8,6 +9,9 @@
 #include "common/seconds_since.h"
 #include "monitor/box_world.h"
 #include "monitor/cycle_times.h"
+#ifdef SDF_CCD_WITH_ROS
+#include "monitor/recorded_poses.h"
+#endif
 #include "results.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "study.h"
@@ -64,14 +68,14 @@ Said listen(Monitor& limited, Monitor& unlimited, const Waypoints& waypoints, co
   return said;
 }
 
-void study(const Robot& robot, Proximity proximity, const std::string& name, const StudyOptions& options) {
-  const BoxWorld world = makeBoxWorld(robot, proximity, kPeriod * options.cycles, kSeed);
+/// @param described  whose bodies the waypoints are of.
+void study(const SceneDescription& described, const Waypoints& waypoints, const std::string& name,
+           const StudyOptions& options) {
   MonitorOptions monitor_options;
   const BodyOptions body_options = preparedAsMonitored(monitor_options);
   const auto scene = std::make_shared<const Scene>(
-      buildScene(world.scene, planScene(world.scene, planOptions(body_options)), body_options));
-  Waypoints waypoints;
-  for (int k = 0; k <= options.cycles; ++k) waypoints.push_back(world.motion.posesAt(kPeriod * k, world.scene.bodies));
+      buildScene(described, planScene(described, planOptions(body_options)), body_options));
+  const std::size_t cycles = waypoints.size() - 1;
 
   Monitor limited(scene, monitor_options), unlimited(scene, monitor_options);
   for (const double budget : kBudgets) {
@@ -80,14 +84,14 @@ void study(const Robot& robot, Proximity proximity, const std::string& name, con
     request.skipped_pairs = false;
     request.max_time = 1e-6 * budget;
     // Budgets end cycles by the clock, so that each run is another one: all of their times count.
-    CycleTimes times(static_cast<std::size_t>(options.cycles * options.measure.runs), 1);
+    CycleTimes times(cycles * std::size_t(options.measure.runs), 1);
     for (int run = 0; run < options.measure.runs; ++run) {
       limited.reset();
-      for (int k = 0; k < options.cycles; ++k) {
-        const CycleMotion motion = motionAt(waypoints, static_cast<std::size_t>(k));
+      for (std::size_t k = 0; k < cycles; ++k) {
+        const CycleMotion motion = motionAt(waypoints, k);
         const auto start = std::chrono::steady_clock::now();
         limited.run(motion, request);
-        times.take(static_cast<std::size_t>(run * options.cycles + k), secondsSince(start));
+        times.take(std::size_t(run) * cycles + k, secondsSince(start));
       }
     }
     const Said said = listen(limited, unlimited, waypoints, request);
@@ -108,6 +112,33 @@ void study(const Robot& robot, Proximity proximity, const std::string& name, con
   }
 }
 
+/// A robot that moves up and down its joints.
+void studySeeded(const Robot& robot, Proximity proximity, const std::string& name, const StudyOptions& options) {
+  const BoxWorld world = makeBoxWorld(robot, proximity, kPeriod * options.cycles, kSeed);
+  Waypoints waypoints;
+  for (int k = 0; k <= options.cycles; ++k) waypoints.push_back(world.motion.posesAt(kPeriod * k, world.scene.bodies));
+  study(world.scene, waypoints, name, options);
+}
+
+#ifdef SDF_CCD_WITH_ROS
+/// A robot that moves as it did in a bag.
+void studyRecorded(const Robot& robot, Proximity proximity, const std::string& name, const StudyOptions& options) {
+  constexpr std::size_t kLookedAt = 20;  // cycles from one pose to the next that boxes are placed by
+  Waypoints waypoints = recordedPoses(options.bag, robot, kPeriod, std::size_t(options.cycles) + 1);
+  Waypoints some;
+  for (std::size_t k = 0; k < waypoints.size(); k += kLookedAt) some.push_back(waypoints[k]);
+  const SceneDescription world = boxesAbout(robot, some, proximity, kSeed);
+  for (std::vector<Isometry3d>& X_RB : waypoints) {
+    for (std::size_t box = X_RB.size(); box < world.bodies.size(); ++box) X_RB.push_back(world.bodies[box].X_frame_B);
+  }
+  study(world, waypoints, name, options);
+}
+#else
+void studyRecorded(const Robot&, Proximity, const std::string&, const StudyOptions&) {
+  throw std::invalid_argument("--bag: built without ROS");
+}
+#endif
+
 }  // namespace
 }  // namespace sdf_ccd::benchmark
 
@@ -127,7 +158,9 @@ int main(int argc, char** argv) {
                       const Robot robot = loadRobot(argument);
                       for (const auto& [proximity, what] :
                            {std::pair{Proximity::kNear, "near"}, {Proximity::kContact, "contact"}}) {
-                        if (isWanted(options.cases, what)) study(robot, proximity, robot.name + "/" + what, options);
+                        if (!isWanted(options.cases, what)) continue;
+                        if (options.bag.empty()) studySeeded(robot, proximity, robot.name + "/" + what, options);
+                        if (!options.bag.empty()) studyRecorded(robot, proximity, robot.name + "_bag/" + what, options);
                       }
                     }
                   });

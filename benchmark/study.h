@@ -17,6 +17,7 @@ struct StudyOptions {
   std::vector<std::string> meshes;                            ///< names; only those, all if empty
   std::vector<std::string> paper_meshes{"bunny3k", "torus"};  ///< those that the paper's dense grids are built for
   std::vector<std::string> robots;                            ///< NAME=URDF[,SRDF]
+  std::string bag;                                            ///< a robot's motion, of the study `anytime`
   std::vector<std::string> cases;                             ///< only those, all if empty
   std::vector<std::string> systems;                           ///< of the study `monitor`; all if empty
   std::vector<int> cells;                                     ///< uniform fields: cells along the longest side

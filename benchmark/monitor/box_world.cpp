@@ -122,23 +122,34 @@ double wantedDistance(Proximity proximity, int box, test::Random& random) {
   return test::uniform(random, 0.03, 0.2);
 }
 
-}  // namespace
-
-BoxWorld makeBoxWorld(const Robot& robot, Proximity proximity, double seconds, std::uint64_t seed) {
-  FclScene fcl(robot.scene.bodies);
-  BoxWorld world{robot.scene, calmestMotion(robot, fcl, seconds, seed)};
-  const Poses poses = posesOf(world.motion, robot.scene.bodies, seconds, kTimeStep);
+SceneDescription boxesAbout(const Robot& robot, const Poses& poses, FclScene& fcl, Proximity proximity,
+                            std::uint64_t seed) {
+  SceneDescription scene = robot.scene;
   for (const PlannedPair& pair : touching(fcl, planScene(robot.scene).pairs, poses)) {
     const auto name = [&](int body) { return robot.scene.bodies[std::size_t(body)].name; };
-    world.scene.disabled.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
+    scene.disabled.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
   }
   Placer placer(robot, poses, fcl);
   test::Random random(seed);
   for (int box = 0; box < kBoxes; ++box) {
-    world.scene.bodies.push_back(placer.place(box, wantedDistance(proximity, box, random), random));
+    scene.bodies.push_back(placer.place(box, wantedDistance(proximity, box, random), random));
   }
-  disableUnreachable(robot.model, world.scene);
-  return world;
+  disableUnreachable(robot.model, scene);
+  return scene;
+}
+
+}  // namespace
+
+BoxWorld makeBoxWorld(const Robot& robot, Proximity proximity, double seconds, std::uint64_t seed) {
+  FclScene fcl(robot.scene.bodies);
+  const RobotMotion motion = calmestMotion(robot, fcl, seconds, seed);
+  const Poses poses = posesOf(motion, robot.scene.bodies, seconds, kTimeStep);
+  return {boxesAbout(robot, poses, fcl, proximity, seed), motion};
+}
+
+SceneDescription boxesAbout(const Robot& robot, const Poses& poses, Proximity proximity, std::uint64_t seed) {
+  FclScene fcl(robot.scene.bodies);
+  return boxesAbout(robot, poses, fcl, proximity, seed);
 }
 
 }  // namespace sdf_ccd::benchmark

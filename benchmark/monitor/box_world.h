@@ -24,4 +24,9 @@ enum class Proximity {
 /// several motions, the one with the fewest of those.
 BoxWorld makeBoxWorld(const Robot& robot, Proximity proximity, double seconds, std::uint64_t seed);
 
+/// The same of a robot that was there at some times: its bodies, then the boxes.
+/// @param poses  per time, per body of the robot's scene, in the root's frame.
+SceneDescription boxesAbout(const Robot& robot, const std::vector<std::vector<Isometry3d>>& poses, Proximity proximity,
+                            std::uint64_t seed);
+
 }  // namespace sdf_ccd::benchmark

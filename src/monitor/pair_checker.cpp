@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pair_bound.h"
+#include "pose_rounding.h"
 #include "surface_crossing.h"
 
 namespace sdf_ccd {
@@ -53,6 +54,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
       pair_(pair),
       siblings_(siblings),
       options_(options),
+      balls_hold_(ballHolds(scene.bodies[pair.body_a]) && ballHolds(scene.bodies[pair.body_b])),
       open_(mayHoldNothing(scene.bodies[pair.body_a]) || mayHoldNothing(scene.bodies[pair.body_b])) {
   const auto addRole = [&](int shell, int field, ShellPurpose purpose) {
     PairRole role(scene, shell, field, purpose);
@@ -101,13 +103,36 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
     most = std::min(most, 2.0 * ball.radius);
     motion_error += bodies.poseError(body, ball.center.norm() + ball.radius);  // of a point that lies in both
   }
+  result.error = bound();
+  result.error.chord = motion_error;
+  const double by_balls = ballClearance(bodies, result.span);
+  if (by_balls > margin() + motion_error) {
+    motion_error_ = motion_error;
+    remember(by_balls, motion.X_WB[pair_.body_a][result.span.last], motion.X_WB[pair_.body_b][result.span.last]);
+    setClear(by_balls, result);
+    result.skipped = outside_ = true;
+    return;
+  }
   result.verdict = Verdict::kUncertain;
   result.postponed = true;
   result.reason = "no time was left for it";
-  result.error = bound();
-  result.error.chord = motion_error + std::min(most, std::max(0.0, -clearance));
+  result.error.chord += std::min(most, std::max(0.0, -clearance));
   clearance_ = clearance;
   outside_ = false;
+}
+
+/// How far the bodies' balls stay apart all over the span, at least [m]; −∞ if they do not hold the bodies. Along a
+/// constant twist a ball's centre has the same speed all the time, so it is no farther than half its way from where it
+/// is halfway.
+double PairChecker::ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const {
+  if (!balls_hold_) return kUnknown;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = span.first; k < span.last; ++k) {
+    const WorldTwist &a = bodies.twist(pair_.body_a, k), &b = bodies.twist(pair_.body_b, k);
+    const double away = 0.5 * (a.velocity.norm() + b.velocity.norm());
+    least = std::min(least, (a.center - b.center).norm() - away - a.radius - b.radius);
+  }
+  return least;
 }
 
 void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,

@@ -38,7 +38,7 @@ class PairChecker {
   void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
            PairResult& result);
 
-  /// Leaves the pair untested, over a span that is not empty.
+  /// Leaves the pair untested, over a span that is not empty: it is UNCERTAIN, or CLEAR if the bodies' balls do not meet.
   /// @param clearance  lower bound of the distance of the bodies all over the span, below zero how far they may overlap
   /// at most [m]; −∞ if nothing is known.
   void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairResult& result);
@@ -88,6 +88,7 @@ class PairChecker {
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
   bool clearFromAfar(double margin, PairResult& result);
+  double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;
   void cutRoles(PairResult& result);
   std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const;
   void findContacts(const CycleMotion& motion, const CycleRequest& request, const std::optional<ContactPoint>& known,
@@ -98,6 +99,7 @@ class PairChecker {
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
   std::vector<PairRole> roles_;                  // one to four
+  bool balls_hold_;                              // the bodies' balls hold all of them
   bool open_;                                    // a place inside some field may be none inside its body
   std::optional<SurfacePair> surfaces_;          // if both bodies are all triangles
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on these
