@@ -11,6 +11,7 @@
 #include "monitor/cycle_times.h"
 #include "monitor/fcl_scene.h"
 #include "monitor/monitor_system.h"
+#include "monitor/sdf_ccd_monitor.h"
 #include "results.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "study.h"
@@ -42,46 +43,6 @@ Waypoints waypointsOf(const BoxWorld& world, double rate, std::size_t cycles) {
   return waypoints;
 }
 
-/// Our monitor as a system.
-class Ours : public MonitorSystem {
- public:
-  Ours(std::string name, const CycleRequest& request, std::shared_ptr<const Scene> scene, const MonitorOptions& options,
-       double period)
-      : name_(std::move(name)), monitor_(std::move(scene), options), request_(request) {
-    motion_.times = {0.0, period};
-    motion_.X_WB.assign(monitor_.scene().bodies.size(), std::vector<Isometry3d>(2, Isometry3d::Identity()));
-  }
-
-  std::string name() const override { return name_; }
-
-  void take(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) {
-    for (std::size_t b = 0; b < X_WB_start.size(); ++b) {
-      motion_.X_WB[b][0] = X_WB_start[b];
-      motion_.X_WB[b][1] = X_WB_end[b];
-    }
-  }
-  const CycleResult& run() { return monitor_.run(motion_, request_); }
-  void reset() { monitor_.reset(); }
-
-  int check(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) override {
-    take(X_WB_start, X_WB_end);
-    return run().verdict == Verdict::kContact;
-  }
-
- private:
-  std::string name_;
-  Monitor monitor_;
-  CycleRequest request_;
-  CycleMotion motion_;
-};
-
-/// Whether pairs touch, and no more.
-CycleRequest verdictsAlone() {
-  CycleRequest request;
-  request.wrenches = request.skipped_pairs = request.contacts = false;
-  return request;
-}
-
 CycleRequest withContacts(bool wrenches, Refinement refine) {
   CycleRequest request;
   request.wrenches = wrenches;
@@ -92,7 +53,7 @@ CycleRequest withContacts(bool wrenches, Refinement refine) {
 
 /// What is said about how far the deepest depths may be off, over all contacts of all cycles: no place is deeper by
 /// more.
-void printDepthErrors(Ours& system, const Waypoints& waypoints, const std::string& name) {
+void printDepthErrors(SdfCcdMonitor& system, const Waypoints& waypoints, const std::string& name) {
   system.reset();
   std::vector<double> errors;
   for (std::size_t i = 0; i < waypoints.cycles(); ++i) {
@@ -118,7 +79,7 @@ struct Verdicts {
   long pair_cycles = 0, uncertain = 0, contact = 0, false_clear = 0, checked = 0;
 };
 
-Verdicts verdictsOf(Ours& ours, const SceneDescription& scene, const Waypoints& waypoints) {
+Verdicts verdictsOf(SdfCcdMonitor& ours, const SceneDescription& scene, const Waypoints& waypoints) {
   FclScene fcl(scene.bodies);
   Verdicts verdicts;
   std::vector<int> clear;
@@ -224,7 +185,7 @@ void studyTransforms(const Built& built, double period, std::size_t cycles, cons
 void study(const Built& built, double rate, const std::string& name, const StudyOptions& options) {
   const Waypoints waypoints =
       waypointsOf(built.world, rate, static_cast<std::size_t>(std::lround(options.cycles * rate / 1000.0)));
-  std::deque<Ours> systems;
+  std::deque<SdfCcdMonitor> systems;
   const auto add = [&](const char* system, const CycleRequest& request, const std::shared_ptr<const Scene>& scene) {
     systems.emplace_back(system, request, scene, built.options, waypoints.period);
   };

@@ -18,6 +18,7 @@ import planning_tables
 import precision_tables
 import robots_tables
 import separation_tables
+import tunnelling_tables
 import world_tables
 from results import Results, number
 
@@ -180,7 +181,7 @@ TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
               **meshes_tables.TABLES, **monitor_tables.TABLES,
               **planning_tables.TABLES, **anytime_tables.TABLES, **separation_tables.TABLES,
-              **world_tables.TABLES}.items()}}
+              **tunnelling_tables.TABLES, **world_tables.TABLES}.items()}}
 
 
 def main():
