@@ -190,8 +190,10 @@ void study(const Built& built, double rate, const std::string& name, const Study
     systems.emplace_back(system, request, scene, built.options, waypoints.period);
   };
   add("sdf_ccd", verdictsAlone(), built.scene);
-  add("sdf_ccd_wrench", withContacts(true, Refinement::kNone), built.scene);
-  add("sdf_ccd_deepest", withContacts(false, Refinement::kDeepest), built.exact_scene);
+  if (isWanted(options.systems, "sdf_ccd_wrench"))
+    add("sdf_ccd_wrench", withContacts(true, Refinement::kNone), built.scene);
+  if (isWanted(options.systems, "sdf_ccd_deepest"))
+    add("sdf_ccd_deepest", withContacts(false, Refinement::kDeepest), built.exact_scene);
   MonitorSystems peers;
   for (const MonitorPeerFactory& factory : monitorPeers()) factory(built.world.scene, built.scene->pairs, peers);
   const auto isLeftOut = [&](const auto& peer) { return !isWanted(options.systems, peer->name()); };
