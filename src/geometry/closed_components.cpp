@@ -13,6 +13,8 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kRounding = 1e-6;  ///< of coordinates that are floats, far from their origin [m]
+
 /// A patch by itself.
 struct Component {
   std::unique_ptr<TriangleTree> tree;  ///< none where it is open, or holds nothing
@@ -171,7 +173,7 @@ class Inspection {
         continue;
       }
       result[i].cavity = true;
-      doubt(result[i], all_turned_ || in_touched || around != 1);
+      doubt(result[i], all_turned_ || in_touched || around != 1 || isFlushInPart(i));
       for (const std::int32_t other : touched) doubt(result[i], result[other].cavity);
     }
   }
@@ -190,7 +192,7 @@ class Inspection {
     for (const std::int32_t i : closed_) {
       for (const std::int32_t holder : candidates(i)) {
         if (result[i].doubtful) break;
-        doubt(result[i], (uncertain[i] != 0 || uncertain[holder] != 0) && numberIn(holder, i) != 0);
+        doubt(result[i], (uncertain[i] != 0 || uncertain[holder] != 0) && isAtSolid(holder, i));
       }
     }
   }
@@ -255,10 +257,38 @@ class Inspection {
     return std::lround(std::abs(at - whole) < kWhole ? whole : tree.windingNumber(components_[inner].behind));
   }
 
-  /// Patches whose box holds this one's and that a ray from its witness along x may cross, in order.
+  /// Whether the witness lies in another patch or on it, as that of a patch flush with it does, whichever way it faces.
+  bool isAtSolid(std::int32_t holder, std::int32_t inner) const {
+    const Component& component = components_[inner];
+    const TriangleTree& tree = *components_[holder].tree;
+    const Vector3d before = 2.0 * component.witness - component.behind;
+    return numberIn(holder, inner) != 0 || std::lround(tree.windingNumber(before)) != 0 ||
+           std::lround(tree.windingNumber(component.behind)) != 0;
+  }
+
+  /// Whether some faces of a cavity, but not all, lie on what holds it but for rounding: it may be a part that was to
+  /// be flush there, drawn inside out. A hull of walls without thickness is near its cavity everywhere.
+  bool isFlushInPart(std::int32_t cavity) const {
+    const std::set<std::int32_t> holders = candidates(cavity);
+    bool flush = false, free = false;
+    for (const std::int32_t triangle : patches_[cavity].triangles) {
+      const Corners c = cornersOf(mesh_, triangle);
+      const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
+      const bool here = std::any_of(holders.begin(), holders.end(), [&](std::int32_t holder) {
+        return components_[holder].tree->closestPoint(center, kRounding).triangle >= 0;
+      });
+      (here ? flush : free) = true;
+      if (flush && free) return true;
+    }
+    return false;
+  }
+
+  /// Patches whose box holds this one's, but for rounding, and that a ray from its witness along x may cross, in order.
   std::set<std::int32_t> candidates(std::int32_t inner) const {
     const Component& component = components_[inner];
     std::set<std::int32_t> found;
+    const Vector3d rounding = Vector3d::Constant(kRounding);
+    const AlignedBox3d box(component.box.min() + rounding, component.box.max() - rounding);
     tree_->forEachTriangle(
         [&](const Vector3d& center, double radius) {
           const Vector3d r = center - component.witness;
@@ -266,7 +296,7 @@ class Inspection {
         },
         [&](int triangle) {
           const std::int32_t other = label_[triangles_[triangle]];
-          if (other != inner && components_[other].box.contains(component.box)) found.insert(other);
+          if (other != inner && components_[other].box.contains(box)) found.insert(other);
         });
     return found;
   }

@@ -9,10 +9,12 @@
 #include "closed_components.h"
 #include "conforming_mesh.h"
 #include "duplicate_triangles.h"
+#include "geometry/triangle_tree.h"
 #include "hidden_walls.h"
 #include "mesh_patches.h"
 #include "open_components.h"
 #include "sdf_ccd/common/cancel.h"
+#include "self_crossing.h"
 
 namespace sdf_ccd {
 namespace {
@@ -75,6 +77,16 @@ bool turnedMeetsOthers(const std::vector<Patch>& patches, const std::vector<Clos
   return found;
 }
 
+/// Whether a patch that was turned touches itself: linked where faces were tessellated apart, it may be two parts.
+bool turnedTouchesItself(const std::vector<Patch>& patches, const TriangleMesh& drawn, const TriangleMesh& turned) {
+  return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
+    const std::int32_t first = patch.triangles.front();
+    if (!patch.closed || drawn.triangles[first] == turned.triangles[first]) return false;
+    const TriangleMesh part = extract(turned, patch);
+    return touchesItself(part, TriangleTree(part));
+  });
+}
+
 ClosedPatches turnClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, MeshQuality& quality) {
   ClosedPatches all;
   const std::vector<ClosedComponent> closed = inspectClosed(mesh, patches);
@@ -107,10 +119,12 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   }
   checkCancelled();
   likeness = normalized(std::move(likeness));
+  const TriangleMesh drawn = likeness;
   const ClosedPatches closed = turnClosed(patches, likeness, quality);
   // Two parts that were tessellated apart may be linked over an edge of both, and cancel each other.
   const bool is_joined = joined.mesh.triangles.size() != result.mesh.triangles.size();
   bool doubtful = closed.doubtful || (is_joined && quality.negative_triangles > 0);
+  doubtful = doubtful || (is_joined && closed.turned > 0 && turnedTouchesItself(patches, drawn, likeness));
   // A part that is drawn twice may be solid once, and once not.
   const bool some_turned = closed.turned > 0 && closed.turned < closed.closed;
   doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_turned));

@@ -61,16 +61,10 @@ bool allSeen(const TriangleMesh& mesh, const TriangleTree& tree, int first, int 
   return true;
 }
 
-}  // namespace
-
-bool branches(const TriangleMesh& mesh) {
-  bool found = false;
-  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) { found = found || last - first > 2; });
-  return found;
-}
-
-bool mayHidePockets(const TriangleMesh& mesh, const TriangleTree& tree) {
-  const double eps = cutTolerance(mesh), step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();
+/// Whether any two triangles that cut each other are as is asked for.
+template <typename Test>
+bool anyCut(const TriangleMesh& mesh, const TriangleTree& tree, const Test& test) {
+  const double eps = cutTolerance(mesh);
   std::atomic<bool> found{false};
   tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
   parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
@@ -82,13 +76,29 @@ bool mayHidePockets(const TriangleMesh& mesh, const TriangleTree& tree) {
     std::vector<int>& near = near_of_thread.local();
     tree.trianglesWithin(center, radius + eps, near);
     for (const int other : near) {
-      if (other <= triangle || !cut(mesh, triangle, other, eps)) continue;
-      if (allSeen(mesh, tree, triangle, other, step)) continue;
+      if (other <= triangle || !cut(mesh, triangle, other, eps) || !test(triangle, other)) continue;
       found = true;
       return;
     }
   });
   return found;
+}
+
+}  // namespace
+
+bool branches(const TriangleMesh& mesh) {
+  bool found = false;
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) { found = found || last - first > 2; });
+  return found;
+}
+
+bool touchesItself(const TriangleMesh& mesh, const TriangleTree& tree) {
+  return anyCut(mesh, tree, [](int, int) { return true; });
+}
+
+bool mayHidePockets(const TriangleMesh& mesh, const TriangleTree& tree) {
+  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();
+  return anyCut(mesh, tree, [&](int first, int second) { return !allSeen(mesh, tree, first, second, step); });
 }
 
 }  // namespace sdf_ccd

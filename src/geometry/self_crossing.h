@@ -7,6 +7,10 @@ namespace sdf_ccd {
 /// Whether more than two triangles of a mesh meet in an edge.
 bool branches(const TriangleMesh& mesh);
 
+/// Whether triangles of a mesh cut, touch or overlap each other elsewhere than at vertices and edges they share.
+/// @param tree  over the same mesh.
+bool touchesItself(const TriangleMesh& mesh, const TriangleTree& tree);
+
 /// Whether a closed surface may enclose places where its winding number is zero: where it crosses itself, a solid part
 /// and a lobe that is inside out may overlap and cancel each other. Such a place has a stretch of such a crossing on
 /// its border; so beside all of these it is looked whether each place where the number is zero sees the outside, on the

@@ -223,6 +223,55 @@ TEST(MeshOrientation, AHollowBoxOfWallsOfNearlyNoThicknessKeepsItsCavity) {
   }
 }
 
+/// With every face divided into thin triangles about a point of its own, whose edges meet no other face's but at
+/// corners.
+TriangleMesh fanned(const Vector3d& low, const Vector3d& high, double at) {
+  TriangleMesh mesh = block(low, high);
+  std::vector<Vector3i> fans;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 2) {
+    const Vector3i a = mesh.triangles[i], b = mesh.triangles[i + 1];
+    const int corners[] = {a[0], a[1], a[2], b[2]}, middle = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.push_back((1.0 - at) * mesh.vertices[a[0]] + at * mesh.vertices[a[2]]);
+    for (int k = 0; k < 4; ++k) fans.emplace_back(corners[k], corners[(k + 1) % 4], middle);
+  }
+  mesh.triangles = fans;
+  return mesh;
+}
+
+/// What of it is solid depends on which of the two is taken to be drawn wrongly.
+TEST(MeshOrientation, APartInsideOutThatIsFlushInTheCornerOfAnotherIsDoubtful) {
+  for (const bool outer_inverted : {false, true}) {
+    for (int axis = 0; axis < 8; ++axis) {
+      const Vector3d corner((axis & 1) != 0, (axis & 2) != 0, (axis & 4) != 0), size(0.5, 0.625, 0.375);
+      const Vector3d low = corner.cwiseProduct(Vector3d::Ones() - size);
+      for (const double gap : {0.0, 3e-8}) {  // as rounding of floats leaves it
+        const Vector3d inward = gap * (Vector3d::Ones() - 2.0 * corner);
+        const TriangleMesh outer = fanned({0, 0, 0}, {1, 1, 1}, 0.375);
+        const TriangleMesh inner = fanned(low + inward, low + size + inward, 0.625);
+        const OrientedMesh result =
+            orientOutward(outer_inverted ? merged(flipped(outer), inner) : merged(outer, flipped(inner)));
+        EXPECT_FALSE(result.quality.sign_trusted) << axis << " " << outer_inverted << " " << gap;
+      }
+    }
+  }
+}
+
+/// Faces of one box divided at corners of the other are linked over edges of both: one surface, as of what is left of
+/// the outer box, inside out. A bead in the inner one was CLEAR.
+TEST(MeshOrientation, PartsLinkedWhereTheirFacesMeetAreDoubtfulIfTheyAreTurned) {
+  // clang-format off
+  const TriangleMesh mesh{
+      {{0, 0, 0}, {0, 1, 1}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0.75, 0, 0.375},
+       {0, 0.75, 0}, {1, 0.75, 0}, {0.75, 0.25, 1}, {0.25, 0, 0}, {0.25, 0, 0.75}, {0.25, 0.75, 0}, {0.25, 0.75, 0.75},
+       {1, 0.375, 0}, {1, 0.375, 0.75}, {1, 0, 0.75}, {1, 0.65625, 0}, {1, 0.65625, 0.75}, {1, 0.75, 0.75}},
+      {{0, 1, 2}, {0, 3, 1}, {4, 5, 6}, {4, 7, 5}, {0, 8, 4}, {4, 8, 7}, {7, 8, 2}, {2, 8, 0}, {3, 5, 1}, {3, 6, 5},
+       {0, 4, 9}, {9, 4, 10}, {9, 10, 3}, {3, 10, 6}, {2, 11, 7}, {7, 11, 5}, {5, 11, 1}, {1, 11, 2}, {12, 13, 14},
+       {13, 15, 14}, {4, 16, 17}, {4, 17, 18}, {16, 19, 20}, {16, 20, 17}, {19, 10, 20}, {10, 21, 20}, {12, 4, 13},
+       {4, 18, 13}, {14, 15, 21}, {14, 21, 10}, {12, 14, 10}, {12, 10, 4}, {13, 18, 15}, {18, 21, 15}}};
+  // clang-format on
+  EXPECT_FALSE(orientOutward(mesh).quality.sign_trusted);
+}
+
 TEST(MeshOrientation, AFileInsideOutKeepsItsCavities) {
   const TriangleMesh hollow = merged(boxMesh({1, 1, 1}), flipped(icosphere(0.5, 2)));
   const TriangleMesh two = merged(hollow, translated(boxMesh({1, 1, 1}), {4, 0, 0}));
