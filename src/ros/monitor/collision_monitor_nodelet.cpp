@@ -355,6 +355,7 @@ void CollisionMonitor::publishCycle() {
   health_.stalled = false;
   health_.world_version = loop_->world()->version();
   health_.latency = state->latency;
+  health_.age = (sent - state->complete_until).toSec();
   health_.run_time = state->run_time;
   health_.error = loop_->result().error;
   health_.contact_error = loop_->result().contact_error;
