@@ -12,8 +12,10 @@
 #include "body/coarsen.h"
 #include "body/doubtful_surface.h"
 #include "body/element_options.h"
+#include "body/geometry_keys.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
+#include "common/weak_store.h"
 #include "field/opening_caps.h"
 #include "shell/contact_gap.h"
 #include "shell/witness_points.h"
@@ -174,9 +176,9 @@ class BodyBuilder {
 /// The shell's points span the surface's hull, where that is not curved; to nowhere on it is it farther from one of
 /// them than the covering radius (of edges alone, which have none, the corners span it).
 BoundingBall surfaceBall(const Body& body) {
-  if (body.shell.size() == 0) return motionBall(body);
+  if (body.shell->size() == 0) return motionBall(body);
   BoundingBall ball = boundingBall(body.shell);
-  if (std::isfinite(body.shell.covering_radius)) ball.radius += body.shell.covering_radius;
+  if (std::isfinite(body.shell->covering_radius)) ball.radius += body.shell->covering_radius;
   return ball;
 }
 
@@ -184,16 +186,21 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   body.warning = builder.warning();
   body.doubtful = builder.doubtful();
   if (needs.field) body.parts = builder.makeParts(progress);
-  if (needs.witnesses) body.witnesses = builder.makeWitnesses();
-  if (needs.witnesses) body.witness_tree = buildSphereTree(body.witnesses);
-  if (needs.shell) body.shell = builder.makeShell(body.parts, needs);
-  report.witnesses = body.witnesses.size();
+  if (needs.witnesses) {
+    PointShell witnesses = builder.makeWitnesses();
+    body.witness_tree = buildSphereTree(witnesses);
+    body.witnesses = std::move(witnesses);
+  }
+  PointShell shell;
+  if (needs.shell) shell = builder.makeShell(body.parts, needs);
+  report.witnesses = body.witnesses->size();
+  if (needs.shell) body.tree = buildSphereTree(shell);
+  body.shell = std::move(shell);
   body.ball = surfaceBall(body);
   if (!needs.shell) return;
-  body.tree = buildSphereTree(body.shell);
-  report.shell_points = body.shell.size();
+  report.shell_points = body.shell->size();
   report.shell_bytes =
-      body.shell.size() * (2 * sizeof(Vector3d) + sizeof(double)) + body.tree.nodes.size() * sizeof(SphereTree::Node);
+      body.shell->size() * (2 * sizeof(Vector3d) + sizeof(double)) + body.tree->nodes.size() * sizeof(SphereTree::Node);
   report.gap = contactGap(body.shell, body.shell);
 }
 
@@ -212,8 +219,10 @@ bool needsWitnesses(const BodyDescription& body) {
                                                    [](const GeometryDescription& part) { return isHalfSpace(part); });
 }
 
-BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
-                    MeshPool& pool, const Progress& progress) {
+namespace {
+
+BuiltBody buildOwnBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                       MeshPool& pool, const Progress& progress) {
   BuiltBody built;
   Body& body = built.body;
   body.name = description.name;
@@ -232,12 +241,75 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
     } catch (const std::exception& error) {
       body.failure = error.what();
       body.parts.clear();
-      body.shell = body.witnesses = {};
-      body.tree = body.witness_tree = {};
+      body.shell = body.witnesses = PointShell();
+      body.tree = body.witness_tree = SphereTree();
     }
   }
   if (!body.failure.empty()) built.report.field = "failed";
   return built;
+}
+
+/// What a body is made of and with; names of meshes too, which warnings tell.
+std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options) {
+  const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache,
+               exact_depths, is_shared, max_error, is_shared_out] = options;
+  static_cast<void>(cache);
+  static_cast<void>(is_shared);
+  const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
+  const auto& [spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points] = shell_options;
+  const auto& [field, shell, edges_only, decides, witnesses] = needs;
+  const double numbers[] = {double(cells.value_or(0)),
+                            cell_size.value_or(0.0),
+                            field_error.value_or(0.0),
+                            band,
+                            double(max_bytes),
+                            spacing,
+                            edge_gap,
+                            double(has_siblings),
+                            vertex_spacing,
+                            double(seed),
+                            double(max_points),
+                            points_across,
+                            cells_across,
+                            motion_margin,
+                            motion_error,
+                            double(exact_depths),
+                            max_error.value_or(0.0),
+                            double(is_shared_out),
+                            double(field),
+                            double(shell),
+                            double(edges_only),
+                            double(decides),
+                            double(witnesses)};
+  std::string key = GeometryKeys().keyOf(description);
+  key.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  for (const GeometryDescription& geometry : description.geometry) key += geometry.source + '\n';
+  return key;
+}
+
+}  // namespace
+
+BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                    MeshPool& pool, const Progress& progress) {
+  if (!options.is_shared || !description.failure.empty() || !needs.any())
+    return buildOwnBody(description, needs, options, pool, progress);
+  static WeakStore<BuiltBody> of_process;
+  const std::string key = contentKey(description, needs, options);
+  std::shared_ptr<const BuiltBody> known = of_process.find(key);
+  const bool was_known = known != nullptr;
+  if (!was_known) {
+    BuiltBody built = buildOwnBody(description, needs, options, pool, progress);
+    if (!built.body.failure.empty()) return built;
+    known = of_process.keep(key, std::make_shared<const BuiltBody>(std::move(built)));
+  }
+  BuiltBody mine = *known;
+  mine.body.content = known;
+  mine.body.name = mine.report.name = description.name;
+  mine.body.frame = description.frame;
+  mine.body.X_frame_B = description.X_frame_B;
+  mine.body.is_world = description.is_world;
+  if (was_known && mine.report.field != "exact" && mine.report.field != "left out") mine.report.field = "shared";
+  return mine;
 }
 
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "body/geometry_keys.h"
+#include "common/weak_store.h"
 #include "geometry/mesh_edges.h"
 
 namespace sdf_ccd {
@@ -72,9 +74,7 @@ std::vector<std::shared_ptr<const Solid>> solidsOf(const BodyDescription& descri
   return solids;
 }
 
-}  // namespace
-
-std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
+std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& description, MeshPool& pool) {
   Collector all;
   double deviation = 0.0;
   for (const GeometryDescription& geometry : description.geometry) {
@@ -107,6 +107,17 @@ std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& descript
   if (pool.exactDepths() && all.triangles.size() == open) made->solids = solidsOf(description, pool);
   if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(std::move(all.triangles));
   return made;
+}
+
+}  // namespace
+
+std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
+  if (!pool.isShared()) return ownTrianglesOf(description, pool);
+  static WeakStore<BodyTriangles> of_process;
+  const std::string key = GeometryKeys().keyOf(description) + (pool.exactDepths() ? "exact" : "");
+  if (auto known = of_process.find(key)) return known;
+  auto made = ownTrianglesOf(description, pool);
+  return made ? of_process.keep(key, std::move(made)) : nullptr;
 }
 
 }  // namespace sdf_ccd

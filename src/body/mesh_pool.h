@@ -34,6 +34,7 @@ class MeshPool {
 
   /// See BodyOptions.
   bool exactDepths() const { return options_.exact_depths; }
+  bool isShared() const { return options_.is_shared; }
 
   struct Made {
     bool now = false;  ///< false: it was there already, for another body

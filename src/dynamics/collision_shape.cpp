@@ -30,7 +30,7 @@ CollisionShape shapeOf(GeometryDescription geometry, const BodyOptions& options)
   MeshPool pool(options);
   Body body = buildBody(description, needs, options, pool, {}).body;
   if (!body.failure.empty()) throw std::invalid_argument(body.failure);
-  CollisionShape shape{body.parts.front().field, std::move(body.shell), std::move(body.tree), {}};
+  CollisionShape shape{body.parts.front().field, *body.shell, *body.tree, {}};
   shape.ball = ballAround(shape);
   return shape;
 }

@@ -59,7 +59,7 @@ void makeTriangles(const SceneDescription& description, const std::vector<Planne
 void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const Body &body_a = bodies[a], &body_b = bodies[b];
   const std::string what = "pair " + body_a.name + " - " + body_b.name;
-  const bool a_shell = body_a.shell.size() > 0, b_shell = body_b.shell.size() > 0;
+  const bool a_shell = body_a.shell->size() > 0, b_shell = body_b.shell->size() > 0;
   const bool checkable = body_a.failure.empty() && body_b.failure.empty();
   PlannedPair pair{a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()};
   if (body_a.is_world && body_b.is_world) {
@@ -69,8 +69,8 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
                                 ": neither has a shell, as they hold half-spaces or voxels; if both are of the "
                                 "world, say so (Body::is_world)");
   } else {
-    pair.a_witnesses_b_field = body_a.witnesses.size() > 0 && !body_b.parts.empty();
-    pair.b_witnesses_a_field = body_b.witnesses.size() > 0 && !body_a.parts.empty();
+    pair.a_witnesses_b_field = body_a.witnesses->size() > 0 && !body_b.parts.empty();
+    pair.b_witnesses_a_field = body_b.witnesses->size() > 0 && !body_a.parts.empty();
     scene.pairs.push_back(pair);
   }
 }
@@ -127,7 +127,7 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   std::set<std::string> names;
   for (const Body& body : bodies) {
     if (!names.insert(body.name).second) throw std::invalid_argument("two bodies are named " + body.name);
-    if (body.failure.empty() && body.parts.empty() && body.shell.size() == 0)
+    if (body.failure.empty() && body.parts.empty() && body.shell->size() == 0)
       throw std::invalid_argument("body " + body.name + " has neither a field nor a shell");
     scene.reports.emplace_back().name = body.name;
   }

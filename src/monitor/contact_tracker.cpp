@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "scene_difference.h"
+#include "tile_name.h"
 
 namespace sdf_ccd {
 namespace {
@@ -45,6 +48,32 @@ double forceWhileTouching(const ObservedCycle& cycle, const PairResult& pair) {
   return touching > 0.0 ? pair.on_a_W.force.norm() * length / touching : 0.0;
 }
 
+ContactTracker::Groups groupsOf(const Scene& scene) {
+  const std::size_t count = scene.pairs.size();
+  std::vector<std::string> maps;  // per body: that it is a tile of, or its own name
+  for (const Body& body : scene.bodies) maps.push_back(mapOfTile(body.name));
+  ContactTracker::Groups groups;
+  groups.of_pair.reserve(count);
+  std::map<std::pair<std::string, std::string>, int> of_maps;
+  for (const PlannedPair& pair : scene.pairs) {
+    const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
+    const std::pair<std::string, std::string> names(maps[a], maps[b]);
+    const auto next = static_cast<int>(groups.names.size());
+    const bool has_tile = maps[a] != scene.bodies[a].name || maps[b] != scene.bodies[b].name;
+    const int group = has_tile ? of_maps.emplace(names, next).first->second : next;
+    if (group == next) groups.names.push_back(names);
+    groups.of_pair.push_back(group);
+  }
+  groups.begin.assign(groups.names.size() + 1, 0);
+  for (const int group : groups.of_pair) ++groups.begin[static_cast<std::size_t>(group) + 1];
+  for (std::size_t g = 1; g < groups.begin.size(); ++g) groups.begin[g] += groups.begin[g - 1];
+  groups.pairs.resize(count);
+  std::vector<int> filled(groups.begin.begin(), groups.begin.end() - 1);
+  for (std::size_t p = 0; p < count; ++p)
+    groups.pairs[static_cast<std::size_t>(filled[static_cast<std::size_t>(groups.of_pair[p])]++)] = static_cast<int>(p);
+  return groups;
+}
+
 }  // namespace
 
 bool holdsSample(const Interval& interval, const std::vector<double>& samples) {
@@ -54,12 +83,11 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples) {
 
 ContactTracker::Change ContactTracker::prepare(const Scene& next) const {
   Change change;
-  change.names = pairNames(next);
-  change.pairs_now = findPairs(names_, change.names);
-  change.last.assign(next.pairs.size(), -1);
-  // At most one contact of each pair, and those that end with the pairs until now.
-  change.listed.reserve(next.pairs.size() + 2 * names_.size());
-  change.looked_at.reserve(next.pairs.size() + 2 * names_.size());
+  change.groups = groupsOf(next);
+  change.groups_now = findPairs(groups_.names, change.groups.names);
+  change.last.assign(change.groups.names.size(), -1);
+  // At most one contact of each, and those that end with the pairs until now.
+  change.listed.reserve(change.groups.names.size() + 2 * groups_.names.size());
   return change;
 }
 
@@ -71,16 +99,15 @@ void ContactTracker::adopt(const Scene& scene) {
 void ContactTracker::adopt(Change& change) {
   change.listed.assign(listed_.begin(), listed_.end());
   listed_.swap(change.listed);
-  looked_at_.swap(change.looked_at);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Slot& contact = contacts_[i];
-    if (contact.pair < 0) continue;
-    const auto pair = static_cast<std::size_t>(contact.pair);
-    const bool is_last = last_[pair] == static_cast<int>(i);
-    contact.pair = is_last ? change.pairs_now[pair] : -1;
+    if (contact.group < 0) continue;
+    const auto group = static_cast<std::size_t>(contact.group);
+    const bool is_last = last_[group] == static_cast<int>(i);
+    contact.group = is_last ? change.groups_now[group] : -1;
     if (!is_last) continue;
-    if (contact.pair >= 0) {
-      change.last[static_cast<std::size_t>(contact.pair)] = static_cast<int>(i);
+    if (contact.group >= 0) {
+      change.last[static_cast<std::size_t>(contact.group)] = static_cast<int>(i);
       continue;
     }
     // The pair is not checked any more.
@@ -90,7 +117,7 @@ void ContactTracker::adopt(Change& change) {
     }
     if (!contact.is_listed) free_.push_back(static_cast<int>(i));
   }
-  names_.swap(change.names);
+  std::swap(groups_, change.groups);
   last_.swap(change.last);
 }
 
@@ -99,7 +126,7 @@ void ContactTracker::settle() {
     Slot& contact = contacts_[slot];
     contact.said.begins = contact.said.ends = false;
     contact.is_listed = contact.is_open;
-    if (!contact.is_open && (contact.pair < 0 || last_[contact.pair] != slot)) free_.push_back(slot);
+    if (!contact.is_open && (contact.group < 0 || last_[contact.group] != slot)) free_.push_back(slot);
   }
   listed_.erase(std::remove_if(listed_.begin(), listed_.end(), [&](int slot) { return !contacts_[slot].is_open; }),
                 listed_.end());
@@ -111,7 +138,7 @@ void ContactTracker::lose() {
   }
   // Nothing that comes joins them.
   std::fill(last_.begin(), last_.end(), -1);
-  for (const int slot : listed_) contacts_[slot].pair = -1;
+  for (const int slot : listed_) contacts_[slot].group = -1;
   free_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!contacts_[i].is_listed) free_.push_back(static_cast<int>(i));
@@ -121,71 +148,86 @@ void ContactTracker::lose() {
 void ContactTracker::update(const ObservedCycle& cycle) {
   settle();
   ++cycle_;
+  stays_.clear();
   if (cycle.result.verdict != Verdict::kClear) {
-    for (std::size_t i = 0; i < last_.size(); ++i) updatePair(cycle, i);
-    return;
+    for (std::size_t i = 0; i < groups_.of_pair.size(); ++i) {
+      const PairResult& pair = cycle.result.pairs[i];
+      if (pair.span.empty()) continue;
+      for (std::size_t k = 0; k < pair.intervals.size(); ++k)
+        stays_.push_back({groups_.of_pair[i], pair.intervals[k].enter, static_cast<int>(i), static_cast<int>(k)});
+    }
+    std::sort(stays_.begin(), stays_.end(), [](const Stay& a, const Stay& b) {
+      return std::tie(a.group, a.enter, a.pair, a.interval) < std::tie(b.group, b.enter, b.pair, b.interval);
+    });
   }
+  for (const Stay& stay : stays_) takeStay(cycle, stay);
   if (open_ == 0) return;
-  looked_at_.assign(listed_.begin(), listed_.end());
-  for (const int slot : looked_at_) updatePair(cycle, static_cast<std::size_t>(contacts_[slot].pair));
+  for (const int slot : listed_) {
+    if (contacts_[slot].is_open) closeIfOver(cycle, contacts_[slot]);
+  }
 }
 
-void ContactTracker::updatePair(const ObservedCycle& cycle, std::size_t index) {
-  const PairResult& pair = cycle.result.pairs[index];
-  const bool was_open = last_[index] >= 0 && contacts_[last_[index]].is_open;
-  if ((pair.intervals.empty() && !was_open) || pair.span.empty()) return;
+void ContactTracker::takeStay(const ObservedCycle& cycle, const Stay& stay) {
+  const PairResult& pair = cycle.result.pairs[stay.pair];
+  const Interval& interval = pair.intervals[stay.interval];
+  const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
+  Slot& slot = slotFor(static_cast<std::size_t>(stay.group), start, end);
+  TrackedContact& contact = slot.said;
+  contact.begin = std::min(contact.begin, start);
+  contact.end = std::max(contact.end, end);
+  contact.cycles += slot.cycle != cycle_;
+  slot.cycle = cycle_;
+  contact.error_bound = std::max(contact.error_bound, pair.error.total());
+  contact.contact_error = std::max(contact.contact_error, pair.contact_error.total());
+  contact.seen_at_samples |= holdsSample(interval, cycle.samples);
+  contact.max_force = std::max(contact.max_force, forceWhileTouching(cycle, pair));
+  // Where no point proves it, as where surfaces are known to cross, it may be any of the intervals.
+  const auto isProvedWithin = [&](const Interval& other) { return isProved(pair, other); };
+  const bool is_contact =
+      pair.verdict == Verdict::kContact &&
+      (isProved(pair, interval) || std::none_of(pair.intervals.begin(), pair.intervals.end(), isProvedWithin));
+  if (is_contact) contact.verdict = Verdict::kContact;
+  const ContactPoint* deepest = deepestWithin(pair, interval);
+  if (deepest && (!slot.has_deepest || deepest->depth > contact.deepest.depth)) {
+    contact.deepest = *deepest;
+    contact.deepest_origin = cycle.origin;
+    slot.has_deepest = true;
+  }
+}
 
-  const bool any_proved = std::any_of(pair.intervals.begin(), pair.intervals.end(),
-                                      [&](const Interval& interval) { return isProved(pair, interval); });
-  double force = -1.0;
-  for (const Interval& interval : pair.intervals) {
-    const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
-    Slot& slot = slotFor(index, start, end);
-    TrackedContact& contact = slot.said;
-    contact.begin = std::min(contact.begin, start);
-    contact.end = std::max(contact.end, end);
-    contact.cycles += slot.cycle != cycle_;
-    slot.cycle = cycle_;
-    contact.error_bound = std::max(contact.error_bound, pair.error.total());
-    contact.contact_error = std::max(contact.contact_error, pair.contact_error.total());
-    contact.seen_at_samples |= holdsSample(interval, cycle.samples);
-    if (force < 0.0) force = forceWhileTouching(cycle, pair);
-    contact.max_force = std::max(contact.max_force, force);
-    // Where no point does, as where surfaces are known to cross, it may be any of the intervals.
-    const bool is_contact = pair.verdict == Verdict::kContact && (!any_proved || isProved(pair, interval));
-    if (is_contact) contact.verdict = Verdict::kContact;
-    const ContactPoint* deepest = deepestWithin(pair, interval);
-    if (deepest && (contact.cycles == 1 || deepest->depth > contact.deepest.depth)) {
-      contact.deepest = *deepest;
-      contact.deepest_origin = cycle.origin;
+/// Where one of its pairs is not known and none is seen to touch, it is lost.
+void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
+  const auto group = static_cast<std::size_t>(slot.group);
+  bool is_delayed = false;
+  Time until = Time::max();  // all of them are checked
+  for (int i = groups_.begin[group]; i < groups_.begin[group + 1]; ++i) {
+    const PairResult& pair = cycle.result.pairs[groups_.pairs[i]];
+    if (pair.span.empty()) {
+      is_delayed = true;
+    } else if ((pair.verdict == Verdict::kNotChecked || pair.postponed) && slot.cycle != cycle_) {
+      return close(slot, true);
+    } else {
+      until = std::min(until, cycle.origin + toTime(cycle.motion.times[pair.span.last]));
     }
   }
-  if (last_[index] < 0) return;
-  Slot& slot = contacts_[last_[index]];
-  if (!slot.is_open) return;
-  const Time until = cycle.origin + toTime(cycle.motion.times[pair.span.last]);
-  if (pair.verdict == Verdict::kNotChecked || pair.postponed) {
-    close(slot, true);
-  } else if (slot.said.end + kJoin < until) {
-    close(slot, false);
-  }
+  if (!is_delayed && slot.said.end + kJoin < until) close(slot, false);
 }
 
 /// The contact that a stay belongs to: the pair's last one, or a new one.
-ContactTracker::Slot& ContactTracker::slotFor(std::size_t pair, Time start, Time end) {
-  if (last_[pair] >= 0) {
-    Slot& last = contacts_[last_[pair]];
+ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Time end) {
+  if (last_[group] >= 0) {
+    Slot& last = contacts_[last_[group]];
     if (start <= last.said.end + kJoin && end + kJoin >= last.said.begin && !last.said.is_lost) {
       if (!last.is_open) {
         last.is_open = true;
         last.said.ends = false;
         ++open_;
       }
-      list(last_[pair]);
+      list(last_[group]);
       return last;
     }
     if (last.is_open) close(last, false);
-    if (!last.is_listed) free_.push_back(last_[pair]);
+    if (!last.is_listed) free_.push_back(last_[group]);
   }
   if (free_.empty()) {
     free_.push_back(static_cast<int>(contacts_.size()));
@@ -194,10 +236,10 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t pair, Time start, Time
   }
   const int index = free_.back();
   free_.pop_back();
-  last_[pair] = index;
+  last_[group] = index;
   Slot& slot = contacts_[index];
   TrackedContact& said = slot.said;
-  const auto& [body_a, body_b] = names_[pair];
+  const auto& [body_a, body_b] = groups_.names[group];
   said.body_a = body_a;
   said.body_b = body_b;
   said.id = next_id_++;
@@ -210,7 +252,8 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t pair, Time start, Time
   said.deepest_origin = {};
   said.error_bound = said.contact_error = said.max_force = 0.0;
   said.cycles = 0;
-  slot.pair = static_cast<int>(pair);
+  slot.group = static_cast<int>(group);
+  slot.has_deepest = false;
   slot.is_open = true;
   slot.cycle = 0;
   ++open_;

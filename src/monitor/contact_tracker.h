@@ -10,7 +10,8 @@
 
 namespace sdf_ccd {
 
-/// What one pair did without a break, over however many cycles. Times are since the clock's epoch.
+/// What one pair did without a break, over however many cycles. Times are since the clock's epoch. Of tiles of a map
+/// that changes (see VoxelMap) the other body is the map.
 struct TrackedContact {
   using Time = std::chrono::nanoseconds;
 
@@ -49,6 +50,9 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 /// and if the world changes, as pairs are known by their bodies' names. It ends when the pair was checked for
 /// longer than that and not seen to touch. If the pair is not checked over some time, or not any more, it ends as lost.
 ///
+/// A body and all tiles of a map are one pair here: what slides from one tile over another, and what touches a tile
+/// that is made anew, is one contact. It goes on as long as one of them is touched.
+///
 /// Where a cycle checks earlier times again, as transforms came late, what it finds there joins the pair's last contact
 /// if it meets it, even if that had ended. What was said before is not taken back.
 ///
@@ -60,11 +64,19 @@ class ContactTracker {
 
   explicit ContactTracker(const Scene& scene) { adopt(scene); }
 
+  /// Pairs that are one here.
+  struct Groups {
+    std::vector<std::pair<std::string, std::string>> names;  ///< per group: of bodies, or of a map
+    std::vector<int> of_pair;                                ///< per pair of the scene
+    std::vector<int> begin;                                  ///< per group, and one more: in `pairs`
+    std::vector<int> pairs;                                  ///< of one group after the other
+  };
+
   /// What another world needs, to be made beside running cycles.
   struct Change {
-    std::vector<std::pair<std::string, std::string>> names;
-    std::vector<int> last, listed, looked_at;
-    std::vector<int> pairs_now;  ///< per pair until now; -1 if the next world does not hold it
+    Groups groups;
+    std::vector<int> last, listed;
+    std::vector<int> groups_now;  ///< per group until now; -1 if the next world does not hold it
   };
   Change prepare(const Scene& next) const;
 
@@ -95,23 +107,31 @@ class ContactTracker {
 
   struct Slot {
     TrackedContact said;
-    int pair = -1;         // in the scene; −1: free
+    int group = -1;        // of pairs; −1: free
     bool is_open = false;  // it goes on
     bool is_listed = false;
+    bool has_deepest = false;
     std::uint64_t cycle = 0;  // in which it was seen last
   };
 
-  void updatePair(const ObservedCycle& cycle, std::size_t pair);
-  Slot& slotFor(std::size_t pair, Time start, Time end);
+  struct Stay {  // of a pair in a cycle
+    int group;
+    double enter;  // [s]
+    int pair, interval;
+  };
+
+  void takeStay(const ObservedCycle& cycle, const Stay& stay);
+  void closeIfOver(const ObservedCycle& cycle, Slot& slot);
+  Slot& slotFor(std::size_t group, Time start, Time end);
   void close(Slot& slot, bool is_lost);
   void list(int slot);
 
-  std::vector<std::pair<std::string, std::string>> names_;  // per pair of the scene
-  std::vector<int> last_;                                   // per pair: slot of its last contact; −1: none
+  Groups groups_;
+  std::vector<int> last_;  // per group: slot of its last contact; −1: none
   std::vector<Slot> contacts_;
   std::vector<int> free_;
   std::vector<int> listed_;
-  std::vector<int> looked_at_;  // of a CLEAR cycle
+  std::vector<Stay> stays_;  // of the cycle
   std::size_t open_ = 0;
   std::uint64_t next_id_ = 1;
   std::uint64_t cycle_ = 0;

@@ -28,7 +28,7 @@ double fieldError(const Body& body) {
 }
 
 double ownGap(const Body& body) {
-  return body.shell.size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
+  return body.shell->size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
 }
 
 /// A body and a source of error, and what to say of them.

@@ -268,7 +268,7 @@ bool PairChecker::isCertain(const PairResult& result) const {
   if (result.verdict != Verdict::kClear) return true;  // of contacts fields say themselves what is certain
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const Body& other = scene_.bodies[body == pair_.body_a ? pair_.body_b : pair_.body_a];
-    const bool is_bounded = other.shell.size() > 0 || other.witnesses.size() > 0;  // half-spaces lie in no body
+    const bool is_bounded = other.shell->size() > 0 || other.witnesses->size() > 0;  // half-spaces lie in no body
     if (!scene_.bodies[body].doubtful || !is_bounded) continue;
     const auto role =
         std::find_if(roles_.begin(), roles_.end(), [&](const PairRole& role) { return role.fieldBody() == body; });

@@ -128,9 +128,9 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
   // Of a body without a shell, points of its components tell little: where only these are, the other one's shell is.
   bool is_within = false;
   found.distance = std::numeric_limits<double>::infinity();
-  if (a.shell.size() > 0 && !b.parts.empty())
+  if (a.shell->size() > 0 && !b.parts.empty())
     is_within |= nearestOfShell(pair.body_a, pair.body_b, true, X_WB, X_WA, range, found);
-  if (b.shell.size() > 0 && !a.parts.empty())
+  if (b.shell->size() > 0 && !a.parts.empty())
     is_within |= nearestOfShell(pair.body_b, pair.body_a, false, X_WA, X_WB, range, found);
   return is_within;
 }
@@ -158,7 +158,7 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
 bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF,
                                    const Isometry3d& X_WP, double range, PairDistance& found) {
   const Body &p = scene_->bodies[shell_body], &f = scene_->bodies[field_body];
-  const double gap = p.shell.covering_radius;
+  const double gap = p.shell->covering_radius;
   bool is_within = false;
   for (const BodyPart& part : f.parts) {
     const Isometry3d X_GP = part.X_BG.inverse() * relativePose(X_WF, X_WP);

@@ -12,8 +12,8 @@ namespace sdf_ccd {
 PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurpose purpose)
     : shell_body_(&scene.bodies[shell_body]),
       field_body_(&scene.bodies[field_body]),
-      shell_(purpose == ShellPurpose::kWitnesses ? &shell_body_->witnesses : &shell_body_->shell),
-      tree_(purpose == ShellPurpose::kWitnesses ? &shell_body_->witness_tree : &shell_body_->tree),
+      shell_(purpose == ShellPurpose::kWitnesses ? &*shell_body_->witnesses : &*shell_body_->shell),
+      tree_(purpose == ShellPurpose::kWitnesses ? &*shell_body_->witness_tree : &*shell_body_->tree),
       purpose_(purpose),
       ball_holds_body_(ballHolds(*shell_body_)),
       motion_(scene, field_body, shell_body) {}

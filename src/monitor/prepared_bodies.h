@@ -7,25 +7,10 @@
 #include <vector>
 
 #include "body/body_builder.h"
+#include "body/geometry_keys.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {
-
-/// What stands for a body's geometry: equal for equal content, wherever the body is. Meshes are read once, as long as
-/// somebody holds them.
-class GeometryKeys {
- public:
-  std::string keyOf(const BodyDescription& body);
-
- private:
-  struct Known {
-    std::weak_ptr<const TriangleMesh> mesh;
-    std::string hash;
-  };
-  const std::string& hashOf(const std::shared_ptr<const TriangleMesh>& mesh);
-
-  std::unordered_map<const TriangleMesh*, Known> hashes_;
-};
 
 /// What of a body is needed by its pairs.
 struct PreparedNeeds {

@@ -12,6 +12,7 @@
 #include "field/voxel_field.h"
 #include "geometry/octree_leaves.h"
 #include "sdf_ccd/common/cancel.h"
+#include "tile_name.h"
 
 namespace sdf_ccd {
 namespace {
@@ -27,12 +28,10 @@ std::size_t indexOf(int x, int y, int z) {
 
 /// Counted from the map's origin.
 std::string nameOf(const std::string& map, const Vector3i& tile) {
-  std::string name = map + "/";
-  for (int i = 0; i < 3; ++i) {
-    const double from_origin = double(kTile * tile[i] - kOrigin) / kTile;
-    name += (i > 0 ? "_" : "") + std::to_string(static_cast<int>(std::floor(from_origin)));
-  }
-  return name;
+  Vector3i place;
+  for (int i = 0; i < 3; ++i)
+    place[i] = static_cast<int>(std::floor(double(kTile * tile[i] - kOrigin) / kTile));
+  return tileName(map, place);
 }
 
 /// Lowest corner of a voxel [m].

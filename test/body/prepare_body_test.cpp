@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "body/body_builder.h"
+#include "body/body_triangles.h"
 #include "oracle/failure.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/sdf_ccd.h"
@@ -61,7 +63,7 @@ TEST(PrepareBody, SeesWhatCrossesAnOpenMesh) {
 
 TEST(PrepareBody, GroundHasNoShell) {
   const Body ground = prepareBody("ground", HalfSpace{Vector3d::UnitZ(), 0.0}, kMillimetre);
-  EXPECT_EQ(ground.shell.size(), 0u);
+  EXPECT_EQ(ground.shell->size(), 0u);
   Monitor monitor({ground, prepareBody("ball", Box{{0.1, 0.1, 0.1}}, kMillimetre)});
   const Isometry3d still = Isometry3d::Identity();
   EXPECT_EQ(monitor.check({{still, still}, {at(0, 0, 0.2), at(0, 0, 0.05)}}).verdict, Verdict::kContact);
@@ -116,6 +118,44 @@ TEST(PrepareBody, SaysWhatIsWrong) {
   Monitor monitor({ball, prepareBody("other", Box{{0.1, 0.1, 0.1}}, kMillimetre)});
   EXPECT_THROW(monitor.check({}), std::invalid_argument);
   EXPECT_THROW(monitor.check({{at(0, 0, 0), at(0, 0, 0)}, {at(0, 0, 0)}}), std::invalid_argument);
+}
+
+TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
+  const auto describe = [](const std::string& name) {
+    BodyDescription body;
+    body.name = body.frame = name;
+    body.X_frame_B = at(name == "left" ? 1.0 : 2.0, 0.0, 0.0);
+    body.geometry.push_back(
+        {std::make_shared<const TriangleMesh>(test::boxMesh({0.05, 0.05, 0.05})), at(0, 0, 0.1), "box"});
+    return body;
+  };
+  BodyOptions options = optionsForContacts(0.01);
+  options.is_shared = true;
+  const auto build = [&](const std::string& name) {  // each by a monitor of its own
+    MeshPool pool(options);
+    BuiltBody built = buildBody(describe(name), {}, options, pool, {});
+    built.body.triangles = trianglesOf(describe(name), pool);
+    return built;
+  };
+  {
+    const BuiltBody left = build("left"), right = build("right");
+    EXPECT_NE(left.report.field, "shared");
+    EXPECT_EQ(right.report.field, "shared");
+    EXPECT_EQ(&*left.body.shell, &*right.body.shell);
+    EXPECT_EQ(&*left.body.tree, &*right.body.tree);
+    EXPECT_EQ(left.body.triangles, right.body.triangles);
+    EXPECT_EQ(right.body.name, "right");
+    EXPECT_EQ(right.body.frame, "right");
+    EXPECT_EQ(right.body.X_frame_B.translation().x(), 2.0);
+    options.shell.spacing *= 0.5;
+    options.points_across = 0.0;
+    EXPECT_NE(build("right").report.field, "shared") << "it is to be finer";
+    options.is_shared = false;
+    EXPECT_NE(build("right").report.field, "shared");
+  }
+  options = optionsForContacts(0.01);
+  options.is_shared = true;
+  EXPECT_NE(build("left").report.field, "shared") << "nobody holds it any more";
 }
 
 }  // namespace

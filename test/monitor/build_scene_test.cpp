@@ -17,10 +17,10 @@ TEST(BuildScene, PrimitivesHaveExactFields) {
   for (const Body& body : scene->bodies) {
     ASSERT_EQ(body.parts.size(), 1u);
     EXPECT_NE(body.parts[0].field.primitive(), nullptr);
-    EXPECT_GT(body.shell.size(), 0u);
-    EXPECT_LE(body.shell.covering_radius, 0.01 * (1 + 1e-9));
-    EXPECT_EQ(body.tree.nodes[0].end, static_cast<int>(body.shell.size()));
-    for (const Vector3d& p : body.shell.points) ASSERT_LE((p - body.ball.center).norm(), body.ball.radius + 1e-12);
+    EXPECT_GT(body.shell->size(), 0u);
+    EXPECT_LE(body.shell->covering_radius, 0.01 * (1 + 1e-9));
+    EXPECT_EQ(body.tree->nodes[0].end, static_cast<int>(body.shell->size()));
+    for (const Vector3d& p : body.shell->points) ASSERT_LE((p - body.ball.center).norm(), body.ball.radius + 1e-12);
   }
   EXPECT_EQ(scene->reports[0].geometry, "sphere");
   EXPECT_EQ(scene->reports[0].field, "exact");
@@ -28,7 +28,7 @@ TEST(BuildScene, PrimitivesHaveExactFields) {
 
 TEST(BuildScene, BuildsOnlyWhatThePlanNeeds) {
   const auto scene = build({body("ground", ground(), true), body("a", meshShape(icosphere(0.1, 2)))});
-  EXPECT_EQ(scene->bodies[0].shell.size(), 0u);
+  EXPECT_EQ(scene->bodies[0].shell->size(), 0u);
   EXPECT_EQ(scene->bodies[0].parts.size(), 1u);
   EXPECT_TRUE(scene->bodies[1].parts.empty());
   EXPECT_EQ(scene->reports[1].field, "left out");
@@ -102,13 +102,13 @@ TEST(BuildScene, UnionShellStillCoversTheUnion) {
     return std::min(signedDistance(ball, p), signedDistance(box, X_GB * p));
   };
   double deepest = 0.0, hidden_area = 0.0;
-  for (std::size_t i = 0; i < body.shell.size(); ++i) {
-    const double depth = -inUnion(body.shell.points[i]);
+  for (std::size_t i = 0; i < body.shell->size(); ++i) {
+    const double depth = -inUnion(body.shell->points[i]);
     deepest = std::max(deepest, depth);
-    if (depth > 1e-9) hidden_area += body.shell.areas[i];
+    if (depth > 1e-9) hidden_area += body.shell->areas[i];
   }
-  EXPECT_LE(deepest, body.shell.covering_radius + 1e-9);
-  EXPECT_GT(deepest, 0.3 * body.shell.covering_radius);
+  EXPECT_LE(deepest, body.shell->covering_radius + 1e-9);
+  EXPECT_GT(deepest, 0.3 * body.shell->covering_radius);
   EXPECT_EQ(hidden_area, 0.0);
 
   std::mt19937 random(1);
@@ -123,8 +123,8 @@ TEST(BuildScene, UnionShellStillCoversTheUnion) {
     if (inUnion(q) < -1e-12) continue;
     ++tried;
     double nearest = 1.0;
-    for (const Vector3d& p : body.shell.points) nearest = std::min(nearest, (p - q).norm());
-    ASSERT_LE(nearest, body.shell.covering_radius);
+    for (const Vector3d& p : body.shell->points) nearest = std::min(nearest, (p - q).norm());
+    ASSERT_LE(nearest, body.shell->covering_radius);
   }
   EXPECT_GT(tried, 1000);
 }

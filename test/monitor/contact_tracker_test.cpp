@@ -7,6 +7,7 @@
 #include <set>
 
 #include "monitor/scene_case.h"
+#include "monitor/tile_name.h"
 
 namespace sdf_ccd {
 namespace {
@@ -349,6 +350,49 @@ TEST_F(TrackerTest, AnyRunSaysWhatAllIntervalsTogetherSay) {
     }
     EXPECT_EQ(said, joined(all));
   }
+}
+
+TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
+  world({{"hand", "map/0_0_-1"}, {"hand", "map/1_0_-1"}, {"arm", "map/0_0_-1"}, {"hand", "map/x"}});
+  cycle({{Verdict::kContact, {{0.05, 0.1, 0.004}}}});
+  const std::uint64_t id = said().at(0).id;
+  EXPECT_EQ(said()[0].body_a, "hand");
+  EXPECT_EQ(said()[0].body_b, "map");
+  // It leaves the first tile while it is on the second one; within the cycle that comes first.
+  cycle({{Verdict::kContact, {{0.02, 0.06, 0.005}}}, {Verdict::kContact, {{0.0, 0.03, 0.002}, {0.055, 0.1, 0.008}}}});
+  ASSERT_EQ(said().size(), 1u);
+  EXPECT_EQ(said()[0].id, id);
+  EXPECT_EQ(said()[0].cycles, 2u);
+  EXPECT_DOUBLE_EQ(said()[0].deepest.depth, 0.008);
+  // Both are made anew, and the map has another one.
+  world({{"arm", "map/0_0_-1"}, {"map/5_5_5", "hand"}, {"hand", "map/1_0_-1"}, {"hand", "map/x"}});
+  cycle({{}, {}, {Verdict::kContact, {{0.0, 0.04, 0.002}}}});
+  ASSERT_EQ(said().size(), 1u);
+  EXPECT_EQ(said()[0].id, id);
+  EXPECT_TRUE(said()[0].ends);
+  EXPECT_FALSE(said()[0].is_lost);
+  EXPECT_EQ(said()[0].end - said()[0].begin, at(0.19));
+  // Of two that are no tiles each is its own.
+  cycle({{Verdict::kContact, {{0.0, 0.1}}}, {}, {Verdict::kContact, {{0.0, 0.1}}}, {Verdict::kContact, {{0.0, 0.1}}}});
+  EXPECT_EQ(said().size(), 3u);
+}
+
+TEST_F(TrackerTest, OfTilesOnlyWhatNobodySeesIsLost) {
+  world({{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}});
+  cycle({{Verdict::kContact, {{0.05, 0.1}}}});
+  cycle({{Verdict::kNotChecked, {}}, {Verdict::kContact, {{0.0, 0.1}}}});
+  ASSERT_EQ(said().size(), 1u);
+  EXPECT_FALSE(said()[0].ends);
+  cycle({{Verdict::kNotChecked, {}}});
+  ASSERT_EQ(said().size(), 1u);
+  EXPECT_TRUE(said()[0].ends);
+  EXPECT_TRUE(said()[0].is_lost);
+}
+
+TEST(TileName, TellsItsMap) {
+  EXPECT_EQ(mapOfTile(tileName("a/map", {-3, 0, 12})), "a/map");
+  for (const char* name : {"map", "map/", "map/1_2", "map/1_2_3_4", "map/1_2_x", "map/1__2", "map/1_2_-", "1_2_3"})
+    EXPECT_EQ(mapOfTile(name), name);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST(MaxError, ATableIsHeldToTheEdgeGap) {
   ASSERT_EQ(plan.edges_only, (std::vector<bool>{true, false}));
   const auto scene = std::make_shared<const Scene>(buildScene(description, plan, options));
   EXPECT_LE(scene->contact_bound.total(), 0.001);
-  EXPECT_LT(scene->bodies[0].shell.size(), 30000u);
+  EXPECT_LT(scene->bodies[0].shell->size(), 30000u);
   // The table bears no force of its own: what presses is the link's whole shell, not half of it.
   const auto force = [](const std::shared_ptr<const Scene>& scene) {
     Monitor monitor(scene, soft());

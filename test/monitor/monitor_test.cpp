@@ -23,7 +23,7 @@ TEST(Monitor, GivesAllFourVerdicts) {
     monitor.reset();
     return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, height}))}), {});
   };
-  const double gap = scene->bodies[1].shell.covering_radius;
+  const double gap = scene->bodies[1].shell->covering_radius;
   EXPECT_EQ(verdictAt(0.1 + 1.2 * gap).verdict, Verdict::kClear);
   EXPECT_EQ(verdictAt(0.1 + 0.5 * gap).verdict, Verdict::kUncertain);
   EXPECT_EQ(verdictAt(0.095).verdict, Verdict::kContact);
@@ -302,7 +302,9 @@ TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
 TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
   Scene scene = *build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
   Body& ball = scene.bodies.edit(1);
-  ball.shell.covering_radius = 0.2;
+  PointShell coarse = ball.shell;
+  coarse.covering_radius = 0.2;
+  ball.shell = coarse;
   ball.ball.radius = 0.1 + 0.2;
   Monitor monitor(std::make_shared<const Scene>(scene), soft());
   for (const double height : {2.0, 0.35}) {  // from the ball alone, and from the points

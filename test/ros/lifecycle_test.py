@@ -13,6 +13,7 @@ import unittest
 
 import rosbag
 import rospy
+import rosservice
 from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
 
@@ -148,7 +149,12 @@ class Lifecycle(unittest.TestCase):
             if self.master.poll() is not None:
                 self.start_master()
 
-    def test_6_it_ends_as_it_should(self):
+    def test_6_a_node_loads_and_unloads_nothing(self):
+        # That is what managers do.
+        services = rosservice.get_service_list(namespace='/collision_monitor')
+        self.assertFalse([name for name in services if name.endswith('load_nodelet') or name.endswith('/list')])
+
+    def test_7_it_ends_as_it_should(self):
         self.monitor.send_signal(signal.SIGINT)
         self.assertEqual(self.monitor.wait(PATIENCE), 0)
         self.assertIsNotNone(self.states.find(lambda m: m.reason == 'the monitor has ended'))

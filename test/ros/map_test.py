@@ -116,6 +116,26 @@ class MapTest(unittest.TestCase):
         self.assertIsNotNone(plans.find(lambda m: m.scene_version == version))
         plans.close()
 
+    def test_what_slides_over_tiles_is_one_contact(self):
+        wall = {(32768 + x, 32768 + y, 32768 + z): True for x in range(8, 30) for y in range(-2, 2)
+                for z in range(-2, 2)}
+        self.send(message(wall))
+        self.robot.ball = 0.45
+        self.assertIsNotNone(self.find_touching_map())
+        self.contacts.clear()
+        for x in range(45, 110, 5):  # a tile ends at 0.5
+            self.robot.ball = 0.01 * x
+            time.sleep(0.1)
+        heard = self.contacts.messages
+        tiles = {b for m in heard for p in m.pairs for b in (p.body_a, p.body_b) if b.startswith('octomap/')}
+        self.assertEqual(tiles, {'octomap/-1_-1_-1', 'octomap/0_-1_-1'})
+        contacts = [c for m in heard for c in m.contacts if 'ball' in (c.body_a, c.body_b)]
+        self.assertEqual(len({c.id for c in contacts}), 1)
+        self.assertEqual({c.body_a for c in contacts} | {c.body_b for c in contacts}, {'ball', 'octomap'})
+        self.assertFalse(any(c.ends for c in contacts))
+        self.robot.ball = 0.0
+        self.assertIsNotNone(self.contacts.find_new(lambda m: any(c.id == contacts[0].id and c.ends for c in m.contacts)))
+
     def test_a_map_from_a_bag(self):
         file = os.path.join(tempfile.mkdtemp(), 'map.bag')
         with rosbag.Bag(file, 'w') as bag:

@@ -298,6 +298,23 @@ class MonitorTest(MonitorCase):
         self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'rate') == DiagnosticStatus.OK))
         diagnostics.close()
 
+    def test_diagnostics_tell_numbers(self):
+        diagnostics = Recorder('/diagnostics', DiagnosticArray)
+
+        def numbers(message):
+            return {value.key: value.value for status in message.status if 'bad' not in status.name
+                    and 'late' not in status.name for value in status.values}
+        wanted = {'rate [Hz]', 'latency [ms]', 'age [ms]', 'run time [ms]', 'error bound [mm]', 'pairs',
+                  'cycles with postponed pairs', 'world version'}
+        for _ in range(60):
+            self.send(0.0)
+        found = diagnostics.find(lambda m: wanted <= numbers(m).keys() and float(numbers(m)['age [ms]']) > 0.0)
+        diagnostics.close()
+        self.assertIsNotNone(found)
+        self.assertGreaterEqual(float(numbers(found)['age [ms]']) + 0.1, float(numbers(found)['latency [ms]']))
+        self.assertLess(float(numbers(found)['age [ms]']), 20e3)
+        self.assertGreaterEqual(int(numbers(found)['world version']), 1)
+
     def test_old_stamp_of_one_frame_clears_nothing(self):
         for i in range(30):
             self.send(0.0)

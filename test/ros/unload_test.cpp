@@ -11,6 +11,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -21,6 +22,7 @@
 #include "oracle/busy_machine.h"
 #include "oracle/files.h"
 #include "sdf_ccd/MonitorState.h"
+#include "sdf_ccd/Plan.h"
 
 namespace sdf_ccd {
 namespace {
@@ -133,6 +135,55 @@ TEST_F(UnloadTest, LeavesNothingBehind) {
   const double early = *std::max_element(sizes.begin() + 8, sizes.begin() + 16);
   const double late = *std::max_element(sizes.begin() + 16, sizes.end());
   EXPECT_LT(late, early + 0.05) << text;
+}
+
+/// Two robots in one manager, of the same kind, told apart by namespaces and the prefix of their frames.
+TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
+  const std::vector<std::string> names = {"/left/monitor", "/right/monitor"};
+  std::map<std::string, Plan> plans;
+  std::map<std::string, std::string> frames;
+  std::vector<ros::Subscriber> subscribers;
+  for (const std::string& name : names) {
+    subscribers.push_back(node_.subscribe<Plan>(name + "/plan", 10, [&, name](const Plan::ConstPtr& plan) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      plans[name] = *plan;
+      changed_.notify_all();
+    }));
+    subscribers.push_back(
+        node_.subscribe<MonitorState>(name + "/state", 100, [&, name](const MonitorState::ConstPtr& state) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          if (state->reason == "waiting for transforms") frames[name] = state->header.frame_id;
+          changed_.notify_all();
+        }));
+  }
+  std::vector<double> memory = {allocatedMemory()};
+  for (const std::string& name : names) {
+    const ros::NodeHandle monitor(name);
+    monitor.setParam("cache", false);
+    monitor.setParam("contact/accuracy", 2e-3);
+    monitor.setParam("tf_prefix", name.substr(1, name.find('/', 1) - 1));
+    ASSERT_TRUE(loader_.load(name, "sdf_ccd/CollisionMonitor", {}, {}));
+    std::unique_lock<std::mutex> lock(mutex_);
+    ASSERT_TRUE(changed_.wait_for(lock, std::chrono::seconds(60),
+                                  [&] { return plans.count(name) > 0 && frames.count(name) > 0; }));
+    lock.unlock();
+    ::malloc_trim(0);
+    memory.push_back(allocatedMemory());
+  }
+  EXPECT_EQ(frames["/left/monitor"], "left/base");
+  EXPECT_EQ(frames["/right/monitor"], "right/base");
+  const auto count = [&](const std::string& name, const std::string& field) {
+    return std::count_if(plans[name].fields.begin(), plans[name].fields.end(),
+                         [&](const std::string& of) { return of.find(field) != std::string::npos; });
+  };
+  EXPECT_GT(count("/left/monitor", "built"), 0);
+  EXPECT_EQ(count("/right/monitor", "built"), 0) << "nothing is made twice";
+  EXPECT_GE(count("/right/monitor", "shared"), count("/left/monitor", "built"));
+  RecordProperty("first_kb", static_cast<int>(1e3 * (memory[1] - memory[0])));
+  RecordProperty("second_kb", static_cast<int>(1e3 * (memory[2] - memory[1])));
+  EXPECT_LT(memory[2] - memory[1], 0.3 * (memory[1] - memory[0]));
+  EXPECT_TRUE(loader_.unload(names[0]));
+  EXPECT_TRUE(loader_.unload(names[1]));
 }
 
 }  // namespace

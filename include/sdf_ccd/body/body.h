@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sdf_ccd/common/shared_value.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/motion/screw_motion.h"
 #include "sdf_ccd/query/verdict.h"
@@ -32,13 +33,13 @@ struct Body {
   std::string frame;
   Isometry3d X_frame_B = Isometry3d::Identity();
   bool is_world = false;
-  std::string failure;          ///< why it cannot be checked; empty if it can
-  std::string warning;          ///< what is to be known of its meshes' inside (see warningOf()); empty if nothing
-  std::vector<BodyPart> parts;  ///< empty if no pair needs its field
-  PointShell shell;             ///< frame B; empty if no pair needs it. Points deep inside a sibling part are left out
-  SphereTree tree;
-  PointShell witnesses;  ///< frame B; instead of a shell a point of each component of the surface, but of half-spaces
-  SphereTree witness_tree;
+  std::string failure;            ///< why it cannot be checked; empty if it can
+  std::string warning;            ///< what is to be known of its meshes' inside (see warningOf()); empty if nothing
+  std::vector<BodyPart> parts;    ///< empty if no pair needs its field
+  SharedValue<PointShell> shell;  ///< frame B; empty if no pair needs it; without points deep inside a sibling part
+  SharedValue<SphereTree> tree;
+  SharedValue<PointShell> witnesses;  ///< frame B; instead of a shell a point of each component, but of half-spaces
+  SharedValue<SphereTree> witness_tree;
   std::shared_ptr<const BodySurface> surface;      ///< where a pair has a field with openings; null for a half-space
   std::shared_ptr<const BodyTriangles> triangles;  ///< what decides about it and another one that has them; null of a
                                                    ///< body that is not all triangles, or in no such pair
@@ -46,7 +47,8 @@ struct Body {
   /// with caps in openings and boxes around primitives, frame B: only what sees the outside past it is surely outside.
   /// Null of other bodies, whose fields know.
   std::shared_ptr<const TriangleTree> doubtful;
-  BoundingBall ball;  ///< holds the body's surface, frame B; see kHalfSpaceRadius
+  BoundingBall ball;                    ///< holds the body's surface, frame B; see kHalfSpaceRadius
+  std::shared_ptr<const void> content;  ///< keeps what other bodies of this process find (BodyOptions::is_shared)
 
   /// The field of a body that is one element in the body's own frame.
   /// @throws std::logic_error if it is not.

@@ -34,6 +34,10 @@ struct BodyOptions {
   /// memory like the mesh some times over.
   bool exact_depths = false;
 
+  /// Whether what other bodies of this process have of the same content, made with the same options, is shared with
+  /// them: several monitors in one nodelet manager hold it once.
+  bool is_shared = false;
+
   std::optional<double> max_error;  ///< the bound wanted of every verdict [m]; the plan says whether it is kept
 
   /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "collision_monitor", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, askToEnd);
   std::signal(SIGTERM, askToEnd);
-  nodelet::Loader loader;
+  nodelet::Loader loader(false);  // without services that load others, or unload this one
   if (!loader.load(ros::this_node::getName(), "sdf_ccd/CollisionMonitor", ros::names::getRemappings(), {})) return 1;
   while (ros::ok() && !is_asked_to_end) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPeriod));
 }

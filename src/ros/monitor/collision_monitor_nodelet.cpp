@@ -8,6 +8,7 @@
 #include <ros/package.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "body/geometry_keys.h"
 #include "monitor/over_budget.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
@@ -119,6 +120,7 @@ void CollisionMonitor::readWhenThere() {
   for (;;) {
     try {
       parameters_ = readParameters(getPrivateNodeHandle());
+      parameters_.scene.is_shared = true;
       return;
     } catch (const MissingDescription& missing) {
       NODELET_WARN_ONCE("Waiting: %s", missing.what());
@@ -133,6 +135,7 @@ void CollisionMonitor::setUp() {
   readWhenThere();
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
   described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
+  shareMeshes(described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   joint_watch_ = std::make_unique<JointWatch>(*described_.robot);
   buildFields();
@@ -355,6 +358,7 @@ void CollisionMonitor::publishCycle() {
   health_.stalled = false;
   health_.world_version = loop_->world()->version();
   health_.latency = state->latency;
+  health_.age = (sent - state->complete_until).toSec();
   health_.run_time = state->run_time;
   health_.error = loop_->result().error;
   health_.contact_error = loop_->result().contact_error;

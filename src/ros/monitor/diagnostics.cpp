@@ -89,6 +89,7 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
   }
   addLines("missing", health_.missing, status);
   addLines("joint", health_.bad_joints, status);
+  status.addf("age [ms]", "%.1f", 1e3 * health_.age);
   status.add("pairs delayed", health_.pairs_delayed);
   status.add("out of order", health_.out_of_order);
   status.add("refused", health_.refused);

@@ -21,6 +21,7 @@ struct MonitorHealth {
   bool is_timed = false;       ///< cycles begin at that rate; else no more often
   double rate = 0.0;           ///< of cycles [Hz]
   double latency = 0.0;        ///< of the last cycle [s]
+  double age = 0.0;            ///< of the oldest transforms that its pairs know [s]
   double run_time = 0.0;       ///< of the last check [s]
   ErrorBound error;            ///< of the last cycle's pair where it is largest
   double contact_error = 0.0;  ///< CycleResult::contact_error of the last cycle [m]

@@ -1,0 +1,71 @@
+#include "body/geometry_keys.h"
+
+#include "common/weak_store.h"
+#include "storage/content_hash.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr std::size_t kHashes = 1024;
+
+void append(const double* numbers, std::size_t count, std::string& key) {
+  key.append(reinterpret_cast<const char*>(numbers), count * sizeof(double));
+}
+
+struct AppendSizes {
+  std::string& key;
+  void operator()(const Sphere& sphere) const { append(&sphere.radius, 1, key); }
+  void operator()(const Box& box) const { append(box.half_size.data(), 3, key); }
+  void operator()(const Cylinder& cylinder) const {
+    append(&cylinder.radius, 1, key);
+    append(&cylinder.half_length, 1, key);
+  }
+  void operator()(const HalfSpace& half_space) const {
+    append(half_space.normal.data(), 3, key);
+    append(&half_space.offset, 1, key);
+  }
+};
+
+}  // namespace
+
+const std::string& GeometryKeys::hashOf(const std::shared_ptr<const TriangleMesh>& mesh) {
+  Known& known = hashes_[mesh.get()];
+  if (known.mesh.lock() == mesh && !known.hash.empty()) return known.hash;
+  known = {mesh, contentHash(*mesh, {})};
+  return known.hash;
+}
+
+std::string GeometryKeys::keyOf(const BodyDescription& body) {
+  if (hashes_.size() > kHashes) {
+    for (auto known = hashes_.begin(); known != hashes_.end();)
+      known = known->second.mesh.expired() ? hashes_.erase(known) : std::next(known);
+  }
+  std::string key;
+  for (const GeometryDescription& geometry : body.geometry) {
+    key += static_cast<char>('0' + geometry.shape.index());
+    if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
+      key += static_cast<char>('0' + primitive->index());
+      std::visit(AppendSizes{key}, *primitive);
+    } else {
+      const auto& mesh = std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
+      key += mesh ? hashOf(mesh) : "none";
+    }
+    append(geometry.X_BG.data(), 16, key);
+    key += geometry.watertight_voxels ? 'v' : '-';
+    const double cell = geometry.cell_size.value_or(0.0);
+    append(&cell, 1, key);
+  }
+  return key;
+}
+
+void shareMeshes(std::vector<BodyDescription>& bodies) {
+  static WeakStore<TriangleMesh> of_process;
+  for (BodyDescription& body : bodies) {
+    for (GeometryDescription& geometry : body.geometry) {
+      auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+      if (mesh && *mesh) *mesh = of_process.keep(contentHash(**mesh, {}), *mesh);
+    }
+  }
+}
+
+}  // namespace sdf_ccd

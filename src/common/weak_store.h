@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+namespace sdf_ccd {
+
+/// What somebody holds, to be found by its key; what nobody holds any more is gone. From any thread.
+template <class T>
+class WeakStore {
+ public:
+  using Pointer = std::shared_ptr<const T>;
+
+  /// Null if nobody holds it.
+  Pointer find(const std::string& key) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = kept_.find(key);
+    return found == kept_.end() ? nullptr : found->second.lock();
+  }
+
+  /// @return what is found under the key from now on: that of before, if somebody holds it.
+  Pointer keep(const std::string& key, Pointer made) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (kept_.size() >= most_) {
+      for (auto kept = kept_.begin(); kept != kept_.end();)
+        kept = kept->second.expired() ? kept_.erase(kept) : std::next(kept);
+      most_ = std::max(kLeast, 2 * kept_.size());
+    }
+    std::weak_ptr<const T>& kept = kept_[key];
+    if (Pointer before = kept.lock()) return before;
+    kept = made;
+    return made;
+  }
+
+ private:
+  static constexpr std::size_t kLeast = 256;
+
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::weak_ptr<const T>> kept_;
+  std::size_t most_ = kLeast;  // until those that are gone are looked for
+};
+
+}  // namespace sdf_ccd
