@@ -7,8 +7,9 @@
 // functions marked SDF_CCD_LANES; which of them is taken is decided when the program is loaded.
 // Not by Highway, as the package must do without it (Ubuntu 20.04 has none): without vectors uniform fields take 3.2
 // times as long to build, and adaptive ones 3.6 times.
+// Not under TSan: it looks at the function that decides, too, which runs before it is there itself, and crashes.
 
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #if __GNUC__ >= 12
 #define SDF_CCD_LANES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
