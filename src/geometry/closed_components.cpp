@@ -13,7 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kRounding = 1e-6;  ///< of coordinates that are floats, far from their origin [m]
+constexpr double kRounding = 1e-6;  // of coordinates that are floats, over the mesh's size
 
 /// A patch by itself.
 struct Component {
@@ -97,7 +97,10 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
 class Inspection {
  public:
   Inspection(const TriangleMesh& mesh, const std::vector<Patch>& patches)
-      : mesh_(mesh), patches_(patches), eps_(cutTolerance(mesh)) {
+      : mesh_(mesh),
+        patches_(patches),
+        eps_(cutTolerance(mesh)),
+        rounding_(kRounding * boundingBox(mesh).sizes().maxCoeff()) {
     components_.resize(patches.size());
     label_.assign(mesh.triangles.size(), -1);
     parallelFor(std::size_t{0}, patches.size(), [&](std::size_t i) { components_[i] = measure(mesh, patches[i]); });
@@ -275,7 +278,7 @@ class Inspection {
       const Corners c = cornersOf(mesh_, triangle);
       const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
       const bool here = std::any_of(holders.begin(), holders.end(), [&](std::int32_t holder) {
-        return components_[holder].tree->closestPoint(center, kRounding).triangle >= 0;
+        return components_[holder].tree->closestPoint(center, rounding_).triangle >= 0;
       });
       (here ? flush : free) = true;
       if (flush && free) return true;
@@ -287,7 +290,7 @@ class Inspection {
   std::set<std::int32_t> candidates(std::int32_t inner) const {
     const Component& component = components_[inner];
     std::set<std::int32_t> found;
-    const Vector3d rounding = Vector3d::Constant(kRounding);
+    const Vector3d rounding = Vector3d::Constant(rounding_);
     const AlignedBox3d box(component.box.min() + rounding, component.box.max() - rounding);
     tree_->forEachTriangle(
         [&](const Vector3d& center, double radius) {
@@ -352,6 +355,7 @@ class Inspection {
   const TriangleMesh& mesh_;
   const std::vector<Patch>& patches_;
   double eps_;                           ///< see cutTolerance()
+  double rounding_;                      ///< [m]
   bool all_turned_ = false;              ///< the file is inside out
   std::vector<Component> components_;    ///< per patch
   std::vector<std::int32_t> label_;      ///< of each triangle: its closed patch, or -1
