@@ -152,9 +152,7 @@ int main(int argc, char** argv) {
   return runStudy(argc, argv, "Cycles with a budget: bound and open verdicts over run time", full, quick,
                   [](const StudyOptions& options) {
                     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-                    std::vector<std::string> robots = options.robots;
-                    if (robots.empty()) robots.push_back("demo=" SDF_CCD_DEMO_ARM);
-                    for (const std::string& argument : robots) {
+                    for (const std::string& argument : robotsOr(options, "demo=" SDF_CCD_DEMO_ARM)) {
                       const Robot robot = loadRobot(argument);
                       for (const auto& [proximity, what] :
                            {std::pair{Proximity::kNear, "near"}, {Proximity::kContact, "contact"}}) {

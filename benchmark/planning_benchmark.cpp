@@ -92,12 +92,13 @@ bool touches(MonitorSystem& system, const Poses& poses) {
 class Study {
  public:
   Study(const Robot& robot, const StudyOptions& options)
-      : robot_(robot), options_(options), name_(robot.name + "/edges"),
+      : robot_(robot),
+        options_(options),
+        name_(robot.name + "/edges"),
         world_(makeBoxWorld(robot, Proximity::kClear, 5.0, kSeed)) {
     BodyOptions body = optionsFor({0.01});
     monitor_.chords.tolerance = 1e-4;
-    scene_ = std::make_shared<const Scene>(
-        buildScene(world_.scene, planScene(world_.scene, planOptions(body)), body));
+    scene_ = std::make_shared<const Scene>(buildScene(world_.scene, planScene(world_.scene, planOptions(body)), body));
     edges_ = randomEdges(robot_, world_.scene, scene_->pairs, static_cast<std::size_t>(options.cycles));
     bodies_ = bodiesOf(*scene_, robot_.model);
   }
@@ -221,9 +222,7 @@ int main(int argc, char** argv) {
   quick.measure.runs = 3;
   return runStudy(argc, argv, "Edges of a planner's graph, certified, beside other libraries", full, quick,
                   [](const StudyOptions& options) {
-                    std::vector<std::string> robots = options.robots;
-                    if (robots.empty()) robots.push_back("demo=" SDF_CCD_DEMO_ARM);
-                    for (const std::string& argument : robots) {
+                    for (const std::string& argument : robotsOr(options, "demo=" SDF_CCD_DEMO_ARM)) {
                       const Robot robot = loadRobot(argument);
                       Study(robot, options).run();
                     }

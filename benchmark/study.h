@@ -38,6 +38,11 @@ struct NamedMesh {
 /// True for a name that is among `wanted`, or if nothing in particular is wanted.
 bool isWanted(const std::vector<std::string>& wanted, const std::string& name);
 
+/// The robots that are given, or else this one.
+inline std::vector<std::string> robotsOr(const StudyOptions& options, const std::string& otherwise) {
+  return options.robots.empty() ? std::vector<std::string>{otherwise} : options.robots;
+}
+
 /// The meshes that are wanted and at hand; a torus and a box of our own if there is none.
 /// @throws std::invalid_argument for a file argument of another form, std::runtime_error for a bad file.
 std::vector<NamedMesh> studyMeshes(const StudyOptions& options);
