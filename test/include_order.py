@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Each folder of src and include/sdf_ccd includes only those before it in README's table of the house.
+"""Each folder of src and include/sdf_ccd includes only those before it in README's table of folders.
 
 usage: include_order.py SOURCE_DIRECTORY
 """
@@ -7,15 +7,15 @@ import os
 import re
 import sys
 
-ROS = ['tf', 'messages', 'parameters', 'world', 'monitor', 'bag']  # the rooms of src/ros
-# The programs' main files and the reader's process stand beside the order: nothing includes them.
+ROS = ['tf', 'messages', 'parameters', 'world', 'monitor', 'bag']  # the folders of src/ros
+# The programs' main files and the reader's process are outside the order: nothing includes them.
 ANYWHERE = {'reader'}
 
 
-def house(root):
+def ordered_folders(root):
     """The folders in their order."""
     with open(os.path.join(root, 'README.md'), encoding='utf-8') as readme:
-        table = readme.read().split('## The house', 1)[1].split('Tests lie beside', 1)[0]
+        table = readme.read().split('## Source folders', 1)[1].split('Tests are in', 1)[0]
     return re.findall(r'^\| `(\w+)` \|', table, re.M)
 
 
@@ -35,9 +35,9 @@ def includes(root):
 
 def main():
     root = sys.argv[1]
-    order = house(root)
+    order = ordered_folders(root)
     if len(order) < 10:
-        sys.exit('README.md has no table of the house')
+        sys.exit('README.md has no table of folders')
     wrong = []
     count = 0
     for file, path, included in includes(root):

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-// Vectors as the compiler writes them, for files that are compiled for processors with wider vectors too:
-// functions marked SDF_CCD_LANES; which of them is taken is decided when the program is loaded.
-// Not by Highway, as the package must do without it (Ubuntu 20.04 has none): without vectors uniform fields take 3.2
+// Vectors by compiler extensions, for files that are compiled for processors with wider vectors too:
+// functions marked SDF_CCD_LANES; the version for the processor is chosen when the program is loaded.
+// Not by Highway, as the package must build without it (Ubuntu 20.04 has none): without vectors uniform fields take 3.2
 // times as long to build, and adaptive ones 3.6 times.
-// Not under TSan: it looks at the function that decides, too, which runs before it is there itself, and crashes.
+// Not under TSan: it also instruments the resolver function, which runs before TSan is initialised, and crashes.
 
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__)
 #if __GNUC__ >= 12
 #define SDF_CCD_LANES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
@@ -34,7 +35,7 @@ using Floats = float __attribute__((vector_size(kFloatWidth * sizeof(float))));
 
 using FloatsInMemory __attribute__((vector_size(kFloatWidth * sizeof(float)), aligned(4), may_alias)) = float;
 
-// Clang heeds the alignment of an alias only where it stands behind the name.
+// Clang respects the alignment of an alias only after its name.
 static_assert(alignof(DoublesInMemory) == 8 && alignof(FloatsInMemory) == 4,
               "numbers in memory are loaded from anywhere");
 

@@ -5,9 +5,9 @@
 
 namespace sdf_ccd {
 
-/// What a misspelt name may have been meant to be: of the known names the one with the fewest letters typed in excess,
-/// left out, replaced or swapped with their neighbour. Upper and lower case are the same.
-/// @return empty if none is similar: where more than half of its letters, and more than two, are others.
+/// A suggestion for a misspelt name: of the known names the one with the smallest edit distance (letters inserted,
+/// left out, replaced or swapped with their neighbour). Upper and lower case are the same.
+/// @return empty if none is similar: if more than half of its letters, and more than two, differ.
 std::string nearestName(const std::string& name, const std::set<std::string>& known);
 
 /// For errors about a name that is not known: ", did you mean xyz?", or, if none is similar, ", known are a, b and c".

@@ -7,8 +7,8 @@
 
 namespace sdf_ccd {
 
-/// body(first, last) for parts of the range from begin to end, in parallel, if the calling thread's work is not
-/// cancelled meanwhile. What ends that also ends what the bodies do, whichever thread they are on.
+/// Calls body(first, last) for parts of the range from begin to end, in parallel, unless the calling thread's work is
+/// cancelled. A cancellation also stops the bodies, on any thread.
 /// @throws Cancelled, and what a body throws.
 template <class Index, class Body>
 void parallelRanges(Index begin, Index end, const Body& body) {

@@ -4,7 +4,7 @@
 
 namespace sdf_ccd {
 
-/// Processor's time that the calling thread has taken [s]: what other work on the machine does not count in.
+/// Processor time of the calling thread [s]: other work on the machine is not included.
 inline double threadSeconds() {
   timespec time;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// Share done, reported by whichever thread gets there. Ends work that the thread that made it has cancelled.
+/// The share done, reported by any thread. Stops if the thread that constructed it is cancelled.
 class ProgressCounter {
  public:
   ProgressCounter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}

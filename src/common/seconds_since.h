@@ -4,7 +4,7 @@
 
 namespace sdf_ccd {
 
-/// By the wall [s].
+/// Wall clock [s].
 inline double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -4,7 +4,7 @@
 
 namespace sdf_ccd {
 
-/// What somebody else wrote (a name, a URI, a path), as messages and logs can take it: of bounded length, with its
+/// Text from others (a name, a URI, a path), made safe for messages and logs: of bounded length, with its
 /// beginning and its end, and without control characters.
 inline std::string shownText(std::string text, std::size_t max_bytes = 300) {
   for (char& c : text) {

@@ -11,18 +11,18 @@ void requireSize(const std::string& text, std::size_t most) {
   if (text.size() > most) throw std::runtime_error("it is larger than " + std::to_string(most >> 20) + " MiB");
 }
 
-/// Length of the UTF-8 sequence at `place`; 0 if there is none.
-std::size_t sequenceAt(const std::string& text, std::size_t place) {
+/// Length of the UTF-8 sequence at `position`; 0 if there is none.
+std::size_t sequenceAt(const std::string& text, std::size_t position) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(place);
+  const unsigned char first = byte(position);
   const std::size_t length = first < 0x80                    ? 1
                              : first >= 0xC2 && first < 0xE0 ? 2
                              : first >= 0xE0 && first < 0xF0 ? 3
                              : first >= 0xF0 && first < 0xF5 ? 4
                                                              : 0;
-  if (length == 0 || place + length > text.size()) return 0;
+  if (length == 0 || position + length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(place + i) & 0xC0) != 0x80) return 0;
+    if ((byte(position + i) & 0xC0) != 0x80) return 0;
   }
   return length;
 }
@@ -46,18 +46,18 @@ std::string soundText(std::string text) {
 
 void requireSoundYaml(const std::string& yaml) {
   requireSize(yaml, kMaxYamlBytes);
-  // Levels of flow, whose brackets may also stand in texts; and of blocks: by signs that begin a line, one after
-  // another, and by how far lines are set in.
+  // Levels of flow style, whose brackets may also be in strings; and of block style: by indicators at the start of
+  // lines by indentation.
   int flow = 0;
-  std::size_t place = 0;
+  std::size_t position = 0;
   std::vector<std::size_t> indents;
-  while (place < yaml.size()) {
-    const std::size_t end = std::min(yaml.find('\n', place), yaml.size());
-    std::size_t at = place;
+  while (position < yaml.size()) {
+    const std::size_t end = std::min(yaml.find('\n', position), yaml.size());
+    std::size_t at = position;
     while (at < end && yaml[at] == ' ') ++at;
     if (at < end && yaml[at] != '#') {
-      while (!indents.empty() && indents.back() >= at - place) indents.pop_back();
-      indents.push_back(at - place);
+      while (!indents.empty() && indents.back() >= at - position) indents.pop_back();
+      indents.push_back(at - position);
     }
     int signs = 0;
     for (; at + 1 < end && (yaml[at] == '-' || yaml[at] == '?' || yaml[at] == ':') && yaml[at + 1] == ' '; ++signs) {
@@ -69,7 +69,7 @@ void requireSoundYaml(const std::string& yaml) {
       throw std::runtime_error("it is nested more than " + std::to_string(kMaxYamlDepth) + " levels deep");
     }
     flow = std::max(flow, 0);
-    place = end + 1;
+    position = end + 1;
   }
 }
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <string>
 
-/// What texts from elsewhere may hold before a parser sees them: some call themselves for what is nested, and read
-/// beyond the end of what is cut short.
+/// Limits of texts from elsewhere, checked before parsing: some parsers recurse for each nested level, and read
+/// beyond the end of truncated text.
 namespace sdf_ccd {
 
 constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20, kMaxYamlBytes = std::size_t{16} << 20;

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// What somebody holds, to be found by its key; what nobody holds any more is gone. From any thread.
+/// Values by key, for as long as somebody holds them. Thread-safe.
 template <class T>
 class WeakStore {
  public:
@@ -22,13 +22,13 @@ class WeakStore {
     return found == kept_.end() ? nullptr : found->second.lock();
   }
 
-  /// @return what is found under the key from now on: that of before, if somebody holds it.
+  /// @return the value under the key from now on: the former one, if somebody holds it.
   Pointer keep(const std::string& key, Pointer made) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (kept_.size() >= most_) {
+    if (kept_.size() >= limit_) {
       for (auto kept = kept_.begin(); kept != kept_.end();)
         kept = kept->second.expired() ? kept_.erase(kept) : std::next(kept);
-      most_ = std::max(kLeast, 2 * kept_.size());
+      limit_ = std::max(kMinLimit, 2 * kept_.size());
     }
     std::weak_ptr<const T>& kept = kept_[key];
     if (Pointer before = kept.lock()) return before;
@@ -37,11 +37,11 @@ class WeakStore {
   }
 
  private:
-  static constexpr std::size_t kLeast = 256;
+  static constexpr std::size_t kMinLimit = 256;
 
   std::mutex mutex_;
   std::unordered_map<std::string, std::weak_ptr<const T>> kept_;
-  std::size_t most_ = kLeast;  // until those that are gone are looked for
+  std::size_t limit_ = kMinLimit;  // size at which expired entries are removed
 };
 
 }  // namespace sdf_ccd

@@ -24,7 +24,7 @@ class ChordFrame {
   std::optional<ScrewMotion> motion_;  // none for a body of the world, at rest: no sine for every node
 };
 
-/// Its poses; those at the last few times are kept, as points are mostly asked about at the same ones.
+/// Its poses; those at the last few times are cached, as points are mostly evaluated at the same ones.
 class ChordPoses {
  public:
   void begin(const ChordFrame& frame) {
@@ -32,7 +32,7 @@ class ChordPoses {
     known_ = next_ = 0;
   }
 
-  /// @return what holds until the next call.
+  /// @return a reference that is valid until the next call.
   const Isometry3d& at(double s) {
     for (std::size_t i = 0; i < known_; ++i)
       if (kept_[i].s == s) return kept_[i].X_CF;
@@ -58,7 +58,7 @@ class ChordPoses {
 struct ChordPoint {
   Vector3d start;         ///< [m]
   Vector3d step;          ///< [m], over the whole chord
-  Vector3d inward_start;  ///< minus the point's outward normal: out of the field's body where the two press
+  Vector3d inward_start;  ///< minus the point's outward normal: out of the field's body where the two bodies touch
   Vector3d inward_end;
   double duration;  ///< [s]
 

@@ -8,7 +8,7 @@ namespace sdf_ccd {
 /// Finds the lowest value of a function of s from values met in increasing order of s.
 class Deepest {
  public:
-  /// Forgets the last value, so that the next one is no neighbour of it.
+  /// Forgets the last value, so that the next one does not count as its neighbour.
   void startRun() { previous_ = {}; }
 
   void offer(double s, double value) {

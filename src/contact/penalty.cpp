@@ -27,7 +27,7 @@ const std::vector<Node> kGauss = {
     {0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}};
 const std::vector<Node> kMidpoint = {{0.5, 1.0}};
 
-// Two parts in the same position: their values differ by the rounding of their poses [m].
+// Siblings with the same pose: their values differ by the rounding of their poses [m].
 constexpr double kTie = 1e-9;
 
 class Integrator {
@@ -99,7 +99,7 @@ class Integrator {
     return false;
   }
 
-  /// Adds breaks where a sibling becomes deeper or ceases to be, so that every piece has one owner.
+  /// Adds breaks where a sibling becomes deeper or stops being so, so that every piece has one owner.
   void splitWhereOwnerChanges(const ChordPoint& point) {
     std::vector<double>& breaks = result_.breaks;
     const auto owned = [&](double s) { return siblingOwns(point.position(s)); };
@@ -129,7 +129,7 @@ class Integrator {
       deepest_.startRun();
       return;
     }
-    // The gradient jumps from cell to cell: the ends are taken just inside this piece.
+    // The gradient is discontinuous between cells: the ends are evaluated slightly inside this piece.
     const double first = from + 1e-9 * length, last = to - 1e-9 * length;
     if (!request_.impulse) {
       offer(point, first);

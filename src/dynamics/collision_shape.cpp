@@ -9,14 +9,14 @@
 namespace sdf_ccd {
 namespace {
 
-/// About the body's origin, which the balls of all poses then share.
+/// A ball about the body's origin, which is the centre of the balls of all poses.
 BoundingBall ballAround(const CollisionShape& shape) {
   BoundingBall ball;
   for (const Vector3d& p : shape.shell.points) ball.radius = std::max(ball.radius, p.norm());
   if (shape.field) {
     const AlignedBox3d& box = shape.field->surfaceBox();
     const Vector3d reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
-    // A box's corners reach beyond a sphere's surface; the points, with the gap between them, are nearer to the truth.
+    // A box's corners are outside a sphere's surface; the points, with the gap between them, are a closer bound.
     ball.radius = shape.shell.size() > 0 ? ball.radius + shape.shell.covering_radius : reach.norm();
   }
   return ball;
@@ -38,7 +38,7 @@ CollisionShape shapeOf(GeometryDescription geometry, const BodyOptions& options)
 }  // namespace
 
 CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const ShellOptions& shell) {
-  // Nowhere inside is the surface farther than half the smallest side of its box.
+  // Inside, the surface is never farther than half the smallest side of its box.
   field.band = std::max(field.band, 0.5 * boundingBox(mesh_B).sizes().minCoeff());
   BodyOptions options;
   options.field = field;

@@ -37,7 +37,7 @@ bool ContactSearch::mayMeet(const Role& role, const StepMotion& motion) const {
   const std::vector<Isometry3d>& X_OP = motion.X_OB[role.shell_body];
   const std::vector<Isometry3d>& X_OF = motion.X_OB[role.field_body];
   if (std::isinf(field.ball.radius)) {
-    // Fixed, and the shell's centre runs straight: its distance to a plane is least at an end.
+    // A fixed plane, and the shell's centre moves on a straight line: their distance is smallest at an end.
     const auto distance = [&](std::size_t k) {
       return field.field->lowerBound(relativePose(X_OF[k], X_OP[k]).translation());
     };

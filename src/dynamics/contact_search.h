@@ -8,11 +8,11 @@
 
 namespace sdf_ccd {
 
-/// What one body's shell meets in another's field during a step.
+/// Contacts of one body's shell with another body's field during a step.
 struct RoleHits {
   int shell_body;
   int field_body;
-  double weight;          ///< ½ where the other role sees the same contact too (design §3.7)
+  double weight;          ///< ½ if the other role finds the same contact too (design §3.7)
   const ChordPath& path;  ///< X_FP
   const std::vector<ShellHit>& hits;
 };

@@ -10,7 +10,7 @@ class ContinuousIntegrator : public Integrator {
 
   void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) override {
     report = {};
-    if (average_.empty()) {  // before the first step the bodies are taken to have stood still
+    if (average_.empty()) {  // before the first step the bodies are assumed to be at rest
       standStill(states, duration, motion_);
       integrateAll(duration);
     }
@@ -48,8 +48,8 @@ class ContinuousIntegrator : public Integrator {
             average_[role.field_body]);
   }
 
-  /// Frame C: O's axes about the shell's body's origin, which moves with a constant velocity during the step. The
-  /// handle r of Eq. 5 is then the one of the paper at every time.
+  /// Frame C: O's axes about the origin of the shell's body, which moves with a constant velocity during the step. The
+  /// lever r of Eq. 5 is then that of the paper at every time.
   void setFieldPoses(const RoleHits& role) {
     const std::vector<Isometry3d>& X_OF = motion_.X_OB[role.field_body];
     const auto poseInC = [](const Matrix3d& R_OF, const Isometry3d& X_FP) {

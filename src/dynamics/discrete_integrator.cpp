@@ -3,7 +3,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Symplectic Euler under the contact forces at the sampled pose: what the paper's Figure 6 compares with.
+/// Symplectic Euler under the contact forces at the sampled pose: the scheme that the paper's Figure 6 compares with.
 class DiscreteIntegrator : public Integrator {
  public:
   explicit DiscreteIntegrator(const RigidWorld& world) : world_(world), search_(world) {}

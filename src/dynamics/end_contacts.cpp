@@ -5,7 +5,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Gradient of the interpolated field; far inside, where it knows none, the shell's inward normal.
+/// Gradient of the interpolated field; where it is unknown, far inside, the shell's inward normal.
 Vector3d slopeAt(const FieldValue& sample, const Vector3d& inward_F) {
   return sample.gradient.norm() > 1e-9 ? sample.gradient : inward_F;
 }
@@ -20,7 +20,7 @@ class EndContacts {
         R_OF_(motion.X_OB[role.field_body].back().linear()),
         duration_(motion.times.back()) {}
 
-  /// Of one point, from its hits in the order of time.
+  /// The contact of one point, from its hits in order of time.
   PointContact operator()(const ShellHit* first, const ShellHit* last) const {
     const Chord& end = role_.path.chords.back();
     const int point = first->point;
@@ -41,9 +41,9 @@ class EndContacts {
     Vector3d slope_F = slopeAt(at_end, inward_F);
     const bool stood_still = end.X_FP_end.matrix() == role_.path.chords.front().X_FP_start.matrix();
     if (!stood_still) {
-      const Vector3d entry_F = place(*first, first->interval.enter);
+      const Vector3d entry_F = pointAt(*first, first->interval.enter);
       const FieldValue at_entry = field_.interpolate(entry_F);
-      const FieldValue at_exit = field_.interpolate(place(*last, last->interval.exit));
+      const FieldValue at_exit = field_.interpolate(pointAt(*last, last->interval.exit));
       const Vector3d normal_F = slopeAt(at_entry, inward_F).normalized();
       if (slopeAt(at_exit, inward_F).dot(normal_F) < 0.0) {
         const double behind = std::min(at_entry.value, 0.0) + normal_F.dot(p_F - entry_F);
@@ -58,7 +58,7 @@ class EndContacts {
   }
 
  private:
-  Vector3d place(const ShellHit& hit, double s) const {
+  Vector3d pointAt(const ShellHit& hit, double s) const {
     const Chord& chord = role_.path.chords[hit.chord];
     const Vector3d& p_P = shell_.points[hit.point];
     return (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);

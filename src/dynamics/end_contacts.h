@@ -6,13 +6,13 @@
 
 namespace sdf_ccd {
 
-/// A shell point that was in contact during a step, as it is at the step's end.
+/// A shell point that was in contact during a step, in its state at the end of the step.
 struct PointContact {
   double stiffness = 0.0;  ///< [N/m], with the role's weight
   double damping = 0.0;    ///< [N·s/m], with the role's weight and the share of the step spent in contact
   double depth = 0.0;      ///< min(φ, 0) [m]
-  double gap = 0.0;        ///< [m], what pushes: the depth, or how far the point is behind the surface it came through
-  Vector3d slope;          ///< derivative of the gap by the point's place, O's axes: out of the field's body
+  double gap = 0.0;        ///< [m], gives the force: the depth, or the distance behind the surface that it crossed
+  Vector3d slope;          ///< derivative of the gap by the point's position, O's axes: out of the field's body
   Vector3d inward;         ///< minus the shell's normal, O's axes
   Vector3d r_P, r_F;       ///< from either body's origin to the point [m], O's axes
 };
@@ -20,15 +20,15 @@ struct PointContact {
 struct PairContacts {
   int shell_body;
   int field_body;
-  Vector3d p_OP, p_OF;  ///< the bodies' origins then [m]
+  Vector3d p_OP, p_OF;  ///< the bodies' origins at that time [m]
   std::vector<PointContact> points;
 };
 
-/// All contacts of a motion, at its end; for bodies that stand still, those of a pose.
+/// All contacts of a motion, at its end; for bodies at rest, those of a pose.
 ///
-/// A point that has left the solid again on the side that it came from is listed with no gap (but its damping). One
-/// that came through, as through a thin plate, is held by the plane where it entered: its gap is negative whatever the
-/// field says at its end.
+/// A point that has left the solid on the side where it entered is listed with no gap (but with its damping). A point
+/// that passed through, for example through a thin plate, is held by the plane where it entered: its gap is negative
+/// whatever the field is at its end.
 void endContacts(const RigidWorld& world, const StepMotion& motion, ContactSearch& search,
                  std::vector<PairContacts>& contacts);
 

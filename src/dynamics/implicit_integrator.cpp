@@ -9,13 +9,13 @@ namespace {
 constexpr int kMaxSolves = 20;
 constexpr int kMaxShortenings = 6;         // of one Newton step
 constexpr int kMaxHalvings = 8;            // of the time step
-constexpr double kConverged = 1e-13;       // of the energies at play, left to gain by another Newton step
-constexpr double kEnergyRounding = 1e-10;  // of the energies at play
+constexpr double kConverged = 1e-13;       // remaining gain of a Newton step, relative to the energies
+constexpr double kEnergyRounding = 1e-10;  // relative to the energies
 
-/// Backward Euler (see VelocitySystem). Because the energy of a pressed contact is convex in the penetration, a step
+/// Backward Euler (see VelocitySystem). Because the energy of a compressed contact is convex in the penetration, a step
 /// to the minimum of Φ never ends with more energy than it began with: ΔU ≤ ∇U(x')·Δt v' = −(M Δv)·v' − Δt v'·D v'.
-/// Rotations and fields that are not convex break the premise, so the energy is checked, and the step halved if it
-/// grew.
+/// This does not hold for rotations and fields that are not convex, so the energy is checked, and the step is halved if
+/// it grew.
 ///
 /// A body in free flight falls by the midpoint of its velocities, which is exact; one in contact by the velocity at
 /// the end, which the proof needs.
@@ -57,9 +57,9 @@ class ImplicitIntegrator : public Integrator {
       if (body.fixed) continue;
       const double before = kineticEnergy(body, start[b]), after = kineticEnergy(body, states[b]);
       const Vector3d moved = states[b].X_OB.translation() - start[b].X_OB.translation();
-      const Vector3d turned = duration * (start[b].X_OB.linear() * states[b].spin_B);
+      const Vector3d rotated = duration * (start[b].X_OB.linear() * states[b].spin_B);
       const double work =
-          (body.mass * world_.gravity + body.applied.force).dot(moved) + body.applied.torque.dot(turned);
+          (body.mass * world_.gravity + body.applied.force).dot(moved) + body.applied.torque.dot(rotated);
       energies += before + after + std::abs(work);
       growth += after - before - work;
     }
@@ -83,7 +83,7 @@ class ImplicitIntegrator : public Integrator {
     const std::vector<BodyState> start = states;
     const VelocitySystem system(world_, start, duration);
     const Vector V0 = system.withoutContact(start);
-    // What one step of gravity is worth keeps the scale of a body at rest from zero.
+    // The energy of one step of gravity keeps the scale of a body at rest from being zero.
     const double scale = system.kineticEnergy(V0) + system.kineticEnergy(V0 - system.velocitiesOf(start));
     std::vector<PairContacts> damped;
     const auto move = [&](const Vector& V) {
@@ -97,7 +97,7 @@ class ImplicitIntegrator : public Integrator {
       }
       drift(world_, mean, duration, step, states, motion_);
     };
-    // Finds the contacts at the end of a step with velocities V. True if they touch a body that was thought free.
+    // Finds the contacts at the end of a step with velocities V. True if they touch a body assumed free.
     const auto moveTo = [&](const Vector& V) {
       move(V);
       endContacts(world_, motion_, search_, contacts_);
@@ -131,7 +131,7 @@ class ImplicitIntegrator : public Integrator {
         const bool other = moveTo(tried);
         const double merit_tried = system.merit(tried, V0, contacts_, damped);
         lower = other || merit_tried <= merit;
-        if (other) {  // another body falls otherwise from now on, so Φ is another function
+        if (other) {  // another body changes its fall from now on, so Φ is another function
           moveTo(V);
           merit = system.merit(V, V0, contacts_, damped);
         } else if (lower) {
@@ -140,7 +140,7 @@ class ImplicitIntegrator : public Integrator {
         }
       }
       if (lower) continue;
-      moveTo(V);  // on an edge of the field, where its slope jumps, there is nothing lower to be found
+      moveTo(V);  // on an edge of the field, where its slope jumps, no lower value exists
       break;
     }
   }

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// What happened in a step.
+/// Contacts and energies of a step.
 struct StepReport {
   int contacts = 0;              ///< points inside a field at the step's end
   double deepest = 0.0;          ///< of them [m]
@@ -17,14 +17,14 @@ struct StepReport {
   std::vector<Wrench> impulses;  ///< of contact, per body, about O's origin [N·s, N·m·s], O's axes
 };
 
-/// Advances bodies in time under gravity, applied forces and contact. Remembers what its scheme needs of the last step.
+/// Advances bodies in time under gravity, applied forces and contact. Keeps the data of the last step that it needs.
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
   /// @param duration  of the step [s]; finite and positive.
   /// @param step      number of the step, for errors.
-  /// @throws SimulationError if a body's state leaves what can be computed.
+  /// @throws SimulationError if a body's state is out of range.
   virtual void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) = 0;
 };
 

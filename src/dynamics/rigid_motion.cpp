@@ -7,10 +7,10 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kTurnPerSubstep = 0.1;  // [rad]
-constexpr double kTurnPerTime = 1.0;     // [rad], so that the shorter way between two poses is the way taken
-constexpr double kMaxTurn = 1e4;         // [rad] per step
-constexpr double kMaxDistance = 1e9;     // [m]
+constexpr double kAnglePerSubstep = 0.1;  // [rad]
+constexpr double kAnglePerTime = 1.0;     // [rad], so that the shorter rotation between two poses is the true one
+constexpr double kMaxAngle = 1e4;         // [rad] per step
+constexpr double kMaxDistance = 1e9;      // [m]
 
 Matrix3d skew(const Vector3d& v) {
   Matrix3d S;
@@ -46,9 +46,9 @@ void requireBounded(const RigidBody& body, const BodyState& state, const Vector3
   if (!velocity.allFinite() || !state.spin_B.allFinite() || !state.X_OB.matrix().allFinite()) {
     throw SimulationError(body.name, step, "its state is no longer finite; shorten the step or lower the stiffness");
   }
-  const double travel = duration * velocity.norm(), turn = duration * state.spin_B.norm();
+  const double travel = duration * velocity.norm(), angle = duration * state.spin_B.norm();
   if (!(travel <= kMaxDistance)) refuse("it would move ", travel, " m in one step");
-  if (!(turn <= kMaxTurn)) refuse("it would turn ", turn, " rad in one step");
+  if (!(angle <= kMaxAngle)) refuse("it would turn ", angle, " rad in one step");
   const double distance = state.X_OB.translation().norm();
   if (!(distance <= kMaxDistance)) refuse("it is away from the scene's origin by ", distance, " m");
 }
@@ -63,7 +63,7 @@ void turnFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vect
     R_OB = orthonormal(R_OB * Eigen::AngleAxisd(speed * duration, spin_B / speed).toRotationMatrix());
     return;
   }
-  const int substeps = std::max(1, int(std::ceil(speed * duration / kTurnPerSubstep)));
+  const int substeps = std::max(1, int(std::ceil(speed * duration / kAnglePerSubstep)));
   const double h = duration / substeps;
   for (int i = 0; i < substeps; ++i) {
     const Vector3d middle = midpointSpin(inertia_B, spin_B, h);
@@ -83,13 +83,13 @@ void standStill(const std::vector<BodyState>& states, double duration, StepMotio
 
 void drift(const RigidWorld& world, const std::vector<Vector3d>& velocities, double duration, long step,
            std::vector<BodyState>& states, StepMotion& motion) {
-  double turn = 0.0;
+  double angle = 0.0;
   for (std::size_t b = 0; b < states.size(); ++b) {
     if (world.bodies[b].fixed) continue;
     requireBounded(world.bodies[b], states[b], velocities[b], duration, step);
-    turn = std::max(turn, duration * states[b].spin_B.norm());
+    angle = std::max(angle, duration * states[b].spin_B.norm());
   }
-  const int pieces = std::max(1, int(std::ceil(turn / kTurnPerTime)));
+  const int pieces = std::max(1, int(std::ceil(angle / kAnglePerTime)));
   motion.times.resize(pieces + 1);
   for (int k = 0; k <= pieces; ++k) motion.times[k] = k == pieces ? duration : k * (duration / pieces);
   motion.X_OB.resize(states.size());

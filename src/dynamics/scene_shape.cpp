@@ -21,7 +21,7 @@ Thread readThread(YamlMap& shape) {
   return {shape.get<double>("radius"), shape.get<double>("pitch"), shape.get<double>("depth")};
 }
 
-/// Points round the axis.
+/// Points around the axis.
 int readSteps(YamlMap& shape, int otherwise) {
   return shape.count("steps", otherwise, 3, 1000);
 }

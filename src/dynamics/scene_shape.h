@@ -11,8 +11,8 @@ namespace sdf_ccd {
 struct SceneShape {
   std::shared_ptr<const CollisionShape> collision;
   std::shared_ptr<const TriangleMesh> mesh_B;  ///< null for a half-space
-  std::optional<MassProperties> unit;          ///< at 1 kg/m³; none where the geometry has no certain volume
-  std::string doubt;                           ///< what is wrong with a mesh that is not closed; else empty
+  std::optional<MassProperties> unit;          ///< at 1 kg/m³; none if the volume of the geometry is uncertain
+  std::string doubt;                           ///< the problem of a mesh that is not closed; else empty
   Vector3d center = Vector3d::Zero();          ///< of mass, in the frame that the geometry was given in [m]
 };
 

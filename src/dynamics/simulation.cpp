@@ -23,21 +23,21 @@ double reactionError(const std::vector<Wrench>& impulses) {
   return std::max(share(sum.force.norm(), forces), share(sum.torque.norm(), torques));
 }
 
-// Farther away than this [m] no contact can be looked for.
+// Contacts are not searched beyond this distance [m].
 constexpr double kFarthest = 1e11;
 // So that sums over all bodies stay finite.
 constexpr double kLargest = 1e290;
 
-/// @throws SimulationError for a body whose position, energy or momentum is beyond what can be computed.
+/// @throws SimulationError for a body whose position, energy or momentum is out of range.
 void requireComputable(const RigidWorld& world, const std::vector<BodyState>& states, long step) {
   for (std::size_t b = 0; b < states.size(); ++b) {
     const RigidBody& body = world.bodies[b];
-    const Vector3d& place = states[b].X_OB.translation();
+    const Vector3d& position = states[b].X_OB.translation();
     if (!states[b].X_OB.matrix().allFinite()) {
       throw SimulationError(body.name, step, "its state is no longer finite; shorten the step or lower the stiffness");
     }
-    if (!(place.cwiseAbs().maxCoeff() <= kFarthest)) {
-      throw SimulationError(body.name, step, "it lies " + numberText(place.norm()) + " m from the scene's origin");
+    if (!(position.cwiseAbs().maxCoeff() <= kFarthest)) {
+      throw SimulationError(body.name, step, "it lies " + numberText(position.norm()) + " m from the scene's origin");
     }
     if (body.fixed) continue;
     const double energy = kineticEnergy(body, states[b]);

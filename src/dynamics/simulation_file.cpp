@@ -28,13 +28,13 @@ ContactOptions readContact(YamlMap contact) {
   return options;
 }
 
-constexpr std::size_t kMostBodies = 5000;  // all their pairs are kept, and looked at in every step
+constexpr std::size_t kMaxBodies = 5000;  // all their pairs are stored, and tested in every step
 
-/// A copy of a body, as `repeat` asks for it.
+/// A copy of a body, as given by `repeat`.
 struct Copy {
   std::string suffix;
   Vector3d offset = Vector3d::Zero();
-  Quaterniond turn = Quaterniond::Identity();
+  Quaterniond rotation = Quaterniond::Identity();
 };
 
 std::vector<Copy> readCopies(YamlMap& body) {
@@ -45,8 +45,8 @@ std::vector<Copy> readCopies(YamlMap& body) {
   const bool tumble = repeat.get("tumble", false);
   std::mt19937_64 random(repeat.get("seed", 1));
   repeat.finish();
-  if (!(count.minCoeff() >= 1.0) || !(count.prod() <= double(kMostBodies)) || count != count.array().round().matrix()) {
-    repeat.fail(repeat.node("count"), "`count`: whole numbers from 1, together at most " + std::to_string(kMostBodies));
+  if (!(count.minCoeff() >= 1.0) || !(count.prod() <= double(kMaxBodies)) || count != count.array().round().matrix()) {
+    repeat.fail(repeat.node("count"), "`count`: whole numbers from 1, together at most " + std::to_string(kMaxBodies));
   }
   const auto uniform = [&] { return 2.0 * (double(random() >> 11) * 0x1.0p-53) - 1.0; };
   std::vector<Copy> copies;
@@ -56,7 +56,7 @@ std::vector<Copy> readCopies(YamlMap& body) {
         Copy copy;
         copy.suffix = "/" + std::to_string(copies.size());
         copy.offset = spacing.cwiseProduct(Vector3d(x, y, z)) + jitter * Vector3d(uniform(), uniform(), uniform());
-        if (tumble) copy.turn = Quaterniond(uniform() + 1.5, uniform(), uniform(), uniform()).normalized();
+        if (tumble) copy.rotation = Quaterniond(uniform() + 1.5, uniform(), uniform(), uniform()).normalized();
         copies.push_back(copy);
       }
     }
@@ -64,7 +64,7 @@ std::vector<Copy> readCopies(YamlMap& body) {
   return copies;
 }
 
-/// Names go into frames of tf and into rows of CSV files.
+/// Names are used in tf frames and in rows of CSV files.
 void requireName(const YamlMap& entry, const YAML::Node& at, const std::string& name) {
   if (name.empty() || name.front() == '/' || name.find_first_of(",\"\r\n") != std::string::npos) {
     entry.fail(at, "`name` may not be empty, begin with a slash, or hold a comma, a quote or a line break");
@@ -112,17 +112,17 @@ void readBody(YamlMap entry, const Shapes& shapes, std::set<std::string>& names,
   BodyState state;
   state.velocity = entry.vector("velocity", Vector3d::Zero());
   const Vector3d spin = entry.vector("spin", Vector3d::Zero());
-  const Quaterniond turn = Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
-                           Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
-                           Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
+  const Quaterniond rotation = Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
+                               Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
   const std::string name = body.name;
   for (const Copy& copy : readCopies(entry)) {
-    if (setup.world.bodies.size() == kMostBodies) {
-      entry.fail(entry.node("name"), "there are more than " + std::to_string(kMostBodies) + " bodies");
+    if (setup.world.bodies.size() == kMaxBodies) {
+      entry.fail(entry.node("name"), "there are more than " + std::to_string(kMaxBodies) + " bodies");
     }
     body.name = name + copy.suffix;
     if (!names.insert(body.name).second) entry.fail(entry.node("name"), "there are two bodies `" + body.name + "`");
-    state.X_OB.linear() = (turn * copy.turn).toRotationMatrix();
+    state.X_OB.linear() = (rotation * copy.rotation).toRotationMatrix();
     state.X_OB.translation() = xyz + copy.offset + state.X_OB.linear() * shape.center;
     state.spin_B = state.X_OB.linear().transpose() * spin;
     setup.world.bodies.push_back(body);
@@ -133,7 +133,7 @@ void readBody(YamlMap entry, const Shapes& shapes, std::set<std::string>& names,
 }
 
 Shapes readShapes(const YAML::Node& node, const std::string& directory) {
-  const YamlMap map(node, "shapes");  // refuses what is no map
+  const YamlMap map(node, "shapes");  // rejects anything but a map
   Shapes shapes;
   for (const auto& entry : node) {
     const std::string name = entry.first.Scalar(), what = "shape `" + name + "`";
@@ -149,9 +149,9 @@ Shapes readShapes(const YAML::Node& node, const std::string& directory) {
 void moveOriginNearBodies(SimulationSetup& setup) {
   for (std::size_t b = 0; b < setup.states.size(); ++b) {
     if (setup.world.bodies[b].fixed) continue;
-    const Vector3d place = setup.states[b].X_OB.translation();
-    if (!(place.norm() > 100.0) || !place.allFinite()) return;
-    const Vector3d shift = place.array().round();
+    const Vector3d position = setup.states[b].X_OB.translation();
+    if (!(position.norm() > 100.0) || !position.allFinite()) return;
+    const Vector3d shift = position.array().round();
     setup.world.origin_W += shift;
     for (BodyState& state : setup.states) state.X_OB.translation() -= shift;
     return;

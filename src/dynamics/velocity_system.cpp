@@ -9,7 +9,7 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kDenseUpTo = 90;  // unknowns; beyond, the few contacts per body make a sparse solve quicker
+constexpr int kDenseUpTo = 90;  // unknowns; beyond, a sparse solve is faster because of few contacts per body
 
 Vector6d lever(const Vector3d& r, const Vector3d& direction) {
   Vector6d j;
@@ -64,12 +64,12 @@ class BlockMatrix {
 }  // namespace
 
 VelocitySystem::VelocitySystem(const RigidWorld& world, const std::vector<BodyState>& states, double duration)
-    : world_(world), duration_(duration), place_(states.size(), -1) {
+    : world_(world), duration_(duration), offset_(states.size(), -1) {
   for (std::size_t b = 0; b < states.size(); ++b) {
     R_OB_.push_back(states[b].X_OB.linear());
     inertia_.push_back(R_OB_[b] * world.bodies[b].inertia * R_OB_[b].transpose());
     if (world.bodies[b].fixed) continue;
-    place_[b] = size_;
+    offset_[b] = size_;
     size_ += 6;
   }
 }
@@ -77,36 +77,36 @@ VelocitySystem::VelocitySystem(const RigidWorld& world, const std::vector<BodySt
 VelocitySystem::Vector VelocitySystem::velocitiesOf(const std::vector<BodyState>& states) const {
   Vector V(size_);
   for (std::size_t b = 0; b < states.size(); ++b) {
-    if (place_[b] >= 0) V.segment<6>(place_[b]) << states[b].velocity, R_OB_[b] * states[b].spin_B;
+    if (offset_[b] >= 0) V.segment<6>(offset_[b]) << states[b].velocity, R_OB_[b] * states[b].spin_B;
   }
   return V;
 }
 
 void VelocitySystem::setVelocities(const Vector& V, std::vector<BodyState>& states) const {
   for (std::size_t b = 0; b < states.size(); ++b) {
-    if (place_[b] < 0) continue;
-    states[b].velocity = V.segment<3>(place_[b]);
-    states[b].spin_B = R_OB_[b].transpose() * V.segment<3>(place_[b] + 3);
+    if (offset_[b] < 0) continue;
+    states[b].velocity = V.segment<3>(offset_[b]);
+    states[b].spin_B = R_OB_[b].transpose() * V.segment<3>(offset_[b] + 3);
   }
 }
 
 VelocitySystem::Vector VelocitySystem::withoutContact(const std::vector<BodyState>& states) const {
   Vector V = velocitiesOf(states);
   for (std::size_t b = 0; b < states.size(); ++b) {
-    if (place_[b] < 0) continue;
+    if (offset_[b] < 0) continue;
     const Wrench& applied = world_.bodies[b].applied;
-    V.segment<3>(place_[b]) += duration_ * (world_.gravity + applied.force / world_.bodies[b].mass);
-    V.segment<3>(place_[b] + 3) += duration_ * inertia_[b].ldlt().solve(applied.torque);
+    V.segment<3>(offset_[b]) += duration_ * (world_.gravity + applied.force / world_.bodies[b].mass);
+    V.segment<3>(offset_[b] + 3) += duration_ * inertia_[b].ldlt().solve(applied.torque);
   }
   return V;
 }
 
 VelocitySystem::Vector VelocitySystem::timesMass(const Vector& V) const {
   Vector result(size_);
-  for (std::size_t b = 0; b < place_.size(); ++b) {
-    if (place_[b] < 0) continue;
-    result.segment<3>(place_[b]) = world_.bodies[b].mass * V.segment<3>(place_[b]);
-    result.segment<3>(place_[b] + 3) = inertia_[b] * V.segment<3>(place_[b] + 3);
+  for (std::size_t b = 0; b < offset_.size(); ++b) {
+    if (offset_[b] < 0) continue;
+    result.segment<3>(offset_[b]) = world_.bodies[b].mass * V.segment<3>(offset_[b]);
+    result.segment<3>(offset_[b] + 3) = inertia_[b] * V.segment<3>(offset_[b] + 3);
   }
   return result;
 }
@@ -116,7 +116,7 @@ double VelocitySystem::kineticEnergy(const Vector& V) const {
 }
 
 Vector6d VelocitySystem::of(const Vector& V, int body) const {
-  return place_[body] < 0 ? Vector6d(Vector6d::Zero()) : Vector6d(V.segment<6>(place_[body]));
+  return offset_[body] < 0 ? Vector6d(Vector6d::Zero()) : Vector6d(V.segment<6>(offset_[body]));
 }
 
 Vector3d VelocitySystem::relativeVelocity(const Vector& V, const PairContacts& pair, const PointContact& point) const {
@@ -168,12 +168,12 @@ VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0
                                                const std::vector<PairContacts>& damped) const {
   BlockMatrix A(size_);
   Vector downhill = timesMass(V0 - V);
-  for (std::size_t b = 0; b < place_.size(); ++b) {
-    if (place_[b] < 0) continue;
+  for (std::size_t b = 0; b < offset_.size(); ++b) {
+    if (offset_[b] < 0) continue;
     Matrix6d mass = Matrix6d::Zero();
     mass.topLeftCorner<3, 3>() = world_.bodies[b].mass * Matrix3d::Identity();
     mass.bottomRightCorner<3, 3>() = inertia_[b];
-    A.add(place_[b], place_[b], mass);
+    A.add(offset_[b], offset_[b], mass);
   }
   const std::vector<PairRows> all = rowsOf(V, contacts, damped);
   for (const auto& [pair, rows] : all) {
@@ -181,7 +181,7 @@ VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0
     for (const Row& row : rows) {
       blocks.add(lever(row.point->r_P, row.direction), lever(row.point->r_F, row.direction), row.factor, row.push);
     }
-    const int p = place_[pair->shell_body], f = place_[pair->field_body];
+    const int p = offset_[pair->shell_body], f = offset_[pair->field_body];
     if (p >= 0) {
       A.add(p, p, blocks.pp);
       downhill.segment<6>(p) += blocks.push_P;
@@ -199,7 +199,7 @@ VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0
   Solution solution;
   solution.change = A.solve(downhill);
   solution.decrease = downhill.dot(solution.change);
-  solution.impulses.resize(place_.size());
+  solution.impulses.resize(offset_.size());
   for (const auto& [pair, rows] : all) {
     for (const Row& row : rows) {
       const double more = row.factor * row.direction.dot(relativeVelocity(solution.change, *pair, *row.point));

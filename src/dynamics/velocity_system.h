@@ -32,7 +32,7 @@ class VelocitySystem {
 
   struct Solution {
     Vector change;                 ///< Newton's step from V
-    double decrease;               ///< of Φ that it promises, twice [J]
+    double decrease;               ///< expected decrease of Φ, times two [J]
     std::vector<Wrench> impulses;  ///< of contact at V + change, per body about O's origin
   };
 
@@ -44,7 +44,7 @@ class VelocitySystem {
   double kineticEnergy(const Vector& V) const;
 
  private:
-  /// A point's impulse along one direction: `push` at V, less `factor` times how much faster it moves that way.
+  /// A point's impulse along one direction: `push` at V, minus `factor` times the change of its speed along it.
   struct Row {
     const PointContact* point;
     Vector3d direction;
@@ -64,7 +64,7 @@ class VelocitySystem {
 
   const RigidWorld& world_;
   const double duration_;
-  std::vector<int> place_;         // of a body's unknowns; -1 if it is fixed
+  std::vector<int> offset_;        // of a body's first unknown; -1 if it is fixed
   std::vector<Matrix3d> inertia_;  // per body, O's axes
   std::vector<Matrix3d> R_OB_;     // at the start
   int size_ = 0;

@@ -15,8 +15,8 @@
 
 namespace sdf_ccd {
 
-/// A YAML map that is read key by key; a key that nobody read, or that stands there twice, is an error, so that
-/// nothing is lost by mistake.
+/// A YAML map that is read key by key. A key that was not read, or that appears twice, is an error, so that nothing is
+/// ignored by mistake.
 class YamlMap {
  public:
   YamlMap(const YAML::Node& node, std::string what) : node_(node), what_(std::move(what)) {
@@ -30,7 +30,7 @@ class YamlMap {
 
   bool has(const std::string& key) const { return bool(node_[key]); }
 
-  /// A node that must be there.
+  /// A required node.
   YAML::Node node(const std::string& key) {
     read_.insert(key);
     if (!node_[key]) fail(node_, "`" + key + "` is missing");
@@ -47,7 +47,7 @@ class YamlMap {
     return has(key) ? get<T>(key) : otherwise;
   }
 
-  /// One of these words, by its number.
+  /// One of these words, by its index.
   std::size_t choice(const std::string& key, const std::vector<std::string>& words, const std::string& otherwise) {
     const auto chosen = get(key, otherwise);
     const auto found = std::find(words.begin(), words.end(), chosen);
@@ -57,11 +57,11 @@ class YamlMap {
     fail(node(key), "`" + key + "`: " + wanted + " is wanted, got " + chosen);
   }
 
-  /// A whole number from `least` to `most`.
-  int count(const std::string& key, int otherwise, int least, int most) {
+  /// An integer from `low` to `high`.
+  int count(const std::string& key, int otherwise, int low, int high) {
     const int value = get(key, otherwise);
-    if (value >= least && value <= most) return value;
-    fail(node(key), "`" + key + "` must be " + std::to_string(least) + " to " + std::to_string(most) + ", got " +
+    if (value >= low && value <= high) return value;
+    fail(node(key), "`" + key + "` must be " + std::to_string(low) + " to " + std::to_string(high) + ", got " +
                         std::to_string(value));
   }
 
@@ -96,7 +96,7 @@ class YamlMap {
   }
 
  private:
-  /// Keys that could be here, and are not.
+  /// Optional keys that are missing.
   std::set<std::string> unused() const {
     std::set<std::string> keys;
     for (const std::string& key : read_)

@@ -34,7 +34,7 @@ bool needsSamples(const BrickSampler& sampler, const GridShape& shape, const std
   return sampler.surface().tree().closestPoint(center, reach).distance < reach;
 }
 
-/// What no sample of a brick exceeds: distances differ by no more than their points are apart.
+/// Upper bound of a brick's samples: distances at two points differ by no more than the points' distance.
 double largestSample(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick) {
   return nearestCorner(shape, corners, brick) + 2.0 * kHalfSqrt3 * GridShape::kBrick * shape.cell;
 }
@@ -98,7 +98,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   return std::make_shared<const SparseGrid>(shape, std::move(data));
 }
 
-/// The caps that matter to a field with this error bound [m]; null if none does.
+/// The caps that a field with this error bound must keep [m]; null if there are none.
 std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double error) {
   TriangleMesh caps;
   std::vector<double> reach;
@@ -113,7 +113,7 @@ std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double err
   return std::make_shared<const OpeningCaps>(std::move(caps), std::move(reach));
 }
 
-/// The field of a solid, and what of its openings matters there.
+/// The field of a solid, and the openings that it must keep.
 DistanceField build(const Solid& solid, const Openings& openings, const FieldOptions& options,
                     const Progress& progress) {
   if (options.max_error) {

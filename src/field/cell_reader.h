@@ -6,8 +6,8 @@
 
 namespace sdf_ccd {
 
-/// Interpolates a field at one point after the other, most of which lie in the cell of the one before: that cell's
-/// corners are read once. Says bit by bit what DistanceField::interpolate() says.
+/// Interpolates a field at a sequence of points, most of which are in the same cell as the one before: that cell's
+/// corners are read once. The results equal those of DistanceField::interpolate() bit by bit.
 class CellReader {
  public:
   /// @param field  must outlive this.

@@ -12,8 +12,8 @@ namespace sdf_ccd {
 
 namespace {
 
-/// The sample at a point outside a grid: no nearer than the surface's box, no farther than by way of the point
-/// `boundary_F` of the grid that is nearest to it.
+/// The sample at a point outside a grid: at least the distance to the surface's box, at most that through the grid's
+/// point `boundary_F` nearest to it.
 FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, const Vector3d& boundary_F,
                           const FieldSample& at_boundary) {
   const double low = surface_box.exteriorDistance(p_F);
@@ -72,8 +72,8 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
 FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
   FieldSample known = sample(p_F);
   if (!openings_) return known;
-  // The mesh is no nearer than the closed surface; and no farther, or no farther than by way of the nearest cap if that
-  // may be the nearest point.
+  // The mesh is at least as far as the closed surface; and at most as far, or as the path through the nearest cap if
+  // that may contain the nearest point.
   const double near = std::abs(known.value) + known.error;
   const bool by_cap = openings_->isWithin(p_F, near);
   const double far = by_cap ? std::max(near, openings_->meshWithin(p_F)) : near;

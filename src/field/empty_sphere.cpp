@@ -23,7 +23,7 @@ EmptySphere EmptySphere::of(std::uint32_t word) {
     const std::uint32_t high = word << (32 - kOffsetBits - kFirstOffset - kOffsetBits * k);
     ball.offset[k] = static_cast<std::int32_t>(high) >> (32 - kOffsetBits);
   }
-  ball.steps = static_cast<int>(word >> kFirstStep) & kMostSteps;
+  ball.steps = static_cast<int>(word >> kFirstStep) & kMaxSteps;
   ball.inside = word >> kSide != 0;
   return ball;
 }

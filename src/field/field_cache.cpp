@@ -11,16 +11,16 @@ namespace sdf_ccd {
 
 namespace {
 
-/// Counts what the same options have meant: a field of an earlier meaning must not be taken for one of today's.
+/// Version of the options' meaning: incremented when the same options give another field.
 constexpr double kMeaning = 5;
 
-/// Ends the name of the file that holds what is doubtful about a field.
+/// Suffix of the file that holds a field's warning.
 constexpr const char* kDoubt = ".doubt";
 
 /// Empty if there is no such file.
 std::string firstLine(const std::string& path) {
-  constexpr std::size_t kMostBytes = 1000;
-  char line[kMostBytes] = "";
+  constexpr std::size_t kMaxBytes = 1000;
+  char line[kMaxBytes] = "";
   std::ifstream(path).getline(line, sizeof line);
   return line;
 }

@@ -11,14 +11,14 @@ namespace {
 
 using namespace lanes;
 
-/// Ways between corners of a unit cube: −1, 0 or 1 along each axis; the last one only fills the vectors.
-constexpr int kWays = 28;
+/// Directions between corners of a unit cube: −1, 0 or 1 along each axis; the last one only fills the vectors.
+constexpr int kDirections = 28;
 
-/// Of the way from corner a to corner b.
-struct WayIndex {
+/// Index of the direction from corner a to corner b.
+struct DirectionIndex {
   std::array<std::array<std::uint8_t, 8>, 8> at{};
 
-  constexpr WayIndex() {
+  constexpr DirectionIndex() {
     for (int a = 0; a < 8; ++a)
       for (int b = 0; b < 8; ++b) {
         int index = 13, stride = 1;
@@ -27,12 +27,12 @@ struct WayIndex {
       }
   }
 };
-constexpr WayIndex kWayIndex;
+constexpr DirectionIndex kDirectionIndex;
 
-struct Ways {
-  alignas(64) std::array<double, kWays> x{}, y{}, z{};
+struct Directions {
+  alignas(64) std::array<double, kDirections> x{}, y{}, z{};
 
-  constexpr Ways() {
+  constexpr Directions() {
     for (int i = 0; i < 27; ++i) {
       x[i] = i % 3 - 1;
       y[i] = i / 3 % 3 - 1;
@@ -40,25 +40,27 @@ struct Ways {
     }
   }
 };
-constexpr Ways kUnitWays;
+constexpr Directions kUnitDirections;
 
-/// The least that the distance grows by on each way.
+/// Lower bound of the distance's growth along each direction.
 SDF_CCD_LANES void leastGrowth(const NearTriangles& near, double* least) {
   const double sine = near.gradientCone().sine;
   if (!(sine < 1.0)) {
-    for (int i = 0; i < kWays; ++i) least[i] = -Vector3d(kUnitWays.x[i], kUnitWays.y[i], kUnitWays.z[i]).norm();
+    for (int i = 0; i < kDirections; ++i)
+      least[i] = -Vector3d(kUnitDirections.x[i], kUnitDirections.y[i], kUnitDirections.z[i]).norm();
     return;
   }
-  const double most_weight = (1.0 + 1e-9) / std::sqrt(1.0 - sine * sine);
+  const double max_weight = (1.0 + 1e-9) / std::sqrt(1.0 - sine * sine);
   const Vector3d& first = near.surface().face(near.triangle(0)).normal;
-  for (int i = 0; i < kWays; i += kWidth) {
-    const Doubles x = load(kUnitWays.x.data() + i), y = load(kUnitWays.y.data() + i), z = load(kUnitWays.z.data() + i);
+  for (int i = 0; i < kDirections; i += kWidth) {
+    const Doubles x = load(kUnitDirections.x.data() + i), y = load(kUnitDirections.y.data() + i),
+                  z = load(kUnitDirections.z.data() + i);
     Doubles growth = x * first[0] + y * first[1] + z * first[2];
     for (std::size_t j = 1; j < near.size(); ++j) {
       const Vector3d& n = near.surface().face(near.triangle(j)).normal;
       growth = smaller(growth, x * n[0] + y * n[1] + z * n[2]);
     }
-    store(smaller(growth, most_weight * growth), least + i);
+    store(smaller(growth, max_weight * growth), least + i);
   }
 }
 
@@ -93,8 +95,8 @@ SDF_CCD_INLINE Lines highest(const Lines* lines, const Floats& weight) {
   return top;
 }
 
-/// The least over the weights from 0 to 1 of what is highest there, of the best pair, unless less than `enough` is
-/// found before. Between two weights, the next is where their highest lines meet; any weight gives a bound, so that it
+/// The minimum over the weights from 0 to 1 of the highest line, for the best pair; stops early at values below
+/// `enough`. Between two weights, the next is where their highest lines meet; any weight gives a valid bound, so it
 /// need not be the best.
 SDF_CCD_INLINE Least lowestTop(const Lines* lines, const Least& enough) {
   const Floats zero = {}, one = zero + 1.0F;
@@ -122,11 +124,11 @@ SDF_CCD_INLINE Least lowestTop(const Lines* lines, const Least& enough) {
 }  // namespace
 
 GradientBound::GradientBound(const NearTriangles& near) {
-  alignas(64) double least[kWays];
+  alignas(64) double least[kDirections];
   leastGrowth(near, least);
-  float rounded[kWays];
-  for (int i = 0; i < kWays; ++i) rounded[i] = static_cast<float>(least[i]);
-  const auto growth = [&](int from, int to) { return rounded[kWayIndex.at[from][to]]; };
+  float rounded[kDirections];
+  for (int i = 0; i < kDirections; ++i) rounded[i] = static_cast<float>(least[i]);
+  const auto growth = [&](int from, int to) { return rounded[kDirectionIndex.at[from][to]]; };
   for (int k = 0; k < 8; ++k)
     for (int pair = 0; pair < kPairs; ++pair) {
       from_low_[k][pair] = growth(pair, k);
@@ -134,15 +136,15 @@ GradientBound::GradientBound(const NearTriangles& near) {
       from_low_[k][kPairs + pair] = growth(k, pair);
       from_high_[k][kPairs + pair] = growth(k, 7 - pair);
     }
-  for (const double by : least) most_growth_ = std::max(most_growth_, std::abs(by));
+  for (const double by : least) max_growth_ = std::max(max_growth_, std::abs(by));
 }
 
 SDF_CCD_LANES Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values,
                                                  const Deviation& enough) const {
-  // In sides of the cube, and relative to one of the corners, so that single precision rounds little.
+  // In units of the cube's side and relative to one of the corners, so that single precision rounds little.
   const double per_side = 1.0 / side;
   float e[8], at[8];
-  double largest = most_growth_;
+  double largest = max_growth_;
   for (int k = 0; k < 8; ++k) {
     const double phi = (exact[k] - exact[0]) * per_side, value = (values[k] - exact[0]) * per_side;
     largest = std::max({largest, std::abs(phi), std::abs(value)});

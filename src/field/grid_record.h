@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// What files of both kinds of grids begin with.
+/// The header of files of both kinds of grids.
 struct GridRecord {
   double origin[3];
   double cell;

@@ -19,16 +19,16 @@ namespace sdf_ccd {
 /// "Distance transforms of sampled functions", 2012).
 class LatticeDistance {
  public:
-  /// @param low, size    the lattice's first point, and how many along each axis.
-  /// @param first, last  voxels that are looked at; the window's cells and the lattice's span at most 140 along an
+  /// @param low, size    the lattice's first point, and the number of points along each axis.
+  /// @param first, last  range of the voxels considered; the window's cells and the lattice's span at most 140 along an
   /// axis.
   /// @param is_in        whether voxel (x, y, z) is occupied.
   template <class IsIn>
   void compute(int cells_per_voxel, const Vector3i& low, const Vector3i& size, const Vector3i& first,
                const Vector3i& last, const IsIn& is_in);
 
-  /// Of a point, counted from the lattice's first one; negative in occupied voxels. What is nearer than the window
-  /// reaches is exact, other values are beyond its reach.
+  /// The distance at a point, counted from the lattice's first one; negative in occupied voxels. Values below the
+  /// window's reach are exact, others are beyond its reach.
   double at(const Vector3i& point) const {
     const std::size_t i = indexOf(point);
     return outside_[i] > 0 ? std::sqrt(double(outside_[i])) : -std::sqrt(double(inside_[i]));
@@ -36,7 +36,7 @@ class LatticeDistance {
 
  private:
   using Squared = std::uint16_t;
-  static constexpr Squared kNone = 40000;  // more than what a window reaches; and a sum with one more does not overflow
+  static constexpr Squared kNone = 40000;  // more than a window's reach; and a sum with one more does not overflow
 
   std::size_t indexOf(const Vector3i& p) const {
     return (static_cast<std::size_t>(p.z()) * static_cast<std::size_t>(size_.y()) + static_cast<std::size_t>(p.y())) *

@@ -12,10 +12,10 @@ namespace sdf_ccd {
 LatticeGrid::LatticeGrid(const AlignedBox3d& box, const Vector3d& origin, const FieldOptions& options) {
   const double band = std::max(options.band, 2.0 * *options.cell_size);
   FieldOptions wider = options;
-  wider.band = band + *options.cell_size;  // what the grid may be shifted by
+  wider.band = band + *options.cell_size;  // the possible shift of the grid
   shape = uniformShape(box, wider);
   shape.band = band;
-  // The box's corners are on the lattice, so it is enough that the padding is a whole number of cells.
+  // The box's corners are on the lattice, so a padding of a whole number of cells suffices.
   low = ((shape.origin - origin) / shape.cell)
             .array()
             .unaryExpr([](double c) { return std::floor(c + 1e-6); })
@@ -42,7 +42,7 @@ bool BrickSamples::take(const LatticeDistance& distances, const Vector3i& first,
         metres[at++] = static_cast<float>(distance);
         nearest = std::min(nearest, std::abs(distance));
       }
-  // Samples are a cell apart: between them it is no nearer than this by half of the cell's diagonal.
+  // Samples are a cell apart: between them the distance is less by at most half of the cell's diagonal.
   if (nearest - kHalfSqrt3 * shape.cell > shape.band + shape.cell) return false;
   ++bricks;
   for (const float distance : metres) samples.push_back(shape.inSteps(distance));

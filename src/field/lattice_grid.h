@@ -19,7 +19,7 @@ struct LatticeGrid {
   Vector3i low;     ///< the grid's first corner, in cells from the origin
 };
 
-/// How far from a surface a sample may be that BrickSamples takes [cells].
+/// Upper bound of the distance from a surface of samples that BrickSamples takes [cells].
 int farthestSample(const GridShape& shape);
 
 /// Samples of bricks, one after the other.

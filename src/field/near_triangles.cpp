@@ -12,7 +12,7 @@ using namespace lanes;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What rounding may take from a distance, relative to the cube it is compared in.
+/// Upper bound of a distance's rounding, relative to the cube it is compared in.
 constexpr double kSlack = 1e-9;
 
 /// How far a triangle may be from the centre of a cube and still be the closest to a point in it: that point is within
@@ -26,12 +26,12 @@ double reach(const SurfaceIndex& surface, const SpaceCube& cube, double distance
 /// A triangle's distance is convex. So it exceeds its tangent at the centre; and that of the other triangle nowhere
 /// exceeds what is interpolated between the corners. A tangent that is above at each corner is above all over.
 /// @param distance  at the cube's centre, or less [m].
-/// @param way       to the centre from the point that it is the distance to, or a longer one: the gradient's direction.
-/// @param length    of the way [m].
-SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& way, double length, double side,
+/// @param displacement  from the closest point to the centre, or a longer one: the gradient's direction.
+/// @param length        of the displacement [m].
+SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& displacement, double length, double side,
                                  const PlaceLanes::Lane& other) {
-  // All times the way's length, which spares the division; a way of length zero shows nothing.
-  const Vector3d slope = 0.5 * side * way;
+  // All multiplied by the length, which avoids the division; a displacement of length zero proves nothing.
+  const Vector3d slope = 0.5 * side * displacement;
   const Doubles across = {-slope.x() - slope.y(), slope.x() - slope.y(), slope.y() - slope.x(), slope.x() + slope.y()};
   const Doubles middle = distance * length + across;
   const Doubles above =
@@ -39,14 +39,14 @@ SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& way, double le
   return !(leastOf(above) > 0.0);
 }
 
-/// Lists those of the triangles around that may matter in an octant after the nearest one to its centre. Returns the
-/// list's end.
+/// Lists those of the triangles around that may be closest in an octant, besides the nearest one to its centre. Returns
+/// the list's end.
 SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const WayLanes* ways, int octant, int nearest,
-                                     double most, const PlaceLanes::Lane& at_corners, std::int32_t* list) {
-  const double side = 0.5 * around.cube().side, most2 = most * most;
+                                     double max_distance, const PlaceLanes::Lane& at_corners, std::int32_t* list) {
+  const double side = 0.5 * around.cube().side, max_distance2 = max_distance * max_distance;
   for (std::size_t i = 0; i < around.size(); ++i) {
     const double distance2 = ways[i].distance2[octant];
-    if (distance2 > most2 || around.triangle(i) == nearest) continue;
+    if (distance2 > max_distance2 || around.triangle(i) == nearest) continue;
     const double distance = std::sqrt(distance2);
     if (mayBeNearest(distance, ways[i].at(octant), distance, side, at_corners)) *list++ = around.triangle(i);
   }
@@ -82,24 +82,24 @@ SurfaceIndex::SurfaceIndex(Solid solid) : exact_(std::move(solid)) {
   }
 }
 
-void SurfaceIndex::offer(int i, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) const {
-  if (!face(i).sliver) return sdf_ccd::offer(flat_[static_cast<std::size_t>(i)], axis, places, closest);
+void SurfaceIndex::offer(int i, const Vector3d& axis, const PlaceLanes& points, ClosestLanes& closest) const {
+  if (!face(i).sliver) return sdf_ccd::offer(flat_[static_cast<std::size_t>(i)], axis, points, closest);
   for (int k = 0; k < PlaceLanes::kCount; ++k) {
-    const Vector3d p = places.at(k), way = p - triangle(i).closest(p);
-    if (way.squaredNorm() >= closest.distance2[k]) continue;
-    closest.distance2[k] = way.squaredNorm();
-    closest.side[k] = way.dot(axis);
+    const Vector3d p = points.at(k), displacement = p - triangle(i).closest(p);
+    if (displacement.squaredNorm() >= closest.distance2[k]) continue;
+    closest.distance2[k] = displacement.squaredNorm();
+    closest.side[k] = displacement.dot(axis);
   }
 }
 
-void SurfaceIndex::ways(int i, const PlaceLanes& places, WayLanes& ways) const {
-  if (!face(i).sliver) return sdf_ccd::ways(flat_[static_cast<std::size_t>(i)], places, ways);
+void SurfaceIndex::ways(int i, const PlaceLanes& points, WayLanes& ways) const {
+  if (!face(i).sliver) return sdf_ccd::ways(flat_[static_cast<std::size_t>(i)], points, ways);
   for (int k = 0; k < PlaceLanes::kCount; ++k) {
-    const Vector3d p = places.at(k), way = p - triangle(i).closest(p);
-    ways.distance2[k] = way.squaredNorm();
-    ways.x[k] = way.x();
-    ways.y[k] = way.y();
-    ways.z[k] = way.z();
+    const Vector3d p = points.at(k), displacement = p - triangle(i).closest(p);
+    ways.distance2[k] = displacement.squaredNorm();
+    ways.x[k] = displacement.x();
+    ways.y[k] = displacement.y();
+    ways.z[k] = displacement.z();
   }
 }
 
@@ -119,7 +119,7 @@ void NearTriangles::setCone() {
   const Vector3d* farthest = setCone(sum);
   constexpr double kNarrow = 1e-6;
   if (count_ < 3 || cone_.sine < kNarrow) return;
-  // Where most normals lie on one side, the middle of the two that are farthest apart is a better axis than the mean.
+  // If most normals lie on one side, the middle of the two that are farthest apart is a better axis than the mean.
   const Vector3d& first = *farthest;
   const Vector3d* second = &first;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -175,15 +175,15 @@ NearTriangles::Closest NearTriangles::closest(const Vector3d& p) const {
 double NearTriangles::signedDistance(const Vector3d& p) const {
   const Closest found = closest(p);
   const double d = found.distance;
-  // Where all gradients lie in one cone, the way to the closest point does too. Else: outside, the way from the closest
-  // point is a positive sum of the normals of the triangles that share it, so one at least agrees with it; inside, a
+  // If all gradients lie in one cone, so does the direction to the closest point. Else: outside, the vector from that
+  // point is a positive sum of the normals of the triangles that share it, so at least one has its sign; inside, a
   // negative one. If all agree, that is the sign.
   if (cone_.sine < 1.0) return (p - found.point).dot(cone_.axis) < 0.0 ? -d : d;
   return (found.sign != 0 ? found.sign : signFarther(p, d)) * d;
 }
 
 int NearTriangles::signFarther(const Vector3d& p, double distance) const {
-  // The balls without surface about p and the centre meet.
+  // The empty spheres about p and the centre intersect.
   const SignedSurface& exact = surface_->exact();
   if (exact.closed() && distance + std::abs(distance_) > (p - cube_.center).norm() * (1.0 + kSlack)) {
     return distance_ < 0.0 ? -1 : 1;
@@ -191,14 +191,14 @@ int NearTriangles::signFarther(const Vector3d& p, double distance) const {
   return exact.inside(p) ? -1 : 1;
 }
 
-void NearTriangles::signedDistances(const PlaceLanes& places, int count, PlaceLanes::Lane& distances) const {
+void NearTriangles::signedDistances(const PlaceLanes& points, int count, PlaceLanes::Lane& distances) const {
   if (!(cone_.sine < 1.0)) {
-    for (int k = 0; k < count; ++k) distances[k] = signedDistance(places.at(k));
+    for (int k = 0; k < count; ++k) distances[k] = signedDistance(points.at(k));
     return;
   }
   ClosestLanes closest;
   closest.distance2.fill(kInfinity);
-  for (std::size_t i = 0; i < count_; ++i) surface_->offer(ids_[i], cone_.axis, places, closest);
+  for (std::size_t i = 0; i < count_; ++i) surface_->offer(ids_[i], cone_.axis, points, closest);
   for (int k = 0; k < PlaceLanes::kCount; ++k) {
     const double d = std::sqrt(closest.distance2[k]);
     distances[k] = closest.side[k] < 0.0 ? -d : d;
@@ -206,13 +206,14 @@ void NearTriangles::signedDistances(const PlaceLanes& places, int count, PlaceLa
 }
 
 NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const SignedSurface::Nearest& nearest) {
-  const double most = reach(surface, cube, nearest.distance);
-  const PlaceLanes::Lane at_corners = distancesAtCorners(surface, nearest.triangle, cube, most);
+  const double max_distance = reach(surface, cube, nearest.distance);
+  const PlaceLanes::Lane at_corners = distancesAtCorners(surface, nearest.triangle, cube, max_distance);
   ids_.push_back(nearest.triangle);
   const auto may_matter = [&](const Vector3d& center, double radius) {
-    const Vector3d way = cube.center - center;
-    const double distance = way.norm();
-    return distance - radius <= most && mayBeNearest(distance - radius, way, distance, cube.side, at_corners);
+    const Vector3d displacement = cube.center - center;
+    const double distance = displacement.norm();
+    return distance - radius <= max_distance &&
+           mayBeNearest(distance - radius, displacement, distance, cube.side, at_corners);
   };
   surface.exact().tree().forEachTriangle(may_matter, [&](int t) {
     if (t != nearest.triangle) ids_.push_back(t);
@@ -267,9 +268,9 @@ const NearTriangles& NearOctants::operator[](int k) {
   std::int32_t* const first = ids_.get() + k * around_.size();
   *first = nearest_[k];
   const SpaceCube octant = around_.cube().octant(k);
-  const double most = reach(around_.surface(), octant, distances_[k]);
-  const PlaceLanes::Lane at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, most);
-  const std::int32_t* const last = listNear(around_, ways_.get(), k, nearest_[k], most, at_corners, first + 1);
+  const double max_distance = reach(around_.surface(), octant, distances_[k]);
+  const PlaceLanes::Lane at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, max_distance);
+  const std::int32_t* const last = listNear(around_, ways_.get(), k, nearest_[k], max_distance, at_corners, first + 1);
   near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};
   return near;
 }

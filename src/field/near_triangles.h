@@ -14,13 +14,13 @@
 
 namespace sdf_ccd {
 
-/// The boundary of a mesh's solid, prepared for many questions about small regions of space.
+/// The boundary of a mesh's solid, prepared for many queries in small regions of space.
 class SurfaceIndex {
  public:
   explicit SurfaceIndex(const TriangleMesh& mesh) : SurfaceIndex(Solid(mesh)) {}
   explicit SurfaceIndex(Solid solid);
 
-  /// What a triangle says of the surface's direction.
+  /// A triangle's contribution to the sign of the distance.
   struct Face {
     Vector3d normal;  ///< of length one
     bool separates;   ///< see Solid::separates()
@@ -28,7 +28,7 @@ class SurfaceIndex {
   };
 
   const SignedSurface& exact() const { return exact_; }
-  /// Triangles that share the closest edge or vertex tie: up to what squared distance, if the closest one is at this.
+  /// Triangles that share the closest edge or vertex tie: the largest squared distance that counts as equal to this.
   double tie2(double closest2) const {
     const double closest = std::sqrt(closest2) + exact_.solid().seam();
     return closest * closest * (1.0 + kTie);
@@ -37,12 +37,12 @@ class SurfaceIndex {
   const Face& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
 
   /// See the functions of triangle_lanes.h; for slivers too.
-  void offer(int i, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) const;
-  void ways(int i, const PlaceLanes& places, WayLanes& ways) const;
+  void offer(int i, const Vector3d& axis, const PlaceLanes& points, ClosestLanes& closest) const;
+  void ways(int i, const PlaceLanes& points, WayLanes& ways) const;
 
  private:
-  /// Rounding of squared distances, which is worst of slivers. Too many ties cost little: what then does not agree
-  /// about the sign is told by the centre's.
+  /// Rounding of squared distances, which is largest for slivers. Too many ties cost little: if they then disagree
+  /// about the sign, the centre's sign decides.
   static constexpr double kTie = 1e-9;
 
   SignedSurface exact_;
@@ -71,7 +71,7 @@ struct DirectionCone {
   double sine = 1.0;
 };
 
-/// The triangles that can be the closest one to a point in a cube, and the signed distances they give there.
+/// The triangles that can be the closest one to a point in a cube, and the signed distances to them.
 class NearTriangles {
  public:
   NearTriangles() = default;
@@ -84,13 +84,13 @@ class NearTriangles {
   /// Signed distance at a point of the cube.
   double signedDistance(const Vector3d& p) const;
 
-  /// Signed distances at eight points of the cube, of which `count` are wanted.
-  void signedDistances(const PlaceLanes& places, int count, PlaceLanes::Lane& distances) const;
+  /// Signed distances at eight points of the cube, of which `count` are needed.
+  void signedDistances(const PlaceLanes& points, int count, PlaceLanes::Lane& distances) const;
 
   /// Holds the gradient of the signed distance wherever it is defined in the cube.
   const DirectionCone& gradientCone() const { return cone_; }
 
-  /// The sign at a point of the cube, `distance` from the surface, where its closest triangles do not tell it.
+  /// The sign at a point of the cube, `distance` from the surface, if its closest triangles do not determine it.
   int signFarther(const Vector3d& p, double distance) const;
 
   const SurfaceIndex& surface() const { return *surface_; }
@@ -100,7 +100,7 @@ class NearTriangles {
   std::int32_t triangle(std::size_t i) const { return ids_[i]; }
 
  private:
-  /// The closest point, and what the triangles that hold it say of the sign: 0 if they do not agree.
+  /// The closest point, and the sign according to the triangles that contain it: 0 if they disagree.
   struct Closest {
     double distance;
     Vector3d point;
@@ -118,7 +118,7 @@ class NearTriangles {
   DirectionCone cone_;
 };
 
-/// Writes the signed distances at points of a cube to where they belong, eight at a time.
+/// Stores the signed distances at points of a cube under the values' indices, eight at a time.
 template <class Value>
 class DistanceWriter {
  public:
@@ -128,30 +128,30 @@ class DistanceWriter {
   DistanceWriter& operator=(const DistanceWriter&) = delete;
 
   /// @param index  of the value.
-  void add(int index, const Vector3d& place) {
+  void add(int index, const Vector3d& point) {
     indices_[count_] = index;
-    places_.set(count_, place);
+    points_.set(count_, point);
     if (++count_ == PlaceLanes::kCount) flush();
   }
 
  private:
   void flush() {
     if (count_ == 0) return;
-    for (int k = count_; k < PlaceLanes::kCount; ++k) places_.copy(0, k);
+    for (int k = count_; k < PlaceLanes::kCount; ++k) points_.copy(0, k);
     PlaceLanes::Lane distances;
-    near_.signedDistances(places_, count_, distances);
+    near_.signedDistances(points_, count_, distances);
     for (int k = 0; k < count_; ++k) values_[indices_[k]] = static_cast<Value>(distances[k]);
     count_ = 0;
   }
 
   const NearTriangles& near_;
   Value* values_;
-  PlaceLanes places_;
+  PlaceLanes points_;
   std::array<int, PlaceLanes::kCount> indices_;
   int count_ = 0;
 };
 
-/// The triangles near a cube, found from scratch.
+/// The triangles near a cube, from a search over all triangles.
 class NearCube {
  public:
   /// @param nearest  to the cube's centre.
@@ -180,7 +180,7 @@ class NearOctants {
  private:
   int sign(int k, std::size_t nearest) const;
 
-  /// Room for each triangle around: in here if they are few, as they mostly are.
+  /// Memory for an element per triangle around: inline if they are few, as they mostly are.
   template <class T, std::size_t per_triangle>
   class Room {
    public:
@@ -198,7 +198,7 @@ class NearOctants {
 
   const NearTriangles& around_;
   Room<WayLanes, 1> ways_;               ///< of each triangle around to the octants' centres
-  Room<std::int32_t, 8> ids_;            ///< for each octant room for all triangles around
+  Room<std::int32_t, 8> ids_;            ///< for each octant an array for all triangles around
   std::array<std::int32_t, 8> nearest_;  ///< triangle at each octant's centre
   std::array<double, 8> distances_;
   std::array<NearTriangles, 8> near_;

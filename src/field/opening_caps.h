@@ -6,10 +6,10 @@
 
 namespace sdf_ccd {
 
-/// Where a field's surface is no surface of its mesh: triangles that close the mesh's openings (see findOpenings()).
+/// The parts of a field's surface that are not on its mesh: triangles that close the openings (see findOpenings()).
 class OpeningCaps {
  public:
-  /// @param reach  per triangle: no point of it is farther from the mesh [m].
+  /// @param reach  per triangle: upper bound of its points' distance from the mesh [m].
   /// @throws std::invalid_argument if the mesh is not valid, or the reaches do not fit it.
   OpeningCaps(TriangleMesh mesh, std::vector<double> reach);
 
@@ -19,10 +19,10 @@ class OpeningCaps {
   /// Distance of the nearest cap [m].
   double distance(const Vector3d& p_F) const { return tree_.closestPoint(p_F).distance; }
 
-  /// Whether a cap is nearer than this, or as near; cheaper where none is.
+  /// Whether a cap is at most this far; cheaper than distance() if none is.
   bool isWithin(const Vector3d& p_F, double distance) const { return tree_.closestPoint(p_F, distance).triangle >= 0; }
 
-  /// The mesh that has the openings is not farther than this [m]: by way of the nearest cap.
+  /// Upper bound of the distance from the mesh with the openings [m]: through the nearest cap.
   double meshWithin(const Vector3d& p_F) const;
 
   std::size_t bytes() const;

@@ -19,7 +19,7 @@ class SampleMean {
   double mean() const { return mean_; }
   double variance() const { return count_ > 1 ? squares_ / double(count_ - 1) : 0.0; }
 
-  /// Of the mean, relative to it; 1 if nothing is known.
+  /// Standard error of the mean, relative to it; 1 if unknown.
   double relativeError() const {
     return count_ > 1 && mean_ > 0.0 ? std::sqrt(variance() / double(count_)) / mean_ : 1.0;
   }

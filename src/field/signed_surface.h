@@ -31,7 +31,7 @@ class SignedSurface {
 
   Nearest nearest(const Vector3d& p) const;
 
-  /// The same at a point `step` away from one where it is `last`. Where the two balls without surface meet, the sign is
+  /// The same at a point `step` away from one where it is `last`. If the two empty spheres intersect, the sign is
   /// the same (if the mesh is closed).
   Nearest next(const Vector3d& p, const Nearest& last, double step) const;
 

@@ -5,11 +5,11 @@
 
 namespace sdf_ccd {
 
-/// The field of what a mesh bounds: by its voxels, where these are known and the options let it, else by the closed
+/// The field of the solid that a mesh bounds: by its voxels, if these are known and the options allow it, else by the
 /// solid.
 DistanceField buildField(const SolidSource& source, const FieldOptions& options, const Progress& progress = {});
 
-/// What that is expected to take.
+/// The expected cost of that.
 FieldCost expectedCost(const SolidSource& source, const FieldOptions& options);
 
 }  // namespace sdf_ccd

@@ -7,8 +7,8 @@
 
 namespace sdf_ccd {
 
-/// The numbers below `count`, each once, so that the first few of them, and any few in a row, are spread evenly over
-/// all: steps of the golden section of `count`, or of what is next to it and has no divisor in common with it.
+/// The numbers below `count`, each once, so that the first few of them, and any few in a row, are spread uniformly:
+/// steps of the golden section of `count`, or of the nearest number that is coprime with it.
 class SpreadOrder {
  public:
   explicit SpreadOrder(std::size_t count) : count_(count) {

@@ -10,21 +10,21 @@ namespace {
 
 constexpr int kSide = VoxelBlock::kSide;
 
-AlignedBox3d boxOf(const VoxelBlock& block, const VoxelPlace& place) {
+AlignedBox3d boxOf(const VoxelBlock& block, const VoxelLattice& lattice) {
   AlignedBox3d box;
   for (int z = 0; z < kSide; ++z)
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x) {
         if (!block.occupied[VoxelBlock::index(x, y, z)]) continue;
-        box.extend(place.origin + place.size * Vector3d(x, y, z));
-        box.extend(place.origin + place.size * Vector3d(x + 1, y + 1, z + 1));
+        box.extend(lattice.origin + lattice.size * Vector3d(x, y, z));
+        box.extend(lattice.origin + lattice.size * Vector3d(x + 1, y + 1, z + 1));
       }
   return box;
 }
 
 }  // namespace
 
-TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelPlace& place) {
+TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelLattice& lattice) {
   constexpr int kCorners = kSide + 1;
   TriangleMesh mesh;
   std::vector<int> vertices(std::size_t{kCorners} * kCorners * kCorners, -1);
@@ -34,7 +34,7 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelPlace& place) {
                  static_cast<std::size_t>(corner.x())];
     if (known < 0) {
       known = static_cast<int>(mesh.vertices.size());
-      mesh.vertices.push_back(place.origin + place.size * corner.cast<double>());
+      mesh.vertices.push_back(lattice.origin + lattice.size * corner.cast<double>());
     }
     return known;
   };
@@ -52,7 +52,7 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelPlace& place) {
             const Vector3i u = Vector3i::Unit((axis + 1) % 3), w = Vector3i::Unit((axis + 2) % 3);
             const Vector3i low = upper ? Vector3i(v + unit) : v;
             const int a = vertex(low), b = vertex(low + u), c = vertex(low + u + w), d = vertex(low + w);
-            // a b c d turns about +axis.
+            // a b c d is counter-clockwise about +axis.
             mesh.triangles.push_back(upper ? Vector3i(a, b, c) : Vector3i(a, c, b));
             mesh.triangles.push_back(upper ? Vector3i(a, c, d) : Vector3i(a, d, c));
           }
@@ -60,16 +60,16 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelPlace& place) {
   return mesh;
 }
 
-std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelPlace& place, double band) {
-  const AlignedBox3d box = boxOf(block, place);
+std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLattice& lattice, double band) {
+  const AlignedBox3d box = boxOf(block, lattice);
   if (box.isEmpty()) return std::nullopt;
   constexpr int kCells = 2;  // a voxel
   FieldOptions options;
   options.max_error.reset();
   options.cells.reset();
-  options.cell_size = place.size / kCells;
+  options.cell_size = lattice.size / kCells;
   options.band = std::min(band, 16.0 * *options.cell_size);  // the lattice stays one of up to 100 cells
-  LatticeGrid grid(box, place.origin, options);
+  LatticeGrid grid(box, lattice.origin, options);
   GridShape& shape = grid.shape;
 
   LatticeDistance distances;
@@ -77,7 +77,7 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelPlac
     const bool inside = std::min({x, y, z}) >= 0 && std::max({x, y, z}) < kSide;
     return inside && block.occupied[VoxelBlock::index(x, y, z)];
   };
-  // What is beyond the free voxels around the block is free too; there the occupied ones count.
+  // Voxels beyond the free ones around the block are free too; in that direction the occupied ones count.
   distances.compute(kCells, grid.low, shape.cells().array() + 1, Vector3i::Constant(-1), Vector3i::Constant(kSide),
                     isIn);
 

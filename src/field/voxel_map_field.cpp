@@ -16,8 +16,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kMostReach = 50;  // cells, so that a block's window is no wider than LatticeDistance allows
-constexpr int kBlock = 4;       // bricks along the side of what is made together
+constexpr int kMaxReach = 50;  // cells; limits a block's window to the width that LatticeDistance allows
+constexpr int kBlock = 4;      // bricks along the side of the blocks that are made together
 
 int cellsPerVoxel(const VoxelSolid& solid, double cell) {
   return static_cast<int>(std::lround(solid.size() / cell));
@@ -38,7 +38,7 @@ class CornerSquares {
         n_(cellsPerVoxel(solid, grid.shape.cell)),
         to_occupied_(to_occupied) {}
 
-  /// Corners along x are dealt with in columns of so many.
+  /// Corners along x are processed in columns of this width.
   static constexpr int kWidth = 32;
   int columns() const { return (corners_.x() + kWidth - 1) / kWidth; }
 
@@ -111,7 +111,7 @@ class CornerSquares {
     }
   }
 
-  /// From the nearest rows on, to those that are too far away to matter.
+  /// From the nearest rows outward, until rows are too far away to matter.
   void alongY(const std::vector<Row>& rows, int y, int width, float* best) const {
     std::fill_n(best, width, std::numeric_limits<float>::infinity());
     const int corner = low_.y() + GridShape::kBrick * y;
@@ -151,7 +151,7 @@ class MapGrid {
     return inMetres(outside, squares(false));
   }
 
-  /// Seconds of one processor that corners() takes, by one column of several.
+  /// Processor seconds of corners(), estimated from one column of several.
   double cornerSeconds() const {
     const CornerSquares squares(solid_, grid_, true);
     std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
@@ -173,7 +173,7 @@ class MapGrid {
            shape().band + (1.0 + kHalfSqrt3 * (1 + GridShape::kBrick)) * shape().cell;
   }
 
-  /// The bricks of a block that have samples, and these. @param mayBe  what says of a brick whether it may be one.
+  /// The bricks of a block that have samples, and these. @param mayBe  whether a brick may have samples.
   template <class MayBe>
   void make(const Vector3i& block, const MayBe& mayBe, std::vector<std::size_t>& bricks, BrickSamples& samples) const {
     const Vector3i first = kBlock * block, end = (first.array() + kBlock).min(shape().bricks.array());
@@ -229,7 +229,7 @@ bool canBeLattice(const VoxelSolid& solid, const FieldOptions& options) {
   GridShape shape;
   shape.cell = *options.cell_size;
   shape.band = std::max(options.band, 2.0 * shape.cell);
-  return farthestSample(shape) <= kMostReach;
+  return farthestSample(shape) <= kMaxReach;
 }
 
 DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, const Progress& progress) {

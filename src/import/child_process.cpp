@@ -47,7 +47,7 @@ std::vector<std::string> environmentOf(const ProgramCall& call) {
   return environment;
 }
 
-/// As exec() wants them. The texts must stay where they are.
+/// As exec() needs them. The strings must outlive it.
 std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
   for (std::string& text : texts) pointers.push_back(&text[0]);
@@ -55,7 +55,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// What posix_spawn() wants to know, and gives back.
+/// Arguments and results of posix_spawn().
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output) {
@@ -100,7 +100,7 @@ ChildProcess::ChildProcess(const ProgramCall& call, const Descriptor& input, Clo
   output_ = aboveStandard(ends[0]);
   answer = aboveStandard(answer.release());
   ::fcntl(output_.number(), F_SETFL, O_NONBLOCK);
-  ::fcntl(output_.number(), F_SETPIPE_SZ, kPipeBytes);  // fewer turns; refused beyond the user's share
+  ::fcntl(output_.number(), F_SETPIPE_SZ, kPipeBytes);  // fewer reads; refused beyond the user's quota
 
   std::vector<std::string> words = {call.program}, environment = environmentOf(call);
   words.insert(words.end(), call.arguments.begin(), call.arguments.end());
@@ -115,7 +115,7 @@ ChildProcess::ChildProcess(const ProgramCall& call, const Descriptor& input, Clo
 }
 
 ChildProcess::~ChildProcess() {
-  // Asked first: where the host ignores SIGCHLD, the number of a process that has ended may be another's by now.
+  // Queried first: if the host ignores SIGCHLD, the number of a process that has ended may be another's by now.
   if (pid_ < 0 || hasEnded()) return;
   ::kill(pid_, SIGKILL);
   while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
@@ -124,7 +124,7 @@ ChildProcess::~ChildProcess() {
 
 std::size_t ChildProcess::read(char* to, std::size_t size) {
   for (;;) {
-    // Whoever forks between our pipe's making and its own exec may hold the other end open: then its end is no sign.
+    // A process forked between our pipe's creation and its own exec may hold the other end open: then no EOF comes.
     const bool ended = hasEnded();
     const ssize_t count = ::read(output_.number(), to, size);
     if (count >= 0) return static_cast<std::size_t>(count);

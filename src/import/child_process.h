@@ -10,7 +10,7 @@
 
 namespace sdf_ccd {
 
-/// What is to be run.
+/// The program, its arguments and its environment.
 struct ProgramCall {
   std::string program;
   std::vector<std::string> arguments;

@@ -4,8 +4,8 @@
 
 namespace sdf_ccd {
 
-/// What sdf_ccd_read writes to its stdout: this, then either the vertices (three doubles each) and the triangles (three
-/// int32 each), or the reason in words. All as the computer has numbers: it never leaves it.
+/// The output of sdf_ccd_read on its stdout: this, then either the vertices (three doubles each) and triangles (three
+/// int32 each), or the reason as text. All in native byte order: it never leaves the computer.
 struct ReadAnswer {
   static constexpr std::uint64_t kMagic = 0x31'6364'6363'6473;  // another version's answers are refused
 

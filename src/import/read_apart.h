@@ -6,14 +6,14 @@
 
 namespace sdf_ccd {
 
-/// What was in a file.
+/// The content of a file.
 struct ReadMesh {
   TriangleMesh mesh;        ///< valid: finite, and with indices in range
   double resolution = 0.0;  ///< voxel size of an OctoMap [m]
 };
 
-/// Has a file's content read by the program sdf_ccd_read, a process for each, within the limits of limitsOf(). Whatever
-/// the content makes of the libraries that read it, it is an error here; so is what comes back and cannot be.
+/// Has a file's content read by the program sdf_ccd_read, a process for each, within the limits of limitsOf(). If the
+/// libraries that read it crash, that is an error here; so is an invalid answer.
 /// @param format  the ending of a mesh's file name, or `octomap`.
 /// @throws std::runtime_error with the reason, without a name; Cancelled.
 ReadMesh readApart(const std::string& format, const std::string& bytes);

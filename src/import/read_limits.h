@@ -5,8 +5,8 @@
 
 namespace sdf_ccd {
 
-/// What reading a file may cost. Set by the reading process itself before it looks at the file; the process that waits
-/// for it enforces the wall clock and the size of the answer.
+/// Limits for reading a file. The reading process sets them for itself before it looks at the file; the waiting process
+/// enforces the wall clock and the size of the answer.
 struct ReadLimits {
   std::uint64_t memory = 0;  ///< address space [bytes]
   double cpu_seconds = 0.0;

@@ -11,18 +11,18 @@ namespace {
 
 constexpr double kFieldPart = 0.55, kEdgePart = 0.35, kChordPart = 0.09;
 
-// Points of faces bear forces, not verdicts. At five times the error a robot's faces have about as many as its edges.
+// Points of faces give forces, not verdicts. At five times the error, faces of a robot have about as many as edges.
 constexpr double kFacesPerError = 5.0, kFinestFaces = 1e-3, kCoarsestFaces = 1e-2;
 
-constexpr double kLeastError = 1e-9;  // [m]: rounding adds up to more
+constexpr double kMinError = 1e-9;  // [m]: rounding adds up to more
 
 }  // namespace
 
 ErrorBudget shareOut(double max_error) {
   if (!(max_error > 0.0) || !std::isfinite(max_error))
     throw std::invalid_argument("max_error must be positive, not " + numberText(max_error) + " m");
-  if (max_error < kLeastError)
-    throw std::invalid_argument("max_error must be at least " + numberText(kLeastError) + " m, not " +
+  if (max_error < kMinError)
+    throw std::invalid_argument("max_error must be at least " + numberText(kMinError) + " m, not " +
                                 numberText(max_error) + " m");
   ErrorBudget budget;
   budget.field = kFieldPart * max_error;

@@ -5,7 +5,7 @@
 
 namespace sdf_ccd {
 
-/// Two bodies or links by their names, the same whichever is named first.
+/// Two bodies or links by their names, independent of the order.
 using NamePair = std::pair<std::string, std::string>;
 
 inline NamePair namePair(const std::string& a, const std::string& b) {

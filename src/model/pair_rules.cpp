@@ -15,13 +15,13 @@ std::string textOf(const PairRule& rule) {
 
 void warnOfUnknown(const char* list, const std::vector<PairRule>& rules, const SceneDescription& scene,
                    std::vector<std::string>& warnings) {
-  std::set<std::string> names, told;
+  std::set<std::string> names, reported;
   for (const BodyDescription& body : scene.bodies) names.insert(body.name);
   for (const PairRule& rule : rules)
     for (const std::string& pattern : {rule.a, rule.b}) {
       const bool known =
           std::any_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); });
-      if (known || !told.insert(pattern).second) continue;
+      if (known || !reported.insert(pattern).second) continue;
       warnings.push_back(std::string(list) + ": no body is named " + pattern + suggestion(pattern, names));
     }
 }
@@ -34,7 +34,7 @@ bool isPattern(const std::string& text) {
 
 bool matches(const std::string& pattern, const std::string& name) {
   std::size_t p = 0, n = 0;
-  std::size_t star = std::string::npos, held = 0;  // the last star, and where what it stands for ends
+  std::size_t star = std::string::npos, held = 0;  // the last star, and the end of the text it matches
   while (n < name.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
       star = p++;

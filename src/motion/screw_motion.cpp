@@ -21,9 +21,9 @@ void requirePose(const Isometry3d& X, const std::string& what) {
 
 namespace {
 
-/// Nothing but arithmetic where all is well: rotations are mostly far better than they have to be.
+/// Arithmetic only for good rotations: most are far more accurate than required.
 void requirePoses(const Isometry3d& start, const Isometry3d& end) {
-  constexpr double kSurely = 1e-20;  // the squared deviation of RᵀR; not true of what is not finite either
+  constexpr double kSurely = 1e-20;  // the squared deviation of RᵀR; false for NaN
   for (const Isometry3d* X : {&start, &end}) {
     const auto R = X->linear();
     const bool is_orthonormal = (R.transpose() * R - Matrix3d::Identity()).squaredNorm() <= kSurely;
@@ -66,15 +66,15 @@ Isometry3d exponential(const Vector3d& omega, const Vector3d& velocity) {
   Isometry3d X = Isometry3d::Identity();
   if (theta > 0.0) X.linear() = Eigen::AngleAxisd(theta, omega / theta).toRotationMatrix();
   const auto [b, c] = expCoefficients(theta);
-  const Vector3d turned = omega.cross(velocity);
-  X.translation() = velocity + b * turned + c * omega.cross(turned);
+  const Vector3d crossed = omega.cross(velocity);
+  X.translation() = velocity + b * crossed + c * omega.cross(crossed);
   return X;
 }
 
-/// The pose half way to X along its twist: by half of the rotation, whose quaternion is half way from 1. On an arc of
+/// The pose halfway to X along its twist: by half of the rotation, whose quaternion is halfway from 1. On an arc of
 /// angle θ about the axis a, the chord up to the middle is 1/(2 cos θ/4) of the whole one and lies θ/4 behind it:
 /// t(½) = ½ (t − tan(θ/4) a × t).
-Isometry3d halfWay(const Isometry3d& X) {
+Isometry3d halfway(const Isometry3d& X) {
   Quaterniond q(X.linear());
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const Vector3d tangent = q.vec() / (1.0 + q.w());
@@ -95,15 +95,15 @@ ScrewMotion::ScrewMotion(const Isometry3d& X_FP_start, const Isometry3d& X_FP_en
   const Isometry3d X = start_.inverse() * end_;
   omega_ = rotationLog(X.linear());
   // Log on SE(3): velocity = V(ω)⁻¹ translation, with V⁻¹ = 1 − ½ [ω] + c [ω]².
-  const Vector3d turned = omega_.cross(X.translation());
-  velocity_ = X.translation() - 0.5 * turned + logCoefficient(omega_.norm()) * omega_.cross(turned);
+  const Vector3d crossed = omega_.cross(X.translation());
+  velocity_ = X.translation() - 0.5 * crossed + logCoefficient(omega_.norm()) * omega_.cross(crossed);
 }
 
 Isometry3d ScrewMotion::pose(double s) const {
   if (s <= 0.0) return start_;
   if (s >= 1.0) return end_;
   if (omega_.isZero(0.0) && velocity_.isZero(0.0)) return start_;
-  if (s == 0.5) return start_ * halfWay(start_.inverse() * end_);  // without sines
+  if (s == 0.5) return start_ * halfway(start_.inverse() * end_);  // without sines
   return start_ * exponential(s * omega_, s * velocity_);
 }
 
@@ -123,7 +123,7 @@ double ScrewMotion::maxAcceleration(const BoundingBall& ball) const {
 void requireUnambiguousTurns(const std::vector<Isometry3d>& poses, const std::string& what) {
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Matrix3d R = poses[i - 1].linear().transpose() * poses[i].linear();
-    if (!(R.transpose() * R).isIdentity(1e-5)) continue;  // no poses: whoever takes them says so
+    if (!(R.transpose() * R).isIdentity(1e-5)) continue;  // invalid poses are reported by their user
     if (R.determinant() > 0.0 && rotationLog(R).norm() >= kAmbiguousTurn)
       throw std::invalid_argument(what + " turns by half a revolution up to poses " + std::to_string(i) +
                                   ": they do not tell which way, one between them would");

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Refuses with a text that is made only then.
+/// Throws with a text that is only made in case of an error.
 struct Refusal {
   const char* what;
 

@@ -1,4 +1,4 @@
-/// Turning bodies: the study `chord`.
+/// Rotating bodies: the study `chord`.
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr int kCells = 128;
 constexpr double kSpacing = 0.015;  // of the side
 
 /// When the first point of a shell on its arc meets the mesh, in [0, 1]; 2 if none does. Points move at a constant
-/// speed (the twist is constant), so none gets farther in a time than the surface is away (conservative advancement),
-/// and one that begins outside stays there, as all do here.
+/// speed (the twist is constant), so no point moves farther than its distance to the surface in a step (conservative
+/// advancement), and a point that begins outside stays there, as all do here.
 double exactImpact(const ExactSurface& mesh, const PointShell& shell, const ScrewMotion& motion, double tolerance) {
   double first = 2.0;
   for (const Vector3d& p : shell.points) {
@@ -41,10 +41,10 @@ double exactImpact(const ExactSurface& mesh, const PointShell& shell, const Scre
 struct ExactMotion {
   Motion motion;
   double impact;  ///< when, in (0, 1)
-  double travel;  ///< no point moves farther [m]
+  double travel;  ///< upper bound for all points [m]
 };
 
-/// Copies of the body that turn into it: by 0.3 to 1.5 rad, from a twentieth of the side apart on.
+/// Copies of the body that rotate into it: by 0.3 to 1.5 rad, starting a twentieth of the side apart.
 std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& field, const TreeShell& shell,
                                  const BoundingBall& ball, int count) {
   const double side = field.surfaceBox().sizes().maxCoeff();
@@ -56,12 +56,12 @@ std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& 
     const Matrix3d R = rotation(random);
     const Vector3d u = direction(random);
     const double apart = touchingDistance(field, shell, R, u, side) + uniform(random, 0.02, 0.1) * side;
-    const Matrix3d turned = Eigen::AngleAxisd(uniform(random, 0.3, 1.5), direction(random)).toRotationMatrix() * R;
+    const Matrix3d rotated = Eigen::AngleAxisd(uniform(random, 0.3, 1.5), direction(random)).toRotationMatrix() * R;
     Motion motion{Isometry3d::Identity(), Isometry3d::Identity()};
     motion.X_FP_start.linear() = R;
     motion.X_FP_start.translation() = middle + apart * u - R * middle;
-    motion.X_FP_end.linear() = turned;
-    motion.X_FP_end.translation() = middle + (apart - 0.15 * side) * u - turned * middle;
+    motion.X_FP_end.linear() = rotated;
+    motion.X_FP_end.translation() = middle + (apart - 0.15 * side) * u - rotated * middle;
     const ScrewMotion screw(motion.X_FP_start, motion.X_FP_end);
     const double impact = exactImpact(mesh, shell.shell, screw, 1e-7 * side);
     if (impact > 0.0 && impact < 1.0) found.push_back({motion, impact, screw.maxTravel(ball)});
@@ -69,7 +69,7 @@ std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& 
   return found;
 }
 
-/// As a pair of bodies is checked: chords, hits, the earliest of them.
+/// Like the check of a pair of bodies: chords, hits, the earliest of them.
 class ChordSystem {
  public:
   ChordSystem(const DistanceField& field, const TreeShell& shell, const BoundingBall& ball, double tolerance)

@@ -52,8 +52,8 @@ std::vector<Motion> presses(const DistanceField& field, const TreeShell& shell, 
     const double touching = touchingDistance(field, shell, R, u, side);
     const double pressed = touching - 1e-3 * side - uniform(random, shallow, deep);
     const Isometry3d start = posed(R, middle + pressed * u, middle);
-    const Matrix3d turn = Eigen::AngleAxisd(0.02, direction(random)).toRotationMatrix();
-    const Motion motion{start, posed(turn * R, middle + (pressed - travel) * u, middle)};
+    const Matrix3d R_step = Eigen::AngleAxisd(0.02, direction(random)).toRotationMatrix();
+    const Motion motion{start, posed(R_step * R, middle + (pressed - travel) * u, middle)};
     ContactQuery query(field, shell, motion);
     query.find();
     if (!query.hits.empty()) motions.push_back(motion);

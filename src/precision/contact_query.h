@@ -8,7 +8,7 @@
 #include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
-/// Shells that move against fields, as the studies of contact query them.
+/// Moving shells against fields, as used by the studies of contact.
 namespace sdf_ccd::precision {
 
 /// A shell with its tree.
@@ -16,7 +16,7 @@ struct TreeShell {
   PointShell shell;
   SphereTree tree;
 
-  /// @param spacing  [m]; of the mesh's vertices those nearer to each other are left out too.
+  /// @param spacing  [m]; mesh vertices closer together than this are left out too.
   TreeShell(const TriangleMesh& mesh, double spacing);
 };
 
@@ -25,17 +25,17 @@ struct Motion {
   Isometry3d X_FP_start, X_FP_end;
 };
 
-/// How far from the field's middle the shell's must be, along u, for the shell to come close to the field's surface: to
-/// the field's error and a thousandth of `side` [m].
+/// The distance along u between the centres of field and shell at which the shell comes close to the field's surface:
+/// within the field's error and a thousandth of `side` [m].
 double touchingDistance(const DistanceField& field, const TreeShell& shell, const Matrix3d& R_FP, const Vector3d& u,
                         double side);
 
-/// Copies of a body pressed into it, from `shallow` to `deep` [m] at the start, that move on by `travel` [m] and turn
-/// by 0.02 rad. All touch.
+/// Copies of a body pressed into it, from `shallow` to `deep` [m] at the start, that then move by `travel` [m] and
+/// rotate by 0.02 rad. All are in contact.
 std::vector<Motion> presses(const DistanceField& field, const TreeShell& shell, int count, double shallow, double deep,
                             double travel);
 
-/// Straight from the start to the end, and hits on the way.
+/// Hits on a straight motion from start to end.
 struct ContactQuery {
   ContactQuery(const DistanceField& field, const TreeShell& shell, const Motion& motion);
 

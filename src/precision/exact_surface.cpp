@@ -11,17 +11,17 @@ constexpr double kEdge = 1e-12;  // of a triangle's edges
 
 using Triangle = std::array<Vector3d, 3>;
 
-/// Where the line from `start` crosses a triangle, as a share of `way` (Möller & Trumbore 1997).
-std::optional<double> crossing(const Vector3d& start, const Vector3d& way, const Triangle& triangle) {
+/// Where the line from `start` crosses a triangle, as a share of `direction` (Möller & Trumbore 1997).
+std::optional<double> crossing(const Vector3d& start, const Vector3d& direction, const Triangle& triangle) {
   const Vector3d ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
-  const Vector3d h = way.cross(ac);
+  const Vector3d h = direction.cross(ac);
   const double determinant = ab.dot(h);
   if (determinant == 0.0) return std::nullopt;
   const Vector3d s = (start - triangle[0]) / determinant;
   const double u = s.dot(h);
   if (u < -kEdge || u > 1.0 + kEdge) return std::nullopt;
   const Vector3d q = s.cross(ab);
-  const double v = way.dot(q);
+  const double v = direction.dot(q);
   if (v < -kEdge || u + v > 1.0 + kEdge) return std::nullopt;
   return ac.dot(q);
 }
@@ -32,22 +32,22 @@ ExactSurface::ExactSurface(const TriangleMesh& mesh)
     : surface_(mesh), near_(0.01 * boundingBox(mesh).diagonal().norm()) {}
 
 std::optional<double> ExactSurface::firstHit(const Segment& segment) const {
-  const Vector3d way = segment.end - segment.start;
-  const double length = way.norm();
-  thread_local std::vector<int> near;
+  const Vector3d direction = segment.end - segment.start;
+  const double length = direction.norm();
+  thread_local std::vector<int> nearby;
   for (double at = 0.0; length > 0.0 && at <= 1.0;) {
-    const double free = unsignedDistance(segment.start + at * way);
+    const double free = unsignedDistance(segment.start + at * direction);
     if (free > near_) {
-      at += (1.0 - 1e-9) * free / length;  // so that rounding does not step over what is hit head-on
+      at += (1.0 - 1e-9) * free / length;  // so that rounding does not step over a surface that is hit head-on
       continue;
     }
     const double end = std::min(at + 2.0 * near_ / length, 1.0), middle = 0.5 * (at + end);
-    surface_.tree().trianglesWithin(segment.start + middle * way, 1.001 * (middle - at) * length, near);
+    surface_.tree().trianglesWithin(segment.start + middle * direction, 1.001 * (middle - at) * length, nearby);
     std::optional<double> first;
-    for (const int i : near) {
+    for (const int i : nearby) {
       const Vector3i& t = mesh().triangles[i];
       const std::optional<double> hit =
-          crossing(segment.start, way, {mesh().vertices[t[0]], mesh().vertices[t[1]], mesh().vertices[t[2]]});
+          crossing(segment.start, direction, {mesh().vertices[t[0]], mesh().vertices[t[1]], mesh().vertices[t[2]]});
       if (hit && *hit >= at && *hit <= end && (!first || *hit < *first)) first = hit;
     }
     if (first || end == 1.0) return first;

@@ -8,13 +8,13 @@
 
 namespace sdf_ccd::precision {
 
-/// What a mesh itself answers, in double precision: the truth that fields are held against.
+/// Answers of the mesh itself, in double precision: the reference for fields.
 class ExactSurface {
  public:
   /// @param mesh  oriented (see orientOutward()).
   explicit ExactSurface(const TriangleMesh& mesh);
 
-  /// The solid's boundary, by whose triangles what is nearest is named.
+  /// The solid's boundary; the nearest triangle is one of its triangles.
   const TriangleMesh& mesh() const { return surface_.solid().boundary(); }
   const SignedSurface& surface() const { return surface_; }
 
@@ -24,9 +24,9 @@ class ExactSurface {
   /// The same without a sign.
   double unsignedDistance(const Vector3d& p) const { return surface_.tree().closestPoint(p).distance; }
 
-  /// Parameter in [0, 1] of the segment's first crossing of a triangle. Where nothing is near it runs from ball to ball
-  /// that hold no surface, else it tests every triangle near the next piece. Coplanar triangles are left to their
-  /// neighbours; edges are widened by rounding, so that nothing slips through between two triangles.
+  /// Parameter in [0, 1] of the segment's first crossing of a triangle. Far from the surface it steps through empty
+  /// spheres, else it tests every triangle close to the next piece. Coplanar triangles are left to their neighbours;
+  /// edges are widened by rounding, so that no segment passes between two triangles.
   std::optional<double> firstHit(const Segment& segment) const;
 
  private:

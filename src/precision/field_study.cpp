@@ -17,7 +17,7 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr double kDeepest = 0.005;  ///< of the points [box sides]
-constexpr double kFree = 0.06;  ///< that segments begin away from the surface at least: outside the coarsest field too
+constexpr double kFree = 0.06;      ///< minimum distance of starts from the surface: outside the coarsest field too
 
 double sideOf(const TriangleMesh& mesh) {
   return boundingBox(mesh).sizes().maxCoeff();
@@ -47,19 +47,19 @@ struct ExactHits {
 
 /// Points just inside the mesh, with their distance.
 struct ExactDepths {
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> points;
   std::vector<double> distances;
 
   ExactDepths(const ExactSurface& mesh, int count) {
     const double deepest = kDeepest * sideOf(mesh.mesh());
     const SurfacePlaces surface(mesh.mesh());
     Random random(2);
-    for (int tries = 0; int(places.size()) < count; ++tries) {
-      if (tries > 1000 * count) throw std::runtime_error("no place is inside the mesh");
+    for (int tries = 0; int(points.size()) < count; ++tries) {
+      if (tries > 1000 * count) throw std::runtime_error("no point is inside the mesh");
       const Vector3d p = surface(random) + uniform(random, 0.0, deepest) * direction(random);
       const double distance = mesh.distance(p);
       if (distance > 0.0) continue;
-      places.push_back(p);
+      points.push_back(p);
       distances.push_back(distance);
     }
   }
@@ -87,7 +87,7 @@ void measureHits(const ExactHits& exact, const std::vector<HitSystem>& systems, 
       secondsPerQuery(tasks, exact.segments.size(), [&](double share) { input.progress(0.8 + 0.1 * share); });
   for (std::size_t k = 0; k < systems.size(); ++k) {
     Measurement row = labelled(systems[k].label, "time of impact (length along the path)");
-    row.bound = Measurement::kNone;  // on where the surface is, not on when it is met
+    row.bound = Measurement::kNone;  // on the location of the surface, not on the time of impact
     row.seconds = seconds[k];
     std::vector<double> errors;
     for (std::size_t i = 0; i < exact.segments.size(); ++i) {
@@ -106,20 +106,20 @@ void measureHits(const ExactHits& exact, const std::vector<HitSystem>& systems, 
 
 void measureDepths(const ExactDepths& exact, const std::vector<DistanceSystem>& systems, const StudyInput& input,
                    StudyResult& result) {
-  std::vector<std::vector<double>> found(systems.size(), std::vector<double>(exact.places.size()));
+  std::vector<std::vector<double>> found(systems.size(), std::vector<double>(exact.points.size()));
   std::vector<std::function<void()>> tasks;
   for (std::size_t k = 0; k < systems.size(); ++k) {
     tasks.push_back([&, k] {
-      for (std::size_t i = 0; i < exact.places.size(); ++i) found[k][i] = systems[k].distance(exact.places[i]);
+      for (std::size_t i = 0; i < exact.points.size(); ++i) found[k][i] = systems[k].distance(exact.points[i]);
     });
   }
   const std::vector<double> seconds =
-      secondsPerQuery(tasks, exact.places.size(), [&](double share) { input.progress(0.9 + 0.1 * share); });
+      secondsPerQuery(tasks, exact.points.size(), [&](double share) { input.progress(0.9 + 0.1 * share); });
   for (std::size_t k = 0; k < systems.size(); ++k) {
     Measurement row = labelled(systems[k].label, "depth");
     row.seconds = seconds[k];
     std::vector<double> errors;
-    for (std::size_t i = 0; i < exact.places.size(); ++i) {
+    for (std::size_t i = 0; i < exact.points.size(); ++i) {
       errors.push_back(std::abs(found[k][i] - exact.distances[i]));
     }
     row.error = summarize(std::move(errors));
@@ -153,7 +153,7 @@ void append(std::vector<System>& systems, std::vector<System> more) {
   for (System& system : more) systems.push_back(std::move(system));
 }
 
-/// All fields are built before anything is timed, so that all systems run in turn.
+/// All fields are built before anything is timed, so that all systems alternate.
 class FieldStudy {
  public:
   explicit FieldStudy(const StudyInput& input) : input_(input), side_(sideOf(input.mesh)) {}
@@ -199,7 +199,7 @@ std::string millimetres(double metres) {
 
 StudyResult cellStudy(const StudyInput& input) {
   StudyResult result{
-      "cell", "Uniform fields: error against the exact mesh over the cell size", "cell [m]", "segment or place", {}};
+      "cell", "Uniform fields: error against the exact mesh over the cell size", "cell [m]", "segment or point", {}};
   FieldStudy study(input);
   std::vector<int> counts{16, 32, 64, 128};
   if (!input.quick) counts.push_back(256);
@@ -223,7 +223,7 @@ StudyResult maxErrorStudy(const StudyInput& input) {
   StudyResult result{"max-error",
                      "Adaptive fields: error against the exact mesh over the maximum error",
                      "maximum error [m]",
-                     "segment or place",
+                     "segment or point",
                      {}};
   FieldStudy study(input);
   std::vector<double> errors{3e-2, 1e-2, 3e-3, 1e-3};

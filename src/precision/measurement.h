@@ -8,17 +8,17 @@
 
 namespace sdf_ccd::precision {
 
-/// One way to answer, at one setting: what it costs and how wrong it is. Its texts hold no comma.
+/// One method at one setting: its cost and its error. Its texts contain no comma.
 struct Measurement {
-  std::string quantity;    ///< what is asked; each has a panel of the plot
+  std::string quantity;    ///< the queried quantity; each has a panel of the plot
   std::string unit;        ///< of the errors
-  std::string system;      ///< who answers
-  std::string setting;     ///< for people; empty for a system without one
+  std::string system;      ///< that answers
+  std::string setting;     ///< for display; empty for a system without one
   double value = kNone;    ///< the setting's number, in the study's unit
   double seconds = 0.0;    ///< per query: median over the rounds of the mean over the queries
   ErrorSummary error;      ///< of the queries that were answered
-  double bound = kNone;    ///< what the system itself says its errors do not exceed
-  std::size_t missed = 0;  ///< queries without an answer where there is one
+  double bound = kNone;    ///< the system's own error bound
+  std::size_t missed = 0;  ///< queries without an answer although one exists
 
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };
@@ -26,8 +26,8 @@ struct Measurement {
 struct StudyResult {
   std::string study;    ///< its name
   std::string title;    ///< of the plot
-  std::string setting;  ///< what Measurement::value is, with its unit
-  std::string query;    ///< what the time is for
+  std::string setting;  ///< name of Measurement::value, with its unit
+  std::string query;    ///< the query that is timed
   std::vector<Measurement> rows;
 };
 

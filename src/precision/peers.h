@@ -7,10 +7,10 @@
 #include "measurement.h"
 #include "sdf_ccd/query/segment_query.h"
 
-/// Who answers the studies' questions: this package, and other libraries where a program brings them.
+/// The systems that studies compare: this package, and other libraries if a program provides them.
 namespace sdf_ccd::precision {
 
-/// How a system is named in a row.
+/// The name of a system in a row.
 struct Label {
   std::string system;
   std::string setting;
@@ -36,7 +36,7 @@ struct ImpactSystem {
   std::function<double(const Isometry3d& X_FP_start, const Isometry3d& X_FP_end)> impact;
 };
 
-/// Other libraries. What is empty is left out.
+/// Other libraries. Empty functions are left out.
 struct Peers {
   std::function<std::vector<HitSystem>(const TriangleMesh&)> mesh_hits;
   std::function<std::vector<HitSystem>(const TriangleMesh&, int cells)> grid_hits;

@@ -42,7 +42,7 @@ int linesIn(const StudyResult& result, const std::string& quantity) {
   return lines;
 }
 
-/// What a panel shows along an axis, with room around it; for the names of settings more on the right.
+/// The range of a panel along an axis, with a margin; with space for the names of settings on the right.
 struct Range {
   double low = 1e300, high = 0.0;
 
@@ -59,15 +59,17 @@ struct Range {
     high *= std::pow(10.0, of_time ? 3.0 * margin : margin);
   }
 
-  /// Where a value lies between low, 0, and high, 1.
+  /// Position of a value between low, 0, and high, 1.
   double share(double value) const { return std::log(value / low) / std::log(high / low); }
 
   std::string text() const { return fmt::format("[{:.3g}:{:.3g}]", low, high); }
 
-  /// Powers of ten, and where there are few of them numbers between.
+  /// Powers of ten, and numbers between them if they are few.
   std::string tics() const {
     std::string text;
-    for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade < high; decade *= 10.0) {
+    const int last = static_cast<int>(std::ceil(std::log10(high)));
+    for (int exponent = static_cast<int>(std::floor(std::log10(low))); exponent < last; ++exponent) {
+      const double decade = std::pow(10.0, exponent);
       for (const double digit : {1.0, 1.2, 1.5, 2.0, 3.0, 5.0, 7.0}) {
         const bool wanted = digit == 1.0 || high < (digit == 2.0 || digit == 5.0 ? 300.0 : 4.0) * low;
         if (!wanted) continue;
@@ -78,15 +80,15 @@ struct Range {
   }
 };
 
-/// The names of settings in one panel, where there is room for them.
+/// The names of settings in one panel, where there is space for them.
 class PlacedNames {
  public:
   PlacedNames(const Range& times, const Range& errors) : times_(times), errors_(errors) {}
 
-  /// Whether a name that begins at this point covers none that is there already.
-  bool place(const Measurement& point) {
-    const Place at{times_.share(1e6 * point.seconds), errors_.share(std::max(point.error.median, kSmallest))};
-    for (const Place& other : placed_) {
+  /// Whether a name that begins at this point covers no other name; then it is added.
+  bool add(const Measurement& point) {
+    const Position at{times_.share(1e6 * point.seconds), errors_.share(std::max(point.error.median, kSmallest))};
+    for (const Position& other : placed_) {
       if (std::abs(at.x - other.x) < 0.15 && std::abs(at.y - other.y) < 0.04) return false;
     }
     placed_.push_back(at);
@@ -94,16 +96,16 @@ class PlacedNames {
   }
 
  private:
-  struct Place {
+  struct Position {
     double x, y;
   };
 
   Range times_, errors_;
-  std::vector<Place> placed_;
+  std::vector<Position> placed_;
 };
 
-/// Lines of microseconds, median, 99th percentile, maximum and the setting's name, which is empty where it is not
-/// shown. @param ends_only  names but the first and the last setting.
+/// Lines with microseconds, median, 99th percentile, maximum and the setting's name, which is empty if it is not shown.
+/// @param ends_only  show only the names of the first and the last setting.
 std::string dataLines(const std::vector<Measurement>& points, bool ends_only, PlacedNames& names) {
   std::string lines;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -112,7 +114,7 @@ std::string dataLines(const std::vector<Measurement>& points, bool ends_only, Pl
         fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} ", 1e6 * row.seconds, std::max(row.error.median, kSmallest),
                     std::max(row.error.p99, kSmallest), std::max(row.error.max, kSmallest));
     const bool wanted = points.size() > 1 && (!ends_only || i == 0 || i + 1 == points.size());
-    lines += numbers + ("\"" + (wanted && names.place(row) ? row.setting : "") + "\"\n");
+    lines += numbers + ("\"" + (wanted && names.add(row) ? row.setting : "") + "\"\n");
   }
   return lines;
 }
@@ -138,19 +140,21 @@ std::string plotScript(const StudyResult& result, const std::string& svg_path) {
       const std::string color = std::string(" lc rgb '") + kColors[s % std::size(kColors)] + "'";
       blocks += block + " << EOD\n" + dataLines(points, crowded, names) + "EOD\n";
       if (!plots.empty()) plots += ", \\\n  ";
-      plots += block + " using 1:2:(0):($4-$2) with vectors nohead lw 1" + color + " notitle, \\\n  " + block +
-               " using 1:4 with points pt 1 ps 0.4" + color + " notitle, \\\n  " + block +
-               " using 1:3 with points pt 2 ps 0.6" + color + " notitle, \\\n  " + block +
-               " using 1:2 with lines lw 2" + color + " notitle, \\\n  " + block +
-               " using 1:2 with points pt 7 ps 0.7" + color + " title " + quoted(systems[s]) + " noenhanced";
+      plots += fmt::format(
+          "{0} using 1:2:(0):($4-$2) with vectors nohead lw 1{1} notitle, \\\n"
+          "  {0} using 1:4 with points pt 1 ps 0.4{1} notitle, \\\n"
+          "  {0} using 1:3 with points pt 2 ps 0.6{1} notitle, \\\n"
+          "  {0} using 1:2 with lines lw 2{1} notitle, \\\n"
+          "  {0} using 1:2 with points pt 7 ps 0.7{1} title {2} noenhanced",
+          block, color, quoted(systems[s]));
       if (points.size() > 1) {
         plots += ", \\\n  " + block + " using 1:2:5 with labels left offset 0.6,0.5 font ',9' textcolor rgb '" +
                  kColors[s % std::size(kColors)] + "' notitle noenhanced";
       }
     }
-    panels += "set xrange " + times.text() + "\nset xtics " + times.tics() + "\nset yrange " + errors.text() +
-              "\nset title " + quoted(quantities[q]) + " noenhanced\nset ylabel " + quoted("error [" + unit + "]") +
-              " noenhanced\nplot " + plots + "\n";
+    panels += fmt::format(
+        "set xrange {}\nset xtics {}\nset yrange {}\nset title {} noenhanced\nset ylabel {} noenhanced\nplot {}\n",
+        times.text(), times.tics(), errors.text(), quoted(quantities[q]), quoted("error [" + unit + "]"), plots);
   }
   const int width = kPanelWidth * int(quantities.size());
   return "set terminal svg size " + std::to_string(width) + "," +

@@ -6,7 +6,7 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kTwoPi = 6.283185307179586;
 
 }  // namespace
 
@@ -21,12 +21,12 @@ Vector3d uniformIn(Random& random, const AlignedBox3d& box) {
 }
 
 Vector3d direction(Random& random) {
-  const double z = uniform(random, -1.0, 1.0), turn = uniform(random, 0.0, kTurn), r = std::sqrt(1.0 - z * z);
-  return {r * std::cos(turn), r * std::sin(turn), z};
+  const double z = uniform(random, -1.0, 1.0), angle = uniform(random, 0.0, kTwoPi), r = std::sqrt(1.0 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
 Matrix3d rotation(Random& random) {
-  const double u = uniform(random, 0.0, 1.0), a = uniform(random, 0.0, kTurn), b = uniform(random, 0.0, kTurn);
+  const double u = uniform(random, 0.0, 1.0), a = uniform(random, 0.0, kTwoPi), b = uniform(random, 0.0, kTwoPi);
   const double v = std::sqrt(1.0 - u), w = std::sqrt(u);
   return Quaterniond(v * std::sin(a), v * std::cos(a), w * std::sin(b), w * std::cos(b)).toRotationMatrix();
 }

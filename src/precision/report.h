@@ -4,14 +4,14 @@
 
 #include "measurement.h"
 
-/// A study's outcome as text.
+/// A study's result as text.
 namespace sdf_ccd::precision {
 
-/// A line of names, and one per row: study, quantity, error_unit, system, setting, value, seconds_per_query,
-/// error_median, error_p99, error_max, bound, missed, queries. What is not known is empty.
+/// A header line, and a line per row: study, quantity, error_unit, system, setting, value, seconds_per_query,
+/// error_median, error_p99, error_max, bound, missed, queries. Unknown values are empty.
 std::string csvText(const StudyResult& result);
 
-/// For people: a block of aligned columns per quantity.
+/// For display: a block of aligned columns per quantity.
 std::string tableText(const StudyResult& result);
 
 /// A script for gnuplot that draws a panel per quantity into an SVG file: time per query on x, error on y, both

@@ -14,7 +14,7 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr int kCells = 128;
-constexpr double kReference = 0.004;  // spacing of the shell that is taken for the surface, of the side
+constexpr double kReference = 0.004;  // spacing of the shell that represents the surface, of the side
 
 }  // namespace
 

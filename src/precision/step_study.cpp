@@ -49,7 +49,7 @@ std::vector<BodyState> pointAt(double z, double v) {
 
 struct Scene {
   double zeta;   ///< damping ratio
-  double start;  ///< resting: above its rest, in resting depths. Impact: where in the step it begins, [0, 1)
+  double start;  ///< resting: height above rest, in resting depths. Impact: when in the step it begins, [0, 1)
 };
 
 /// A contact that persists: the largest deviation from the damped oscillation over five periods, in amplitudes.
@@ -100,8 +100,8 @@ StudyResult stepStudy(const StudyInput& input) {
   Random random(5);
   std::vector<Scene> scenes;
   for (int i = 0; i < kScenes; ++i) scenes.push_back({uniform(random, 0.05, 0.5), uniform(random, 0.1, 0.5)});
-  std::vector<double> turns{0.8, 0.25, 0.08, 0.025};  // ωΔt
-  if (!input.quick) turns.push_back(0.008);
+  std::vector<double> phases{0.8, 0.25, 0.08, 0.025};  // ωΔt
+  if (!input.quick) phases.push_back(0.008);
   struct Case {
     const char* quantity;
     const char* unit;
@@ -115,7 +115,7 @@ StudyResult stepStudy(const StudyInput& input) {
     std::vector<std::vector<double>> errors;
     std::vector<std::function<void()>> tasks;
     for (const Scheme scheme : {Scheme::kContinuous, Scheme::kDiscrete, Scheme::kImplicit}) {
-      for (const double s : turns) {
+      for (const double s : phases) {
         const double step = s / kOmega;
         Measurement row;
         row.quantity = of.quantity;

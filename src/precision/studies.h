@@ -7,13 +7,13 @@
 #include "measurement.h"
 #include "peers.h"
 
-/// Studies of error against run time. Each runs the same queries on every system at every setting, in turn, on one
-/// thread, and compares the answers with the truth.
+/// Studies of error against run time. Each runs the same queries on every system at every setting, one after the other,
+/// on one thread, and compares the answers with the exact values.
 namespace sdf_ccd::precision {
 
 struct StudyInput {
   TriangleMesh mesh;   ///< closed and oriented (see orientOutward())
-  int queries = 2000;  ///< segments and points; of motions of bodies fewer, a twentieth to a fortieth
+  int queries = 2000;  ///< segments and points; for motions of bodies a twentieth to a fortieth
   bool quick = false;  ///< without the finest settings
   Peers peers;         ///< other libraries
   std::function<void(double)> progress = [](double) {};  ///< the share done
@@ -25,7 +25,7 @@ struct Study {
   StudyResult (*run)(const StudyInput&);
 };
 
-/// In the order in which they are best read.
+/// All studies, in the order for reading.
 const std::vector<Study>& studies();
 
 StudyResult cellStudy(const StudyInput& input);

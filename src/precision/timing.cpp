@@ -31,7 +31,7 @@ double seconds(const std::function<void()>& task, int times) {
 std::vector<double> secondsPerQuery(const std::vector<std::function<void()>>& tasks, std::size_t queries,
                                     const std::function<void(double)>& progress) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  std::vector<int> times;  // a task is called in a round
+  std::vector<int> times;  // calls of a task in a round
   for (const std::function<void()>& task : tasks) {
     times.push_back(int(std::clamp(std::ceil(kShortest / seconds(task, 1)), 1.0, 1e4)));
   }

@@ -5,8 +5,8 @@
 
 namespace sdf_ccd::precision {
 
-/// Times tasks against each other: all of them in turn, several rounds, so that a change of the machine's load meets
-/// them alike. On one thread, by its own time.
+/// Compares the times of tasks: runs all of them one after the other, in several rounds, so that changes of the
+/// machine's load affect them alike. On one thread, by thread time.
 /// @param tasks  each does all `queries` once per call.
 /// @param progress  called with the share done.
 /// @return per task the median over the rounds [s per query].

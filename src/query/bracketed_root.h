@@ -24,7 +24,7 @@ double bracketedRoot(const Function& f, double lo, double hi, bool rising) {
     ((at.value < 0.0) == rising ? lo : hi) = t;
     if (hi - lo <= 1e-16 + 2e-16 * std::abs(t)) break;
     const double newton = t - at.value / at.slope;
-    // Not inside (also when the slope is zero), or the bracket hardly shrinks: halve.
+    // Halve if Newton's step leaves the bracket (also when the slope is zero) or the bracket hardly shrinks.
     const bool take = newton > lo && newton < hi && (i < 4 || hi - lo < 0.75 * before);
     const double next = take ? newton : 0.5 * (lo + hi);
     if (std::abs(next - t) <= 1e-16 + 1e-16 * std::abs(t)) return next;

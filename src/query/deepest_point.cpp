@@ -11,10 +11,10 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kNear = 2.5;  // times the size of a piece: what is looked at of the solid's triangles
+constexpr double kNear = 2.5;  // radius around a piece, over its size, in which the solid's triangles are considered
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// At one place [m], in the element's frame.
+/// The depth of one point [m], in the element's frame.
 struct PartDepth {
   double depth = -kInfinity;
   int triangle = -1;                // the nearest, of a mesh
@@ -41,13 +41,13 @@ PartDepth depthIn(const SolidPart& part, const Vector3d& p_G) {
   const bool inside = bounds.high < 0.0 || (bounds.low <= 0.0 && part.solid->inside(p_G));
   const MeasuredTriangle& triangle = tree.triangle(nearest.triangle);
   Vector3d out = (inside ? 1.0 : -1.0) * (nearest.point - p_G);
-  // On the surface, to rounding, the triangle itself tells.
+  // On the surface (up to rounding) the outward direction is the triangle's own normal.
   if (!(nearest.distance > 1e-9 * (1.0 + p_G.norm())))
     out = (triangle.b() - triangle.a()).cross(triangle.c() - triangle.a());
   return {inside ? nearest.distance : -nearest.distance, nearest.triangle, unitOf(out)};
 }
 
-/// Of all elements.
+/// The depth in the deepest of all elements.
 PartDepth depthIn(const std::vector<SolidPart>& solid, const Vector3d& p) {
   PartDepth deepest;
   for (const SolidPart& part : solid) {
@@ -63,16 +63,16 @@ PartDepth depthIn(const std::vector<SolidPart>& solid, const Vector3d& p) {
 
 }  // namespace
 
-/// One of its ways.
+/// The search along one of the added motions.
 class DeepestSearch::Look {
  public:
-  Look(DeepestSearch& search, int way)
+  Look(DeepestSearch& search, int index)
       : search_(search),
-        index_(way),
-        way_(search.ways_[way]),
-        surface_(way_.surface),
-        solid_(way_.solid),
-        motion_(way_.motion) {}
+        index_(index),
+        entry_(search.added_[index]),
+        surface_(entry_.surface),
+        solid_(entry_.solid),
+        motion_(entry_.motion) {}
 
   void offerBoxes(int node_index) {
     const BoxTree& tree = *surface_.triangles;
@@ -82,7 +82,7 @@ class DeepestSearch::Look {
       const double reach = node.reach[i];
       if (isHidden(center, reach)) continue;
       // No point is farther than half of the travel from where it is halfway.
-      const double bound = boundAround(way_.X_middle * center, reach + 0.5 * way_.travel);
+      const double bound = boundAround(entry_.X_middle * center, reach + 0.5 * entry_.travel);
       if (BoxTree::isTriangle(node.below[i])) {
         const RoundedTriangle& triangle = tree.triangle(BoxTree::triangleOf(node.below[i]));
         add({bound, index_, -1, triangle.corners, triangle.radius, 0.0, 1.0});
@@ -92,26 +92,26 @@ class DeepestSearch::Look {
     }
   }
 
-  /// In time or along the longest edge, whichever is longer.
+  /// Halves a piece in time or along its longest edge, whichever extends farther.
   void divide(const Piece& piece) {
     const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
     const double length = piece.end - piece.start;
-    double way = motion_.acceleration * length * length / 8.0, longest = -1.0;
+    double displacement = motion_.acceleration * length * length / 8.0, longest = -1.0;
     int edge = 0;
     for (int k = 0; k < 3; ++k) {
-      way = std::max(way, (X_end * piece.corners[k] - X_start * piece.corners[k]).norm());
+      displacement = std::max(displacement, (X_end * piece.corners[k] - X_start * piece.corners[k]).norm());
       const double side = (piece.corners[(k + 1) % 3] - piece.corners[k]).norm();
       if (side > longest) edge = k;
       longest = std::max(longest, side);
     }
-    // What is a point that rests has nothing left to divide.
+    // A resting point cannot be divided further.
     const bool is_short = length < 1e-9;
-    if (longest == 0.0 && (way == 0.0 || is_short)) {
+    if (longest == 0.0 && (displacement == 0.0 || is_short)) {
       search_.highest_left_ = std::max(search_.highest_left_, piece.bound);
       return;
     }
     Piece first = piece, second = piece;
-    if (way > longest && !is_short) {
+    if (displacement > longest && !is_short) {
       first.end = second.start = 0.5 * (piece.start + piece.end);
     } else {
       const Vector3d center = (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
@@ -124,30 +124,30 @@ class DeepestSearch::Look {
   }
 
  private:
-  /// Of what lies within `radius` of a place: by the fields alone.
+  /// Upper bound of the depth within `radius` of a point, from the fields' lower bounds alone.
   double boundAround(const Vector3d& p_F, double radius) const {
     double bound = -kInfinity;
     for (const SolidPart& part : solid_) bound = std::max(bound, radius - part.field->lowerBound(part.X_GB * p_F));
     return bound;
   }
 
-  /// Whether all within `radius` of a place surely is inside the surface's own body.
+  /// Whether the whole ball of `radius` around a point is surely inside the surface's own body.
   bool isHidden(const Vector3d& p_P, double radius) const {
     return std::any_of(surface_.parts.begin(), surface_.parts.end(), [&](const SolidPart& part) {
       return part.field->bounds(part.X_GB * p_P).high < -radius - search_.resolution_;
     });
   }
 
-  /// Three corners at the start, then at the end.
+  /// One value for each of three corners at the start, then at the end.
   using Corners6 = std::array<double, 6>;
 
-  /// Of all within the hull of a triangle's corners at both ends.
+  /// Upper bound of the depth within the hull of a triangle's corners at both ends.
   struct PartBound {
     double bound = -kInfinity;
-    Corners6 deepest = {};  // of each corner itself, where it may be deeper than what is known
+    Corners6 deepest = {};  // of each corner itself, unless it surely is no deeper than the deepest known point
   };
 
-  /// Measures a piece and keeps it, if something in it may be deeper than what is known.
+  /// Tightens a piece's bound and keeps the piece if it may contain a deeper point than the deepest known one.
   void add(Piece piece) {
     if (!search_.isDone(piece.bound)) measure(piece);
     search_.push(piece);
@@ -185,7 +185,7 @@ class DeepestSearch::Look {
       offer(piece.corners[best % 3], corners[best], best < 3 ? piece.start : piece.end);
   }
 
-  /// Of a hull of corners, none of which is farther from c than `size`.
+  /// Upper bound of the depth in a hull of corners, none of which is farther from c than `size`.
   PartBound boundIn(const SolidPart& part, const Vector3d& c, double size,
                     const std::array<Vector3d, 6>& corners_F) const {
     const PartDepth depth = depthIn(part, c);
@@ -207,11 +207,11 @@ class DeepestSearch::Look {
       least = std::min(least, most);
       sides[count++] = bounds;
     };
-    const auto takeSide = [&](const PartDepth& side, const Vector3d& place) {
+    const auto takeSide = [&](const PartDepth& side, const Vector3d& point) {
       Corners6 bounds;
       for (int k = 0; k < 6; ++k) {
         bounds[k] = part.solid ? part.solid->tree().distanceTo(side.triangle, corners[k])
-                               : side.depth - side.out.dot(corners[k] - place);
+                               : side.depth - side.out.dot(corners[k] - point);
       }
       take(bounds);
     };
@@ -225,15 +225,15 @@ class DeepestSearch::Look {
       takePlane(depth.out);
     }
     if (search_.isDone(found.bound)) return found;
-    // Another side may be nearer where that bound is highest.
-    const Vector3d place = corners[std::max_element(sides[best].begin(), sides[best].end()) - sides[best].begin()];
+    // Where that bound is highest, another triangle may be nearer and give a tighter bound.
+    const Vector3d point = corners[std::max_element(sides[best].begin(), sides[best].end()) - sides[best].begin()];
     if (part.solid) {
       PartDepth side;
-      side.triangle = part.solid->tree().closestPoint(place).triangle;
-      takeSide(side, place);
+      side.triangle = part.solid->tree().closestPoint(point).triangle;
+      takeSide(side, point);
       takePlane(normalOf(part.solid->tree().triangle(side.triangle)));
-    } else if (const PartDepth side = depthIn(part, place); !side.out.isZero()) {
-      takeSide(side, place);
+    } else if (const PartDepth side = depthIn(part, point); !side.out.isZero()) {
+      takeSide(side, point);
     }
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -247,12 +247,12 @@ class DeepestSearch::Look {
     return found;
   }
 
-  /// By a plane across n that holds all of the solid that is near; nothing if there is none.
+  /// Bounds by a plane with normal n that has all of the nearby solid behind it; none if there is no such plane.
   ///
-  /// Within a ball about c no triangle reaches farther along n than h; what of the ball lies beyond is all inside or
-  /// all outside, and is asked for. If it is outside, the way along n from an inner place x of the hull leaves the
-  /// solid by the plane at the latest, after h − n·x, as long as that is still in the ball. What is beyond the plane is
-  /// as far from the solid, or as what is outside the ball.
+  /// Within a ball about c no triangle extends farther along n than h: the part of the ball beyond h is all inside or
+  /// outside, which one query decides. If it is outside, the ray along n from an inner point x of the hull leaves the
+  /// solid at the plane or earlier, within h − n·x, as long as that is still in the ball. Points beyond the plane are
+  /// bounded by their distance from the solid, or from points outside the ball.
   std::optional<Corners6> behindPlane(const SolidPart& part, const Vector3d& c, const Vector3d& n, double size,
                                       const std::array<Vector3d, 6>& corners) const {
     const double radius = kNear * size;
@@ -270,7 +270,7 @@ class DeepestSearch::Look {
     return behind;
   }
 
-  /// The place of a rounded corner that faces into the solid, at the piece's start.
+  /// Tests the point of a rounded corner that is deepest in the solid, at the piece's start.
   void offerRound(const Piece& piece, const Isometry3d& X_start) {
     const Vector3d p_F = X_start * piece.corners[0];
     const Vector3d out = depthIn(solid_, p_F).out;
@@ -285,7 +285,7 @@ class DeepestSearch::Look {
     search_.best_ = {depth.depth, index_, s, p_F, depth.out};
   }
 
-  /// Whether a place is inside the surface's own body, and none of its surface.
+  /// Whether a point is inside the surface's own body by more than the resolution, so that it is not on its surface.
   bool isInside(const Vector3d& p_P) const {
     return !surface_.parts.empty() && depthIn(surface_.parts, p_P).depth > search_.resolution_;
   }
@@ -294,7 +294,7 @@ class DeepestSearch::Look {
 
   DeepestSearch& search_;
   int index_;
-  const Way& way_;
+  const AddedMotion& entry_;
   const EnteringSurface& surface_;
   const std::vector<SolidPart>& solid_;
   const TwoBodyMotion& motion_;
@@ -304,16 +304,16 @@ void DeepestSearch::restart(double resolution) {
   resolution_ = resolution;
   best_ = {};
   highest_left_ = 0.0;
-  ways_.clear();
+  added_.clear();
   left_.clear();
 }
 
 void DeepestSearch::add(const EnteringSurface& surface, const std::vector<SolidPart>& solid,
                         const TwoBodyMotion& motion, double travel) {
-  ways_.push_back({surface, solid, motion, travel, relativePose(motion.X_WF.pose(0.5), motion.X_WP.pose(0.5))});
+  added_.push_back({surface, solid, motion, travel, relativePose(motion.X_WF.pose(0.5), motion.X_WP.pose(0.5))});
 }
 
-/// Keeps the piece if something in it may be deeper than what is known.
+/// Keeps the piece if it may contain a deeper point than the deepest known one.
 void DeepestSearch::push(const Piece& piece) {
   if (isDone(piece.bound)) {
     highest_left_ = std::max(highest_left_, piece.bound);
@@ -325,19 +325,19 @@ void DeepestSearch::push(const Piece& piece) {
 
 void DeepestSearch::run(int max_pieces) {
   CancelTicks<64> cancel;
-  for (int way = 0; way < static_cast<int>(ways_.size()); ++way)
-    Look(*this, way).offerBoxes(ways_[way].surface.triangles->root().node);
+  for (int i = 0; i < static_cast<int>(added_.size()); ++i)
+    Look(*this, i).offerBoxes(added_[i].surface.triangles->root().node);
   for (int pieces = 0; !left_.empty();) {
     cancel.check();
     std::pop_heap(left_.begin(), left_.end(), isLess);
     const Piece piece = left_.back();
     left_.pop_back();
     if (isDone(piece.bound) || pieces >= max_pieces) {
-      // None of the others is deeper.
+      // All other pieces have smaller bounds.
       highest_left_ = std::max(highest_left_, piece.bound);
       return;
     }
-    Look look(*this, piece.way);
+    Look look(*this, piece.motion);
     if (piece.node >= 0) {
       look.offerBoxes(piece.node);
     } else {

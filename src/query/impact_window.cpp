@@ -5,42 +5,45 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kSteps = 64;       ///< at most; along a surface balls are many, and the window is only wider without them
-constexpr double kClose = 1e-2;  ///< of the error: nearer than this to its bound is at it
+constexpr int kSteps = 64;       ///< upper bound; stopping early only widens the window
+constexpr double kClose = 1e-2;  ///< of the error: a distance this close to its bound counts as at the bound
 
-class Way {
+class Path {
  public:
-  Way(const DistanceField& field, const Segment& segment)
-      : field_(field), start_(segment.start), way_(segment.end - segment.start), length_(way_.norm()) {}
+  Path(const DistanceField& field, const Segment& segment)
+      : field_(field),
+        start_(segment.start),
+        displacement_(segment.end - segment.start),
+        length_(displacement_.norm()) {}
 
-  FieldSample sample(double t) const { return field_.sample(start_ + t * way_); }
+  FieldSample sample(double t) const { return field_.sample(start_ + t * displacement_); }
   double length() const { return length_; }
 
  private:
   const DistanceField& field_;
-  Vector3d start_, way_;
+  Vector3d start_, displacement_;
   double length_;
 };
 
-/// From a time before which nothing is met, on through balls without surface; beyond 1 if they reach there.
-double freeUntil(const Way& way, double t) {
+/// Advances from a time before which there is no contact through empty spheres; beyond 1 if they reach the end.
+double freeUntil(const Path& path, double t) {
   for (int i = 0; i < kSteps && t <= 1.0; ++i) {
-    const FieldSample at = way.sample(t);
+    const FieldSample at = path.sample(t);
     const double free = at.value - at.error;
-    if (free <= kClose * at.error || way.length() == 0.0) break;
-    t += free / way.length() * (1.0 - 1e-9);
+    if (free <= kClose * at.error || path.length() == 0.0) break;
+    t += free / path.length() * (1.0 - 1e-9);
   }
   return t;
 }
 
-/// A place that is surely inside, near the first one after `t`, no later than `end`: by steps that double, then halve.
-std::optional<double> insideAfter(const Way& way, double t, double end) {
+/// A time at which the point surely is inside, close to the first one in [t, end]: steps double, then halve.
+std::optional<double> insideAfter(const Path& path, double t, double end) {
   const auto outside = [&](double s) {
-    const FieldSample at = way.sample(s);
+    const FieldSample at = path.sample(s);
     return at.value + at.error > 0.0;
   };
   if (!outside(t)) return t;
-  double step = way.length() > 0.0 ? way.sample(t).error / way.length() : end - t;
+  double step = path.length() > 0.0 ? path.sample(t).error / path.length() : end - t;
   double before = t;
   for (int i = 0; i < kSteps; ++i, step *= 2.0) {
     const double next = std::min(before + step, end);
@@ -68,12 +71,12 @@ std::optional<ImpactWindow> impactWindow(const DistanceField& field, const Segme
   };
   const std::optional<double> near = first(error);
   if (!near) return std::nullopt;
-  const Way way(field, segment);
-  ImpactWindow window{freeUntil(way, *near), {}, {}};
+  const Path path(field, segment);
+  ImpactWindow window{freeUntil(path, *near), {}, {}};
   if (window.earliest > 1.0) return std::nullopt;
   window.time = first(0.0);
   const std::optional<double> deep = first(-error);
-  window.latest = insideAfter(way, window.time.value_or(window.earliest), deep.value_or(1.0));
+  window.latest = insideAfter(path, window.time.value_or(window.earliest), deep.value_or(1.0));
   if (!window.latest) window.latest = deep;
   if (window.time) window.earliest = std::min(window.earliest, *window.time);
   return window;

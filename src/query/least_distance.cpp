@@ -14,9 +14,9 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kMostPlaces = 128;  ///< then what is known must do
+constexpr std::size_t kMaxSamples = 128;  ///< upper bound of the samples on a path
 
-/// A function that is nowhere above the distance: a cone, or of a convex one (a primitive's) a tangent.
+/// A lower bound of the distance function: a cone, or a tangent plane if the distance is convex (a primitive's).
 struct LowerFunction {
   LowerCone cone;
   Vector3d tangent;
@@ -27,39 +27,39 @@ struct LowerFunction {
   }
 };
 
-/// Asks where the path may still be lowest by what functions below the distance leave of it, until that is near enough
-/// to what has been found (Piyavskii and Shubert's search for the minimum of a Lipschitz function). The cone of an even
-/// grid's sample far up the gradient is nearly as flat across as the distance is, so that few places are asked.
+/// Minimises the distance along the path by lower bounds: the next sample is where the path's lower bound is least,
+/// until that is close to the least value found (Piyavskii and Shubert's method for Lipschitz functions). The cone of a
+/// uniform grid's sample far up the gradient is nearly as flat across as the distance is, so few samples are needed.
 class LeastSearch {
  public:
   LeastSearch(const DistanceField& field, const Segment& segment)
       : field_(field),
         grid_(field.grid()),
         start_(segment.start),
-        way_(segment.end - segment.start),
-        length_(way_.norm()) {}
+        displacement_(segment.end - segment.start),
+        length_(displacement_.norm()) {}
 
   LeastDistance run() {
-    ask(0.0);
+    sampleAt(0.0);
     best_.low = best_.value - best_error_;
     if (length_ == 0.0) return best_;
-    ask(1.0);
+    sampleAt(1.0);
     push(0, 1);
     while (true) {
       const Piece piece = pieces_.top();
       best_.low = piece.low;
       const double known = best_.value - best_error_;
       const double slack = 0.25 * best_error_ + 0.01 * field_.errorBound() + 1e-9 * length_;
-      if (piece.low >= known - slack || !piece.may_rise || places_.size() >= kMostPlaces) return best_;
+      if (piece.low >= known - slack || !piece.may_rise || samples_.size() >= kMaxSamples) return best_;
       pieces_.pop();
-      const int middle = ask(piece.at);
+      const int middle = sampleAt(piece.at);
       push(piece.from, middle);
       push(middle, piece.to);
     }
   }
 
  private:
-  struct Place {
+  struct Sample {
     double t;
     Vector3d p;
     LowerFunction lower;
@@ -67,21 +67,21 @@ class LeastSearch {
   };
 
   struct Piece {
-    int from, to;   ///< places
-    double low;     ///< [m], nowhere on it is the distance less
-    double at;      ///< t to ask next
-    bool may_rise;  ///< `low`, by asking there
+    int from, to;   ///< indices of samples
+    double low;     ///< lower bound of the distance on the piece [m]
+    double at;      ///< t of the next sample
+    bool may_rise;  ///< whether a sample there can raise `low`
 
     bool operator<(const Piece& other) const { return low > other.low; }
   };
 
-  int ask(double t) {
-    const Vector3d p = start_ + t * way_;
+  int sampleAt(double t) {
+    const Vector3d p = start_ + t * displacement_;
     std::optional<LowerCone> cone;
     if (grid_ && field_.box().contains(p)) {
       const FieldValue at = field_.interpolate(p);
       cone = sampleCone(*grid_, p, at.gradient);
-      // What the distance is at most is asked only of the lowest so far.
+      // An upper bound of the distance is computed only at the least value so far.
       if (cone && at.value >= best_.value) return add({t, p, {*cone, Vector3d::Zero(), false}, at.value - (*cone)(p)});
     }
     const FieldSample at = field_.sample(p);
@@ -95,14 +95,14 @@ class LeastSearch {
     return add({t, p, {*cone, at.gradient, field_.primitive() != nullptr}, at.error});
   }
 
-  int add(const Place& place) {
-    places_.push_back(place);
-    return static_cast<int>(places_.size()) - 1;
+  int add(const Sample& sample) {
+    samples_.push_back(sample);
+    return static_cast<int>(samples_.size()) - 1;
   }
 
-  /// Cones fall to either side, so that their chords are below them; the higher chord is lowest where they cross.
+  /// Cones fall to either side, so that their chords are below them; the upper chord is least where the two cross.
   void push(int from, int to) {
-    const Place &a = places_[from], &b = places_[to];
+    const Sample &a = samples_[from], &b = samples_[to];
     const double a_from = a.lower(a.p), a_to = a.lower(b.p), b_from = b.lower(a.p), b_to = b.lower(b.p);
     const double ahead_from = a_from - b_from, ahead_to = b_to - a_to, width = b.t - a.t;
     const double at_from = std::max(a_from, b_from), at_to = std::max(a_to, b_to);
@@ -119,17 +119,17 @@ class LeastSearch {
   }
 
   const DistanceField& field_;
-  const SparseGrid* grid_;  // if its samples are distances
-  const Vector3d start_, way_;
+  const SparseGrid* grid_;  // null unless its samples are distances
+  const Vector3d start_, displacement_;
   const double length_;
-  std::vector<Place> places_;
+  std::vector<Sample> samples_;
   std::priority_queue<Piece> pieces_;
   LeastDistance best_{0.0, kInfinity, kInfinity, kInfinity};
   double best_error_ = 0.0;
 };
 
-/// From the leaves that the path crosses. Its `low` exceeds the band if that is not known: where the path is deeper
-/// than any leaf is, or always farther out.
+/// From the leaves that the path crosses. `low` exceeds the band if the minimum is unknown: the path is deeper than any
+/// leaf, or never comes near the surface.
 LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
   GridWalk walk = walkThrough(grid, segment);
   const BallExit ball_exit(segment);
@@ -147,12 +147,12 @@ LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
     const std::array<double, 8> corners = grid.corners(block);
     const double lowest = *std::min_element(corners.begin(), corners.end()), error = grid.leafError(block);
     if (t_exit > t && (lowest - error < least.low || lowest + error < least.high || lowest < least.value)) {
-      const LowestPlace place = lowestPlace(cubicAlong(corners, walk, cell, 0.0));
-      least.low = std::min(least.low, place.value - error);
-      least.high = std::min(least.high, place.value + error);
-      if (place.value < least.value) {
-        least.time = t + place.u * (t_exit - t);
-        least.value = place.value;
+      const CubicMinimum minimum = minimumOf(cubicAlong(corners, walk, cell, 0.0));
+      least.low = std::min(least.low, minimum.value - error);
+      least.high = std::min(least.high, minimum.value + error);
+      if (minimum.value < least.value) {
+        least.time = t + minimum.u * (t_exit - t);
+        least.value = minimum.value;
       }
     }
     walk.advance();
@@ -160,7 +160,7 @@ LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
   return least;
 }
 
-/// Bounds that hold in doubles too: outward by the rounding of coordinates and of the distance itself.
+/// Widens the bounds by the rounding of coordinates and of the distance, so that they hold in doubles too.
 LeastDistance rounded(LeastDistance least, const Segment& segment) {
   constexpr double kRoundings = 16.0;
   const double size = std::max(segment.start.lpNorm<Eigen::Infinity>(), segment.end.lpNorm<Eigen::Infinity>());

@@ -35,7 +35,7 @@ Floats sum(const Floats& a, const Floats& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-/// As it is in its own frame.
+/// The same box in its own frame.
 PlacedBox boxAt(const BoxTree& tree, BoxTree::Slot slot) {
   const BoxTree::Node& node = tree.node(slot.node);
   const int i = slot.lane;
@@ -50,7 +50,7 @@ PlacedBox boxAt(const BoxTree& tree, BoxTree::Slot slot) {
   return box;
 }
 
-/// The rotation halfway from one to another.
+/// The rotation halfway between two.
 Matrix3d halfway(const Matrix3d& from, const Matrix3d& to) {
   Quaterniond q(from.transpose() * to);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
@@ -58,14 +58,14 @@ Matrix3d halfway(const Matrix3d& from, const Matrix3d& to) {
   return (Quaterniond(from) * q.normalized()).normalized().toRotationMatrix();
 }
 
-/// How far a tree reaches along a direction, at most; infinite if that is above the limit, or takes long to find out.
-/// @param reachOf  of a triangle.
+/// Upper bound of a tree's extent along a direction; infinite if it exceeds the limit, or takes too many steps to find.
+/// @param reachOf  upper bound of a triangle's extent.
 template <typename ReachOf>
 double support(const BoxTree& tree, const Floats& direction, const BoxMotion& motion, double limit,
                const ReachOf& reachOf) {
-  constexpr int kMostBoxes = 96;
+  constexpr int kMaxBoxes = 96;
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::array<std::int32_t, kMostBoxes> pending;
+  std::array<std::int32_t, kMaxBoxes> pending;
   int size = 0, visited = 0;
   double best = -kNone;
   pending[size++] = 0;
@@ -76,7 +76,7 @@ double support(const BoxTree& tree, const Floats& direction, const BoxMotion& mo
     for (int i = 0; i < node.count; ++i) {
       double reach = supports[i];
       if (!(reach <= limit)) {
-        if (++visited == kMostBoxes) return kNone;
+        if (++visited == kMaxBoxes) return kNone;
         if (!BoxTree::isTriangle(node.below[i])) {
           pending[size++] = node.below[i];
           continue;
@@ -90,7 +90,7 @@ double support(const BoxTree& tree, const Floats& direction, const BoxMotion& mo
   return best;
 }
 
-/// How far a triangle reaches along a direction, at most.
+/// Upper bound of a triangle's extent along a direction.
 double reachAlong(const Vector3d& n, const Corners& t) {
   return std::max({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
 }
@@ -102,7 +102,7 @@ MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& pos
   const Matrix3d R0 = poses.X_AB_start.linear(), R1 = poses.X_AB_end.linear(), R = halfway(R0, R1);
   const Vector3d at_start = poses.X_AB_start * b.origin(), at_end = poses.X_AB_end * b.origin();
   const Vector3d p_AB = 0.5 * (at_start + at_end) - a.origin();
-  const Matrix3d turn = 0.5 * (R1 - R0);
+  const Matrix3d difference = 0.5 * (R1 - R0);
   const Vector3d shift = 0.5 * (at_end - at_start);
   const double rounding = kBoxRounding * (a.ball().radius + b.ball().radius + p_AB.norm());
   const double bend = (0.5 * (R0 + R1) - R).norm() * b.ball().radius;
@@ -110,12 +110,12 @@ MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& pos
   R_AB_ = singleRows(R);
   b_from_a_ = single(p_AB);
   a_from_b_ = single(-(R.transpose() * p_AB));
-  turn_A_ = singleRows(turn);
+  difference_A_ = singleRows(difference);
   shift_A_ = single(shift);
   still_ = {};
   still_.any = static_cast<float>(error + bend + rounding);
-  moving_ = {single(R.transpose() * shift), singleRows(R.transpose() * turn), still_.any,
-             static_cast<float>(std::sqrt(0.5) * (1.0 + 1e-6) * turn.norm())};
+  moving_ = {single(R.transpose() * shift), singleRows(R.transpose() * difference), still_.any,
+             static_cast<float>(std::sqrt(0.5) * (1.0 + 1e-6) * difference.norm())};
 }
 
 PlacedBox MovingBoxes::boxInA(BoxTree::Slot box_b) const {
@@ -136,7 +136,7 @@ void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float 
   const BoxTree::Node& of_b = b_.node(box_b.node);
   const Floats center = {of_b.center[0][box_b.lane], of_b.center[1][box_b.lane], of_b.center[2][box_b.lane]};
   BoxMotion motion{};
-  motion.shift = sum(times(turn_A_, center), shift_A_);
+  motion.shift = sum(times(difference_A_, center), shift_A_);
   motion.any = moving_.any + moving_.any_per_reach * of_b.reach[box_b.lane];
   boxGaps(node, boxInA(box_b), direction_A_, motion, cut, found);
 }

@@ -9,18 +9,18 @@ namespace sdf_ccd {
 /// other's frame. See separation() for what that proves.
 class MovingBoxes {
  public:
-  /// @param error  no point is farther than this from its chord, and all other errors [m].
+  /// @param error  upper bound of the points' deviation from their chords and of all other errors [m].
   MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& poses, double error);
 
-  /// As boxGaps(): of the boxes in a node of A from a box of B, and the other way round.
+  /// As boxGaps(), for the boxes of a node of A and one box of B, and with A and B exchanged.
   void gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) const;
   void gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const;
 
   /// An axis that boxGaps() tries on all boxes, unit.
   void setDirection(const Vector3d& n_A);
 
-  /// How far A reaches along the direction, and B against it, from A's origin, at most [m]; infinite if that is more
-  /// than the limit, or takes long to find out.
+  /// Upper bounds of A's extent along the direction, and of B's against it, from A's origin [m]; infinite above
+  /// the limit, or if they take too many steps to find.
   double supportA(double limit) const;
   double supportB(double limit) const;
 
@@ -29,10 +29,10 @@ class MovingBoxes {
   PlacedBox boxInB(BoxTree::Slot box_a) const;
 
   const BoxTree &a_, &b_;
-  std::array<std::array<float, 3>, 3> R_AB_;    ///< halfway, by rows
-  std::array<float, 3> b_from_a_, a_from_b_;    ///< B's origin from A's, A's axes; A's from B's, B's axes
-  BoxMotion still_, moving_;                    ///< of boxes of A; of B, in B's frame
-  std::array<std::array<float, 3>, 3> turn_A_;  ///< of moving_, but displacements in A's axes, by rows
+  std::array<std::array<float, 3>, 3> R_AB_;          ///< halfway, by rows
+  std::array<float, 3> b_from_a_, a_from_b_;          ///< B's origin from A's, A's axes; A's from B's, B's axes
+  BoxMotion still_, moving_;                          ///< of boxes of A; of B, in B's frame
+  std::array<std::array<float, 3>, 3> difference_A_;  ///< of moving_, but displacements in A's axes, by rows
   std::array<float, 3> shift_A_;
   EndPoses poses_;
   double error_;

@@ -7,8 +7,8 @@ namespace sdf_ccd {
 /// The caches that prefetch() brings memory to, as __builtin_prefetch() numbers them.
 enum class CacheLevel { kSecond = 2, kFirst = 3 };
 
-/// Has memory brought to the caches that will be read soon. Of a few lines at a time: while more are under way than the
-/// processor can have, all that follows waits. The memory need not exist.
+/// Loads memory that will be read soon into the caches. Use it for a few lines at a time: with more loads in flight
+/// than the processor supports, all following loads wait. The memory need not exist.
 template <CacheLevel level = CacheLevel::kFirst, class T>
 inline void prefetch([[maybe_unused]] const T* first, [[maybe_unused]] std::size_t count) {
 #ifdef __GNUC__

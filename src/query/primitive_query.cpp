@@ -22,14 +22,14 @@ struct ConvexLine {
   }
 };
 
-/// A parameter where the line is not positive (to rounding), found by cutting planes between two falling and rising
-/// tangents; a negative number if the tangents prove that there is none.
-double nonPositivePlace(const ConvexLine& f, double touch) {
+/// A parameter where the function is not positive (up to rounding), found by cutting planes between two falling and
+/// rising tangents; a negative number if the tangents prove that there is none.
+double nonPositiveParameter(const ConvexLine& f, double touch) {
   double lo = 0.0, hi = 1.0;
   ValueSlope at_lo = f(lo), at_hi = f(hi);
   if (at_lo.slope >= 0.0 || at_hi.slope <= 0.0) return -1.0;
   for (int i = 0; i < 200; ++i) {
-    // Where the tangents meet is the lowest place that convexity allows.
+    // The intersection of the tangents is the lowest point that convexity allows.
     const double width = hi - lo;
     const double meet = lo + (at_hi.value - at_lo.value - at_hi.slope * width) / (at_lo.slope - at_hi.slope);
     const double bound = at_lo.value + at_lo.slope * (meet - lo);
@@ -45,7 +45,7 @@ double nonPositivePlace(const ConvexLine& f, double touch) {
       hi = t;
       at_hi = at;
     } else {
-      return -1.0;  // the minimum, and it is positive
+      return -1.0;  // this is the minimum, and it is positive
     }
   }
   return -1.0;
@@ -63,7 +63,7 @@ void primitiveIntervals(const Primitive& primitive, const Segment& segment, cons
   }
   const double size = std::max(segment.start.lpNorm<Eigen::Infinity>(), segment.end.lpNorm<Eigen::Infinity>());
   const double touch = 4.0 * std::numeric_limits<double>::epsilon() * (size + std::abs(options.sigma));
-  double inside = at_start <= 0.0 ? 0.0 : at_end <= 0.0 ? 1.0 : nonPositivePlace(f, touch);
+  double inside = at_start <= 0.0 ? 0.0 : at_end <= 0.0 ? 1.0 : nonPositiveParameter(f, touch);
   if (inside < 0.0) return;
   if (f.value(inside) > 0.0) {
     intervals.push_back({inside, inside});
@@ -81,7 +81,7 @@ void primitivePieces(const Primitive& primitive, const Segment& segment, const I
     if (t > interval.enter && t < interval.exit) breaks.push_back(t);
   };
   if (const Box* box = std::get_if<Box>(&primitive)) {
-    // Inside, the distance is the largest of six linear functions: kinks where two of them are equal.
+    // Inside, the distance is the largest of six linear functions, with kinks where two of them are equal.
     const Vector3d d = segment.end - segment.start;
     for (int i = 0; i < 6; ++i) {
       for (int j = i + 1; j < 6; ++j) {

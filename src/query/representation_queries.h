@@ -7,15 +7,15 @@
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/query/segment_query.h"
 
-/// The segment query on each kind of field that a DistanceField can hold. Of options they need only stop early: more
-/// than is asked for is cut away by segmentIntervals().
+/// The segment query for each kind of field that a DistanceField can hold. Options only tell them where to stop early;
+/// segmentIntervals() removes any further intervals.
 namespace sdf_ccd {
 
-/// Spans that follow each other nearer than this on the path are one: two cells agree on their common face only to
-/// rounding.
+/// Two consecutive spans with a smaller gap than this on the path are merged: two cells agree on their common face only
+/// up to rounding.
 constexpr double kJoin = 1e-12;
 
-/// Appends a span, joined to the last one where they meet.
+/// Appends a span; merges it with the last one if they touch.
 inline void appendSpan(Intervals& intervals, double enter, double exit) {
   if (!intervals.empty() && enter <= intervals.back().exit + kJoin) {
     if (exit > intervals.back().exit) intervals.back().exit = exit;
@@ -24,7 +24,7 @@ inline void appendSpan(Intervals& intervals, double enter, double exit) {
   }
 }
 
-/// Whether a query goes no further along a segment than to where the first interval begins.
+/// Whether a query stops where the first interval begins.
 inline bool stopsAtEnter(SegmentMode mode) {
   return mode == SegmentMode::kFirst || mode == SegmentMode::kAny;
 }

@@ -26,8 +26,8 @@ using Hits = std::vector<SegmentHit>;
 }
 
 /// Segments [first, last), one by one.
-void askSingly(const DistanceField& field, const Segment* segments, std::size_t first, std::size_t last,
-               const SegmentOptions& options, Hits& hits) {
+void querySingly(const DistanceField& field, const Segment* segments, std::size_t first, std::size_t last,
+                 const SegmentOptions& options, Hits& hits) {
   thread_local Intervals intervals;
   for (std::size_t i = first; i < last; ++i) {
     if (!isWithinReach(segments[i])) refuse(i);
@@ -40,91 +40,91 @@ void askSingly(const DistanceField& field, const Segment* segments, std::size_t 
 
 #ifdef SDF_CCD_HIGHWAY
 
-/// One thread's segments on their way.
+/// One thread's active segments.
 class Chunk {
  public:
-  /// Asks segments [first, first + count), count ≤ RayWork::kSegments.
+  /// Queries segments [first, first + count), count ≤ RayWork::kSegments.
   template <class Lanes>
-  void ask(const DistanceField& field, const Lanes& lanes, const Segment* segments, std::size_t first, int count,
-           const SegmentOptions& options, Hits& hits) {
+  void query(const DistanceField& field, const Lanes& lanes, const Segment* segments, std::size_t first, int count,
+             const SegmentOptions& options, Hits& hits) {
     const bool first_only = stopsAtEnter(options.mode);
     const int refused = followRays(lanes, first_only, segments + first, count, work_);
     if (refused >= 0) refuse(first + refused);
-    for (const std::int32_t lost : work_.lost) retry(field, segments, first, lost, options);
+    for (const std::int32_t unfinished : work_.unfinished) retry(field, segments, first, unfinished, options);
     const std::size_t before = hits.size();
     hits.resize(before + work_.hits.size);
     first_only ? sortFirst(first, hits.data() + before) : sortAll(first, count, hits.data() + before);
   }
 
  private:
-  /// In the segment's own parameter.
+  /// Converts a ray's parameter to the segment's own.
   float time(std::size_t id, float t) const {
     const float begin = work_.begin[id], end = work_.end[id];
     return t < 1.0F ? begin + t * (end - begin) : end;
   }
 
-  /// In the order of segments; those of one segment already are in order of time.
+  /// Sorts hits by segment; the hits of one segment already are in order of time.
   void sortAll(std::size_t first, int count, SegmentHit* sorted) {
     const RayHits& found = work_.hits;
-    std::fill_n(place_.begin(), count + 1, 0);
-    for (int i = 0; i < found.size; ++i) ++place_[found.id[i] + 1];
-    for (int i = 0; i < count; ++i) place_[i + 1] += place_[i];
+    std::fill_n(position_.begin(), count + 1, 0);
+    for (int i = 0; i < found.size; ++i) ++position_[found.id[i] + 1];
+    for (int i = 0; i < count; ++i) position_[i + 1] += position_[i];
     for (int i = 0; i < found.size; ++i) {
       const std::int32_t id = found.id[i];
-      sorted[place_[id]++] = {static_cast<std::uint32_t>(first + id), time(id, found.enter[i]),
-                              time(id, found.exit[i])};
+      sorted[position_[id]++] = {static_cast<std::uint32_t>(first + id), time(id, found.enter[i]),
+                                 time(id, found.exit[i])};
     }
   }
 
-  /// The same where no segment has two.
+  /// The same if no segment has two hits.
   void sortFirst(std::size_t first, SegmentHit* sorted) {
     const RayHits& found = work_.hits;
     has_hit_.fill(0);
     for (int i = 0; i < found.size; ++i) {
       const std::int32_t id = found.id[i];
       has_hit_[id / 64] |= std::uint64_t{1} << id % 64;
-      place_[id] = i;
+      position_[id] = i;
     }
     for (std::size_t k = 0; k < has_hit_.size(); ++k) {
       for (std::uint64_t left = has_hit_[k]; left != 0; left &= left - 1) {
         const std::size_t id = 64 * k + __builtin_ctzll(left);
-        const float enter = time(id, found.enter[place_[id]]);
+        const float enter = time(id, found.enter[position_[id]]);
         *sorted++ = {static_cast<std::uint32_t>(first + id), enter, enter};
       }
     }
   }
 
-  /// A ray that did not end: its hits are replaced by those of the single query.
-  void retry(const DistanceField& field, const Segment* segments, std::size_t first, std::int32_t lost,
+  /// Replaces the hits of a ray that was not completed by those of the single query.
+  void retry(const DistanceField& field, const Segment* segments, std::size_t first, std::int32_t unfinished,
              const SegmentOptions& options) {
     RayHits& hits = work_.hits;
     int kept = 0;
     for (int i = 0; i < hits.size; ++i) {
-      if (hits.id[i] == lost) continue;
+      if (hits.id[i] == unfinished) continue;
       hits.id[kept] = hits.id[i];
       hits.enter[kept] = hits.enter[i];
       hits.exit[kept++] = hits.exit[i];
     }
     hits.size = kept;
     Hits single;
-    askSingly(field, segments, first + lost, first + lost + 1, options, single);
-    work_.begin[lost] = 0.0F;
-    work_.end[lost] = 1.0F;
+    querySingly(field, segments, first + unfinished, first + unfinished + 1, options, single);
+    work_.begin[unfinished] = 0.0F;
+    work_.end[unfinished] = 1.0F;
     for (const SegmentHit& hit : single) {
-      hits.add(lost, hit.enter, hit.exit);
+      hits.add(unfinished, hit.enter, hit.exit);
     }
   }
 
   RayWork work_;
-  std::array<int, RayWork::kSegments + 1> place_;
+  std::array<int, RayWork::kSegments + 1> position_;
   std::array<std::uint64_t, RayWork::kSegments / 64> has_hit_;
 };
 
 #endif
 
-/// Segments in chunks, on all threads. @param ask  called with a chunk's first segment, that after its last, and hits.
-template <class Ask>
-void askInChunks(std::size_t count, const Ask& ask, Hits& hits) {
+/// Queries segments in chunks, on all threads. @param query  called with a chunk's first and last index, and hits.
+template <class Query>
+void queryInChunks(std::size_t count, const Query& query, Hits& hits) {
   constexpr std::size_t kChunk = 8192;
 #ifdef SDF_CCD_HIGHWAY
   static_assert(kChunk == RayWork::kSegments, "a chunk fills one thread's room");
@@ -133,39 +133,39 @@ void askInChunks(std::size_t count, const Ask& ask, Hits& hits) {
   if (chunks <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
     for (std::size_t i = 0; i < chunks; ++i) {
       checkCancelled();
-      ask(i * kChunk, std::min(count, (i + 1) * kChunk), hits);
+      query(i * kChunk, std::min(count, (i + 1) * kChunk), hits);
     }
     return;
   }
   std::vector<Hits> found(chunks);
   const CancelPoint cancel;
-  const auto askChunk = [&](std::size_t i) {
+  const auto queryChunk = [&](std::size_t i) {
     cancel.check();
-    ask(i * kChunk, std::min(count, (i + 1) * kChunk), found[i]);
+    query(i * kChunk, std::min(count, (i + 1) * kChunk), found[i]);
   };
   // Isolated: while it waits, this thread must not begin other work of the caller's that shares its memory.
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, chunks, askChunk); });
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, chunks, queryChunk); });
   for (const Hits& some : found) hits.insert(hits.end(), some.begin(), some.end());
 }
 
-/// All hits, also where only the first intervals are asked for.
-void askAll(const DistanceField& field, const Segment* segments, std::size_t count, const SegmentOptions& options,
-            Hits& hits) {
+/// All hits, even if only the first intervals are needed.
+void queryAll(const DistanceField& field, const Segment* segments, std::size_t count, const SegmentOptions& options,
+              Hits& hits) {
 #ifdef SDF_CCD_HIGHWAY
-  const auto askLanes = [&](const auto& lanes) {
-    const auto ask = [&](std::size_t first, std::size_t last, Hits& found) {
+  const auto queryLanes = [&](const auto& lanes) {
+    const auto query = [&](std::size_t first, std::size_t last, Hits& found) {
       thread_local const std::unique_ptr<Chunk> rays = std::make_unique<Chunk>();
-      rays->ask(field, lanes, segments, first, static_cast<int>(last - first), options, found);
+      rays->query(field, lanes, segments, first, static_cast<int>(last - first), options, found);
     };
-    askInChunks(count, ask, hits);
+    queryInChunks(count, query, hits);
   };
-  if (const AdaptiveGrid* grid = field.adaptive()) return askLanes(AdaptiveLanes(*grid, options.sigma));
-  if (const SparseGrid* grid = field.grid()) return askLanes(UniformLanes(*grid, options.sigma));
+  if (const AdaptiveGrid* grid = field.adaptive()) return queryLanes(AdaptiveLanes(*grid, options.sigma));
+  if (const SparseGrid* grid = field.grid()) return queryLanes(UniformLanes(*grid, options.sigma));
 #endif
-  const auto ask = [&](std::size_t first, std::size_t last, Hits& found) {
-    askSingly(field, segments, first, last, options, found);
+  const auto query = [&](std::size_t first, std::size_t last, Hits& found) {
+    querySingly(field, segments, first, last, options, found);
   };
-  askInChunks(count, ask, hits);
+  queryInChunks(count, query, hits);
 }
 
 }  // namespace
@@ -175,7 +175,7 @@ void segmentIntervals(const DistanceField& field, const Segment* segments, std::
   checkIsovalue(field, options.sigma);
   Hits& hits = result.hits;
   hits.clear();
-  askAll(field, segments, count, options, hits);
+  queryAll(field, segments, count, options, hits);
   if (options.mode == SegmentMode::kFirstInterval) {
     const auto same = [](const SegmentHit& a, const SegmentHit& b) { return a.segment == b.segment; };
     hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());

@@ -42,13 +42,13 @@ Intervals segmentIntervals(const DistanceField& field, const Segment& segment, c
 SweptSide sweptSide(const DistanceField& field, const Segment& segment, const SweptMargins& margins) {
   const Vector3d d = segment.end - segment.start;
   const double length = d.norm();
-  // Most segments are short: one ball around the middle holds all of it.
+  // Most segments are short: one sphere around the middle contains all of it.
   const DistanceBounds at_middle = field.bounds(segment.start + 0.5 * d);
   const double middle = at_middle.low - margins.outside;
   if (middle > 0.5 * length) return SweptSide::kOutside;
   if (at_middle.high < -(margins.inside + 0.5 * length)) return SweptSide::kInside;
   if (middle <= 0.0) return SweptSide::kUnknown;
-  // From ball to ball. Each is free of places nearer than the margin; after too many, the answer is the safe one.
+  // From one empty sphere to the next. After too many steps, the answer is the conservative one.
   constexpr int kMaxBalls = 64;
   double at = 0.0;
   for (int i = 0; i < kMaxBalls; ++i) {

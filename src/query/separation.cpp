@@ -12,9 +12,9 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kCut = 0.6;             // of the nearest gap known: what is farther away is not looked into
-constexpr std::size_t kManyNear = 192;   // pairs of triangles, beyond which all boxes are tested in half the time
-constexpr int kMostTestsWhenOpen = 512;  // for a crossing, when it is known that nothing else can be proved
+constexpr double kCut = 0.6;            // of the smallest known gap: pairs with a larger gap are not refined
+constexpr std::size_t kManyNear = 192;  // pairs of triangles; above, the interval is halved and all boxes are tested
+constexpr int kMaxTestsWhenOpen = 512;  // upper bound for a crossing, when nothing else can be proved any more
 
 /// Part of the motion.
 struct Times {
@@ -71,8 +71,8 @@ class SeparationQuery {
     return t;
   }
 
-  /// On the way from A's corners, edges or face to B's, of this length: how far A or B reaches, whichever is nearer.
-  /// There is the surface of one of them, and the other one holds it, if they overlap.
+  /// Upper bound of the extent of A or B, whichever is nearer, along the segment of this length between two features of
+  /// A and B. If A and B overlap, the surface of one of them is there, inside the other one.
   double borderAlong(double distance, const Triangles& pair) const {
     return std::min(a_.triangle(pair.a).radius, distance + b_.triangle(pair.b).radius);
   }
@@ -84,21 +84,21 @@ class SeparationQuery {
   bool testCrossing(const Triangles& pair, const Isometry3d& X_AB, double s) {
     ++tests_;
     const Corners &t_a = a_.triangle(pair.a).corners, t_b = placed(pair.b, X_AB);
-    std::optional<Vector3d> place = crossingPoint(t_a, t_b, crossing_margin_);
+    std::optional<Vector3d> point = crossingPoint(t_a, t_b, crossing_margin_);
     Vector3d normal = (t_a[1] - t_a[0]).cross(t_a[2] - t_a[0]);
     const double round = radii(pair) - crossing_margin_;
-    if (!place && round > 0.0 && radii(pair) > 0.0) {
+    if (!point && round > 0.0 && radii(pair) > 0.0) {
       const ClosestPair closest = closestPoints(t_a, t_b);
       if (closest.distance2 < round * round) {
         normal = closest.on_b - closest.on_a;
-        place = closest.on_a + borderAlong(normal.norm(), pair) * unitOf(normal);
+        point = closest.on_a + borderAlong(normal.norm(), pair) * unitOf(normal);
       }
     }
-    if (!place) return false;
+    if (!point) return false;
     crossed_ = true;
     found_.state = SeparationState::kCrossing;
     found_.s = s;
-    found_.p_A = *place;
+    found_.p_A = *point;
     found_.normal_A = unitOf(normal);
     witness_.cross_a = pair.a;
     witness_.cross_b = pair.b;
@@ -120,7 +120,7 @@ class SeparationQuery {
     memory_.filter.size = memory_.exact.size = 0;
   }
 
-  /// Of all triangles.
+  /// Tests all triangles.
   void testBoxes(const Times& times, const EndPoses& poses) {
     setInterval(times, poses);
     MovingBoxes boxes(a_, b_, poses, chord_error_);
@@ -148,7 +148,7 @@ class SeparationQuery {
     memory_.near.resize(known);
   }
 
-  /// Of the triangles near[first] to near[last - 1], in half the time.
+  /// For the triangles near[first] to near[last - 1], in each half of the interval.
   void refine(std::size_t first, std::size_t last, const Times& times, const EndPoses& poses) {
     halve(times, poses, [=](const Times& half, const EndPoses& ends) {
       setInterval(half, ends);
@@ -166,7 +166,7 @@ class SeparationQuery {
     cancel_.check();
     const double middle = times.middle();
     const Isometry3d X_middle = poseAt(middle);
-    // The later half first: what touches at the end mostly still does in the next query.
+    // The later half first: surfaces that touch at its end mostly touch in the next query too.
     if (!isDone()) test(Times{middle, times.end}, EndPoses{X_middle, poses.X_AB_end});
     if (!isDone()) test(Times{times.start, middle}, EndPoses{poses.X_AB_start, X_middle});
   }
@@ -178,7 +178,7 @@ class SeparationQuery {
     const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
     NearBoxes found;
     const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
-    // What is above it in single precision is above it.
+    // A gap that exceeds the margin in single precision exceeds it in double precision.
     const float cut = std::nextafter(static_cast<float>(cut_), std::numeric_limits<float>::infinity());
     into_a ? boxes.gapsInA(node, at.b, cut, found) : boxes.gapsInB(node, at.a, cut, found);
     lowest_ = std::min(lowest_, double(found.least_other));
@@ -193,7 +193,7 @@ class SeparationQuery {
     if (least < memory_.stack.size()) std::swap(memory_.stack[least], memory_.stack.back());  // looked at next
   }
 
-  /// Triangles that are near each other, by going down to the nearest boxes.
+  /// Finds triangles near each other by descending to the nearest boxes.
   void findNear(const MovingBoxes& boxes) {
     memory_.stack.clear();
     memory_.stack.push_back({a_.root(), b_.root(), 0.0F});
@@ -213,8 +213,8 @@ class SeparationQuery {
     cut_ = options_.margin;
   }
 
-  /// Where to cut, and the direction to test, by the triangles that were nearest. @return whether a plane through them
-  /// shows that all else is farther apart.
+  /// Chooses the cut distance and the direction to test by the nearest triangles. @return whether a plane through them
+  /// proves that all other triangles are farther apart.
   bool testWitness(MovingBoxes& boxes) {
     const Triangles pair{witness_.near_a, witness_.near_b};
     TrianglePairs& single = memory_.single;
@@ -228,7 +228,7 @@ class SeparationQuery {
     if (!(gap > options_.margin)) return false;
     nearest_ = gap;
     cut_ = std::max(options_.margin, kCut * gap);
-    // The plane may lie anywhere between; what it takes to be there is shared out evenly.
+    // The plane may have any offset in the gap; the slack that it needs is divided evenly.
     const double slack = 0.5 * (gap - cut_);
     double begin = -kInfinity;
     for (const Vector3d& p : a_.triangle(pair.a).corners) begin = std::max(begin, direction_.dot(p - a_.origin()));
@@ -252,7 +252,7 @@ class SeparationQuery {
     if (group.size == TrianglePairs::kSize) filter();
   }
 
-  /// By planes; what they do not separate goes on to be tested exactly.
+  /// Tests by planes first; pairs that they do not separate are tested exactly.
   void filter() {
     TrianglePairs& group = memory_.filter;
     if (group.size == 0) return;
@@ -302,7 +302,7 @@ class SeparationQuery {
     }
   }
 
-  /// Then a pair that is not known to be apart is nearer than the resolution, and halving the time goes no farther.
+  /// A pair that is then not known to be apart is nearer than the resolution, so the time is not halved further.
   bool hardlyMoves(const Triangles& pair) const {
     double moved = 0.0;
     for (const Vector3d& p : b_.triangle(pair.b).corners)
@@ -310,11 +310,11 @@ class SeparationQuery {
     return moved + chord_error_ <= options_.resolution;
   }
 
-  /// CLEAR is no longer to be had; a crossing may be.
+  /// CLEAR can no longer be proved; a crossing still may be.
   void leaveOpen() {
     if (open_) return;
     open_ = found_.is_near = true;
-    limit_ = std::min(options_.max_tests, tests_ + kMostTestsWhenOpen);
+    limit_ = std::min(options_.max_tests, tests_ + kMaxTestsWhenOpen);
   }
 
   const BoxTree &a_, &b_;
@@ -324,13 +324,13 @@ class SeparationQuery {
   SeparationMemory& memory_;
   double rounding_ = 0.0, crossing_margin_ = 0.0;
 
-  Times times_{0.0, 1.0};  // that are being tested
+  Times times_{0.0, 1.0};  // the interval being tested
   EndPoses poses_;
-  double chord_error_ = 0.0;  // no point of B is farther from its chord; and rounding [m]
+  double chord_error_ = 0.0;  // upper bound of the deviation of B's points from their chords, and rounding [m]
   Vector3d direction_ = Vector3d::UnitZ();
   double nearest_ = kInfinity;  // gap of the nearest triangles tested exactly
   double cut_ = 0.0;
-  double lowest_ = kInfinity;  // of all gaps that anything was proved by
+  double lowest_ = kInfinity;  // the smallest gap used in a proof
   int tests_ = 0, limit_ = 0;
   bool crossed_ = false, open_ = false;
   CancelTicks<1024> cancel_;

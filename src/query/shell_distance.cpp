@@ -20,7 +20,7 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
     if (node.first_child >= 0) {
       const auto first = static_cast<std::ptrdiff_t>(pending.size());
       for (int k = 0; k < node.child_count; ++k) pending.push_back(node.first_child + k);
-      // The last is looked at next: the one whose middle is nearest.
+      // The last one is examined next: the one whose centre is nearest.
       const auto nearer = [&](int a, int b) {
         return field.lowerBound(X_FP * tree.nodes[a].center) < field.lowerBound(X_FP * tree.nodes[b].center);
       };
@@ -38,8 +38,8 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
     }
   }
   if (nearest.point < 0 || nearest.value - nearest.error > max_distance) return {};
-  // Another one whose own error is larger may be nearer in truth; and one whose lower bound was above the value is
-  // not.
+  // Another point with a larger error may truly be nearer; a point whose lower bound exceeded the value
+  // cannot be.
   nearest.error = std::max(nearest.error, nearest.value - low);
   return nearest;
 }

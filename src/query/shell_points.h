@@ -13,7 +13,7 @@ inline Segment along(const Chord& chord, const Vector3d& p_P) {
   return {chord.X_FP_start * p_P, chord.X_FP_end * p_P};
 }
 
-/// Asks points for their intervals: those of grids together, as batches are faster.
+/// Queries points for their intervals; on grids in batches, which are faster.
 class ShellPoints {
  public:
   ShellPoints(const DistanceField& field, const PointShell& shell, const ShellQueryOptions& options,
@@ -25,7 +25,7 @@ class ShellPoints {
         work_(threadWork()),
         batched_(!field.primitive() && !options.any) {}
 
-  /// The chord that points are asked for from now on.
+  /// Sets the chord of the points that follow.
   void begin(const Chord& chord, int index) {
     chord_ = &chord;
     index_ = index;
@@ -33,16 +33,16 @@ class ShellPoints {
     work_.segments.clear();
   }
 
-  void ask(std::int32_t point) {
+  void query(std::int32_t point) {
     ++result_.points_tested;
     const Segment segment = along(*chord_, shell_.points[point]);
-    if (!batched_) return askSingly(point, segment);
+    if (!batched_) return querySingly(point, segment);
     work_.points.push_back(point);
     work_.segments.push_back(segment);
-    if (work_.points.size() == kMost) finish();
+    if (work_.points.size() == kMaxPoints) finish();
   }
 
-  /// Answers those that wait.
+  /// Queries the points collected so far.
   void finish() {
     if (work_.points.empty()) return;
     segmentIntervals(field_, work_.segments.data(), work_.segments.size(), {options_.sigma}, work_.found);
@@ -54,7 +54,7 @@ class ShellPoints {
   }
 
  private:
-  static constexpr std::size_t kMost = 16384;
+  static constexpr std::size_t kMaxPoints = 16384;
 
   struct Work {
     std::vector<int> points;
@@ -63,13 +63,13 @@ class ShellPoints {
     Intervals intervals;
   };
 
-  /// Kept by each thread, so that steady-state queries allocate nothing.
+  /// Kept per thread, so that steady-state queries allocate nothing.
   static Work& threadWork() {
     thread_local Work work;
     return work;
   }
 
-  void askSingly(std::int32_t point, const Segment& segment) {
+  void querySingly(std::int32_t point, const Segment& segment) {
     const SegmentOptions options{options_.sigma, options_.any ? SegmentMode::kAny : SegmentMode::kAll};
     segmentIntervals(field_, segment, options, work_.intervals);
     for (const Interval& interval : work_.intervals) result_.hits.push_back({point, index_, interval});

@@ -19,10 +19,10 @@ struct PointRange {
 
 /// Memory of a search, kept by each thread so that steady-state queries allocate nothing.
 struct SearchWork {
-  std::vector<std::int32_t> stack;  ///< nodes still to visit
-  std::vector<std::int32_t> asked;  ///< nodes that are asked together
-  std::vector<PointRange> pending;  ///< points still to be asked
-  std::vector<PointRange> sorted;   ///< points that are asked together as spheres
+  std::vector<std::int32_t> stack;   ///< nodes still to visit
+  std::vector<std::int32_t> tested;  ///< nodes that are tested together
+  std::vector<PointRange> pending;   ///< points still to be queried
+  std::vector<PointRange> sorted;    ///< points that are tested together as spheres
 };
 
 SearchWork& searchWork() {
@@ -31,7 +31,7 @@ SearchWork& searchWork() {
   return work;
 }
 
-/// A shell's way through a field, chord by chord.
+/// Tests a shell against a field, chord by chord.
 class ShellSearch {
  public:
   ShellSearch(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
@@ -41,7 +41,7 @@ class ShellSearch {
         options_(options),
         result_(result),
         work_(searchWork()),
-        // A point's roots are those of the interpolated field, the spheres' test is about the true distance.
+        // A point's roots are those of the interpolated field; the spheres' test is about the true distance.
         sides_(field, {field.errorBound() + options.sigma, field.errorBound() - options.sigma},
                {tree.nodes[0].center, tree.nodes[0].radius}),
         points_(field, shell, options, result) {}
@@ -55,13 +55,13 @@ class ShellSearch {
     points_.begin(chord, index);
     work_.stack.assign(1, 0);
     work_.pending.clear();
-    askNode();  // bodies apart need no more
+    testNode();  // enough for bodies that are far apart
     while (!done()) {
       cancel_.check();
       if (!work_.pending.empty() && (options_.any || work_.stack.empty())) {
-        sides_.sortsPoints() ? sortPoints() : askPoints();
+        sides_.sortsPoints() ? sortPoints() : queryPoints();
       } else if (!work_.stack.empty()) {
-        sides_.inVectors() ? askNodes() : askNode();
+        sides_.inVectors() ? testNodes() : testNode();
       } else {
         break;
       }
@@ -70,31 +70,31 @@ class ShellSearch {
   }
 
  private:
-  /// Its points cost less than the spheres below it.
+  /// Whether a node's points cost less than the spheres below it.
   bool isSmall(const SphereTree::Node& node) const {
     constexpr std::int32_t kFewPoints = 16;
     return node.first_child < 0 || (sides_.inVectors() && node.end - node.begin <= kFewPoints);
   }
 
-  void askNode() {
+  void testNode() {
     const std::int32_t i = work_.stack.back();
     work_.stack.pop_back();
     ++result_.nodes_visited;
     take(i, sides_.of(nodes_[i].center, nodes_[i].radius));
   }
 
-  /// Those on top of the stack, together.
-  void askNodes() {
-    std::vector<std::int32_t>&stack = work_.stack, &asked = work_.asked;
+  /// Tests the topmost nodes of the stack together.
+  void testNodes() {
+    std::vector<std::int32_t>&stack = work_.stack, &tested = work_.tested;
     const std::size_t count = std::min<std::size_t>(stack.size(), SphereGroup::kCapacity);
-    asked.assign(stack.end() - count, stack.end());
+    tested.assign(stack.end() - count, stack.end());
     stack.resize(stack.size() - count);
     result_.nodes_visited += static_cast<long>(count);
     SphereGroup& group = sides_.group();
     group.size = 0;
-    for (const std::int32_t i : asked) group.add(nodes_[i].center, nodes_[i].radius);
-    sides_.askGroup();
-    for (std::size_t i = 0; i < count && !done(); ++i) take(asked[i], group.sideOf(static_cast<int>(i)));
+    for (const std::int32_t i : tested) group.add(nodes_[i].center, nodes_[i].radius);
+    sides_.testGroup();
+    for (std::size_t i = 0; i < count && !done(); ++i) take(tested[i], group.sideOf(static_cast<int>(i)));
   }
 
   void take(std::int32_t i, SweptSide side) {
@@ -110,7 +110,7 @@ class ShellSearch {
     }
   }
 
-  /// Puts nodes below a node on the stack: as many as fill a vector, where spheres are asked in vectors.
+  /// Pushes descendants of a node onto the stack: as many as fill a vector, if spheres are tested in vectors.
   void divide(const SphereTree::Node& node) {
     constexpr int kLevels = 3;
     const SphereTree::Node *first = nodes_ + node.first_child, *last = first + node.child_count;
@@ -131,14 +131,14 @@ class ShellSearch {
     }
   }
 
-  /// Points of one range.
-  void askPoints() {
+  /// Queries the points of one range.
+  void queryPoints() {
     const PointRange range = work_.pending.back();
     work_.pending.pop_back();
-    for (std::int32_t p = range.begin; p < range.end && !done(); ++p) points_.ask(p);
+    for (std::int32_t p = range.begin; p < range.end && !done(); ++p) points_.query(p);
   }
 
-  /// Points of several ranges: as spheres of no radius first, which leaves those that meet the surface or nearly do.
+  /// Points of several ranges: tested as spheres of radius zero first, so that only those near the surface are queried.
   void sortPoints() {
     SphereGroup& group = sides_.group();
     group.size = 0;
@@ -152,12 +152,12 @@ class ShellSearch {
       last.begin = some.end;
       if (last.begin == last.end) pending.pop_back();
     }
-    sides_.askGroup();
+    sides_.testGroup();
     int i = 0;
     for (const PointRange& range : sorted) {
       for (std::int32_t p = range.begin; p < range.end && !done(); ++p, ++i) {
         const SweptSide side = group.sideOf(i);
-        if (side == SweptSide::kUnknown) points_.ask(p);
+        if (side == SweptSide::kUnknown) points_.query(p);
         if (side == SweptSide::kInside) addInside(p, p + 1);
       }
     }
@@ -208,7 +208,7 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
 
 double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,
                  double slack) {
-  double nearest = std::numeric_limits<double>::infinity();  // of the points seen
+  double nearest = std::numeric_limits<double>::infinity();  // of the points visited
   double bound = nearest;                                    // of all points
   if (tree.nodes.empty()) return bound;
   std::vector<std::int32_t>& stack = searchWork().stack;

@@ -23,7 +23,7 @@ struct SphereSides::Vectors {
   std::optional<SphereSweep> sweep;
   SphereWork work;
 
-  /// This thread's, for a field; null if that is none for vectors.
+  /// This thread's vectors for a field; null if the field has no vector code.
   static Vectors* of(const DistanceField& field) {
     thread_local Vectors vectors;
     vectors.adaptive.reset();
@@ -53,7 +53,7 @@ bool SphereSides::sortsPoints() const {
   return vectors_ && !vectors_->sweep->isLong();
 }
 
-void SphereSides::askGroup() {
+void SphereSides::testGroup() {
   if (vectors_->adaptive) {
     sweepSpheres(*vectors_->adaptive, *vectors_->sweep, group_, vectors_->work);
   } else {
@@ -75,7 +75,7 @@ bool SphereSides::sortsPoints() const {
   return false;
 }
 
-void SphereSides::askGroup() {
+void SphereSides::testGroup() {
   for (int i = 0; i < group_.size; ++i) group_.side[i] = static_cast<std::int32_t>(SweptSide::kUnknown);
 }
 

@@ -8,25 +8,25 @@ namespace sdf_ccd {
 /// added to the margins.
 class SphereSides {
  public:
-  /// @param margins  of the spheres' surfaces.
-  /// @param shell    holds their centres, frame P.
+  /// @param margins  added to the spheres' radii.
+  /// @param shell    contains the spheres' centres, frame P.
   SphereSides(const DistanceField& field, const SweptMargins& margins, const BoundingBall& shell);
 
-  /// The chord that spheres are asked about from now on.
+  /// Sets the chord of the spheres that follow.
   void begin(const Chord& chord);
 
-  /// Of one sphere.
+  /// The side of one sphere.
   SweptSide of(const Vector3d& center_P, double radius) const;
 
-  /// Whether groups are asked in vectors: each sphere of one then costs a few times less.
+  /// Whether groups are tested in vectors: each sphere of a group then costs a few times less.
   bool inVectors() const { return vectors_ != nullptr; }
 
-  /// Whether that is worth its while for points too: not for long ways, as their spheres are asked of every few units.
+  /// Whether it is faster to test points in groups too: not on long paths, which take a new sphere every few units.
   bool sortsPoints() const;
 
-  /// To be filled, then answered; this thread's.
+  /// This thread's group: fill it, then call testGroup().
   SphereGroup& group() { return group_; }
-  void askGroup();
+  void testGroup();
 
  private:
   struct Vectors;

@@ -50,14 +50,14 @@ class DistanceQuery {
       return;
     }
     best_ = distance;
-    const Vector3d way = closest.on_b - closest.on_a;
-    const Vector3d n = length > 0.0 ? Vector3d(way / length) : Vector3d(Vector3d::UnitZ());
-    boxes_.setDirection(n);  // along which boxes are mostly farthest apart
+    const Vector3d displacement = closest.on_b - closest.on_a;
+    const Vector3d n = length > 0.0 ? Vector3d(displacement / length) : Vector3d(Vector3d::UnitZ());
+    boxes_.setDirection(n);  // the direction along which boxes are mostly farthest apart
     const double from_a = std::min(t_a.radius, length), from_b = std::min(t_b.radius, length - from_a);
     found_ = SurfaceDistance{distance, closest.on_a + from_a * n, closest.on_b - from_b * n};
   }
 
-  /// False only if a plane along a face of one surely separates them.
+  /// False only if a plane along a face of one of them surely separates them.
   static bool mayCross(const Corners& a, const Corners& b) {
     const auto isBeside = [](const Corners& face, const Corners& other) {
       const Vector3d n = (face[1] - face[0]).cross(face[2] - face[0]);
@@ -79,7 +79,7 @@ class DistanceQuery {
     const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
     NearBoxes found;
     const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
-    // What is above it in single precision is above it.
+    // A gap that exceeds the limit in single precision exceeds it in double precision.
     const float cut = std::nextafter(static_cast<float>(std::min(best_, 1e29)), std::numeric_limits<float>::infinity());
     into_a ? boxes_.gapsInA(node, at.b, cut, found) : boxes_.gapsInB(node, at.a, cut, found);
     const std::size_t first = memory_.stack.size();
@@ -88,7 +88,7 @@ class DistanceQuery {
       memory_.stack.push_back(into_a ? SeparationMemory::Boxes{{below_a, i}, at.b, found.gaps[i]}
                                      : SeparationMemory::Boxes{at.a, {below_b, i}, found.gaps[i]});
     }
-    // The nearest are looked into first: then most of the others need not be.
+    // The nearest pairs first: then most of the others are pruned.
     std::sort(memory_.stack.begin() + static_cast<std::ptrdiff_t>(first), memory_.stack.end(),
               [](const SeparationMemory::Boxes& x, const SeparationMemory::Boxes& y) { return x.gap > y.gap; });
   }

@@ -65,19 +65,19 @@ std::optional<Vector3d> piercedPoint(const Corners& t, const Vector3d& p, const 
   const double at_p = normal.dot(p - t[0]), at_q = normal.dot(q - t[0]);
   if (!(at_p * at_q < 0.0) || !(std::min(std::abs(at_p), std::abs(at_q)) > error)) return std::nullopt;
   const double across = std::abs(at_p - at_q);
-  const Vector3d place = p + std::abs(at_p) / across * (q - p);
+  const Vector3d point = p + std::abs(at_p) / across * (q - p);
   const double margin = error * (1.0 + (q - p).norm() / across);
   for (int k = 0; k < 3; ++k) {
     const Vector3d side = t[(k + 1) % 3] - t[k];
-    if (!(normal.cross(side).dot(place - t[k]) > margin * side.norm())) return std::nullopt;
+    if (!(normal.cross(side).dot(point - t[k]) > margin * side.norm())) return std::nullopt;
   }
-  return place;
+  return point;
 }
 
 std::optional<Vector3d> crossingPoint(const Corners& a, const Corners& b, double error) {
   for (int k = 0; k < 3; ++k) {
-    if (const auto place = piercedPoint(b, a[k], a[(k + 1) % 3], error)) return place;
-    if (const auto place = piercedPoint(a, b[k], b[(k + 1) % 3], error)) return place;
+    if (const auto point = piercedPoint(b, a[k], a[(k + 1) % 3], error)) return point;
+    if (const auto point = piercedPoint(a, b[k], b[(k + 1) % 3], error)) return point;
   }
   return std::nullopt;
 }

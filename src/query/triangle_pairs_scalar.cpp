@@ -1,4 +1,4 @@
-// What lanes/triangle_pairs.cpp does, one pair at a time: where Highway is not there, and to test it against.
+// The functions of lanes/triangle_pairs.cpp one pair at a time: for builds without Highway, and to test it against.
 #include "triangle_pairs_scalar.h"
 
 #include "triangle_pair.h"

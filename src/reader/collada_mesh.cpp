@@ -16,7 +16,7 @@ const XMLElement* childById(const XMLElement& parent, const char* name, const st
   for (const XMLElement* child = parent.FirstChildElement(name); child; child = child->NextSiblingElement(name)) {
     if (attributeOf(*child, "id") == id) return child;
   }
-  throw std::runtime_error("no <" + std::string(name) + "> of the id \"" + id + "\" in " + placeOf(parent));
+  throw std::runtime_error("no <" + std::string(name) + "> of the id \"" + id + "\" in " + describe(parent));
 }
 
 const XMLElement* inputOf(const XMLElement& parent, const char* semantic) {
@@ -28,37 +28,37 @@ const XMLElement* inputOf(const XMLElement& parent, const char* semantic) {
 
 /// Which of an accessor's parameters are x, y and z: the first three if it does not say.
 std::array<std::size_t, 3> coordinatesOf(const XMLElement& accessor, std::size_t& parameters) {
-  std::array<std::size_t, 3> places = {0, 1, 2};
+  std::array<std::size_t, 3> offsets = {0, 1, 2};
   parameters = 0;
   for (const XMLElement* p = accessor.FirstChildElement("param"); p; p = p->NextSiblingElement("param")) {
     const std::string name = attributeOf(*p, "name");
-    if (name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z') places[name[0] - 'X'] = parameters;
+    if (name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z') offsets[name[0] - 'X'] = parameters;
     ++parameters;
   }
-  return places;
+  return offsets;
 }
 
 std::vector<Vector3d> positionsOf(const XMLElement& source) {
   const XMLElement* technique = source.FirstChildElement("technique_common");
   const XMLElement* accessor = technique ? technique->FirstChildElement("accessor") : nullptr;
-  if (!accessor) throw std::runtime_error(placeOf(source) + " has no accessor");
+  if (!accessor) throw std::runtime_error(describe(source) + " has no accessor");
   const XMLElement& array = *childById(source, "float_array", referenceOf(*accessor, "source"));
   const std::vector<double> numbers = numbersOf(array);
   const std::uint64_t length = std::min<std::uint64_t>(numbers.size(), countOf(array, "count", numbers.size()));
   const std::uint64_t stride = countOf(*accessor, "stride", 1), count = countOf(*accessor, "count", 0);
   const std::uint64_t offset = countOf(*accessor, "offset", 0);
   std::size_t parameters = 0;
-  const std::array<std::size_t, 3> places = coordinatesOf(*accessor, parameters);
-  const bool is_whole = parameters <= stride && stride > *std::max_element(places.begin(), places.end());
+  const std::array<std::size_t, 3> offsets = coordinatesOf(*accessor, parameters);
+  const bool is_whole = parameters <= stride && stride > *std::max_element(offsets.begin(), offsets.end());
   // Divided, as a product of what strangers wrote may not fit.
   if (!is_whole || offset > length || (count > 0 && (length - offset) / count < stride)) {
-    throw std::runtime_error(placeOf(*accessor) + " reads beyond the " + std::to_string(length) + " numbers of \"#" +
+    throw std::runtime_error(describe(*accessor) + " reads beyond the " + std::to_string(length) + " numbers of \"#" +
                              attributeOf(array, "id") + "\"");
   }
   std::vector<Vector3d> positions;
   for (std::uint64_t i = 0; i < count; ++i) {
     const double* p = numbers.data() + offset + i * stride;
-    positions.push_back(vertexOf(p[places[0]], p[places[1]], p[places[2]]));
+    positions.push_back(vertexOf(p[offsets[0]], p[offsets[1]], p[offsets[2]]));
   }
   return positions;
 }
@@ -72,7 +72,7 @@ class PrimitiveReader {
       stride_ = std::max(stride_, countOf(*input, "offset", 0) + 1);
     }
     const XMLElement* vertex = inputOf(element, "VERTEX");
-    if (!vertex) throw std::runtime_error(placeOf(element) + " has no input of semantic VERTEX");
+    if (!vertex) throw std::runtime_error(describe(element) + " has no input of semantic VERTEX");
     offset_ = countOf(*vertex, "offset", 0);
   }
 
@@ -91,7 +91,7 @@ class PrimitiveReader {
     }
     const std::uint64_t announced = countOf(element_, "count", found);
     if (announced != found) {
-      throw std::runtime_error(placeOf(element_) + " announces " + std::to_string(announced) + ", there are " +
+      throw std::runtime_error(describe(element_) + " announces " + std::to_string(announced) + ", there are " +
                                std::to_string(found));
     }
   }
@@ -100,14 +100,14 @@ class PrimitiveReader {
   /// The vertices of one `<p>`, without the indices of normals, colours and textures between them.
   std::vector<std::int64_t> cornersOf(const XMLElement& p) const {
     const std::vector<std::int64_t> indices = indicesOf(p);
-    if (indices.size() % stride_ != 0) throw std::runtime_error(placeOf(p) + " ends within a corner");
+    if (indices.size() % stride_ != 0) throw std::runtime_error(describe(p) + " ends within a corner");
     std::vector<std::int64_t> corners;
     for (std::size_t i = offset_; i < indices.size(); i += stride_) corners.push_back(indices[i]);
     return corners;
   }
 
   std::uint64_t addTriangles(const std::vector<std::int64_t>& corners) {
-    if (corners.size() % 3 != 0) throw std::runtime_error(placeOf(element_) + " ends within a triangle");
+    if (corners.size() % 3 != 0) throw std::runtime_error(describe(element_) + " ends within a triangle");
     for (std::size_t i = 0; i < corners.size(); i += 3) polygons_.add({corners[i], corners[i + 1], corners[i + 2]});
     return corners.size() / 3;
   }
@@ -118,14 +118,14 @@ class PrimitiveReader {
     std::size_t begin = 0;
     for (const std::int64_t size : sizes) {
       if (size < 0 || static_cast<std::uint64_t>(size) > corners.size() - begin) {
-        throw std::runtime_error(placeOf(element_) + " has fewer corners than its <vcount> says");
+        throw std::runtime_error(describe(element_) + " has fewer corners than its <vcount> says");
       }
       const auto first = corners.begin() + static_cast<std::ptrdiff_t>(begin);
       polygons_.add({first, first + size});
       begin += static_cast<std::size_t>(size);
     }
     if (begin != corners.size()) {
-      throw std::runtime_error(placeOf(element_) + " has more corners than its <vcount> says");
+      throw std::runtime_error(describe(element_) + " has more corners than its <vcount> says");
     }
     return sizes.size();
   }

@@ -38,8 +38,8 @@ void closeAllAbove(int highest) {
 #endif
   struct rlimit files = {1024, 1024};
   ::getrlimit(RLIMIT_NOFILE, &files);
-  constexpr rlim_t kMost = 1 << 20;
-  for (int file = highest + 1; file < static_cast<int>(std::min(files.rlim_cur, kMost)); ++file) ::close(file);
+  constexpr rlim_t kMaxFiles = 1 << 20;
+  for (int file = highest + 1; file < static_cast<int>(std::min(files.rlim_cur, kMaxFiles)); ++file) ::close(file);
 }
 
 void preferToDie() {
@@ -57,7 +57,7 @@ constexpr unsigned kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr unsigned kArchitecture = 0;
 #endif
 
-/// Memory, what is open already, time, and a process's own end.
+/// Memory, files that are already open, time, and ending the process itself.
 constexpr unsigned kAllowed[] = {
     SYS_read,       SYS_write,          SYS_readv,         SYS_writev,         SYS_lseek,        SYS_close,
     SYS_mmap,       SYS_munmap,         SYS_mremap,        SYS_mprotect,       SYS_madvise,      SYS_brk,

@@ -4,7 +4,7 @@
 
 namespace sdf_ccd {
 
-/// Takes from this process, before it looks at what strangers have written, all that reading does not need.
+/// Gives up, before this process looks at untrusted data, all privileges that reading does not need.
 ///
 /// Gone are: all open files but stdin, stdout and stderr; more memory, computing time and stack than the limits say;
 /// new files, sockets, processes, threads and programs; written files and core dumps; privileges by setuid. It ends

@@ -33,7 +33,7 @@ const XMLElement* next(const XMLElement* element, const XMLElement* root) {
 std::vector<double> exactly(std::size_t count, const XMLElement& element) {
   std::vector<double> numbers = numbersOf(element);
   if (numbers.size() == count) return numbers;
-  throw std::runtime_error(placeOf(element) + " holds " + std::to_string(numbers.size()) + " numbers, not " +
+  throw std::runtime_error(describe(element) + " holds " + std::to_string(numbers.size()) + " numbers, not " +
                            std::to_string(count));
 }
 
@@ -64,7 +64,7 @@ Eigen::Affine3d transformOf(const XMLElement& element) {
   } else if (name == "lookat") {
     X = lookAt(exactly(9, element));
   } else if (name == "skew") {
-    throw std::runtime_error(placeOf(element) + ": nodes that are skewed are not read");
+    throw std::runtime_error(describe(element) + ": nodes that are skewed are not read");
   }
   return X;
 }
@@ -92,10 +92,10 @@ class SceneReader {
     const std::string id = referenceOf(from, attribute);
     const auto found = by_id_.find(id);
     if (found != by_id_.end() && std::string(found->second->Name()) == kind) return found->second;
-    throw std::runtime_error(placeOf(from) + " refers to \"#" + id.substr(0, 80) + "\", which is no <" + kind + ">");
+    throw std::runtime_error(describe(from) + " refers to \"#" + id.substr(0, 80) + "\", which is no <" + kind + ">");
   }
 
-  /// @param X  the parent's place.
+  /// @param X  the parent's pose.
   void addNode(const XMLElement& node, Eigen::Affine3d X) {
     if (!open_.insert(&node).second) {
       throw std::runtime_error("the node \"" + attributeOf(node, "id") + "\" contains itself");

@@ -21,8 +21,8 @@ struct OctreeFile {
 /// of nodes, a resolution that is not positive, a type of tree that holds no plain occupancy.
 OctreeFile checkOctreeFile(const std::string& bytes);
 
-/// The same file under a head that can be read in one way only: OctoMap divides heads into words, not lines, and what
-/// it takes for the nodes would be other bytes than those that were checked.
+/// The same file under a head that can be parsed in one way only: OctoMap divides heads into words, not lines, so it
+/// might take other bytes for the nodes than those that were checked.
 std::string withPlainHead(const OctreeFile& file, const std::string& bytes);
 
 }  // namespace sdf_ccd

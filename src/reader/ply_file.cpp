@@ -103,7 +103,7 @@ class ElementReader {
   PlyNumbers& numbers_;
 };
 
-/// Every corner after the second makes a triangle, alternately turned; -1 ends a strip.
+/// Every corner after the second makes a triangle, with alternating orientation; -1 ends a strip.
 void addStrips(const std::vector<std::int64_t>& strips, PolygonList& faces) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < strips.size(); ++i) {

@@ -31,7 +31,7 @@ class VoxelSurface {
     const int c = vertex(corner);
     --corner[u];
     const int d = vertex(corner);
-    // a b c d turns about +axis.
+    // a b c d is counter-clockwise about +axis.
     mesh_.triangles.push_back(upper ? Vector3i(a, b, c) : Vector3i(a, c, b));
     mesh_.triangles.push_back(upper ? Vector3i(a, c, d) : Vector3i(a, d, c));
   }

@@ -10,7 +10,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr const char* kSpace = " \t\r\n\v\f";
-constexpr std::size_t kShown = 20;  // of what is no number
+constexpr std::size_t kShown = 20;  // upper bound of the characters shown of an invalid number
 
 /// Calls take(text, end) at each word, which sets `end` to where its number ends.
 template <class Take>
@@ -22,7 +22,7 @@ void forEachWord(const XMLElement& element, const Take& take) {
       char* end = nullptr;
       take(text, &end);
       if (end == text || (*end && !std::strchr(kSpace, *end))) {
-        throw std::runtime_error(placeOf(element) + " holds \"" + std::string(text, strnlen(text, kShown)) +
+        throw std::runtime_error(describe(element) + " holds \"" + std::string(text, strnlen(text, kShown)) +
                                  "\" among its numbers");
       }
       text = end;
@@ -40,7 +40,7 @@ std::string attributeOf(const XMLElement& element, const char* name) {
 std::string referenceOf(const XMLElement& element, const char* name) {
   const std::string reference = attributeOf(element, name);
   if (reference.size() > 1 && reference[0] == '#') return reference.substr(1);
-  throw std::runtime_error(placeOf(element) + " refers to \"" + reference.substr(0, 80) +
+  throw std::runtime_error(describe(element) + " refers to \"" + reference.substr(0, 80) +
                            "\", not within the document");
 }
 
@@ -48,7 +48,7 @@ std::uint64_t countOf(const XMLElement& element, const char* name, std::uint64_t
   const std::string text = attributeOf(element, name);
   if (text.empty()) return otherwise;
   if (text.find_first_not_of("0123456789") == std::string::npos && text.size() < 16) return std::stoull(text);
-  throw std::runtime_error(placeOf(element) + ": " + name + "=\"" + text.substr(0, 80) + "\" is no count");
+  throw std::runtime_error(describe(element) + ": " + name + "=\"" + text.substr(0, 80) + "\" is no count");
 }
 
 std::vector<double> numbersOf(const XMLElement& element) {
@@ -63,7 +63,7 @@ std::vector<std::int64_t> indicesOf(const XMLElement& element) {
   return indices;
 }
 
-std::string placeOf(const XMLElement& element) {
+std::string describe(const XMLElement& element) {
   return "<" + std::string(element.Name()) + "> near line " + std::to_string(element.GetLineNum());
 }
 

@@ -18,11 +18,11 @@ std::string referenceOf(const tinyxml2::XMLElement& element, const char* name);
 /// number.
 std::uint64_t countOf(const tinyxml2::XMLElement& element, const char* name, std::uint64_t otherwise);
 
-/// The numbers within an element. @throws std::runtime_error, with the place, if anything else is there.
+/// The numbers within an element. @throws std::runtime_error, with the line, if anything else is there.
 std::vector<double> numbersOf(const tinyxml2::XMLElement& element);
 std::vector<std::int64_t> indicesOf(const tinyxml2::XMLElement& element);
 
 /// An element as messages name it: `<p> near line 12`.
-std::string placeOf(const tinyxml2::XMLElement& element);
+std::string describe(const tinyxml2::XMLElement& element);
 
 }  // namespace sdf_ccd

@@ -13,7 +13,7 @@ AlignedBox3d boxOf(const GeometryDescription& element) {
   return boundingBox(std::get<Primitive>(element.shape));
 }
 
-/// Points whose convex hull holds the element, in the body's frame: a mesh's vertices, else the corners of its box.
+/// Points whose convex hull contains the element, in the body's frame: a mesh's vertices, else the corners of its box.
 std::vector<Vector3d> hullPoints(const GeometryDescription& element) {
   std::vector<Vector3d> points;
   if (const Mesh* mesh = std::get_if<Mesh>(&element.shape)) {

@@ -15,7 +15,7 @@ struct ExtentBall {
 /// `geometry` must not be empty.
 ExtentBall extentBall(const std::vector<GeometryDescription>& geometry);
 
-/// No location of the geometry is nearer to p (in the body's frame) than this [m]; may be negative inside.
+/// Lower bound of the distance from p (in the body's frame) to the geometry [m]; may be negative inside.
 double distanceBelow(const std::vector<GeometryDescription>& geometry, const Vector3d& p);
 
 }  // namespace sdf_ccd

@@ -4,13 +4,13 @@
 
 namespace sdf_ccd {
 
-inline bool turns(const urdf::Joint& joint) {
+inline bool rotates(const urdf::Joint& joint) {
   return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
 }
 
-/// Turns or slides: it has one position.
+/// Rotates or translates: it has one position.
 inline bool hasPosition(const urdf::Joint& joint) {
-  return turns(joint) || joint.type == urdf::Joint::PRISMATIC;
+  return rotates(joint) || joint.type == urdf::Joint::PRISMATIC;
 }
 
 /// Equal limits mean that none were given.

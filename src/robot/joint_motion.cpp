@@ -20,7 +20,7 @@ Vector3d unitAxis(const urdf::Joint& joint) {
 
 Isometry3d jointMotion(const urdf::Joint& joint, double position) {
   Isometry3d X = Isometry3d::Identity();
-  if (turns(joint)) {
+  if (rotates(joint)) {
     X.linear() = Eigen::AngleAxisd(position, unitAxis(joint)).toRotationMatrix();
   } else if (joint.type == urdf::Joint::PRISMATIC) {
     X.translation() = position * unitAxis(joint);
@@ -30,7 +30,7 @@ Isometry3d jointMotion(const urdf::Joint& joint, double position) {
 
 double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC) {
   if (joint.type == urdf::Joint::PRISMATIC) return X_JC.translation().dot(unitAxis(joint));
-  if (!turns(joint)) return std::numeric_limits<double>::quiet_NaN();
+  if (!rotates(joint)) return std::numeric_limits<double>::quiet_NaN();
   constexpr double kRevolution = 6.283185307179586;
   const Quaterniond q(X_JC.linear());
   const double angle = std::remainder(2.0 * std::atan2(q.vec().dot(unitAxis(joint)), q.w()), kRevolution);
@@ -61,7 +61,7 @@ Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
 void ChainReach::addFixed(const Isometry3d& X) {
   piece_.offset = X.linear().transpose() * (piece_.offset + X.translation());
   piece_.slide = X.linear().transpose() * piece_.slide;
-  piece_.turned_about = X.linear().transpose() * piece_.turned_about;
+  piece_.rotated_about = X.linear().transpose() * piece_.rotated_about;
 }
 
 void ChainReach::addJoint(const urdf::Joint& joint, const Range& range, bool forward) {
@@ -70,9 +70,9 @@ void ChainReach::addJoint(const urdf::Joint& joint, const Range& range, bool for
       break;
     case urdf::Joint::REVOLUTE:
     case urdf::Joint::CONTINUOUS:
-      turns_.push_back({piece_, unitAxis(joint)});
+      cuts_.push_back({piece_, unitAxis(joint)});
       piece_ = Piece();
-      piece_.turned_about = unitAxis(joint);
+      piece_.rotated_about = unitAxis(joint);
       break;
     case urdf::Joint::PRISMATIC:
       if (!std::isfinite(range.first) || !std::isfinite(range.second)) {
@@ -101,24 +101,24 @@ Range ChainReach::distanceTo(const Vector3d& end) const {
   Piece last = piece_;
   last.offset += end;
 
-  // A turn about an end moves nothing.
-  std::vector<Turn> turns = turns_;
-  for (; !turns.empty() && last.isPoint(); turns.pop_back()) last = turns.back().before;
-  while (!turns.empty() && turns.front().before.isPoint()) turns.erase(turns.begin());
+  // A rotation about an end moves nothing.
+  std::vector<Cut> cuts = cuts_;
+  for (; !cuts.empty() && last.isPoint(); cuts.pop_back()) last = cuts.back().before;
+  while (!cuts.empty() && cuts.front().before.isPoint()) cuts.erase(cuts.begin());
 
-  const bool one_turn = turns.size() == 1 && further_slides_.empty();
-  if (one_turn && !last.slides() && !turns[0].before.slides()) {
+  const bool one_cut = cuts.size() == 1 && further_slides_.empty();
+  if (one_cut && !last.slides() && !cuts[0].before.slides()) {
     // |v + R w|, R about the axis: the parts along it are fixed, those across it add up to anything in between.
-    const Vector3d& v = turns[0].before.offset;
+    const Vector3d& v = cuts[0].before.offset;
     const Vector3d& w = last.offset;
-    const double along = turns[0].axis.dot(v) + last.turned_about.dot(w);
-    const double across_v = turns[0].axis.cross(v).norm();
-    const double across_w = last.turned_about.cross(w).norm();
+    const double along = cuts[0].axis.dot(v) + last.rotated_about.dot(w);
+    const double across_v = cuts[0].axis.cross(v).norm();
+    const double across_w = last.rotated_about.cross(w).norm();
     return {std::hypot(along, across_v - across_w), std::hypot(along, across_v + across_w)};
   }
 
   std::vector<Range> lengths = {lengthOf(last)};
-  for (const Turn& turn : turns) lengths.push_back(lengthOf(turn.before));
+  for (const Cut& cut : cuts) lengths.push_back(lengthOf(cut.before));
   for (const double length : further_slides_) lengths.emplace_back(0.0, length);
   double farthest = 0.0;
   for (const Range& length : lengths) farthest += length.second;

@@ -17,15 +17,15 @@ double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC);
 
 using Range = std::pair<double, double>;
 
-/// Positions that reach bounds allow for [m]: a prismatic joint's limits, either way round, and beyond each a margin of
-/// a tenth of the range, at least 1 cm, as real joints overshoot and URDFs are wrong. Two equal limits are none: so a
-/// URDF reads that gives none. A mimic joint has its leader's range carried over as well as its own.
+/// Range of positions for reach bounds [m]: a prismatic joint's limits, in either order, extended on both sides by a
+/// tenth of the range, at least 1 cm, because real joints overshoot and URDFs have errors. Two equal limits count as
+/// none, because a URDF without limits reads like this. A mimic joint's range also covers its leader's.
 Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint);
 
 /// Bounds the distance between the two ends of a chain of joints, over all joint positions.
 ///
-/// The chain is cut where something turns. A piece between two cuts has a length that is fixed, or ranges over a
-/// straight line where a joint slides; the distance of the ends is then bounded by the triangle inequality.
+/// The chain is cut at rotating joints. A piece between two cuts has a fixed length, or a range of lengths if a joint
+/// in it translates; the triangle inequality then bounds the distance of the ends.
 class ChainReach {
  public:
   /// @param start  the first end, in the frame that the first element is added to [m].
@@ -45,13 +45,13 @@ class ChainReach {
     Vector3d slide = Vector3d::Zero();
     double low = 0.0;
     double high = 0.0;
-    Vector3d turned_about = Vector3d::Zero();  ///< unit axis of the cut that it begins with; zero for the first piece
+    Vector3d rotated_about = Vector3d::Zero();  ///< unit axis of the cut that it begins with; zero for the first piece
 
     bool slides() const { return !slide.isZero(0.0); }
     bool isPoint() const { return !slides() && offset.isZero(1e-15); }
   };
   /// A cut, and the piece that ends in it.
-  struct Turn {
+  struct Cut {
     Piece before;   ///< in the joint's axes
     Vector3d axis;  ///< unit, in the joint's axes
   };
@@ -59,7 +59,7 @@ class ChainReach {
   static Range lengthOf(const Piece& piece);
 
   Piece piece_;
-  std::vector<Turn> turns_;
+  std::vector<Cut> cuts_;
   std::vector<double> further_slides_;  ///< of pieces with more than one sliding joint: their greatest lengths [m]
   bool unlimited_ = false;
 };

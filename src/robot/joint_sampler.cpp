@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint64_t kAtLimits = 4;  // every so many states
+constexpr std::uint64_t kAtLimits = 4;  // one in so many states
 
 }  // namespace
 
@@ -18,7 +18,7 @@ JointSampler::JointSampler(const RobotModel& robot, std::uint64_t seed) : random
     if (joint.mimic) continue;
     if (hasLimits(joint) && hasPosition(joint)) {
       joints_.push_back({joint.name, joint.limits->lower, joint.limits->upper, true});
-    } else if (turns(joint)) {
+    } else if (rotates(joint)) {
       joints_.push_back({joint.name, -M_PI, M_PI, false});
       if (joint.type == urdf::Joint::REVOLUTE) without_limits_.push_back(joint.name);
     }

@@ -10,13 +10,13 @@
 
 namespace sdf_ccd {
 
-/// Draws joint positions within a robot's limits; the same ones for the same seed, on every machine.
+/// Draws random joint positions within a robot's limits; equal for equal seeds, on every machine.
 ///
-/// Three of four states are uniform: within the limits, either way round, and of continuous joints over a full
-/// revolution; so also of revolute joints without limits, that is with two equal ones. In the fourth every limited
-/// joint stands at one of its limits with probability ½: there arms are folded farthest. Mimic joints follow their
-/// leaders (RobotModel::forwardKinematics()). Planar and floating joints, and prismatic ones without limits, range over
-/// locations that nothing bounds; they are left where they are (see unbounded()).
+/// Three of four states are uniform: within the limits, in either order; over a full revolution for continuous joints
+/// and for revolute joints without limits (two equal ones). In every fourth state each limited joint is at one of its
+/// limits with probability ½, because arms are folded most there. Mimic joints follow their leaders
+/// (RobotModel::forwardKinematics()). Planar and floating joints, and prismatic ones without limits, have no bounded
+/// range and keep their position (see isUnbounded()).
 class JointSampler {
  public:
   JointSampler(const RobotModel& robot, std::uint64_t seed);
@@ -26,7 +26,7 @@ class JointSampler {
   /// Revolute joints without limits.
   const std::vector<std::string>& withoutLimits() const { return without_limits_; }
 
-  /// Whether the joint, or the one that it mimics, is not drawn although it moves.
+  /// Whether the joint, or the one that it mimics, is not sampled although it moves.
   static bool isUnbounded(const RobotModel& robot, const urdf::Joint& joint);
 
   /// The first of those between two links, given by their indices; empty if there is none.

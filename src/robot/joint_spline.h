@@ -5,7 +5,7 @@
 
 namespace sdf_ccd {
 
-/// What is given of a joint at one time; velocities and accelerations need not be.
+/// Values of a joint at one time; velocities and accelerations are optional.
 struct JointKnot {
   double position = 0.0;      ///< [rad, m]
   double velocity = 0.0;      ///< [1/s]
@@ -14,8 +14,8 @@ struct JointKnot {
 
 enum class JointSplineOrder { kLinear, kCubic, kQuintic };
 
-/// How a joint moves from one time to the next, as joint_trajectory_controller has it: by the polynomial of least
-/// degree that has what is given at both ends.
+/// The motion of a joint between two times, as in joint_trajectory_controller: the polynomial of lowest degree with the
+/// values given at both ends.
 ///
 /// Source: ros_controllers, joint_trajectory_controller, quintic_spline_segment.h. It takes cubic splines where only
 /// velocities are given, quintic ones where accelerations are too.
@@ -26,7 +26,7 @@ class JointSpline {
 
   double position(double time) const;
 
-  /// No acceleration between the two times is larger: bounds by the Bézier coefficients of its polynomial [1/s²].
+  /// Upper bound of the acceleration between the two times, by the Bézier coefficients of its polynomial [1/s²].
   double largestAcceleration() const;
 
  private:
@@ -34,8 +34,8 @@ class JointSpline {
   double duration_;
 };
 
-/// Into how many pieces of the same length linear motion has to be cut so that it strays from the spline by no more
-/// than the tolerance: |q(t) − linear| ≤ max |q̈| h² / 8 on a piece of length h.
+/// Number of equal pieces of linear motion so that it deviates from the spline by no more than the tolerance: |q(t) −
+/// linear| ≤ max |q̈| h² / 8 on a piece of length h.
 /// @throws std::invalid_argument if these are more than a million.
 int piecesWithin(const JointSpline& spline, double duration, double tolerance);
 

@@ -23,7 +23,7 @@ JointTorques::JointTorques(const RobotModel& robot) {
     // The joint's frame and that of the link below it share the axis, whatever the position is.
     below_.push_back(link);
     joints_below_.push_back({link, static_cast<int>(leader - joints_.begin())});
-    parts_.push_back({static_cast<int>(leader - joints_.begin()), robot.multiplier(joint), turns(joint),
+    parts_.push_back({static_cast<int>(leader - joints_.begin()), robot.multiplier(joint), rotates(joint),
                       toEigen(joint.axis).normalized()});
   }
 }
@@ -34,7 +34,7 @@ void JointTorques::compute(const std::vector<Isometry3d>& X_WL, const std::vecto
   for (std::size_t link = 0; link < wrenches.size(); ++link) {
     const Wrench& wrench = wrenches[link];
     if (wrench.force.isZero(0.0) && wrench.torque.isZero(0.0)) continue;
-    // All joints on the way to the root carry it.
+    // It acts on all joints between the link and the root.
     for (int above = static_cast<int>(link); above >= 0; above = parent_[above]) {
       const auto found = std::lower_bound(below_.begin(), below_.end(), above);
       if (found == below_.end() || *found != above) continue;
@@ -42,7 +42,7 @@ void JointTorques::compute(const std::vector<Isometry3d>& X_WL, const std::vecto
       const Vector3d axis_W = X_WL[above].linear() * part.axis_L;
       const Vector3d lever = X_WL[link].translation() - X_WL[above].translation();
       const double along =
-          part.turns ? axis_W.dot(wrench.torque + lever.cross(wrench.force)) : axis_W.dot(wrench.force);
+          part.rotates ? axis_W.dot(wrench.torque + lever.cross(wrench.force)) : axis_W.dot(wrench.force);
       torques[part.joint] += part.multiplier * along;
     }
   }

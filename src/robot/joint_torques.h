@@ -9,11 +9,11 @@
 
 namespace sdf_ccd {
 
-/// What wrenches on a robot's links do at its joints: the generalised forces τ = Σ Jᵀ F of the joints that turn about
-/// an axis or slide along one. Their product with the joints' rates is the power of the wrenches, as long as the root
-/// rests: motors that hold the robot against them have to exert −τ.
+/// Joint torques and forces of wrenches on a robot's links: the generalised forces τ = Σ Jᵀ F of revolute and prismatic
+/// joints. Their product with the joint rates is the power of the wrenches, as long as the root does not move: motors
+/// that hold the robot against them must exert −τ.
 ///
-/// A joint that mimics another has none of its own: its part counts for that one, times its multiplier.
+/// A mimic joint has no torque: its part is added to its leader, times its multiplier.
 class JointTorques {
  public:
   explicit JointTorques(const RobotModel& robot);
@@ -24,13 +24,13 @@ class JointTorques {
   /// Links whose poses are needed, by their indices in RobotModel::links(): those right below a joint that moves.
   const std::vector<int>& links() const { return below_; }
 
-  /// Of links(): each with the joint, by its index in joints(), that the one above it counts for.
+  /// Each of links() with the joint, by its index in joints(), to which the joint above the link contributes.
   const std::vector<std::pair<int, int>>& jointsBelow() const { return joints_below_; }
 
-  /// @param X_WL      per link: its pose; of links() they must be set.
+  /// @param X_WL      per link: its pose; must be set for links().
   /// @param wrenches  per link: on it, about its origin, in the world's axes [N, N·m]; X_WL must be set where it is not
   ///                  zero.
-  /// @param torques   per joint [N·m], of those that slide forces [N]; memory used again.
+  /// @param torques   per joint [N·m], or force [N] if it is prismatic; its memory is reused.
   void compute(const std::vector<Isometry3d>& X_WL, const std::vector<Wrench>& wrenches,
                std::vector<double>& torques) const;
 
@@ -39,7 +39,7 @@ class JointTorques {
   struct Part {
     int joint;  // in joints()
     double multiplier;
-    bool turns;       // else it slides
+    bool rotates;     // else it translates
     Vector3d axis_L;  // in the frame of the link below it, unit
   };
 

@@ -14,13 +14,13 @@
 
 namespace sdf_ccd {
 
-/// Turns the collision elements of links into geometry. Every mesh is read once; equal URIs and scales share it.
+/// Converts the collision elements of links to geometry. Every mesh is read once; equal URIs and scales share it.
 class LinkGeometryLoader {
  public:
   LinkGeometryLoader(const ResourceLoader& loader, std::vector<std::string>& warnings)
       : loader_(loader), warnings_(warnings) {}
 
-  /// @throws std::exception, with the reason, if an element cannot be had.
+  /// @throws std::exception, with the reason, if an element cannot be loaded.
   std::vector<GeometryDescription> load(const urdf::Link& link);
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxDepth = 1000;  // rospack's; ends loops of symbolic links
+constexpr int kMaxDepth = 1000;  // as in rospack; stops loops of symbolic links
 
 bool has(const fs::path& directory, const char* name) {
   std::error_code error;

@@ -19,7 +19,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Collects this thread's console_bridge messages while it lives; those of other threads (tf2 logs there too) pass.
+/// Collects this thread's console_bridge messages during its lifetime; forwards those of other threads (tf2 logs too).
 class MessageCollector : public console_bridge::OutputHandler {
  public:
   MessageCollector() : previous_(console_bridge::getOutputHandler()), thread_(std::this_thread::get_id()) {
@@ -47,7 +47,7 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
-/// The document as tinyxml2 writes it: urdfdom's own reader of XML runs beyond the end of some that are damaged.
+/// The document as written by tinyxml2: urdfdom's XML reader reads beyond the end of some damaged documents.
 std::string wellFormed(const std::string& xml) {
   requireXmlSize(xml);
   const std::string text = soundText(xml);
@@ -94,7 +94,7 @@ void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
   }
 }
 
-/// urdfdom accepts links that are the child of several joints, and loops beside the root, whose links it forgets.
+/// urdfdom accepts links with several parent joints, and loops apart from the root, whose links it drops.
 void checkTree(const urdf::ModelInterface& model) {
   std::map<std::string, std::string> joint_above;  // by child link
   for (const auto& [name, joint] : model.joints_) {
@@ -117,7 +117,7 @@ void checkTree(const urdf::ModelInterface& model) {
   }
 }
 
-/// As some are drawn by hand; without this every position would be beyond a limit.
+/// Some URDFs have limits in the wrong order; without this every position would be beyond a limit.
 void orderLimits(urdf::Joint& joint, std::vector<std::string>& warnings) {
   if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::PRISMATIC) return;
   if (!joint.limits || !(joint.limits->lower > joint.limits->upper)) return;

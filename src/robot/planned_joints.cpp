@@ -20,7 +20,7 @@ bool hasManyDegrees(const urdf::Joint& joint) {
   return joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR;
 }
 
-/// What limit a position exceeds, in words; empty if none.
+/// The limit that a position exceeds, as text; empty if none.
 std::string exceeds(const urdf::Joint& joint, double position) {
   const bool limited = joint.limits && (joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC);
   if (!limited) return {};
@@ -71,7 +71,7 @@ class Planner {
     return is_led;
   }
 
-  /// A fixed joint may be named, but stays where it is.
+  /// A fixed joint may be named, but cannot move.
   void checkFixed(const urdf::Joint& joint) const {
     for (std::size_t i = 0; i < plan_.trajectory.states.size(); ++i) {
       const RobotState& state = plan_.trajectory.states[i];

@@ -21,7 +21,7 @@ void startAtZero(CycleMotion& motion) {
   throw std::invalid_argument("planned motion: " + what);
 }
 
-/// Brings all that may be left empty to the number of bodies. @throws std::invalid_argument if something does not fit.
+/// Resizes optional vectors to the number of bodies. @throws std::invalid_argument if sizes are inconsistent.
 void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
   if (!motion.spans.empty()) refuse("spans are of cycles");
   MotionShape shape;

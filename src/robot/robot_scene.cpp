@@ -19,7 +19,7 @@ bool isProved(const std::string& reason) {
   return reason == kRigidlyJoined || reason == kOutOfReach;
 }
 
-/// Tells why a pair of links needs no check.
+/// Decides whether and why a pair of links needs no check.
 class PairFilter {
  public:
   PairFilter(const RobotModel& robot, const Srdf& srdf, const RobotSceneOptions& options)
@@ -56,7 +56,7 @@ void warnOfVisualOnly(const std::vector<std::string>& links, std::vector<std::st
   warnings.push_back(text);
 }
 
-/// The link whose frame carries the body, if that never moves against the robot's root.
+/// The body's pose in the root's frame, if its frame is rigidly joined to the robot's root.
 std::optional<Isometry3d> poseInRoot(const RobotModel& robot, const std::vector<Isometry3d>& X_RL,
                                      const BodyDescription& body) {
   for (std::size_t i = 0; i < X_RL.size(); ++i) {
@@ -66,13 +66,13 @@ std::optional<Isometry3d> poseInRoot(const RobotModel& robot, const std::vector<
   return std::nullopt;
 }
 
-/// True if the object, whose pose in the root's frame is X_RB, is farther from the link's ball than that can go.
+/// True if the link's ball cannot reach the object, whose pose in the root's frame is X_RB.
 bool outOfReach(const RobotModel& robot, const BodyDescription& object, const Isometry3d& X_RB, const std::string& link,
                 const ExtentBall& ball) {
   const ExtentBall object_ball = extentBall(object.geometry);
   const auto between = robot.reach(robot.root(), X_RB * object_ball.center, link, ball.center);
   if (between.nearest > object_ball.radius + ball.radius) return true;
-  // A wide object's ball holds much else; the object itself may lie beyond all that the link can reach.
+  // The ball of a wide object is much larger; the object itself may be beyond the reach of the link.
   const auto from_root = robot.reach(robot.root(), Vector3d::Zero(), link, ball.center);
   const Vector3d p_B = X_RB.inverse().translation();
   return distanceBelow(object.geometry, p_B) > from_root.farthest + ball.radius;

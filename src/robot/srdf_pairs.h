@@ -12,7 +12,7 @@
 
 namespace sdf_ccd {
 
-/// What an SRDF says of pairs of links, names and patterns alike.
+/// The rules of an SRDF for pairs of links, by names and patterns.
 class SrdfPairs {
  public:
   explicit SrdfPairs(const Srdf& srdf);

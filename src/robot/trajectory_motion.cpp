@@ -18,7 +18,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTurn = 1.0;                     // at most that a link turns between two waypoints [rad]
+constexpr double kAngle = 1.0;                    // maximum rotation of a link between two waypoints [rad]
 constexpr std::size_t kMaxAddedWaypoints = 2000;  // about 300 revolutions
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -43,7 +43,7 @@ bool sameKeys(const Map& a, const Map& b) {
          std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) { return x.first == y.first; });
 }
 
-/// Poses of all states that tell which way they turned: those of the root, or of a joint.
+/// Requires that the poses of the root, or of a joint, in all states define the direction of each rotation.
 template <class PoseOf>
 void requirePoses(const std::vector<RobotState>& states, const PoseOf& pose_of, const std::string& what) {
   std::vector<Isometry3d> poses;
@@ -53,13 +53,13 @@ void requirePoses(const std::vector<RobotState>& states, const PoseOf& pose_of, 
   requireUnambiguousTurns(poses, what);
 }
 
-/// The last waypoint of those that the time lies between.
+/// The end of the segment that contains the time, by its waypoint.
 std::size_t segmentAt(const std::vector<double>& times, double time) {
   const auto next = std::upper_bound(times.begin(), times.end(), time);
   return std::clamp<std::size_t>(next - times.begin(), 1, times.size() - 1);
 }
 
-/// The points of a body, carried by one frame after the other.
+/// The points of a body, transformed from frame to frame along its chain.
 class CarriedPoints {
  public:
   explicit CarriedPoints(const CarriedBody& body) : ball_(body.ball_B), X_(body.X_LB) {}
@@ -85,7 +85,7 @@ class CarriedPoints {
   double jerk() const { return chain_ ? chain_->jerk() : 0.0; }
 
  private:
-  /// What has carried the points rigidly so far has moved their ball exactly.
+  /// Rigid transforms so far have moved the ball of the points exactly.
   void begin() {
     if (chain_) return;
     chain_.emplace(BoundingBall{X_ * ball_.center, ball_.radius});
@@ -93,7 +93,7 @@ class CarriedPoints {
   }
 
   BoundingBall ball_;
-  Isometry3d X_;  // what carries the points, or the last frame that moves, since then
+  Isometry3d X_;  // from the points, or the last moving frame, to the current frame
   std::optional<ChainDerivatives> chain_;
 };
 
@@ -135,7 +135,7 @@ TrajectoryMotion::TrajectoryMotion(const RobotModel& robot, const RobotTrajector
   if (states.size() < 2 || states.size() != trajectory_.times.size())
     refuse("a trajectory needs two waypoints or more");
   for (std::size_t i = 0; i < states.size(); ++i) {
-    robot_.forwardKinematics(states[i].positions, states[i].poses);  // refuses what it cannot take
+    robot_.forwardKinematics(states[i].positions, states[i].poses);  // rejects invalid states
     if (i == 0) continue;
     if (!(trajectory_.times[i] > trajectory_.times[i - 1])) {
       refuse("the time of waypoint " + std::to_string(i) + " does not increase");
@@ -159,22 +159,23 @@ std::vector<double> TrajectoryMotion::waypoints() const {
   std::vector<FrameMove> moves;
   for (std::size_t i = 1; i < times.size(); ++i) {
     moveAlong(i, moves);
-    double turn = 0.0;  // of any link: its chain's turns added up
-    std::vector<double> turns(moves.size());
+    double angle = 0.0;  // maximum over links: the sum over its chain
+    std::vector<double> angles(moves.size());
     for (std::size_t link = 0; link < moves.size(); ++link) {
-      turns[link] = moves[link].angle + (link > 0 ? turns[robot_.parent(static_cast<int>(link))] : 0.0);
-      turn = std::max(turn, turns[link]);
+      angles[link] = moves[link].angle + (link > 0 ? angles[robot_.parent(static_cast<int>(link))] : 0.0);
+      angle = std::max(angle, angles[link]);
     }
-    const double pieces = std::max(1.0, std::ceil(turn / kTurn));
+    const double pieces = std::max(1.0, std::ceil(angle / kAngle));
     if (!(pieces - 1.0 <= static_cast<double>(kMaxAddedWaypoints - added))) {
       refuse(
           fmt::format("the trajectory turns a link by {:.3g} rad up to point {}: more than {} rad beside one per point "
                       "are not checked",
-                      turn, i, kMaxAddedWaypoints));
+                      angle, i, kMaxAddedWaypoints));
     }
-    added += static_cast<std::size_t>(pieces) - 1;
-    for (double piece = 1.0; piece < pieces; ++piece) {
-      waypoints.push_back(times[i - 1] + piece / pieces * (times[i] - times[i - 1]));
+    const auto count = static_cast<std::size_t>(pieces);
+    added += count - 1;
+    for (std::size_t piece = 1; piece < count; ++piece) {
+      waypoints.push_back(times[i - 1] + static_cast<double>(piece) / pieces * (times[i] - times[i - 1]));
     }
     waypoints.push_back(times[i]);
   }
@@ -199,7 +200,7 @@ std::vector<double> TrajectoryMotion::jointErrors() const {
       const urdf::Joint& joint = robot_.jointAbove(link);
       const bool is_followed = trajectory_.states[0].positions.count(robot_.leader(joint).name) > 0;
       const double error = is_followed ? std::abs(robot_.multiplier(joint)) * trajectory_.joint_error : 0.0;
-      if (turns(joint)) errors[body] += error * reach;
+      if (rotates(joint)) errors[body] += error * reach;
       if (joint.type == urdf::Joint::PRISMATIC) errors[body] += error;
       reach += farthest[link] + error + toEigen(joint.parent_to_joint_origin_transform).translation().norm();
     }
@@ -239,7 +240,7 @@ void TrajectoryMotion::moveAlong(std::size_t segment, std::vector<FrameMove>& mo
     }
     const double start = robot_.position(joint, from.positions), end = robot_.position(joint, to.positions);
     moves[link] = {jointMotion(joint, start), jointMotion(joint, end).translation(),
-                   turns(joint) ? std::abs(end - start) : 0.0};
+                   rotates(joint) ? std::abs(end - start) : 0.0};
   }
 }
 

@@ -19,7 +19,7 @@ BoundingBall ballOf(const BodyDescription& body) {
   return {ball.center, ball.radius};
 }
 
-/// Empty if all is as it was taken to be.
+/// Empty if all assumptions hold.
 std::string beyond(const RobotModel& robot, const RobotState& state, const RobotModel::Slide& slide) {
   const urdf::Joint& joint = *robot.urdf().getJoint(slide.joint);
   const auto pose = state.poses.find(slide.joint);
@@ -32,7 +32,7 @@ std::string beyond(const RobotModel& robot, const RobotState& state, const Robot
   return beyondReach(slide, position);
 }
 
-/// The least distance of two points that move along their screws, from their places at both ends.
+/// Lower bound of the distance of two points that move along screws, from their positions at both ends.
 double leastDistance(const ScrewMotion& X_WA, const Vector3d& p_A, const ScrewMotion& X_WB, const Vector3d& p_B) {
   const double start = (X_WA.start() * p_A - X_WB.start() * p_B).norm();
   const double end = (X_WA.end() * p_A - X_WB.end() * p_B).norm();

@@ -17,7 +17,7 @@ std::size_t countChildren(const XMLElement& element, const char* name) {
   return count;
 }
 
-/// What urdfdom has to say of this link: parsed as the only one of a robot.
+/// urdfdom's messages about this link, parsed as the only link of a robot.
 std::string parserErrors(const XMLElement& link) {
   tinyxml2::XMLPrinter printer(nullptr, true);
   link.Accept(&printer);

@@ -8,9 +8,9 @@
 namespace sdf_ccd {
 
 /// Links that have fewer collision elements in the model than in the text, and why: urdfdom stops reading a link at the
-/// first element (inertial and visual ones too) that it does not understand, and goes on with the next link as if
-/// nothing had been.
-/// @param xml  what the model was parsed from.
+/// first element (also an inertial or visual one) that it cannot parse, and continues with the next link without an
+/// error.
+/// @param xml  the text that the model was parsed from.
 /// @return reasons by link.
 /// @throws std::runtime_error if the text cannot be read again.
 std::map<std::string, std::string> unreadLinks(const urdf::ModelInterface& model, const std::string& xml);

@@ -70,7 +70,7 @@ CycleResult checkMotion(std::shared_ptr<const Scene> scene, const MonitorOptions
 
 namespace {
 
-/// Looks at pieces of motions, with what checks need used again from one to the next.
+/// Checks pieces of motions, reusing the memory of checks from one to the next.
 class MotionLooker {
  public:
   MotionLooker(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const MotionsRequest& wanted)
@@ -81,7 +81,7 @@ class MotionLooker {
   }
 
   MotionVerdict look(const PlannedMotion& motion) {
-    monitor_.reset();  // so that what it says does not depend on the motion before
+    monitor_.reset();  // so that results do not depend on the previous motion
     MotionVerdict found;
     found.verdict = monitor_.scene().pairs.empty() ? Verdict::kNotChecked : Verdict::kClear;
     if (!motion.unchecked.empty()) found = {Verdict::kNotChecked, 0.0, -1, motion.waypoints.front()};
@@ -131,7 +131,7 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
   std::vector<MotionVerdict> verdicts(count);
   tbb::enumerable_thread_specific<std::unique_ptr<MotionLooker>> lookers;
   parallelRanges(std::size_t{0}, count, [&](std::size_t first, std::size_t last) {
-    // A monitor's own parallel loop may take up other motions while it waits: not with the same monitor.
+    // A monitor's own parallel loop may start other motions while it waits: these must not use the same monitor.
     tbb::this_task_arena::isolate([&] {
       std::unique_ptr<MotionLooker>& looker = lookers.local();
       if (!looker) looker = std::make_unique<MotionLooker>(scene, options, request);

@@ -21,8 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kRound = 256;    // states between two looks at which pairs are still open
-constexpr std::size_t kAlways = 1000;  // random states that tell what touches always: each costs a search for contacts
+constexpr std::size_t kRound = 256;    // states between two updates of the undecided pairs
+constexpr std::size_t kAlways = 1000;  // random states that decide Always: each costs a search for contacts
 
 /// Sorts the pairs of a described robot's bodies into those that have to be tested and those that need not.
 class PairSorter {
@@ -38,7 +38,7 @@ class PairSorter {
     for (const BodyDescription& body : scene.bodies) findNeighbours(index_.at(body.name));
   }
 
-  /// False if the pair need not be tested; then it is told in `pairs`.
+  /// False if the pair needs no test; it is then added to `pairs`.
   bool mustBeTested(const BodyDescription& a, const BodyDescription& b, LearnedPairs& pairs) const {
     const NamePair names = namePair(a.name, b.name);
     if (isKnown(a.name, b.name)) {
@@ -60,13 +60,13 @@ class PairSorter {
   }
 
  private:
-  /// Whether the SRDF says what becomes of the pair.
+  /// Whether the SRDF has a rule for the pair.
   bool isKnown(const std::string& a, const std::string& b) const {
     return !srdf_.whyDisabled(a, b).empty() || srdf_.isEnabled(a, b) || srdf_.isDisabledByDefault(a) ||
            srdf_.isDisabledByDefault(b);
   }
 
-  /// The links with shapes that are next to this one, across links without.
+  /// The links with shapes that are adjacent to this one, across links without shapes.
   void findNeighbours(int body) {
     std::vector<int> open = {body};
     std::set<int> seen = {body};
@@ -100,12 +100,12 @@ BodyOptions sceneOptions(double max_error) {
   return options;
 }
 
-/// What has been seen of one pair.
+/// Observations of one pair.
 struct Seen {
-  bool is_rigid = false;  // one state says all
+  bool is_rigid = false;  // one state is enough
   bool touch = false, apart = false, close = false, unchecked = false, touch_at_default = false;
 
-  /// Whether another state may change what is said of it.
+  /// Whether another state can change the result.
   /// @param is_long  whether it has been tested in more than kAlways random states.
   bool isOpen(bool is_long) const {
     if (is_rigid && (touch || apart || close)) return false;
@@ -183,7 +183,7 @@ std::vector<Seen> testPairs(const RobotModel& robot, const Scene& scene, const L
     for (std::size_t p = 0; p < seen.size(); ++p)
       if (seen[p].isOpen(states.randomTaken() > kAlways)) open.push_back(p);
     if (open.empty()) break;
-    // The first look is soon: most pairs that touch now and then do so in the first states.
+    // The first update comes early: most pairs that touch in some states do so in the first ones.
     const std::vector<JointPositions> round = states.take(is_default ? 1 : kRound);
     const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, round);
     for (std::size_t i = 0; i < verdicts.size(); ++i) {

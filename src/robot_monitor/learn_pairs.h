@@ -11,11 +11,11 @@ namespace sdf_ccd {
 
 struct LearnOptions {
   std::size_t states = 10'000;           ///< drawn by JointSampler
-  std::uint64_t seed = 1;                ///< of these
-  std::vector<JointPositions> recorded;  ///< further states; joints that one does not name are as in the default state
-  double max_error = 0.005;              ///< of what is said of a pair in a state [m]; see BodyOptions::max_error
-  bool default_pairs = false;            ///< also leave out what touches in the default state, though not always
-  std::function<void(const std::string& what, double share)> progress;  ///< may throw, to end it
+  std::uint64_t seed = 1;                ///< of the sampler
+  std::vector<JointPositions> recorded;  ///< further states; joints that are not named are as in the default state
+  double max_error = 0.005;              ///< of the verdict about a pair in a state [m]; see BodyOptions::max_error
+  bool default_pairs = false;            ///< also leave out pairs that touch in the default state, but not always
+  std::function<void(const std::string& what, double share)> progress;  ///< may throw to cancel
 };
 
 /// A pair of links with collision shapes, in the order of the robot's links.
@@ -25,18 +25,18 @@ struct LearnedPair {
       reason;  ///< of the SRDF, as MoveIt's setup assistant has it: Adjacent, Always, Never, Default; or why not
 };
 
-/// What became of all pairs of a robot's links that have collision shapes.
+/// The result for all pairs of a robot's links that have collision shapes.
 struct LearnedPairs {
   std::vector<LearnedPair> disabled;     ///< need no check
   std::vector<LearnedPair> touching;     ///< touch in some states: to be checked
   std::vector<LearnedPair> close;        ///< come within the error bound of each other: to be checked
-  std::vector<LearnedPair> unknown;      ///< nothing is learned of them, and why: to be checked
+  std::vector<LearnedPair> unknown;      ///< no result, and why: to be checked
   std::vector<LearnedPair> at_default;   ///< of `touching`, and Default: those that touch in the default state
-  std::size_t known = 0;                 ///< that the given SRDF decides
+  std::size_t known = 0;                 ///< number of pairs decided by the given SRDF
   std::size_t proved = 0;                ///< of `disabled`, Never: rigidly joined, or out of each other's reach
-  std::size_t states = 0, recorded = 0;  ///< that were tested, besides the default state
-  std::size_t always_states = 0;         ///< of the random ones: in so many Always was tested, at least
-  std::uint64_t seed = 0;                ///< of the first
+  std::size_t states = 0, recorded = 0;  ///< tested states, besides the default state
+  std::size_t always_states = 0;         ///< lower bound of the random states in which Always was tested
+  std::uint64_t seed = 0;                ///< of the random states
   double error_bound = 0.0;              ///< largest of the pairs [m]
   double build_seconds = 0.0, test_seconds = 0.0;
   std::vector<std::string> warnings;
@@ -46,25 +46,25 @@ struct LearnedPairs {
 ///
 ///  - Adjacent: they are joined by one joint, or by one that moves and else fixed ones to links without collision
 ///    shapes. They are not tested.
-///  - Always: they touch in every state, deeper than the error bound. Of the random ones some thousand are tested, as
-///    each takes a search for all contact points: a pair that parts in less than 0.3 % of states may be taken for one
-///    that does not.
+///  - Always: they touch in every state, deeper than the error bound. About a thousand random states are tested, as
+///    each needs a search for all contact points: a pair that separates in less than 0.3 % of states may be classified
+///    as Always.
 ///  - Never: they are farther apart than the error bound in every state. That is no proof, unless they are rigidly
 ///    joined or out of each other's reach (RobotModel::reach()): after n states without a touch, a pair touches with
 ///    95 % confidence in less than 3 / n of the states that could have been drawn.
-///  - Default, if asked for: they touch in the default state, where joints are at zero or at the nearest limit. They
-///    may part, and touch again, elsewhere; that is not seen then.
+///  - Default, if requested: they touch in the default state, with joints at zero or at the nearest limit. They may
+///    separate and touch again in other states; such contacts are then not found.
 ///
 /// Pairs that the given SRDF disables or enables stay as it says and are not tested. Nothing is learned of pairs with a
 /// planar, floating or unlimited prismatic joint between them, or whose shapes cannot be read. The result depends on
 /// the states and the meshes only, not on the number of threads (those of the caller's TBB arena).
-/// @throws std::invalid_argument if there are no states, or max_error cannot be kept; std::length_error where what
-/// that takes is more than the machine has, or far more than one field or shell may take (see requireAffordable()).
+/// @throws std::invalid_argument if there are no states, or max_error cannot be met; std::length_error if that needs
+/// more memory than the machine has, or far more than one field or shell may take (see requireAffordable()).
 LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                         const LearnOptions& options);
 
-/// An SRDF that holds the pairs, after all that the given one holds.
-/// @param given  text of an SRDF, or empty: then one that holds nothing else.
+/// An SRDF with the content of the given one, followed by the pairs.
+/// @param given  text of an SRDF; if empty, the result has only the pairs.
 /// @throws std::runtime_error if it is no SRDF.
 std::string srdfWith(const LearnedPairs& pairs, const RobotModel& robot, const std::string& given);
 

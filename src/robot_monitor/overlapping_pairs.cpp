@@ -55,7 +55,7 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
   }
 
   JointSampler sampler(robot, 1);
-  constexpr std::size_t kFirst = 8;  // most pairs that part do so soon
+  constexpr std::size_t kFirst = 8;  // most pairs that separate do so early
   for (std::size_t drawn = 0; drawn < states && !open.empty();) {
     checkCancelled();
     const std::size_t round = std::min(states - drawn, drawn == 0 ? kFirst : 3 * drawn);

@@ -57,7 +57,7 @@ std::string srdfWith(const LearnedPairs& pairs, const RobotModel& robot, const s
     root->SetAttribute("name", robot.urdf().getName().c_str());
     document.InsertEndChild(root);
   } else {
-    parseSrdf(given);  // says what is wrong
+    parseSrdf(given);  // throws with the reason
     document.Parse(given.data(), given.size());
   }
   tinyxml2::XMLElement* root = document.RootElement();

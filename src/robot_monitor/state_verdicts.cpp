@@ -28,22 +28,22 @@ class StateTester {
     motion_.X_WB.assign(links_.size(), {Isometry3d::Identity(), Isometry3d::Identity()});
   }
 
-  /// @param contacts  whether depths are wanted too.
+  /// @param contacts  whether depths are needed too.
   const std::vector<PairResult>& test(const JointPositions& positions, bool contacts) {
     const std::vector<Isometry3d> X_RL = robot_.forwardKinematics(positions);
     for (std::size_t body = 0; body < links_.size(); ++body)
       if (links_[body] < X_RL.size()) motion_.X_WB[body].assign(2, X_RL[links_[body]]);
-    monitor_.reset();  // so that what it says of a state does not depend on the one before
+    monitor_.reset();  // so that the result of a state does not depend on the previous one
     CycleRequest request;
     request.wrenches = false;
     request.contacts = contacts;
     return monitor_.run(motion_, request).pairs;
   }
 
-  /// UNCERTAIN also where they are CLEAR, but near.
+  /// UNCERTAIN also for pairs that are CLEAR, but within the bound.
   Verdict verdict(const PairResult& pair) const {
-    const bool near = pair.verdict == Verdict::kClear && pair.clearance <= bound_;
-    return near ? Verdict::kUncertain : pair.verdict;
+    const bool is_close = pair.verdict == Verdict::kClear && pair.clearance <= bound_;
+    return is_close ? Verdict::kUncertain : pair.verdict;
   }
 
  private:
@@ -78,7 +78,7 @@ std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, con
   std::vector<Verdict> verdicts(pairs.size() * states.size());
   tbb::enumerable_thread_specific<std::unique_ptr<StateTester>> testers;
   tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t state) {
-    // A monitor's own parallel loop may take up other states while it waits: not with the same monitor.
+    // A monitor's own parallel loop may start other states while it waits: these must not use the same monitor.
     tbb::this_task_arena::isolate([&] {
       std::unique_ptr<StateTester>& tester = testers.local();
       if (!tester) tester = std::make_unique<StateTester>(robot, reduced);

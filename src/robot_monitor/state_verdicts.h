@@ -13,14 +13,14 @@ struct PairAtRest {
   double depth = 0.0;  ///< of the deepest point found, if they are in contact [m]
 };
 
-/// Of pairs of the scene, by index, in their order; all else as for verdictsOf().
+/// The pairs of the scene with these indices, in their order; otherwise as verdictsOf().
 std::vector<PairAtRest> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
                                 const JointPositions& state);
 
-/// Whether pairs touch in states at rest, in parallel over the states; UNCERTAIN also where they are CLEAR, but nearer
-/// than the scene's bound, as states between these may be.
+/// Whether pairs touch in states at rest, parallel over the states; UNCERTAIN also for pairs that are CLEAR but closer
+/// than the scene's bound, because states between these may touch.
 /// @param pairs   of the scene's links, by index; a link's body has its name, and its frame.
-/// @return one after the other per state, in the pairs' order.
+/// @return verdicts per state, each in the order of the pairs.
 std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
                                 const std::vector<JointPositions>& states);
 

@@ -22,7 +22,7 @@ bool isOwn(const struct stat& status) {
   return status.st_uid == ::geteuid() || status.st_uid == 0;
 }
 
-/// "hash.field", "hash.shell" and what stands beside them.
+/// "hash.field", "hash.shell" and related files.
 bool isOfCache(const std::string& file) {
   for (const char* ending : {".field", ".shell", ".field.doubt", ".field.lock", ".shell.lock"}) {
     const std::size_t length = std::strlen(ending);
@@ -54,7 +54,7 @@ void requireOwnDirectory(const std::string& directory) {
   if (!error && ::stat(directory.c_str(), &status) != 0) error = {errno, std::generic_category()};
   if (error) throw std::runtime_error(directory + ": " + error.message());
   if (!S_ISDIR(status.st_mode)) throw std::runtime_error(directory + ": is no directory");
-  // A group of one's own is usual.
+  // A group of the user's own is usual.
   const bool by_group = (status.st_mode & S_IWGRP) != 0 && status.st_gid != ::getegid();
   if (!isOwn(status) || by_group || (status.st_mode & S_IWOTH) != 0) {
     throw std::runtime_error(directory + ": others may write to it");

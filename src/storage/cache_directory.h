@@ -6,8 +6,8 @@
 namespace sdf_ccd {
 
 /// Makes the directory, for its owner alone, if it does not exist.
-/// @throws std::runtime_error if it cannot be made, or if others may write to it: what they put there would be
-/// believed.
+/// @throws std::runtime_error if it cannot be made, or if others may write to it: their files would be
+/// trusted.
 void requireOwnDirectory(const std::string& directory);
 
 /// @throws std::runtime_error if the file is a link, no regular file, or somebody else's.

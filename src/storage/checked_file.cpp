@@ -108,7 +108,7 @@ class Checksum {
   std::size_t in_piece_ = 0;
 };
 
-/// A file to read: a regular one, so that nothing waits for what may never come.
+/// Opens a file to read: a regular one, so that reading cannot block for ever.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path)
@@ -136,7 +136,7 @@ class OpenFile {
     return header;
   }
 
-  /// Reads what follows the header to its place behind `to`; returns its checksum.
+  /// Reads the rest after the header into `to`, behind the header; returns its checksum.
   std::uint64_t readAfterHeader(char* to) const {
     return Checksum::of(bytes_ - sizeof(Header), [&](std::size_t from, std::size_t bytes) {
       char* part = to + sizeof(Header) + from;
@@ -201,7 +201,7 @@ std::vector<FileSection> sectionsOf(const std::string& path, const Header& heade
   return sections;
 }
 
-/// A file that has no name until it is complete, so that nothing stays of it whatever ends the process.
+/// A file without a name until it is complete, so that it disappears if the process ends before.
 class NewFile {
  public:
   explicit NewFile(const std::string& path) try : path_(path), file_(path) {

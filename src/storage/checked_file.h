@@ -10,7 +10,7 @@
 
 namespace sdf_ccd {
 
-/// What goes into one section of a checked file.
+/// The content of one section of a checked file.
 struct FileSection {
   const void* data;
   std::size_t bytes;
@@ -21,7 +21,7 @@ FileSection sectionOf(const View<T>& view) {
   return {view.data, view.size * sizeof(T)};
 }
 
-/// What a file holds, and how.
+/// The kind of a file's content.
 struct FileKind {
   std::string name;       ///< up to 15 characters: "field", "shell"
   std::uint32_t version;  ///< of the sections' layout
@@ -33,7 +33,7 @@ struct FileKind {
 /// @throws std::runtime_error naming the path and the reason.
 void writeCheckedFile(const std::string& path, const FileKind& kind, const std::vector<FileSection>& sections);
 
-/// A file of writeCheckedFile(), read into memory of its own: what happens to the file later changes nothing. Sections
+/// A file of writeCheckedFile(), read into memory of its own: later changes of the file have no effect. Sections
 /// are aligned to 64 bytes.
 class CheckedFile {
  public:

@@ -25,7 +25,7 @@ constexpr auto kPoll = std::chrono::milliseconds(10);
 /// Held by the one process that makes a file; the kernel frees it if that process dies.
 class FileLock {
  public:
-  /// @throws std::runtime_error if it cannot be had, or not in time; Cancelled.
+  /// @throws std::runtime_error if the lock is not obtained, or not in time; Cancelled.
   FileLock(const std::string& path, double seconds)
       : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644)) {
     if (descriptor_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
@@ -41,7 +41,7 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
 
  private:
-  /// Tries again and again, as a call that waits could not be cancelled.
+  /// Polls, as a blocking call could not be cancelled.
   void wait(const std::string& path, double seconds) const {
     const auto start = std::chrono::steady_clock::now();
     while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
@@ -61,7 +61,7 @@ class FileLock {
 
 }  // namespace
 
-/// Of a file that keeps its name when another takes its place. Equal to itself alone; none where there is no file.
+/// Identifies a file even if another takes its name. Equal to itself alone; none if there is no file.
 struct FileCache::Identity {
   bool exists = false;
   dev_t device = 0;
@@ -104,14 +104,14 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
   if (!directory_.empty()) {
     try {
       requireOwnDirectory(directory_);
-      // Files appear whole, so what is there needs no lock: the directory may be one that this process cannot write to.
+      // Files appear whole, so reading needs no lock: the directory may be one that this process cannot write to.
       if (found.exists && load(path, actions, outcome)) return outcome;
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
       outcome.warning = std::string("cache not used: ") + error.what();
     }
   }
-  // Made while this process waited; what was no good before is not read again.
+  // Made while this process waited; a file that failed to load before is not read again.
   if (const Identity now(path); lock && now.exists && !(now == found) && load(path, actions, outcome)) return outcome;
   actions.make();
   if (!lock) return outcome;

@@ -14,15 +14,15 @@ struct CacheOutcome {
 
 /// Files that are expensive to make, kept in a directory under names made from what they depend on.
 ///
-/// Safe against several processes: whoever comes second waits for the first and loads what it made; if that takes too
+/// Safe against several processes: the second one waits for the first and loads its file; if that takes too
 /// long, as the first has stopped, it makes its own and leaves the cache alone. A file that is damaged, of another
 /// version, a link or somebody else's is made again; a directory that cannot be written, or that others may write to,
-/// costs only the saving. What is there is loaded also where nothing may be written. Of what is more than `max_bytes`,
-/// files go that were not used for longest.
+/// affects only the saving. Existing files are loaded also from a read-only directory. Above `max_bytes`, the least
+/// recently used files are removed.
 class FileCache {
  public:
   /// @param directory  made if it does not exist; empty: nothing is read or written.
-  /// @param lock_seconds  that it waits for another process at most, for each file.
+  /// @param lock_seconds  upper bound of the time to wait for another process, for each file.
   explicit FileCache(std::string directory, double lock_seconds = 60.0, std::size_t max_bytes = kMaxBytes)
       : directory_(std::move(directory)), lock_seconds_(lock_seconds), max_bytes_(max_bytes) {}
 

@@ -27,7 +27,7 @@ void requireRegular(const struct stat& status) {
 }  // namespace
 
 std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
-  // Looked at before opening, as opening some devices does things; and after, as it may be another one by then.
+  // Checked before opening, as opening some devices has effects; and after, as it may be another file by then.
   struct stat status;
   if (::stat(path.c_str(), &status) != 0) throw std::runtime_error("cannot be opened");
   requireRegular(status);
@@ -40,7 +40,7 @@ std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
   bytes.reserve(static_cast<std::size_t>(status.st_size));
   for (std::size_t have = 0;;) {
     checkCancelled();
-    // The size is no promise: the file may grow or shrink meanwhile, and those of /proc say 0.
+    // The size is only a hint: the file may grow or shrink meanwhile, and those of /proc say 0.
     const std::size_t known = static_cast<std::size_t>(status.st_size);
     bytes.resize(std::min(have + kChunk, std::max(known, have) + 1));
     const ssize_t count = ::read(file.number(), &bytes[have], bytes.size() - have);

@@ -5,7 +5,7 @@
 
 namespace sdf_ccd {
 
-/// No mesh, map or other file that is read whole may be larger: 1 GiB.
+/// Upper bound of the size of meshes, maps and other files that are read whole: 1 GiB.
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 
 /// The content of a file on disk. Devices, pipes and sockets, whose reading might never end, are not opened.

@@ -14,7 +14,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr mode_t kMode = 0644;
-constexpr int kMostNames = 100;  // tried before it is given up
+constexpr int kMaxNames = 100;  // tried before it is given up
 
 [[noreturn]] void fail() {
   throw std::system_error(errno, std::generic_category());
@@ -64,7 +64,7 @@ void TemporaryFile::giveName() {
     return ::linkat(AT_FDCWD, path_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };
   if (link(target_)) return;
-  for (int i = 0; i < kMostNames && errno == EEXIST; ++i) {
+  for (int i = 0; i < kMaxNames && errno == EEXIST; ++i) {
     const std::string name = target_ + "." + std::to_string(::getpid()) + "-" + std::to_string(i);
     if (!link(name)) continue;
     name_ = name;

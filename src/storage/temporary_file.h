@@ -5,14 +5,14 @@
 namespace sdf_ccd {
 
 /// A file that is written before it gets its name. It has none until then, so that whatever ends the program leaves
-/// nothing of it; where the file system has no such files, it has a random name beside its place, which stays after
-/// `kill -9`.
+/// nothing of it; where the file system has no such files, it has a random name in the target's directory, which stays
+/// after `kill -9`.
 class TemporaryFile {
  public:
   /// @param target  the location that it is for; links are not followed.
   /// @throws std::system_error if none can be made in the target's directory.
   explicit TemporaryFile(const std::string& target);
-  ~TemporaryFile();  ///< without place() nothing stays
+  ~TemporaryFile();  ///< without place() the file is removed
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
@@ -22,7 +22,7 @@ class TemporaryFile {
   /// It itself, open for writing.
   int descriptor() const { return descriptor_; }
 
-  /// Puts it where it belongs, instead of what is there. Whoever writes it must have closed it.
+  /// Gives the file its target's name, replacing an existing file. All writers must have closed it.
   /// @throws std::system_error if that fails.
   void place();
 

@@ -43,14 +43,14 @@ std::string readText(const std::string& path) {
   return loadLocalResource(path, nullptr, "").bytes;
 }
 
-/// Names links' meshes for files, each name once: two links may differ by a slash only, or by a number.
+/// File names of links' meshes, each used once: two links may differ by a slash only, or by a number.
 class FileNames {
  public:
   explicit FileNames(const std::vector<BodyDescription>& bodies) {
     for (const BodyDescription& body : bodies) links_.insert(asFileName(body.name));
   }
 
-  /// NAME for a link's first mesh, NAME_2 and so on for the others; the number goes on where the name is taken.
+  /// NAME for a link's first mesh, NAME_2 and so on for the others; numbers in use are skipped.
   std::string next(const std::string& link, bool first) {
     const std::string name = asFileName(link);
     if (first && used_.insert(name).second) return name;
@@ -112,7 +112,7 @@ bool buildLink(const BodyDescription& body, FileNames& names, FieldBuilder& buil
   }
 }
 
-/// Of all links, before the first is built. What is wrong with one is said when its turn comes.
+/// Expected cost of all links, before the first is built. Errors of a link are reported when it is built.
 void expectLinks(const std::vector<BodyDescription>& bodies, FieldBuilder& builder) {
   for (const BodyDescription& body : bodies) {
     for (const GeometryDescription& element : body.geometry) {
@@ -150,7 +150,7 @@ void run(Arguments& arguments) {
   if (!arguments.srdf.empty() && arguments.urdf.empty()) throw std::runtime_error("--srdf needs --urdf");
   if (arguments.spacing && !(*arguments.spacing > 0.0)) throw std::runtime_error("--spacing must be positive");
   if (arguments.threads < 0) throw std::runtime_error("--threads must not be negative");
-  arguments.resolution.fieldOptions();  // refuses bad values before anything is read
+  arguments.resolution.fieldOptions();  // rejects bad values before anything is read
   std::unique_ptr<tbb::global_control> limit;
   if (arguments.threads > 0) {
     limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
@@ -201,7 +201,7 @@ void addBuildCommand(CLI::App& app) {
   arguments->resolution.addTo(*command);
   command->add_option_function<double>(
       "--spacing", [arguments](double spacing) { arguments->spacing = spacing; },
-      "No place of a surface is farther from a shell point [m]; default two cells");
+      "Maximum distance from a surface to a shell point [m]; default two cells");
 #ifdef SDF_CCD_WITH_ROS
   command->add_option(
       "--config", arguments->config,

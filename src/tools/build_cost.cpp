@@ -57,7 +57,7 @@ void BuildCost::add(const std::string& name, PooledMesh& mesh, const FieldOption
     cost_.add(expected({name, &mesh, options}));
     wanted_.push_back({name, &mesh, options});
   } catch (const std::exception&) {
-    // Building it will say what is wrong with it.
+    // Building it will report the error.
   }
 }
 

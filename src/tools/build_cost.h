@@ -10,23 +10,23 @@
 
 namespace sdf_ccd::tools {
 
-/// How far apart a shell's points are, whose field has this error bound: two cells of a uniform grid [m].
+/// Point spacing of a shell whose field has this error bound: two cells of a uniform grid [m].
 inline double shellSpacing(double error_bound) {
   return 2.3 * error_bound;
 }
 
-/// What building fields and shells is expected to take, in the words of the monitor and check-bag.
+/// Expected cost of building fields and shells, in the words of the monitor and check-bag.
 class BuildCost {
  public:
-  /// @param spacing  of the shells [m]; none: by the field's error.
+  /// @param spacing  of the shells [m]; none: from the field's error.
   explicit BuildCost(std::optional<double> spacing) : spacing_(spacing) {}
 
-  /// What building would refuse costs nothing here. The mesh must outlive this.
+  /// Input that cannot be built costs nothing here. The mesh must outlive this.
   void add(const std::string& name, PooledMesh& mesh, const FieldOptions& options);
 
   const SceneCost& cost() const { return cost_; }
 
-  /// @throws as requireAffordable() of scenes, with the option that would fit.
+  /// @throws as requireAffordable() for scenes, with the option that would fit.
   void requireAffordable() const;
 
  private:
@@ -37,7 +37,7 @@ class BuildCost {
   };
 
   BodyCost expected(const Wanted& wanted) const;
-  /// The option that makes it so coarse that it is affordable; empty if that is much coarser.
+  /// The option that makes it coarse enough to be affordable; empty if that is much coarser.
   std::string whatFits() const;
 
   std::optional<double> spacing_;

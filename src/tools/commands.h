@@ -16,7 +16,7 @@ void addWorkPrecisionCommand(CLI::App& app);
 void addCheckBagCommand(CLI::App& app);
 void addPlotBagCommand(CLI::App& app);
 
-/// Some of what was asked for was done, the rest was reported: exit code 1.
+/// Part of the work was done, the rest was reported: exit code 1.
 struct PartlyDone {};
 
 }  // namespace sdf_ccd::tools

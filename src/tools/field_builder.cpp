@@ -62,7 +62,7 @@ void FieldBuilder::expectMesh(const std::string& name, const std::shared_ptr<con
     cost_.add(name, pooled, resolution_.fieldOptions());
     seconds_ += secondsSince(start);
   } catch (const std::exception&) {
-    // addMesh() says so.
+    // addMesh() reports it.
   }
 }
 
@@ -74,9 +74,9 @@ void FieldBuilder::expectVoxels(const std::string& name, const std::shared_ptr<c
 }
 
 void FieldBuilder::requireAffordable() const {
-  constexpr double kWorthSaying = 1.0;  // [s]
+  constexpr double kReported = 1.0;  // [s]
   cost_.requireAffordable();
-  if (cost_.cost().seconds > kWorthSaying) std::cout << "expected " << summary(cost_.cost()) << std::endl;
+  if (cost_.cost().seconds > kReported) std::cout << "expected " << summary(cost_.cost()) << std::endl;
 }
 
 FieldBuilder::Made FieldBuilder::make(const std::string& name, PooledMesh& mesh) {

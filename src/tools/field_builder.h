@@ -17,38 +17,38 @@
 
 namespace sdf_ccd::tools {
 
-/// The mesh turned outward; what must be known of its inside is said on stderr, `source` in front.
+/// The mesh oriented outward. Warnings about its inside are printed to stderr, prefixed by `source`.
 OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& mesh);
 
-/// What was left out of a mesh's solid and what is doubtful about it, in a line each that begins with `indent`; nothing
-/// if nothing was.
+/// What was left out of a mesh's solid and what is ambiguous about it, one line each, beginning with `indent`; empty if
+/// nothing.
 void printSolid(const SolidReport& report, const std::string& indent);
 
-/// The field of a solid with a progress bar of that title.
+/// Builds the field of a solid with a progress bar of that title.
 DistanceField buildWithBar(const std::string& title, const Solid& solid, const FieldOptions& options);
 DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options);
 
-/// Makes fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
+/// Builds fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {
  public:
   /// @param spacing  of the shells [m]; none: 2.3 times the field's error bound, two cells of a uniform grid.
   FieldBuilder(OutputDirectory& out, const ResolutionOptions& resolution, std::optional<double> spacing)
       : out_(out), resolution_(resolution), spacing_(spacing), cost_(spacing) {}
 
-  /// Expects what addMesh() or addVoxels() will take. A mesh that cannot be made ready costs nothing; adding it says
+  /// Adds the expected cost of addMesh() or addVoxels(). A mesh that cannot be built costs nothing; adding it reports
   /// why.
   void expectMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh);
   void expectVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh, double voxel_size);
 
-  /// Says what is expected of all, if it takes more than a second.
-  /// @throws std::length_error beyond the limits that the monitor has, with what would fit.
+  /// Prints the expected cost of all, if it takes more than a second.
+  /// @throws std::length_error beyond the monitor's limits, with a setting that would fit.
   void requireAffordable() const;
 
-  /// A mesh of any quality: its parts are turned outward first. What was made of it before is written again.
+  /// A mesh of any quality: its parts are oriented outward first. Existing files are written again.
   void addMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh);
 
-  /// The boundary of whole voxels, which needs no turning and has no shell. The default cell is half a voxel: the
-  /// field's error, √3/2 of a cell, is then less than the depth of a single voxel's middle, so that none is lost.
+  /// The boundary of whole voxels, which needs no orientation and has no shell. The default cell is half a voxel: the
+  /// field's error, √3/2 of a cell, is then less than the depth of a voxel's middle, so that no voxel is lost.
   void addVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh, double voxel_size);
 
   void printTotals() const;

@@ -63,7 +63,7 @@ void printQuality(const MeshQuality& quality) {
             << "sign trusted         " << (quality.sign_trusted ? "yes" : "no") << std::endl;
 }
 
-/// Prints what the file holds; returns its field if a slice of it is wanted.
+/// Prints the contents of the file; returns its field if a slice of it is needed.
 std::optional<DistanceField> inspect(const Arguments& arguments) {
   const std::string& file = arguments.file;
   const bool wants_field = !arguments.slice.empty();

@@ -25,7 +25,7 @@ Interrupt::~Interrupt() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
 }
 
-bool Interrupt::asked() const {
+bool Interrupt::requested() const {
   return asked_by != 0;
 }
 

@@ -5,8 +5,8 @@
 
 namespace sdf_ccd::tools {
 
-/// While it lives, Ctrl-C or SIGTERM does not end the program but is remembered, so that what was done can be kept. A
-/// second one ends it as ever. One at a time.
+/// During its lifetime, Ctrl-C or SIGTERM does not end the program but sets a flag, so that finished work can be kept.
+/// A second signal ends it as usual. One instance at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -14,7 +14,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  bool asked() const;
+  bool requested() const;
 
  private:
   std::array<struct sigaction, 2> before_;

@@ -38,7 +38,7 @@ std::string readText(const std::string& path) {
   return text;
 }
 
-/// A bar for each part of the work.
+/// A progress bar for each part of the work.
 class Bars {
  public:
   void show(const std::string& what, double share) {
@@ -123,7 +123,7 @@ void run(const Arguments& arguments) {
   {
     Bars bars;
     options.progress = [&](const std::string& what, double share) {
-      if (interrupt.asked()) throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
+      if (interrupt.requested()) throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
       bars.show(what, share);
     };
     pairs = learnPairs(robot, srdf, loader, options);

@@ -11,7 +11,7 @@ namespace {
 constexpr int kPartlyDone = 1;
 constexpr int kBadInput = 2;
 
-/// One line, whatever the message holds.
+/// One line, also for a message with line breaks.
 int refuse(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::cerr << "sdf_ccd: " << message << std::endl;

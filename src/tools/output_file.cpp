@@ -18,17 +18,17 @@ namespace fs = std::filesystem;
   throw std::runtime_error(path + ": cannot write: " + reason);
 }
 
-constexpr int kMostLinks = 40;  // as Linux follows
+constexpr int kMaxLinks = 40;  // as in Linux
 
-/// A name below /proc is an open file's: what it leads to may have no name of its own, or be shared with others.
+/// A path below /proc is an open file: its target may have no name, or be shared with others.
 bool isOpenFile(const fs::path& path) {
   return path.string().rfind("/proc/", 0) == 0;
 }
 
-/// Where the path's symbolic links lead; nothing need be there.
+/// The target of the path's symbolic links; it need not exist.
 fs::path followed(const std::string& path) {
   fs::path target = path;
-  for (int i = 0; i < kMostLinks; ++i) {
+  for (int i = 0; i < kMaxLinks; ++i) {
     std::error_code error;
     const fs::path directory = fs::canonical(target.has_parent_path() ? target.parent_path() : ".", error);
     if (error) fail(path, error.message());
@@ -49,7 +49,7 @@ std::unique_ptr<TemporaryFile> makeTemporary(const std::string& path, const std:
   }
 }
 
-void place(const std::string& path, TemporaryFile& temporary) {
+void moveIntoPlace(const std::string& path, TemporaryFile& temporary) {
   try {
     temporary.place();
   } catch (const std::system_error& error) {
@@ -84,14 +84,14 @@ void OutputFile::close() {
 
 void OutputFile::commit() {
   close();
-  if (temporary_) place(path_, *temporary_);
+  if (temporary_) moveIntoPlace(path_, *temporary_);
 }
 
 OutputPath::OutputPath(const std::string& path)
     : path_(path), temporary_(makeTemporary(path, followed(path).string())) {}
 
 void OutputPath::commit() {
-  place(path_, *temporary_);
+  moveIntoPlace(path_, *temporary_);
 }
 
 OutputDirectory::OutputDirectory(const std::string& path) : path_(path) {

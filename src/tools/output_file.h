@@ -8,24 +8,24 @@
 
 namespace sdf_ccd::tools {
 
-/// A file that appears complete or not at all: it is written before it has its name, which commit() gives it.
-/// Symbolic links stay, and what they lead to is written. Devices, pipes and open files (/dev/stdout, /dev/fd/3) are
-/// appended to at once.
+/// A file that appears complete or not at all: it is written under a temporary name until commit(). Symbolic links are
+/// kept, and their targets are written. Devices, pipes and open files (/dev/stdout, /dev/fd/3) are appended to
+/// immediately.
 class OutputFile {
  public:
-  /// @throws std::runtime_error if the path cannot be written, so that it is known before the work is done.
+  /// @throws std::runtime_error if the path cannot be written, so that this is known before the work is done.
   explicit OutputFile(const std::string& path);
-  ~OutputFile();  ///< without commit() nothing stays
+  ~OutputFile();  ///< without commit() no file is left
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   std::ostream& stream() { return stream_; }
 
-  /// Ends the writing; of several files, all before the first commit(), so that none is there if one is incomplete.
+  /// Finishes writing. Close several files before the first commit(), so that none appears if one is incomplete.
   /// @throws std::runtime_error if not everything could be written.
   void close();
 
-  /// Closes it first, unless that is done. @throws std::runtime_error if the file cannot be put in its place.
+  /// Closes it first, if it is open. @throws std::runtime_error if the file cannot be moved to its path.
   void commit();
 
  private:
@@ -34,7 +34,7 @@ class OutputFile {
   std::ofstream stream_;
 };
 
-/// The same for writers that want a path: they write to part(), and have closed it before commit().
+/// The same for writers that need a path: they write to part(), and have closed it before commit().
 class OutputPath {
  public:
   /// @throws std::runtime_error if the path cannot be written.
@@ -43,7 +43,7 @@ class OutputPath {
   const std::string& path() const { return path_; }
   const std::string& part() const { return temporary_->path(); }
 
-  /// @throws std::runtime_error if the file cannot be put in its place.
+  /// @throws std::runtime_error if the file cannot be moved to its path.
   void commit();
 
  private:
@@ -51,10 +51,10 @@ class OutputPath {
   std::unique_ptr<TemporaryFile> temporary_;
 };
 
-/// Makes a directory; if nothing has been put into it in the end, and it is new, it goes again.
+/// Creates a directory, and removes it at the end if it is new and empty.
 class OutputDirectory {
  public:
-  /// @throws std::runtime_error if it cannot be made or written to.
+  /// @throws std::runtime_error if it cannot be created or written to.
   explicit OutputDirectory(const std::string& path);
   ~OutputDirectory();
   OutputDirectory(const OutputDirectory&) = delete;

@@ -57,7 +57,7 @@ std::string describeOpenings(const DistanceField& field) {
 }
 
 std::string describe(const PointShell& shell) {
-  return fmt::format("{} points, no place of the surface farther than {:.3g} m from one", shell.size(),
+  return fmt::format("{} points, no point of the surface farther than {:.3g} m from one", shell.size(),
                      shell.covering_radius);
 }
 

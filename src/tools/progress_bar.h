@@ -5,12 +5,12 @@
 
 namespace sdf_ccd::tools {
 
-/// Shows on stderr how far work has come, from its second second on: a bar on a terminal, else a line every ten
-/// percent. Call it with the share done, from 0 to 1, from one thread at a time.
+/// Shows progress on stderr, after the first second: a bar on a terminal, else a line every ten percent. Call it with
+/// the share done, from 0 to 1, from one thread at a time.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string what);
-  ~ProgressBar();  ///< takes the bar away
+  ~ProgressBar();  ///< removes the bar
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 

@@ -71,7 +71,7 @@ void writeIntervals(const DistanceField& field, const std::vector<Segment>& segm
   }
 }
 
-/// When a point first meets the true surface, and how deep it comes.
+/// Time of impact of a point with the true surface, and its depth.
 struct Impact {
   ImpactWindow window;
   LeastDistance depth;
@@ -88,7 +88,7 @@ void writeImpacts(const DistanceField& field, const std::vector<Segment>& segmen
   out << "segment,t_earliest,t,t_latest,depth,depth_low,depth_high\n";
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     if (!impacts[i]) continue;
-    // Inside, it may be but caps that make it so.
+    // Points may be inside only because of caps.
     const bool is_certain = !field.openings();
     const auto& [window, depth] = *impacts[i];
     out << i << ',' << cell(window.earliest) << ',' << cell(window.time) << ','

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd::tools {
 
-/// The options that say how fine a field is.
+/// The options for the resolution of a field.
 struct ResolutionOptions {
   int cells = 0;
   double cell_size = 0.0;
@@ -19,10 +19,10 @@ struct ResolutionOptions {
   /// Adds --resolution, --cell, --max-error and --band.
   void addTo(CLI::App& command);
 
-  /// @throws std::invalid_argument, naming the option and the reason, if one was given although no field is made.
+  /// @throws std::invalid_argument, naming the option and the reason, if one was given although no field is built.
   void requireNone(const std::string& reason) const;
 
-  /// What was chosen; else `default_cell` [m], or 64 cells along the longest side.
+  /// The chosen options; else `default_cell` [m], or 64 cells along the longest side.
   FieldOptions fieldOptions(std::optional<double> default_cell = std::nullopt) const;
 
  private:

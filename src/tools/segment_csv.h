@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::tools {
 
-/// Reads lines `ox,oy,oz,ex,ey,ez` [m]. A first line without any number is a header; blank lines are passed over.
+/// Reads lines `ox,oy,oz,ex,ey,ez` [m]. A first line without any number is a header; blank lines are skipped.
 /// @throws std::runtime_error naming file, line and value: not six numbers, one that is not finite, no segment at all.
 std::vector<Segment> readSegments(const std::string& path);
 

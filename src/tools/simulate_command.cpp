@@ -22,7 +22,7 @@ struct Arguments {
   double frames = 30.0;                  // per second
 };
 
-/// What is said of a run when it is over.
+/// Summary of a finished run.
 struct Summary {
   double highest_rise = 0.0;  // of the energy from one step to the next [J]
   double deepest = 0.0;       // at a step's end [m]
@@ -93,7 +93,7 @@ void run(const Arguments& arguments) {
     }
     out.add(simulation);
     bar(double(i + 1) / wanted);
-    if (interrupt.asked()) {
+    if (interrupt.requested()) {
       failure = "interrupted after step " + std::to_string(i + 1);
       break;
     }

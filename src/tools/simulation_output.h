@@ -8,8 +8,8 @@
 
 namespace sdf_ccd::tools {
 
-/// The files of a run: steps.csv, poses.csv, summary.txt, and simulation.bag where ROS is built in. Without commit()
-/// nothing stays.
+/// The files of a run: steps.csv, poses.csv, summary.txt, and simulation.bag if built with ROS. Without commit() no
+/// file is left.
 class SimulationOutput {
  public:
   /// @param frames  poses per second of the simulation.

@@ -27,14 +27,14 @@ using Color = Vector3d;  // red, green, blue, 0 to 255
 const Color kBlack(0, 0, 0), kGrey(120, 120, 120);
 const Color kCap(255, 140, 0);  // where the surface closes an opening of the mesh
 
-/// Blue for −band, white for 0, red for +band; beyond the band what is known is only a bound, shown paler.
+/// Blue for −band, white for 0, red for +band; beyond the band, where only a bound is known, paler.
 Color colorOf(double distance, double band) {
   static const Color kBlue(33, 102, 172), kWhite(247, 247, 247), kRed(178, 24, 43);
   const double share = std::abs(distance) <= band ? std::abs(distance) / band : 0.35;
   return kWhite + share * ((distance < 0.0 ? kBlue : kRed) - kWhite);
 }
 
-/// A white picture that rectangles and texts are put on.
+/// A white picture to draw rectangles and texts on.
 class Picture {
  public:
   Picture(int width, int height)
@@ -51,7 +51,7 @@ class Picture {
     cairo_fill(cairo_.get());
   }
 
-  /// From (x, y) on, the line's foot.
+  /// Draws a text from (x, y), the start of its baseline.
   void write(int x, int y, const std::string& text) {
     setColor(kBlack);
     cairo_move_to(cairo_.get(), x, y);
@@ -103,12 +103,13 @@ struct Raster {
 
 Raster rasterOf(const DistanceField& field, const Slice& slice) {
   const AlignedBox3d box = field.box();
-  if (!(slice.place >= box.min()[slice.axis] && slice.place <= box.max()[slice.axis])) {
-    throw std::invalid_argument("the slice at " + shortly(slice.place) + " m misses the field's box, " + describe(box));
+  if (!(slice.offset >= box.min()[slice.axis] && slice.offset <= box.max()[slice.axis])) {
+    throw std::invalid_argument("the slice at " + shortly(slice.offset) + " m misses the field's box, " +
+                                describe(box));
   }
   Raster raster;
   raster.corner = box.min();
-  raster.corner[slice.axis] = slice.place;
+  raster.corner[slice.axis] = slice.offset;
   raster.right = slice.axis == 0 ? 1 : 0;
   raster.up = slice.axis == 2 ? 1 : 2;
   const Vector3d size = box.sizes();
@@ -118,7 +119,7 @@ Raster rasterOf(const DistanceField& field, const Slice& slice) {
   return raster;
 }
 
-/// True where the value passes `level` between this pixel's corner and the next ones'.
+/// True where the value crosses `level` between this pixel's corner and the next ones'.
 bool crosses(const std::vector<double>& corners, int stride, std::size_t i, double level) {
   const double v[4] = {corners[i], corners[i + 1], corners[i + stride], corners[i + stride + 1]};
   return (*std::min_element(v, v + 4) <= level) && (*std::max_element(v, v + 4) > level);
@@ -190,7 +191,7 @@ void drawLengthScale(Picture& picture, const Raster& raster, const Slice& slice)
   const int pixels = static_cast<int>(length / raster.pixel);
   picture.fill({kMargin, row - 1, pixels, 3}, kBlack);
   for (const int end : {0, pixels}) picture.fill({kMargin + end, row - 4, 1, 9}, kBlack);
-  const std::string plane = std::string(1, "xyz"[slice.axis]) + "=" + shortly(slice.place) + " m";
+  const std::string plane = std::string(1, "xyz"[slice.axis]) + "=" + shortly(slice.offset) + " m";
   picture.write(kMargin, row + 10 + static_cast<int>(kFont), shortly(length) + " m  " + plane);
 }
 
@@ -199,11 +200,11 @@ void drawLengthScale(Picture& picture, const Raster& raster, const Slice& slice)
 Slice parseSlice(const std::string& text) {
   const bool has_axis = text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=';
   char* end = nullptr;
-  const double place = has_axis ? std::strtod(text.c_str() + 2, &end) : 0.0;
-  if (!has_axis || end == text.c_str() + 2 || *end != '\0' || !std::isfinite(place)) {
+  const double offset = has_axis ? std::strtod(text.c_str() + 2, &end) : 0.0;
+  if (!has_axis || end == text.c_str() + 2 || *end != '\0' || !std::isfinite(offset)) {
     throw std::invalid_argument("--slice \"" + text + "\" is not of the form x=0.1, y=0.1 or z=0.1");
   }
-  return {text[0] - 'x', place};
+  return {text[0] - 'x', offset};
 }
 
 std::string drawSlice(const DistanceField& field, const Slice& slice) {

@@ -6,10 +6,10 @@
 
 namespace sdf_ccd::tools {
 
-/// A plane across one axis of a field's frame.
+/// A plane normal to an axis of a field's frame.
 struct Slice {
-  int axis;      ///< 0 x, 1 y, 2 z
-  double place;  ///< [m]
+  int axis;       ///< 0 x, 1 y, 2 z
+  double offset;  ///< [m]
 };
 
 /// Reads "z=0.1". @throws std::invalid_argument with the text if it is not of that form.

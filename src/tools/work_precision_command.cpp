@@ -110,7 +110,7 @@ void addWorkPrecisionCommand(CLI::App& app) {
                       "Closed mesh that fields and shells are made of; default a lumpy ball of 0.2 m (not for step)");
   command->add_option_function<int>(
       "--queries", [arguments](int queries) { arguments->queries = queries; },
-      "Segments or places per setting; default 2000. Of motions of bodies fewer");
+      "Segments or points per setting; default 2000. Fewer for motions of bodies");
   command->add_flag("--quick", arguments->quick, "A fifth of the queries, without the finest settings");
   command->callback([arguments] { run(*arguments); });
 }

@@ -18,7 +18,7 @@ TEST(EmptySphere, WordsHoldEveryBall) {
   for (const int x : {-15, -1, 0, 9, 15})
     for (const int y : {-15, 0, 3, 15})
       for (const int z : {-8, 0, 15})
-        for (const int steps : {0, 1, 5000, EmptySphere::kMostSteps})
+        for (const int steps : {0, 1, 5000, EmptySphere::kMaxSteps})
           for (const bool inside : {false, true}) {
             const std::uint32_t word = EmptySphere{{x, y, z}, steps, inside}.word();
             ASSERT_EQ(word & 3U, 0U);

@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 constexpr int kSide = VoxelBlock::kSide;
-const VoxelPlace kPlace{Vector3d(3.0, -2.0, 0.7), 0.05};
+const VoxelLattice kPlace{Vector3d(3.0, -2.0, 0.7), 0.05};
 
 VoxelBlock blockOf(Random& random, int kind) {
   VoxelBlock block;
@@ -56,7 +56,8 @@ TEST(VoxelField, IsOffByNoMoreThanItSays) {
     double worst = 0.0;
     int near = 0;
     for (int i = 0; i < 3000; ++i) {
-      const Vector3d p = kPlace.origin + Vector3d(uniform(random, -0.1, 1.1), uniform(random, -0.1, 1.1), uniform(random, -0.1, 1.1));
+      const Vector3d p =
+          kPlace.origin + Vector3d(uniform(random, -0.1, 1.1), uniform(random, -0.1, 1.1), uniform(random, -0.1, 1.1));
       const double truth = trueDistance(block, p);
       if (std::abs(truth) > 0.06) continue;
       ++near;
@@ -73,7 +74,8 @@ TEST(VoxelField, IsExactAtTheLattice) {
   const VoxelBlock block = blockOf(random, 0);
   const auto field = voxelField(block, kPlace, 0.06);
   for (int i = 0; i < 500; ++i) {
-    const Vector3d cells(std::floor(uniform(random, 0, 40)), std::floor(uniform(random, 0, 40)), std::floor(uniform(random, 0, 40)));
+    const Vector3d cells(std::floor(uniform(random, 0, 40)), std::floor(uniform(random, 0, 40)),
+                         std::floor(uniform(random, 0, 40)));
     const Vector3d p = kPlace.origin + 0.025 * cells;
     const double truth = trueDistance(block, p);
     if (std::abs(truth) >= 0.06) continue;
@@ -94,7 +96,9 @@ TEST(VoxelField, SurfaceIsThatOfTheVoxels) {
     validate(mesh);
     double volume = 0.0;
     for (const Vector3i& t : mesh.triangles)
-      volume += (mesh.vertices[t[0]] - kPlace.origin).dot((mesh.vertices[t[1]] - kPlace.origin).cross(mesh.vertices[t[2]] - kPlace.origin)) / 6.0;
+      volume += (mesh.vertices[t[0]] - kPlace.origin)
+                    .dot((mesh.vertices[t[1]] - kPlace.origin).cross(mesh.vertices[t[2]] - kPlace.origin)) /
+                6.0;
     EXPECT_NEAR(volume, double(block.occupied.count()) * std::pow(0.05, 3), 1e-9);
   }
 }

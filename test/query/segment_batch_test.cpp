@@ -205,7 +205,7 @@ TEST(SegmentBatch, FollowsEverySegmentToItsEnd) {
   const auto follow = [&](const auto& lanes, bool first_only) {
     for (int i = 0; i < kChunks; ++i) {
       ASSERT_EQ(followRays(lanes, first_only, segments.data() + i * kCount, kCount, *work), -1);
-      EXPECT_TRUE(work->lost.empty()) << work->lost.size() << " of chunk " << i;
+      EXPECT_TRUE(work->unfinished.empty()) << work->unfinished.size() << " of chunk " << i;
     }
   };
   for (const bool first_only : {true, false}) {

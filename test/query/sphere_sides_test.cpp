@@ -66,7 +66,7 @@ TEST(SphereSides, OutsideAndInsideHoldAllAlong) {
       sides.begin(chord);
       sorts += sides.sortsPoints();
       fill(sides.group(), random, spheres);
-      sides.askGroup();
+      sides.testGroup();
       for (int k = 0; k < sides.group().size; ++k) {
         const auto& [p, r] = spheres[k];
         const SweptSide side = sides.group().sideOf(k);
@@ -104,7 +104,7 @@ TEST(SphereSides, TellsAsManyApartAsOneByOne) {
       if (!sides.inVectors()) GTEST_SKIP() << "no vectors";
       sides.begin(chord);
       fill(sides.group(), random, spheres);
-      sides.askGroup();
+      sides.testGroup();
       for (int k = 0; k < sides.group().size; ++k) {
         grouped += sides.group().sideOf(k) != SweptSide::kUnknown;
         single += sides.of(spheres[k].first, spheres[k].second) != SweptSide::kUnknown;
@@ -126,7 +126,7 @@ TEST(SphereSides, NothingIsKnownOnAPathThatIsNotFinite) {
         SphereSides sides(field, {field.errorBound(), field.errorBound()}, kShell);
         sides.begin(chord);
         fill(sides.group(), random, spheres);
-        sides.askGroup();
+        sides.testGroup();
         for (int i = 0; i < sides.group().size; ++i) ASSERT_EQ(sides.group().sideOf(i), SweptSide::kUnknown);
       }
     }
@@ -145,7 +145,7 @@ TEST(SphereSides, FarFromTheFieldAllIsOutside) {
       chord.X_FP_end.translation() = chord.X_FP_start.translation() + travel * Vector3d::UnitY();
       sides.begin(chord);
       fill(sides.group(), random, spheres);
-      sides.askGroup();
+      sides.testGroup();
       for (int i = 0; i < sides.group().size; ++i) ASSERT_EQ(sides.group().sideOf(i), SweptSide::kOutside);
     }
   }

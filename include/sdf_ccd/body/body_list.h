@@ -9,8 +9,8 @@
 
 namespace sdf_ccd {
 
-/// Bodies by index, each shared with whatever else has the same one: a copy of the list copies no body, and two lists
-/// hold the same body where shared() is the same pointer.
+/// Bodies by index. Lists share bodies: a copy of a list copies no body, and two lists hold the same body if shared()
+/// returns the same pointer.
 class BodyList {
  public:
   using Shared = std::shared_ptr<const Body>;
@@ -57,7 +57,7 @@ class BodyList {
   void push_back(Body body) { bodies_.push_back(std::make_shared<const Body>(std::move(body))); }
   void push_back(Shared body) { bodies_.push_back(std::move(body)); }
 
-  /// A body of this list's own, to be changed: a copy where it was shared. The reference is good until the next call.
+  /// Replaces the body by a copy that only this list holds, to be modified. The reference is valid until the next call.
   Body& edit(std::size_t i) {
     auto own = std::make_shared<Body>(*bodies_[i]);
     Body& body = *own;

@@ -9,36 +9,36 @@
 
 namespace sdf_ccd {
 
-/// What is wanted of bodies that are prepared to be checked.
+/// Required accuracy of bodies that are prepared for checks.
 struct Accuracy {
-  double max_error = 1e-3;           ///< of a verdict about two of them, but for what motions add [m]
-  std::string cache_directory = {};  ///< where what was made is kept, and found again; empty: nowhere
+  double max_error = 1e-3;           ///< of a verdict about two bodies, without the error of motions [m]
+  std::string cache_directory = {};  ///< of the cache of fields and shells; empty: no cache
 };
 
-/// The fields' bands are widened, before anything is built, to 1.1 × (shell.spacing, or edge_gap if there is
-/// one, + the field's own error + motion_margin), so that they hold the margin at which a pair ceases to be CLEAR; at
-/// most to 32 cells, beyond which the bounds that every field has anywhere are fine enough.
+/// Before anything is built, the fields' bands are widened to 1.1 × (shell.spacing, or edge_gap if there is one, + the
+/// field's own error + motion_margin), so that they contain the margin below which a pair is not CLEAR; at most to 32
+/// cells, beyond which the bounds that fields have everywhere are accurate enough.
 struct BodyOptions {
   FieldOptions field;
   ShellOptions shell;
 
-  /// How many points of its shell, and cells of its field, an element has across the root of its surface's area; a
-  /// millimetre apart where it is small, shell.spacing and field.cell_size where it is large. 0: these everywhere.
+  /// Number of shell points and field cells along the square root of an element's surface area. Spacing and cells are
+  /// at least a millimetre, at most shell.spacing and field.cell_size. 0: always shell.spacing and field.cell_size.
   double points_across = 0.0, cells_across = 0.0;
 
   double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
-  double motion_error = 0.0;    ///< of it what two bodies' motions are off by, whatever the chords [m]
+  double motion_error = 0.0;    ///< part of motion_margin: motion error of two bodies, without chords [m]
   std::string cache_directory;  ///< empty: nothing is read or written
 
-  /// Whether meshes that triangles decide about keep their solids, to measure depths on: CycleRequest::refine. It takes
-  /// memory like the mesh some times over.
+  /// Whether meshes that are decided by triangles keep their solids for measuring depths: CycleRequest::refine. This
+  /// takes several times the memory of the mesh.
   bool exact_depths = false;
 
-  /// Whether what other bodies of this process have of the same content, made with the same options, is shared with
-  /// them: several monitors in one nodelet manager hold it once.
+  /// Whether data of equal content, made with equal options, is shared with other bodies of this process: several
+  /// monitors in one nodelet manager then hold it once.
   bool is_shared = false;
 
-  std::optional<double> max_error;  ///< the bound wanted of every verdict [m]; the plan says whether it is kept
+  std::optional<double> max_error;  ///< required bound of every verdict [m]; the plan says whether it is met
 
   /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a
   /// field or shell that would be too large is made coarser, and its body's report says so; else the body cannot be
@@ -47,15 +47,15 @@ struct BodyOptions {
 };
 
 /// Fields and shells for contacts alone, where triangles decide the verdicts.
-/// @param accuracy  no location of a surface is farther than this from a point that bears forces, and a field's cells
-/// are four fifths of it [m]; none: as fine as the elements are small, at most 5 mm.
+/// @param accuracy  maximum distance from a surface location to a point that produces forces; field cells are four
+/// fifths of it [m]. None: by the sizes of the elements, at most 5 mm.
 BodyOptions optionsForContacts(const std::optional<double>& accuracy = {});
 
-/// What a body's field and shell may take where an accuracy is wanted, whatever that is.
+/// Limits of a body's field and shell, whatever the required accuracy.
 constexpr std::size_t kMostFieldBytes = std::size_t{256} << 20, kMostShellPoints = 3'000'000;
 
-/// The options that keep an accuracy: its max_error shared out to field, edges and motions as 55 : 35 : 9, with
-/// kMostFieldBytes and kMostShellPoints.
+/// The options that meet an accuracy: its max_error is divided among field, edges and motions as 55 : 35 : 9, with the
+/// limits kMostFieldBytes and kMostShellPoints.
 /// @throws std::invalid_argument if it is below a nanometre.
 BodyOptions optionsFor(const Accuracy& accuracy);
 

@@ -5,11 +5,11 @@
 
 namespace sdf_ccd {
 
-/// Thrown out of work that is no longer wanted. It is no std::exception: who takes those for the failure of one body
-/// lets it pass.
+/// Thrown to end work that is no longer needed. It is no std::exception, so that handlers of errors of one body
+/// do not catch it.
 struct Cancelled {};
 
-/// What ends a thread's work: a flag, null if there is none, and a time.
+/// The conditions that end a thread's work: a flag, null if there is none, and a time.
 struct CancelRequest {
   using Clock = std::chrono::steady_clock;
 
@@ -30,7 +30,7 @@ class CancelPoint {
     return request_.deadline != kNever && CancelRequest::Clock::now() >= request_.deadline;
   }
 
-  /// @throws Cancelled if it has been asked for.
+  /// @throws Cancelled if it has been requested.
   void check() const {
     if (asked()) throw Cancelled();
   }
@@ -72,7 +72,7 @@ inline void checkCancelled() {
 template <unsigned Period = 64>
 class CancelTicks {
  public:
-  /// @throws Cancelled if it has been asked for.
+  /// @throws Cancelled if it has been requested.
   void check() {
     if (++steps_ % Period == 0) point_.check();
   }

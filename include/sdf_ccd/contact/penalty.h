@@ -81,7 +81,7 @@ struct HitDepth {
   Vector3d normal_C = Vector3d::Zero();  ///< unit, out of the field's body
 };
 
-/// What integrateContact() is asked for beside depths.
+/// Outputs of integrateContact() other than depths.
 struct ContactRequest {
   bool impulse = true;
   bool depth_errors = true;  ///< else HitDepth::error and `least` are not set; the error is field.sample(p_F).error
@@ -98,7 +98,7 @@ struct ContactImpulse {
 /// the hits (paper Eq. 3–11; signs as in design §3.6). Divide by the cycle's length for the average (Eq. 8, 9).
 /// The exact rule is three-point Gauss on each cell's piece, with N linear along the piece (design §3.9): exact for
 /// an interpolated field and an F that does not rotate in C. The midpoint rule is the paper's.
-/// Where the field knows no gradient (far inside), the shell point's inward normal stands for it.
+/// Where the field's gradient is unknown (far inside), the shell point's inward normal replaces it.
 /// Reuses the memory of `result`.
 /// @throws std::invalid_argument if X_CF has not one pose more than the path has chords.
 void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,

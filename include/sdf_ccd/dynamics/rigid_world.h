@@ -16,22 +16,22 @@
 
 namespace sdf_ccd {
 
-/// What a rigid body weighs and where.
+/// Mass, centre of mass and inertia of a rigid body.
 struct MassProperties {
   double mass = 0.0;                    ///< [kg]
   Vector3d center = Vector3d::Zero();   ///< centre of mass [m], in the geometry's frame
   Matrix3d inertia = Matrix3d::Zero();  ///< about the centre of mass, in the geometry's axes [kg·m²]
 };
 
-/// Of the solid inside a closed mesh, by the divergence theorem: the signed sum over the tetrahedra that the triangles
-/// span with the centre of the mesh's box (so that a mesh far from its frame's origin loses no digits).
+/// Mass properties of the solid inside a closed mesh, by the divergence theorem: the signed sum over the tetrahedra of
+/// its triangles and the centre of its box (so that a mesh far from its frame's origin loses no digits).
 ///
 /// @param density  [kg/m³], finite and positive.
 /// @throws std::invalid_argument for a mesh that encloses no positive volume (open, flat, inside out), or a density
-/// that is not valid. An open mesh with volume is taken as closed by the tetrahedra: see MeshQuality::boundary_edges.
+/// that is not valid. An open mesh with volume counts as closed by the tetrahedra: see MeshQuality::boundary_edges.
 MassProperties massProperties(const TriangleMesh& mesh, double density);
 
-/// Of a primitive, in closed form.
+/// Mass properties of a primitive, in closed form.
 /// @throws std::invalid_argument for a half-space, whose mass is infinite.
 MassProperties massProperties(const Primitive& primitive, double density);
 
@@ -39,21 +39,21 @@ MassProperties massProperties(const Primitive& primitive, double density);
 /// symmetric, and principal moments of which none exceeds the sum of the others.
 void validateInertia(double mass, const Matrix3d& inertia);
 
-/// What contact sees of a body, in the body's frame B, whose origin is its centre of mass. Bodies may share one.
+/// Collision geometry in the body's frame B, whose origin is the centre of mass. Several bodies may share it.
 struct CollisionShape {
-  std::optional<DistanceField> field;  ///< none: the body is only ever a shell
-  PointShell shell;                    ///< empty: the body is only ever a field
+  std::optional<DistanceField> field;  ///< none: the body only has a shell
+  PointShell shell;                    ///< empty: the body only has a field
   SphereTree tree;
-  BoundingBall ball;  ///< holds points and surface; infinite for a half-space
+  BoundingBall ball;  ///< contains points and surface; infinite for a half-space
 };
 
-/// A shape's field and shell from a closed mesh. The field holds exact samples all through the solid, so that deep
+/// Builds field and shell of a shape from a closed mesh. The field has exact samples in the whole solid, so that deep
 /// overlaps have a depth.
-/// @param mesh_B  about the centre of mass; its components are turned outward.
+/// @param mesh_B  about the centre of mass; its components are oriented outward.
 /// @throws std::invalid_argument if they cannot be made.
 CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const ShellOptions& shell);
 
-/// The same of a primitive: the field is exact. A half-space has no shell.
+/// The same for a primitive: the field is exact. A half-space has no shell.
 CollisionShape makeShape(const Primitive& primitive, const ShellOptions& shell);
 
 /// A shape of points only.
@@ -69,15 +69,15 @@ struct RigidBody {
   Wrench applied;                       ///< user force, in the scene's axes, about B's origin [N, N·m]
 };
 
-/// Where a body is and how it moves, in the scene's frame O.
+/// Pose and velocity of a body, in the scene's frame O.
 struct BodyState {
   Isometry3d X_OB = Isometry3d::Identity();
   Vector3d velocity = Vector3d::Zero();  ///< of B's origin [m/s], O's axes
   Vector3d spin_B = Vector3d::Zero();    ///< angular velocity [rad/s], B's axes
 };
 
-/// Rigid bodies and what acts on them. The scene's frame O has the world's axes and lies among the bodies, so that
-/// contact far from the world's origin is as exact as at it.
+/// Rigid bodies and the forces on them. The scene's frame O has the axes of the world and an origin near the bodies, so
+/// that contact far from the world's origin is as accurate as near it.
 struct RigidWorld {
   std::vector<RigidBody> bodies;
   Vector3d origin_W = Vector3d::Zero();          ///< of O [m]

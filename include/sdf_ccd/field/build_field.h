@@ -13,7 +13,7 @@ namespace sdf_ccd {
 struct FieldOptions {
   std::optional<int> cells;         ///< cells along the longest side of the surface's box
   std::optional<double> cell_size;  ///< [m]
-  /// |interpolated − true distance| in the band [m]; cells of several sizes. Where the smallest ones do not do the
+  /// |interpolated − true distance| in the band [m]; cells of several sizes. If the smallest ones do not suffice, the
   /// field has a larger DistanceField::errorBound().
   std::optional<double> max_error;
   double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken

@@ -15,9 +15,9 @@ class SparseGrid;
 
 /// A field at one point. Guarantee: |true distance − value| ≤ error.
 struct FieldSample {
-  double value;       ///< [m], negative inside; interpolated in the band, the middle of what is known elsewhere
+  double value;       ///< [m], negative inside; interpolated in the band, the middle of the bounds elsewhere
   double error;       ///< [m]
-  Vector3d gradient;  ///< of `value`, pointing out, not normalised; zero where nothing is known of it
+  Vector3d gradient;  ///< of `value`, pointing out, not normalised; zero where it is unknown
 };
 
 /// The same without the error.
@@ -26,7 +26,7 @@ struct FieldValue {
   Vector3d gradient;
 };
 
-/// The true distance at one point lies between [m].
+/// Bounds of the true distance at one point [m].
 struct DistanceBounds {
   double low;
   double high;
@@ -36,8 +36,8 @@ struct DistanceBounds {
 /// of one size, or of sizes that follow the shape).
 ///
 /// A value type: copies share the samples, which never change.
-/// Of a mesh with openings the surface is that of the mesh and of caps that close it, which the field knows: near them,
-/// and inside, it tells of a solid that the mesh does not bound all around (see openings()).
+/// Of a mesh with openings the surface is that of the mesh and of caps that close it, which the field stores: near
+/// them, and inside, it describes a solid that the mesh does not bound on all sides (see openings()).
 /// Sampled fields hold samples of the true distance in a band around the surface and bounds of it everywhere else,
 /// also outside their box; "no data" is never zero.
 class DistanceField {
@@ -48,14 +48,14 @@ class DistanceField {
   explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
   explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
 
-  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that of the point: of its
-  /// leaf, or what the samples around it say (see src/field/uniform/sample_bracket.h).
+  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that at the point: of its
+  /// leaf, or of the samples around it (see src/field/uniform/sample_bracket.h).
   FieldSample sample(const Vector3d& p_F) const;
 
   /// The same value and gradient; cheaper, as the error is left out.
   FieldValue interpolate(const Vector3d& p_F) const;
 
-  /// What the true distance lies between [m], anywhere; cheaper and wider than sample(). Outside the grid `high` is
+  /// Bounds of the true distance [m], anywhere; cheaper and wider than sample(). Outside the grid `high` is
   /// infinite.
   DistanceBounds bounds(const Vector3d& p_F) const;
   double lowerBound(const Vector3d& p_F) const { return bounds(p_F).low; }
@@ -66,14 +66,14 @@ class DistanceField {
   /// Bound on |interpolated − true distance| within the band [m]; 0 for primitives.
   double errorBound() const;
 
-  /// Where the surface is no surface of the mesh; null if it is all over, to the error bound: then the sign is beyond
-  /// doubt. (Caps of cracks, no point of which is farther from the mesh than errorBound(), do not count.)
+  /// The parts of the surface that are not on the mesh; null if all of it is, to the error bound: then the sign is
+  /// certain. (Caps of cracks, no point of which is farther from the mesh than errorBound(), do not count.)
   const OpeningCaps* openings() const { return openings_.get(); }
 
-  /// Lower bound of the distance to where the surface is no surface of the mesh [m]; infinity if it is all over.
+  /// Lower bound of the distance to the parts of the surface that are not on the mesh [m]; infinity if there are none.
   double openingDistance(const Vector3d& p_F) const;
 
-  /// What is known of the mesh alone; without openings as sample(). Guarantee: |s − value| ≤ error for the distance s
+  /// The distance from the mesh alone; without openings as sample(). Guarantee: |s − value| ≤ error for the distance s
   /// from the mesh, positive or negative where p_F counts as inside. The value is that of sample(), so the error is
   /// large inside, and where a cap may be the nearest surface.
   FieldSample meshSample(const Vector3d& p_F) const;
@@ -86,7 +86,7 @@ class DistanceField {
   /// Cells that hold samples; 0 for primitives.
   std::size_t cells() const;
 
-  /// Beyond this box [m] only bounds are known: that of a grid; the surface's for a primitive.
+  /// Outside of this box [m] only bounds are known: that of a grid; the surface's for a primitive.
   AlignedBox3d box() const;
 
   /// The representation, for queries: one of the three is not null.

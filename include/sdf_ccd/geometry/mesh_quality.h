@@ -14,7 +14,7 @@ struct MeshQuality {
   int boundary_edges = 0;        ///< used by one triangle
   int non_manifold_edges = 0;    ///< used by more than two
   int misoriented_edges = 0;     ///< neighbours that disagree about the outside
-  int inverted_components = 0;   ///< closed components that were inside out (turned round by orientOutward())
+  int inverted_components = 0;   ///< closed components that were inside out (flipped by orientOutward())
   int inverted_sheets = 0;       ///< the same of parts that are not closed: their back saw the outside
   int negative_triangles = 0;    ///< of closed components that cross themselves: inside out still, as they bound lobes
                                  ///< whose winding number is below zero
@@ -35,29 +35,29 @@ struct OrientedMesh {
   MeshQuality quality;
 };
 
-/// Turns triangles so that neighbours agree and that a place is inside the solid where the winding number is not zero.
-/// Vertices at the same place are welded.
+/// Orients triangles so that neighbours agree and that a point is inside the solid if the winding number is not zero.
+/// Vertices at the same position are welded.
 ///
-/// A closed component that no other closed one holds is turned to enclose positive volume; one that lies in others
-/// stays as it is: a cavity if it faces its inside, else a solid within a solid. If all that nothing holds are inside
-/// out, so is the file, and everything is turned (cavities that come of it are kept, but the sign is not trusted).
-/// Parts that are not closed are turned if what can see them sees their back.
+/// A closed component that no other closed one contains is flipped to enclose positive volume; one inside others
+/// stays unchanged: a cavity if it faces its inside, else a solid within a solid. If all uncontained ones are inside
+/// out, so is the file, and everything is flipped (resulting cavities are kept, but the sign is not trusted).
+/// Parts that are not closed are flipped if their back is visible from outside.
 ///
-/// Where parts may cancel each other, or nobody can tell whether one that lies in another is a solid or a cavity, as
-/// one of them had to be turned or is drawn both ways round, the mesh is doubtful.
+/// If parts may cancel each other, walls without thickness close something off, or it is ambiguous whether one that is
+/// inside another is a solid or a cavity, as one had to be flipped or is drawn in both orientations, the mesh is doubtful.
 ///
 /// Triangles with the same corners are one, except faces that two parts share, one in the other, and walls drawn from
 /// both sides whose border lies on other triangles: both sides are left out if they are certainly inside a solid, and
 /// kept if not. Then they face each other, add nothing to any winding number, and distances to them are positive on
-/// both sides. The quality report describes what was found on the way.
+/// both sides. The quality report describes what was found meanwhile.
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 OrientedMesh orientOutward(const TriangleMesh& mesh);
 
 /// One line for people: "300 triangles, closed, volume 1.2e-3 m^3, sign trusted".
 std::string summary(const MeshQuality& quality);
 
-/// What one must know before relying on the mesh's inside, in a line: that the sign is not trusted, that parts were
-/// turned. Empty if there is nothing.
+/// A warning for users who rely on the mesh's inside, in a line: that the sign is not trusted, that parts were
+/// flipped. Empty if there is none.
 std::string warningOf(const MeshQuality& quality);
 
 }  // namespace sdf_ccd

@@ -7,7 +7,7 @@
 namespace sdf_ccd {
 
 /// Reads a mesh: STL (binary also when it begins with `solid`; text), OBJ, OFF, PLY and DAE, by the name's ending.
-/// Polygons are triangulated, lines and points ignored; vertices at the same place are welded.
+/// Polygons are triangulated, lines and points ignored; vertices at the same position are welded.
 ///
 /// It is read by a program of its own, sdf_ccd_read, a process for each mesh, so that a file that makes a reader crash,
 /// hang or swell is an error here and no more. That process has no files, no network, at most 512 MiB of memory and 32
@@ -21,8 +21,8 @@ namespace sdf_ccd {
 /// @param name   the file's name; its ending chooses the format, and it appears in errors.
 /// @return triangles [m], in the file's frame; every triangle with finite corners.
 /// @throws std::runtime_error naming the file and the reason: unreadable, truncated, no triangle, not finite, "the
-/// reader crashed (SIGSEGV)", "the reader was stopped: it needed more than 512 MB"; Cancelled, where a CancelScope asks
-/// for it.
+/// reader crashed (SIGSEGV)", "the reader was stopped: it needed more than 512 MB"; Cancelled, if a CancelScope
+/// requests it.
 TriangleMesh parseMesh(const std::string& bytes, const std::string& name);
 
 /// The same from a file on disk, of up to 1 GiB: no device, pipe or socket.
@@ -33,7 +33,7 @@ TriangleMesh loadMesh(const std::string& path);
 ///
 /// Vertices lie exactly on the voxel grid (a whole number times the resolution) and are shared. The surface is closed,
 /// but not a manifold: where two voxels touch only at an edge, four faces meet there, and where they touch at a corner
-/// a vertex belongs to both. Distances and signs do not mind; what wants a manifold should be told that these are whole
+/// a vertex belongs to both. Distances and signs are not affected; code that needs a manifold must know of whole
 /// voxels (GeometryDescription::watertight_voxels).
 /// @param resolution  set to the voxels' size [m].
 /// @throws std::runtime_error naming the file and the reason: unreadable, truncated, damaged, nothing occupied, a tree

@@ -16,10 +16,10 @@ namespace sdf_ccd {
 struct GeometryDescription {
   std::variant<Primitive, std::shared_ptr<const TriangleMesh>> shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< its frame G in the body's frame B
-  std::string source;                        ///< for people: "box" or the mesh's URI
-  bool watertight_voxels = false;            ///< boundary of whole voxels: no shell, only a field
-  std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: as BodyOptions::field says
-  std::optional<Vector3d> scale = {};        ///< that made a mesh of what `source` names; none: that is another name
+  std::string source;                        ///< for display: "box" or the mesh's URI
+  bool watertight_voxels = false;            ///< boundary of whole voxels: has only a field, no shell
+  std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: that of BodyOptions::field
+  std::optional<Vector3d> scale = {};        ///< of the mesh in the file `source`; none if its name differs
 };
 
 inline bool isHalfSpace(const GeometryDescription& geometry) {
@@ -35,6 +35,7 @@ struct BodyDescription {
   std::vector<GeometryDescription> geometry;
   std::string failure;    ///< why the body cannot be checked; empty if it can
   bool is_world = false;  ///< an object of the world, not a link
+  std::string map;        ///< the map that the body is a tile of (see VoxelMap); empty if it is none
 };
 
 /// A pair that is left out, by the bodies' names.
@@ -42,10 +43,10 @@ struct DisabledPair {
   std::string body_a;
   std::string body_b;
   std::string reason;   ///< "SRDF: Adjacent", "rigidly joined", …
-  bool proved = false;  ///< nothing can bring them nearer to each other: rigidly joined, or out of reach
+  bool proved = false;  ///< their bodies can never meet: rigidly joined, or out of reach
 };
 
-/// A pair that a scene leaves out, though it would have to be checked.
+/// A pair that a scene leaves out although it needs a check.
 struct UncheckedPair {
   int body_a = -1, body_b = -1;  ///< in SceneDescription::bodies
   std::string reason;
@@ -54,7 +55,7 @@ struct UncheckedPair {
 struct SceneDescription {
   std::vector<BodyDescription> bodies;  ///< names are unique
   std::vector<DisabledPair> disabled;
-  std::vector<std::string> visual_only = {};  ///< links that are no bodies: they have a visual, but no collision shape
+  std::vector<std::string> visual_only = {};  ///< links without body: they have a visual, but no collision shape
 };
 
 }  // namespace sdf_ccd

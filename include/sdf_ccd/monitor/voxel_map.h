@@ -84,7 +84,7 @@ class VoxelGrid {
 /// overlap, both bear force.
 class VoxelMap {
  public:
-  /// @param name   of the map; its tiles are named "name/x_y_z".
+  /// @param name   of the map; its tiles are named "name/x_y_z", and say that they are its (BodyDescription::map).
   /// @param frame  that carries it.
   VoxelMap(std::string name, std::string frame, const VoxelMapOptions& options);
 

@@ -18,7 +18,7 @@ struct Chord {
 /// A relative motion as chords.
 struct ChordPath {
   std::vector<Chord> chords;  ///< consecutive in time
-  double error = 0.0;         ///< no point of the ball is farther than this from its true place at the same time [m]
+  double error = 0.0;         ///< upper bound of the ball's points' deviation from their true positions [m]
 };
 
 /// Recorded poses of P in F at increasing times.

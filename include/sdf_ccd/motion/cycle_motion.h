@@ -16,12 +16,12 @@ struct WaypointSpan {
   bool empty() const { return first == last; }
 };
 
-/// Farther from the world's origin no body is checked [m]: there doubles round coordinates by 1e-8 m, which the error
-/// bound does not hold, and much farther they overflow.
+/// Bodies farther than this from the world's origin are not checked [m]: there doubles round coordinates by 1e-8 m,
+/// which the error bound does not include, and much farther they overflow.
 constexpr double kFarthestPose = 1e8;
 
 /// Where the bodies were during a cycle (t₀, t₁]. Between two times each body moves with a constant twist in the world,
-/// the shorter way round: turns of half a revolution and more between two times need times in between.
+/// along the shorter rotation: rotations of half a revolution and more between two times need times in between.
 struct CycleMotion {
   std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
   std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time

@@ -13,11 +13,11 @@ namespace sdf_ccd {
 /// Poses of all bodies at a time [s] from the motion's start; called with times from its first waypoint to its last.
 using PosesAt = std::function<void(double time, std::vector<Isometry3d>& X_WB)>;
 
-/// Per body, what bounds the third derivative of the place in the world of any point of its ball, while s runs from 0
+/// Per body, a bound of the third derivative of the position in the world of any point of its ball, while s runs from 0
 /// to 1 from the first time to the second [m]; see ChainDerivatives. Infinite if nothing is known.
 using JerkBounds = std::function<void(double start, double end, std::vector<double>& jerk)>;
 
-/// A motion as a function of time. Poses at some times never tell what happens between them: so a bound comes with it.
+/// A motion as a function of time. Poses at some times do not bound the motion between them: so a bound comes with it.
 struct MotionSource {
   PosesAt poses_at;
   JerkBounds jerk_bounds;
@@ -29,23 +29,23 @@ struct MotionSampling {
   std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< beyond so many no time is halved any more
 };
 
-/// Samples motions that are not of constant twist between their waypoints (tf2 turns each joint evenly, a trajectory
+/// Samples motions that are not of constant twist between their waypoints (tf2 rotates joints uniformly, a trajectory
 /// too), so that taking each body as such between the samples is wrong by no more than the tolerance: the time between
 /// two waypoints is halved as long as the bound is more than that. Its memory is used again from motion to motion.
 ///
 /// The bound of the deviation e(s) from the screw: e(0) = e(1) = 0, and e(½) = m is measured. What e differs by from
 /// the parabola through these is at most max|s (s − ½) (s − 1)| / 6 = √3/216 of the third derivative's bound
 /// (Lagrange's remainder), so |e| ≤ |m| + √3/216 (jerk of the motion + jerk of the screw). That holds however far
-/// bodies turn.
+/// bodies rotate.
 class MotionSampler {
  public:
   /// @param balls  per body: holds its points, frame B.
   MotionSampler(std::vector<BoundingBall> balls, const MotionSampling& sampling);
 
-  /// Adds samples behind those that the motion has, which are not looked at: between these and the first of the new ones
+  /// Adds samples after those that the motion has, which are not read: between these and the first of the new ones
   /// nothing is known.
   /// @param waypoints  times, increasing [s]; all of them are kept.
-  /// @param motion  `missing` is read: what it names is not looked at. Errors become no less.
+  /// @param motion  `missing` is read: bodies it names are skipped. Errors do not decrease.
   /// @throws std::invalid_argument if a pose is not finite, or its rotation not orthonormal.
   void add(const std::vector<double>& waypoints, const MotionSource& source, CycleMotion& motion);
 

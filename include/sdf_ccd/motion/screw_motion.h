@@ -16,7 +16,7 @@ void requirePose(const Isometry3d& X, const std::string& what);
 ///
 /// It is exact for a single revolute or prismatic joint between the frames, and the same whichever is taken to rest. A
 /// point of P runs on an arc: p_F(s) = X_FP(0) exp(s ξ) p_P. Of the rotations from one pose to the other it is the
-/// shortest: poses do not tell revolutions.
+/// shortest: poses do not determine the number of revolutions.
 class ScrewMotion {
  public:
   /// @throws std::invalid_argument if a pose is not finite or its rotation is not orthonormal to 1e-6.
@@ -53,7 +53,7 @@ class ScrewMotion {
   Vector3d velocity_;  // linear part of the twist at P's origin, frame P [m]
 };
 
-/// From this angle on, two poses do not tell which way a frame has turned [rad].
+/// From this angle on, two poses do not determine the direction of a frame's rotation [rad].
 constexpr double kAmbiguousTurn = 3.14159265358979323846 - 1e-6;
 
 /// @throws std::invalid_argument, beginning with `what`, if a pose is kAmbiguousTurn or more from the one before.

@@ -4,7 +4,7 @@
 
 namespace sdf_ccd {
 
-/// X_FP from two poses in the world; the origins are subtracted first, so that nothing is lost far from the world's.
+/// X_FP from two poses in the world; the origins are subtracted first, to keep the precision far from the world's.
 inline Isometry3d relativePose(const Isometry3d& X_WF, const Isometry3d& X_WP) {
   Isometry3d X_FP = Isometry3d::Identity();
   X_FP.linear() = X_WF.linear().transpose() * X_WP.linear();
@@ -12,11 +12,11 @@ inline Isometry3d relativePose(const Isometry3d& X_WF, const Isometry3d& X_WP) {
   return X_FP;
 }
 
-/// No point of the ball is farther from where it is at one pose than this at the other [m].
+/// Upper bound of the displacement of the ball's points between the two poses [m].
 double maxDisplacement(const Isometry3d& X_from, const Isometry3d& X_to, const BoundingBall& ball);
 
 /// The twist of a body that moves with a constant one from one pose to the next (s from 0 to 1), as the world sees it.
-/// It is the same at all s: the body's points at the place p_W move with velocity + omega × (p_W − center).
+/// It is the same at all s: the body's points at the position p_W move with velocity + omega × (p_W − center).
 struct WorldTwist {
   Vector3d omega = Vector3d::Zero();     ///< world axes [rad]
   Vector3d center = Vector3d::Zero();    ///< of the body's ball at s = ½, in the world [m]
@@ -38,10 +38,10 @@ struct RelativeMotionBounds {
 };
 
 /// Bounds for two bodies that each move with a constant twist in the world. Their relative motion is no screw then, and
-/// relative poses at both ends do not tell it: they may turn by more than half a revolution against each other.
+/// relative poses at both ends do not determine it: they may rotate by more than half a revolution to each other.
 ///
 /// With twists (ω, v) in the world's axes, u the velocity of a point of P against F, b its velocity in the world:
-///   u = (ω_P − ω_F) × p + v_P − v_F,   q'' = −ω_F × u + (ω_P − ω_F) × b   (in F's axes; q the point's place in F)
+///   u = (ω_P − ω_F) × p + v_P − v_F,   q'' = −ω_F × u + (ω_P − ω_F) × b   (in F's axes; q the point's position in F)
 /// where p moves by no more than the ball's speed times the time from the middle. Both vanish for bodies that move as
 /// one.
 RelativeMotionBounds relativeMotionBounds(const WorldTwist& F, const WorldTwist& P);

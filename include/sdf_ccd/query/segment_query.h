@@ -24,14 +24,14 @@ struct Segment {
   Vector3d end;
 };
 
-/// False for a segment that no query takes: not finite, or with a coordinate beyond 1e12 m. There doubles are 0.1 mm
-/// apart, and so are the places that a parameter in [0, 1] tells apart on a path of that length.
+/// False for a segment that every query rejects: not finite, or with a coordinate above 1e12 m. There doubles are 0.1
+/// mm apart, and so are the points that a parameter in [0, 1] can resolve on a path of that length.
 inline bool isWithinReach(const Segment& segment) {
   return segment.start.lpNorm<Eigen::Infinity>() <= 1e12 && segment.end.lpNorm<Eigen::Infinity>() <= 1e12 &&
          segment.start.allFinite() && segment.end.allFinite();
 }
 
-/// What is asked of a segment; less costs less.
+/// The part of the result that is needed; less costs less.
 enum class SegmentMode {
   kAll,            ///< all intervals
   kFirstInterval,  ///< the first one
@@ -46,7 +46,7 @@ struct SegmentOptions {
 
 /// Times during which a moving point is on or inside the isosurface φ = σ.
 ///
-/// Source: Xu & Barbič 2014, §3.1, Eq. (2); skips: §3.2. Differs: in each cell the cubic's roots are isolated and
+/// Source: Xu & Barbič 2014, §3.1, Eq. (2); skips: §3.2. Difference: in each cell the cubic's roots are isolated and
 /// bracketed, so two crossings in one cell are found (the paper's sign test loses them).
 /// @param field    φ [m], frame F.
 /// @param segment  within reach, see above.
@@ -64,11 +64,11 @@ void segmentIntervals(const DistanceField& field, const Segment& segment, const 
 /// The same, returned.
 Intervals segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options = {});
 
-/// False only if the true distance exceeds `radius` at every place of the segment (paper §3.3, Figure 3):
+/// False only if the true distance exceeds `radius` at every point of the segment (paper §3.3, Figure 3):
 /// conservative. Steps from ball to ball by field.lowerBound(). Also for segments outside the field's box.
 bool mayTouch(const DistanceField& field, const Segment& segment, double radius);
 
-/// On which side of the surface all of a segment surely is.
+/// The side of the surface on which the whole segment surely is.
 enum class SweptSide { kOutside, kInside, kUnknown };
 
 struct SweptMargins {
@@ -76,8 +76,8 @@ struct SweptMargins {
   double inside;   ///< inside: it is below minus this [m]
 };
 
-/// Conservative, as mayTouch(). That all is inside is seen by one ball about the middle, as for segments that are short
-/// beside what they are in.
+/// Conservative, as mayTouch(). kInside is found by one sphere about the middle only, as for segments that are short
+/// compared with the body.
 SweptSide sweptSide(const DistanceField& field, const Segment& segment, const SweptMargins& margins);
 
 /// Parameters in (enter, exit), increasing, where the segment passes from one cell of the field to the next:

@@ -18,10 +18,10 @@ struct ShellHit {
 
 struct ShellQueryOptions {
   double sigma = 0.0;  ///< isovalue [m]; std::invalid_argument unless within the field's band
-  bool any = false;    ///< stop at the first hit, whose exit is not looked for
+  bool any = false;    ///< stop at the first hit; its exit is not computed
 };
 
-/// Points [begin, end) of a shell that are inside all along a chord.
+/// Points [begin, end) of a shell that are inside along the whole chord.
 struct InsidePoints {
   int begin;
   int end;
@@ -31,8 +31,8 @@ struct InsidePoints {
 struct ShellQueryResult {
   std::vector<ShellHit> hits;        ///< by chord, then as the tree meets their points; those of one point by time
   std::vector<InsidePoints> inside;  ///< by chord; of other points than the chord's hits
-  long nodes_visited = 0;            ///< spheres of the tree that were asked
-  long points_tested = 0;            ///< whose segments were asked
+  long nodes_visited = 0;            ///< spheres of the tree that were tested
+  long points_tested = 0;            ///< points whose segments were queried
 
   /// Whether a point is inside at any time.
   bool touches() const { return !hits.empty() || !inside.empty(); }
@@ -56,7 +56,7 @@ void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits);
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
                     const ShellQueryOptions& options, ShellQueryResult& result);
 
-/// A number that the distance of every shell point to the field's surface is not below [m], at one pose; within
+/// A lower bound of the distances of all shell points from the field's surface [m], at one pose; within
 /// `slack` [m] of the best that the field's bounds allow.
 double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,
                  double slack);

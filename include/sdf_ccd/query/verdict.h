@@ -12,7 +12,7 @@ enum class Verdict {
 
 const char* toString(Verdict verdict);
 
-/// What a verdict may be wrong by, by source [m].
+/// Bounds of a verdict's errors, by source [m].
 struct ErrorBound {
   double field = 0.0;  ///< sampling, interpolation, rounding of the field
   double chord = 0.0;  ///< arcs taken as chords

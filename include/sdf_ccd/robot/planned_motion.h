@@ -12,42 +12,42 @@
 
 namespace sdf_ccd {
 
-/// A motion that is made piece by piece: all samples of a long one would take gigabytes.
+/// A motion that is made piece by piece, because all samples of a long motion would take gigabytes.
 struct PlannedMotion {
-  std::vector<double> waypoints;  ///< where it may be cut, times from the first point on [s]
+  std::vector<double> waypoints;  ///< times at which it can be split, from the first point on [s]
 
-  /// Sets the motion of all bodies from one of the waypoints to a later one, times counting from the first of them.
+  /// Sets the motion of all bodies from one waypoint to a later one; times count from the first of the two.
   std::function<void(std::size_t first, std::size_t last, CycleMotion& motion)> piece;
 
   std::vector<double> samples;           ///< times of the plan's points [s], from the first
   std::vector<UncheckedPair> unchecked;  ///< left out of the scene, though this motion may bring them together
   std::vector<AssumedJoint> assumed;
-  std::string notes;  ///< what a user should know of these, by whoever made the plan; may be empty
+  std::string notes;  ///< notes for the user about these, by the author of the plan; may be empty
 };
 
-/// The bodies that a plan moves, or finds in its way.
+/// The bodies that a plan moves, or may hit.
 struct PlannedBodies {
   std::vector<CarriedBody> bodies;
-  std::vector<std::string>
-      missing;  ///< per body: why its place is not known, in the world or on its link; may be empty
+  /// Per body: why its pose in the world or on its link is not known; may be empty.
+  std::vector<std::string> missing;
 };
 
-/// All bodies along a trajectory of the robot's joints.
+/// The motion of all bodies along a trajectory of the robot's joints.
 /// @param robot  must outlive the motion.
 /// @param unreachable  pairs that the scene leaves out as out of reach.
 /// @throws as TrajectoryMotion; std::invalid_argument also if the plan is not complete.
 PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
                         const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling);
 
-/// All bodies through given poses, at the motion's times; between two of them each turns the shorter way round.
-/// @param is_moved  per body: whether the plan says where it goes, not the robot's joints.
-/// @throws std::invalid_argument if the motion's sizes do not fit each other, its first time is not 0, it has spans, or
-/// two poses of a body do not tell which way it turned (kAmbiguousTurn).
+/// The motion of all bodies through given poses, at the motion's times; each takes the shorter rotation between two.
+/// @param is_moved  per body: whether its poses come from the plan, not from the robot's joints.
+/// @throws std::invalid_argument if the motion's sizes are inconsistent, its first time is not 0, it has spans, or two
+/// poses of a body leave the direction of its rotation open (kAmbiguousTurn).
 PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
                           const std::vector<UnreachablePair>& unreachable);
 
-/// The same motion, so that only what stays farther apart than the margin is CLEAR: it counts as motion error, in the
-/// errors' bound too. What comes nearer is UNCERTAIN, and so is a contact that is less deep.
+/// The same motion with a margin: only pairs that stay farther apart than it are CLEAR. It counts as motion error, also
+/// in the error bound. Pairs that come closer are UNCERTAIN, as are contacts less deep than the margin.
 /// @throws std::invalid_argument if the margin [m] is negative or not finite.
 PlannedMotion withMargin(PlannedMotion motion, double margin);
 

@@ -31,61 +31,61 @@ class RobotModel {
   /// Links in depth-first order, the root first.
   const std::vector<std::string>& links() const { return links_; }
 
-  /// Of a link, by its index in links(): that of its parent, −1 for the root; and the joint between them, which all
-  /// links but the root have.
+  /// Parent of a link, by its index in links(); −1 for the root. And the joint between the two, which all links except
+  /// the root have.
   int parent(int link) const { return parent_[link]; }
   const urdf::Joint& jointAbove(int link) const;
 
-  /// The joint that a mimic joint follows in the end; any other joint itself.
+  /// The joint that a mimic joint follows in the end; for any other joint the joint itself.
   const urdf::Joint& leader(const urdf::Joint& joint) const;
 
-  /// How much the joint's position changes with its leader's; 1 for a joint that follows none.
+  /// Change of the joint's position per change of its leader's; 1 for a joint without leader.
   double multiplier(const urdf::Joint& joint) const;
 
-  /// Links whose collision elements urdf() does not hold, as the parser could not read all of them; reasons by link.
+  /// Links whose collision elements urdf() lacks because the parser could not read all of them, with the reasons.
   const std::map<std::string, std::string>& unread() const { return unread_; }
 
-  /// What the URDF says amiss and was taken in another sense, a line each.
+  /// Errors in the URDF for which another meaning was assumed, one per line.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Pose of every link in the root's frame, in the order of links().
   ///
-  /// Joints that are named nowhere are at zero (or at the nearest limit), planar and floating ones at identity. Mimic
-  /// joints follow their leader, also if they are named. A named position is taken as it is, also beyond the joint's
-  /// limits, in units of the axis' direction, however long the axis is.
-  /// @param poses  joints that stand here, of whatever type; for these, positions do not count.
+  /// Joints that are not named are at zero (or at the nearest limit), planar and floating ones at identity. Mimic
+  /// joints follow their leader, also if they are named. Named positions are used as they are, also beyond the joint's
+  /// limits. They are along the unit axis, whatever the length of the axis in the URDF.
+  /// @param poses  of joints of any type; they take precedence over positions.
   /// @throws std::invalid_argument for a joint that does not exist, or a position or pose that is not finite.
   std::vector<Isometry3d> forwardKinematics(const JointPositions& positions, const JointPoses& poses = {}) const;
 
-  /// Where a joint is when its positions are these: its own or its leader's, else zero or the nearest limit.
+  /// Position of a joint: its own or from its leader, else zero or the nearest limit.
   double position(const urdf::Joint& joint, const JointPositions& positions) const;
 
   /// True if only fixed joints lie between the links.
   bool rigidlyJoined(const std::string& link_a, const std::string& link_b) const;
 
-  /// True if one movable joint, and else only fixed ones, lies between the links. Planar and floating joints hold
-  /// nothing together: links on either side of one are not adjacent.
+  /// True if exactly one movable joint, and otherwise only fixed joints, lie between the links. Links on the two sides
+  /// of a planar or floating joint are not adjacent.
   bool adjacent(const std::string& link_a, const std::string& link_b) const;
 
-  /// Bounds of the distance between two links' origins over all joint positions [m]: no less and no more than this.
+  /// Lower and upper bound of the distance between two links' origins over all joint positions [m].
   struct Reach {
     double nearest;
     double farthest;  ///< infinite for floating, planar or unlimited prismatic joints
   };
 
-  /// Every revolute joint may turn all the way round: real ones overshoot their limits. Prismatic joints may exceed
-  /// theirs by a tenth of the range, and by 1 cm at least (slidesBetween()); beyond that nothing holds, and who leaves
-  /// pairs out for it must see to it. Limits count either way round; two equal ones are taken for none. An axis' length
-  /// does not matter. That the links are joined as the URDF says is taken for granted.
-  /// Exact if at most one joint between the links moves; with more, the triangle inequality over the distances
-  /// between their axes.
+  /// Revolute joints may rotate by a full revolution, because real ones overshoot their limits. Prismatic joints may
+  /// exceed theirs by a tenth of the range, and by at least 1 cm (slidesBetween()). Beyond that the bounds do not hold;
+  /// a caller that leaves out pairs because of them must monitor these joints. Limits may be in either order; two equal
+  /// ones count as none. Exact if at most one joint between the links moves; with more joints, the triangle inequality
+  /// over the distances between their axes. The length of an axis does not matter; links are assumed to be joined as in
+  /// the URDF.
   /// @throws std::invalid_argument for a link that does not exist.
   Reach reach(const std::string& link_a, const std::string& link_b) const;
 
-  /// The same between a point of link A and one of link B, each in its link's frame [m].
+  /// The same for a point of link A and a point of link B, each in its link's frame [m].
   Reach reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b, const Vector3d& p_B) const;
 
-  /// A prismatic joint, and the positions that reach() allows for [m].
+  /// A prismatic joint, and the range of positions assumed by reach() [m].
   struct Slide {
     std::string joint;
     double low;
@@ -93,9 +93,9 @@ class RobotModel {
   };
   std::vector<Slide> slidesBetween(const std::string& link_a, const std::string& link_b) const;
 
-  /// The position at which a joint comes nearest to having its child link there in its parent link's frame [rad or m];
-  /// of a revolute joint the one within its limits, where there is one, else within (−π, π]: a pose does not tell whole
-  /// revolutions. NaN for joints of other degrees of freedom than one.
+  /// The joint position whose pose of the child link in the parent link's frame is closest to the given one [rad or m].
+  /// A pose does not determine whole revolutions: for a revolute joint, the position within its limits if there is one,
+  /// else within (−π, π]. NaN for joints without exactly one degree of freedom.
   double positionAt(const urdf::Joint& joint, const Isometry3d& X_PL) const;
 
  private:

@@ -13,20 +13,20 @@ namespace sdf_ccd {
 
 struct Resource {
   std::string bytes;
-  std::string name;     ///< its ending tells the format
+  std::string name;     ///< its extension gives the format
   std::string warning;  ///< e.g. "found link.STL, the URDF says link.stl"; empty if there is none
 };
 
-/// Fetches what a URI names; throws std::runtime_error, with the URI and the reason, if it cannot.
+/// Loads the file at a URI; throws std::runtime_error, with the URI and the reason, if it cannot.
 using ResourceLoader = std::function<Resource(const std::string& uri)>;
 
 /// Directory of a ROS package, empty if there is none.
 using PackageFinder = std::function<std::string(const std::string& package)>;
 
-/// Looks below the directories of ROS_PACKAGE_PATH, as rospack does: for package.xml (its `name` counts, not the
+/// Searches below the directories of ROS_PACKAGE_PATH, as rospack does, for package.xml (its `name` counts, not the
 /// folder's) and manifest.xml; not below a package, a hidden folder, `rospack_nosubdirs` or CATKIN_IGNORE (also
-/// AMENT_IGNORE, COLCON_IGNORE). Of equal names the first wins. Crawls at the first question and remembers; may be
-/// called from several threads.
+/// AMENT_IGNORE, COLCON_IGNORE). The first of equal names wins. Searches at the first call and caches the result; can
+/// be called from several threads.
 PackageFinder packagesFromEnvironment();
 
 /// Reads `file://`, `package://` (also with a third slash) and plain paths (relative to `base_directory`). A file or
@@ -35,13 +35,13 @@ PackageFinder packagesFromEnvironment();
 /// scheme, `..` in a package URI.
 Resource loadLocalResource(const std::string& uri, const PackageFinder& packages, const std::string& base_directory);
 
-/// What is used of an SRDF file. Names are not compared with any robot here.
+/// The parts of an SRDF file that are used. Names are not compared with any robot here.
 struct Srdf {
-  std::string robot;                                  ///< whose it says it is; may be empty
-  std::vector<DisabledPair> disabled;                 ///< reason: "SRDF: " and the file's
-  std::map<std::string, JointPositions> states;       ///< "group/state"; "state" where the file names no group
-  std::vector<std::string> disabled_by_default;       ///< links that are checked against those of `enabled` alone
-  std::map<std::string, std::string> virtual_joints;  ///< child link by name; parent frame and type are not used
+  std::string robot;                                         ///< the robot's name in the file; may be empty
+  std::vector<DisabledPair> disabled;                        ///< reason: "SRDF: " and the file's
+  std::map<std::string, JointPositions> states;              ///< "group/state"; "state" where the file names no group
+  std::vector<std::string> disabled_by_default;              ///< links that are only checked against those of `enabled`
+  std::map<std::string, std::string> virtual_joints;         ///< child link by name; parent frame and type are not used
   std::vector<std::pair<std::string, std::string>> enabled;  ///< overrides disabled_by_default, and adjacency
 };
 
@@ -57,22 +57,22 @@ struct RobotSceneOptions {
   bool check_adjacent = false;  ///< also check links with one joint between them
 };
 
-/// The bodies of a robot: one per link with collision elements, named after the link and in its frame. Every mesh is
-/// read once and scaled; links that use it alike share it.
+/// The bodies of a robot: one per link with collision elements, with the name and the frame of the link. Every mesh is
+/// read once and scaled; links that use it with the same scale share it.
 ///
-/// A bad or missing mesh, or a collision element that cannot be read, costs that link alone: BodyDescription::failure
+/// A bad or missing mesh, or a collision element that cannot be read, only affects its link: BodyDescription::failure
 /// says "link forearm: package://…: no such package", and its geometry is empty. Left out are, in this order, pairs
-/// that are rigidly joined, disabled by the SRDF, adjacent (unless asked for, or enabled by the SRDF by name), and out
-/// of reach of each other for every joint position by RobotModel::reach() between balls around their geometry. What
-/// that rests on must be watched: unreachablePairs().
-/// @param warnings  what else a user should know, a line each: files found under another spelling, an SRDF of
-/// another robot's name, or that names links the robot has not; RobotModel::warnings(). Failures are not repeated here.
+/// that are rigidly joined, disabled by the SRDF, adjacent (unless requested, or enabled by the SRDF by name), and out
+/// of reach of each other for all joint positions, by RobotModel::reach() between balls around their geometry. The
+/// assumptions of the latter must be monitored: unreachablePairs().
+/// @param warnings  further notes for the user, one per line: files found with another spelling, an SRDF with another
+/// robot's name or with links that the robot does not have; RobotModel::warnings(). Failures are not repeated here.
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                                const RobotSceneOptions& options, std::vector<std::string>& warnings);
 
 /// Disables pairs of a world object and a link, where the object's frame is the robot's root or rigidly joined to it:
-/// links that cannot reach it, and links that are rigidly joined to the root themselves. Call it when the objects are
-/// in `scene`.
+/// links that cannot reach the object, and links that are rigidly joined to the root. Call it after the objects were
+/// added to `scene`.
 void disableUnreachable(const RobotModel& robot, SceneDescription& scene);
 
 }  // namespace sdf_ccd

@@ -9,11 +9,11 @@
 
 namespace sdf_ccd {
 
-/// Checks a planned motion piece by piece, so that a long one takes little memory and can be left between two pieces.
+/// Checks a planned motion piece by piece, so that a long one takes little memory and can be stopped between pieces.
 class MotionCheck {
  public:
   /// @param motion  must outlive this.
-  /// @param memory  as of a Monitor.
+  /// @param memory  as for a Monitor.
   MotionCheck(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,
               const CycleRequest& request, std::shared_ptr<MonitorMemory> memory = nullptr);
   MotionCheck(std::shared_ptr<const Scene>, const MonitorOptions&, PlannedMotion&&, const CycleRequest&,
@@ -22,10 +22,10 @@ class MotionCheck {
 
   bool isDone() const;
 
-  /// Checks the next piece, of some milliseconds, and returns its motion, which holds until the next call.
+  /// Checks the next piece, of some milliseconds, and returns its motion, which is valid until the next call.
   const CycleMotion& next();
 
-  /// Of all pieces that were checked, and of the pairs that the scene leaves out though they may meet: the pairs' spans
+  /// The result of all checked pieces, and of pairs that the scene leaves out although they may meet. The pairs' spans
   /// are {0, 1}, the first and the last time of ends().
   CycleResult result() const;
   const CycleMotion& ends() const;
@@ -39,33 +39,33 @@ class MotionCheck {
 CycleResult checkMotion(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,
                         const CycleRequest& request = {});
 
-/// What is wanted of many motions at a time, as of the edges of a planner's graph.
+/// Options for checks of many motions, such as the edges of a planner's graph.
 struct MotionsRequest {
-  /// Whether a motion is left where it is first found to be other than CLEAR; its verdict is the one of there then, or
-  /// a worse one.
+  /// Whether a check stops at the first part of a motion that is not CLEAR; its verdict is then that of this part, or a
+  /// worse one.
   bool first_only = true;
 
-  /// CLEAR is only what stays farther apart than this [m]. What comes nearer is UNCERTAIN, and so is a contact that is
+  /// Only what stays farther apart than this is CLEAR [m]. What comes closer is UNCERTAIN, and so is a contact that is
   /// less deep.
   double margin = 0.0;
 
-  /// How far samples of a motion may stray from it [m], coarse first: what is not CLEAR is looked at again with the
-  /// next one. Most of a planner's edges are far from everything, and the coarse look takes a fraction of the fine one.
+  /// Maximum deviations of a motion's samples [m], coarse first: motions that are not CLEAR are checked again with the
+  /// next one. Most of a planner's edges are far from everything, and a coarse check takes a fraction of a fine one.
   std::vector<double> tolerances = {0.01, 1e-4};
 };
 
-/// What became of one of many motions.
+/// The verdict about one of many motions.
 struct MotionVerdict {
   Verdict verdict = Verdict::kNotChecked;
-  double error_bound = 0.0;  ///< largest of the pairs checked, the margin not counted [m]
-  int pair = -1;             ///< in Scene::pairs: the first found that has the verdict; −1 if that is CLEAR
-  double time = -1.0;        ///< when they were found to touch, or else the begin of the part where that was found [s];
+  double error_bound = 0.0;  ///< largest of the checked pairs, without the margin [m]
+  int pair = -1;             ///< in Scene::pairs: the first one with the verdict; −1 if that is CLEAR
+  double time = -1.0;        ///< of the contact, or else the begin of the part of the motion with the verdict [s];
                              ///< −1 if CLEAR
 };
 
-/// Checks motions on all cores, each for itself. Of a motion that is not CLEAR, checkMotion() tells all.
-/// @param motionOf  makes a motion by its index, with samples that stray so far; is called on many threads at a time.
-/// @return per motion; the same whatever the number of threads.
+/// Checks motions on all cores, independently. checkMotion() gives the full result of one that is not CLEAR.
+/// @param motionOf  makes a motion by its index, with samples within the tolerance; called on several threads at once.
+/// @return per motion; does not depend on the number of threads.
 /// @throws what motionOf throws; std::invalid_argument for a margin that is negative or not finite, or no tolerances.
 std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
                                         std::size_t count,
@@ -73,7 +73,7 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
                                         const MotionsRequest& request = {});
 
 /// The bodies of a scene, each carried by the link whose frame it has: objects of the world by the robot's root, or by
-/// what holds them. Of bodies in other frames nothing is known; their pairs are NOT_CHECKED.
+/// the link that they are attached to. Bodies in other frames are missing; their pairs are NOT_CHECKED.
 PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot);
 
 }  // namespace sdf_ccd

@@ -14,11 +14,11 @@ namespace sdf_ccd {
 struct PointShell {
   std::vector<Vector3d> points;   ///< [m]
   std::vector<Vector3d> normals;  ///< unit, pointing out
-  std::vector<double> areas;      ///< surface area that each point stands for [m²]
-  double covering_radius = 0.0;   ///< no location of the surface is farther than this from a point [m]; a true bound
+  std::vector<double> areas;      ///< surface area that each point represents [m²]
+  double covering_radius = 0.0;   ///< upper bound of the distance from the surface's locations to the points [m]
 
   /// The same for the edges of its flat pieces, which deviate from planes by `flatness` [m]; see contact_gap.h.
-  /// Infinite where edges have not been sampled apart.
+  /// Infinite if edges have not been sampled separately.
   double edge_radius = std::numeric_limits<double>::infinity();
   double flatness = 0.0;
 

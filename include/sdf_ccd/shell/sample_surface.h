@@ -36,12 +36,13 @@ struct ShellOptions {
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
 PointShell sampleSurface(const Solid& solid, const ShellOptions& options);
 
-/// The points on vertices and edges alone, by options.edge_gap: no point stands for an area, and the covering radius is
+/// The points on vertices and edges alone, by options.edge_gap: no point represents an area, and the covering radius is
 /// infinite. They show where the surface touches, not how hard.
 /// @throws as sampleSurface(); std::invalid_argument also if the edge gap is 0.
 PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options);
 
-/// About how many points sampleSurface() would take, from the areas and edges alone; few vertices are assumed.
+/// About how many points sampleSurface() would take, from the areas and edges alone; few vertices are assumed. It refuses
+/// beforehand what is expected to take more than options.max_points.
 double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options);
 
 /// Point shell of a primitive: points exactly on its surface, with its exact normals away from edges. Areas sum to

@@ -16,7 +16,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Blocks that are likely to be alike, and what was found in those that were built.
+/// Blocks of similar expected cost, and the results of those that were built.
 struct Stratum {
   std::vector<std::size_t> blocks;
   SampleMean bytes, seconds;
@@ -25,7 +25,7 @@ struct Stratum {
   std::size_t built() const { return bytes.count(); }
 };
 
-/// Sums over all blocks near the surface, from some of them.
+/// Estimates sums over all blocks near the surface from some of them.
 struct Sum {
   double value = 0.0, variance = 0.0;
 
@@ -62,7 +62,7 @@ class BlockSample {
   }
 
  private:
-  static constexpr std::size_t kFewest = 6;  ///< of a stratum
+  static constexpr std::size_t kFewest = 6;  ///< minimal number of blocks of a stratum
 
   enum Kind : std::uint8_t { kPlain, kVertices, kDoubtful };
 
@@ -84,8 +84,8 @@ class BlockSample {
         }
   }
 
-  /// Cells divide most where triangles do not tell the inside from the outside, and more where vertices are, as the
-  /// surface bends there, than elsewhere.
+  /// Cells divide most where triangles do not determine the sign, and more near vertices, where the surface
+  /// bends, than elsewhere.
   void markBlocks() {
     kinds_.assign(order_.size(), kPlain);
     const Solid& solid = surface_.exact().solid();
@@ -101,7 +101,7 @@ class BlockSample {
     }
   }
 
-  /// Which of the blocks are near the surface, as far as the time for that goes.
+  /// Finds which blocks are near the surface, within a time limit.
   void findNear(double start) {
     constexpr double kSeconds = 5e-3;
     constexpr std::size_t kFewest = 64, kChecked = 16;
@@ -124,13 +124,13 @@ class BlockSample {
     return sum;
   }
 
-  /// What is known of a stratum's spread: until it has a few blocks, at least that of an exponential distribution, as
+  /// The standard deviation of a stratum: until it has a few blocks, at least that of an exponential distribution, as
   /// most blocks take little and a few take much.
   static double variance(const SampleMean& mean) {
     return mean.count() < kFewest ? std::max(mean.variance(), mean.mean() * mean.mean()) : mean.variance();
   }
 
-  /// Of the strata that have less than a few blocks the one that has the least: two for each first, then by the square
+  /// Of the strata with fewer than a few blocks the one with the fewest: two for each first, then by the square
   /// root of its size. Null if there is none.
   Stratum* nextOfFew() {
     Stratum* best = nullptr;
@@ -146,7 +146,7 @@ class BlockSample {
     return best;
   }
 
-  /// Where the next block lessens the squared errors of both sums most; null if nothing would.
+  /// The stratum where the next block reduces the squared errors of both sums most; null if none would.
   Stratum* next(const Sum& bytes, const Sum& seconds) {
     if (Stratum* const stratum = nextOfFew()) return stratum;
     Stratum* best = nullptr;
@@ -171,8 +171,8 @@ class BlockSample {
     return near < kFewBlocks && triangles > kTriangles * near;
   }
 
-  /// Comes back to a block, and to other cells of it, if there are few. Until each stratum has some, what is expected
-  /// is too little to end it by where the few blocks that take long have not been met.
+  /// Revisits a block, for other cells of it, if there are few. Until each stratum has some, the estimate
+  /// is too small to stop by it if the few blocks that take long have not been visited.
   void buildNear() {
     constexpr double kSecondsForFew = 40e-3, kSeconds = 15e-3, kShare = 0.03, kSure = 0.07, kUnsure = 0.15;
     const double scale = double(order_.size()) / double(tested_), start = threadSeconds();
@@ -203,9 +203,9 @@ class BlockSample {
   }
 
   void buildFar() {
-    constexpr std::size_t kMost = 64;
+    constexpr std::size_t kMaxSamples = 64;
     ThinnedCells cells;
-    for (std::size_t k = 0; k < std::min(far_.size(), kMost); ++k) {
+    for (std::size_t k = 0; k < std::min(far_.size(), kMaxSamples); ++k) {
       cells.start();
       build(far_[k], cells);
       far_seconds_.add(cells.stop().seconds);

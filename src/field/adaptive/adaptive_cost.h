@@ -5,7 +5,7 @@
 
 namespace sdf_ccd {
 
-/// What buildAdaptive() is expected to take; see expectedCost().
+/// The expected cost of buildAdaptive(); see expectedCost().
 FieldCost expectedAdaptive(const Solid& solid, const FieldOptions& options);
 
 }  // namespace sdf_ccd

@@ -12,7 +12,7 @@ namespace sdf_ccd {
 /// The kind of checked file that holds an adaptive grid.
 constexpr char kAdaptiveFileKind[] = "adaptive field";
 
-/// As saveField(). @param openings  null where there are none.
+/// As saveField(). @param openings  null if there are none.
 void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path,
                   const std::string& key);
 

@@ -4,14 +4,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "field/grid_place.h"
+#include "field/grid_limits.h"
 
 namespace sdf_ccd {
 
 namespace leaf_error {
 
 std::uint8_t code(double error, double error_bound) {
-  // A little more, so that rounding in here takes nothing from the bound.
+  // Slightly enlarged, so that the rounding here does not violate the bound.
   const double steps = 16.0 * std::log2(error_bound / (error * (1.0 + 1e-9)));
   return static_cast<std::uint8_t>(std::clamp(std::floor(steps), 0.0, 255.0));
 }
@@ -73,7 +73,7 @@ void AdaptiveGrid::check() const {
   if (!(shape_.error_bound >= 0.0) || !std::isfinite(shape_.error_bound)) fail("error bound is not a length");
   if (!isSurfaceBox(shape_.surface_box)) fail("the surface's box is none");
   if (shape_.size.minCoeff() < 1 || shape_.size.maxCoeff() > 1024) fail("top cells out of 1 to 1024 per axis");
-  if (!isPlace(shape_.box(), shape_.unit())) fail("its place is too far away for its cells");
+  if (!canResolve(shape_.box(), shape_.unit())) fail("its place is too far away for its cells");
   if (arrays_.top.size != shape_.count()) fail(std::to_string(arrays_.top.size) + " words do not fit the top cells");
   if (arrays_.bases.size != arrays_.nodes.size) fail("bases do not fit the nodes");
   if (arrays_.leaf_errors.size != leafCount()) fail("errors do not fit the leaves");
@@ -137,7 +137,7 @@ AdaptiveBlock AdaptiveGrid::farTopBlock(const Vector3i& low, const EmptySphere& 
   const double out = ball.offset.cast<double>().norm() * shape_.cell;
   const Vector3d center =
       (low + AdaptiveShape::kUnits * ball.offset).cast<double>().array() + 0.5 * AdaptiveShape::kUnits;
-  // Less than a step was rounded off; the rest is what single precision made of distances.
+  // Rounding removed less than a step; the rest is the rounding of single precision.
   const double slack = (out > 0.0 ? EmptySphere::kSlack * shape_.cell : 0.0) + step + 1e-5 * radius;
   return {low, AdaptiveShape::kUnits, false, 0, 0, center, radius, ball.inside, radius - out + slack};
 }

@@ -16,7 +16,7 @@ namespace sdf_ccd {
 
 /// Origin, size and accuracy of an adaptive grid.
 struct AdaptiveShape {
-  /// Node levels below the top grid, and the smallest blocks along a top cell's side: half a cell of the last level.
+  /// Node levels below the top grid; and smallest blocks along a top cell's side: half a cell of the last level.
   static constexpr int kMaxDepth = 3;
   static constexpr int kUnits = 128;
 
@@ -50,7 +50,7 @@ struct LeafScale {
     return {offset, (1.7320508075688772 * h + offset) / 127.0};
   }
 
-  /// What rounding can change [m].
+  /// Upper bound of the change by rounding [m].
   double rounding() const { return 0.5 * corner; }
 
   LeafWord encode(const std::array<double, 8>& corners) const;
@@ -72,7 +72,7 @@ double error(std::uint8_t code, double error_bound);
 }  // namespace leaf_error
 
 /// 4×4×4 children of one cell, x fastest; each code is the child's rank among its node's leaves, splits or nodes, or
-/// says how far from the surface its centre is. The eight children of an octant may share one leaf. One cache line.
+/// is the distance of its centre from the surface. The eight children of an octant may share one leaf. One cache line.
 struct alignas(64) AdaptiveNode {
   std::array<std::uint8_t, 64> codes;
 };
@@ -82,7 +82,7 @@ struct NodeBases {
   std::uint32_t leaf, split, node;
 };
 
-/// Eight leaves of half a cell's side, in a leaf's place: ordered like corners. One cache line.
+/// Eight leaves of half a cell's side, instead of one leaf: ordered like corners. One cache line.
 struct alignas(64) SplitLeaves {
   std::array<LeafWord, 8> leaves;
 };
@@ -94,16 +94,16 @@ struct AdaptiveData {
   std::vector<NodeBases> bases;  ///< one per node
   std::vector<LeafWord> leaves;
   std::vector<SplitLeaves> splits;
-  std::vector<std::uint8_t> leaf_errors;  ///< by AdaptiveBlock::index; apart, as a query's steps do not need them
+  std::vector<std::uint8_t> leaf_errors;  ///< by AdaptiveBlock::index; separate, as a query's steps do not need them
 };
 
-/// What a top cell's word says: a kind in its last two bits, and an index or a EmptySphere about a top cell's centre.
+/// The word of a top cell: a kind in its last two bits, and an index or an EmptySphere about a top cell's centre.
 namespace top_word {
 constexpr std::uint32_t kFar = 0, kLeaf = 1, kSplit = 2, kNode = 3;
 constexpr std::uint32_t kKind = 3;
 }  // namespace top_word
 
-/// What a node's code says.
+/// A node's codes.
 namespace node_code {
 /// First code of each kind; wide: a leaf that an octant's children share, its rank among those, which come before the
 /// node's other leaves.
@@ -126,11 +126,11 @@ struct AdaptiveBlock {
   bool leaf;          ///< false: far from the surface
   LeafWord word;      ///< of a leaf
   std::size_t index;  ///< of a leaf: its rank among those of the array, or after them among those of the splits
-  /// Far: a ball free of surface, and on which side of it that is with all of the block.
+  /// Far: an empty sphere, and its side of the surface, which is also that of all of the block.
   Vector3d ball_center = Vector3d::Zero();  ///< [units]
   double ball_radius = 0.0;                 ///< [m]
   bool inside = false;
-  double most = 0.0;  ///< far: |φ| at the block's own centre does not exceed this [m]
+  double most = 0.0;  ///< far: upper bound of |φ| at the block's own centre [m]
 };
 
 /// Signed distances in cells whose size follows the shape of the surface (the paper's "future work"): a coarse grid
@@ -140,7 +140,7 @@ struct AdaptiveBlock {
 /// meet: a change of sign at a face is a crossing there (design §3.3).
 class AdaptiveGrid {
  public:
-  /// @throws std::invalid_argument if sizes do not fit each other or an index leads nowhere.
+  /// @throws std::invalid_argument if sizes do not match or an index is out of range.
   AdaptiveGrid(const AdaptiveShape& shape, AdaptiveData data);
 
   struct Arrays {

@@ -24,7 +24,7 @@ FieldValue leafValue(const AdaptiveGrid& grid, const LocatedBlock& at) {
   return {trilinear(corners, at.u), trilinearGradient(corners, at.u) / (at.block.side * grid.shape().unit())};
 }
 
-/// Of the distance in a far block: at least as far as its ball's surface is, at most as far as its centre says.
+/// The distance in a far block: at least that of its sphere's surface, at most that by its centre's distance.
 DistanceBounds farBounds(const AdaptiveGrid& grid, const LocatedBlock& at) {
   const AdaptiveShape& shape = grid.shape();
   const Vector3d from_low = at.block.side * at.u, half = Vector3d::Constant(0.5 * at.block.side);
@@ -46,7 +46,7 @@ FieldSample centerSample(const AdaptiveGrid& grid, const Vector3i& cell) {
   return {0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low), Vector3d::Zero()};
 }
 
-/// Far from the surface: interpolated between the centres of the top cells, within what the block's centre says.
+/// Far from the surface: interpolated between the centres of the top cells, within the bounds of the block's centre.
 FieldSample farSample(const AdaptiveGrid& grid, const LocatedBlock& at, const Vector3d& p_F) {
   const AdaptiveShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.cell - Vector3d::Constant(0.5);

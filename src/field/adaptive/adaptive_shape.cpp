@@ -8,8 +8,8 @@
 namespace sdf_ccd {
 namespace {
 
-/// Top cells along the longest side. More of them shorten a query's way through far cells and spare it nodes; up to
-/// these they cost less memory than that is worth (measured on scans and links).
+/// Top cells along the longest side. More of them shorten a query's path through far cells and save nodes; up to
+/// this number the gain is larger than the cost in memory (measured on scans and links).
 int topCells(double relative_error) {
   return static_cast<int>(std::clamp(std::round(2.0 / std::sqrt(relative_error)), 8.0, 64.0));
 }
@@ -23,7 +23,7 @@ AdaptiveShape adaptiveShape(const AlignedBox3d& surface_box, const FieldOptions&
   shape.error_bound = *options.max_error;
   shape.cell = longest / topCells(*options.max_error / longest);
   shape.band = std::max(options.band, 2.0 * *options.max_error);
-  // Padded so that no point with |φ| ≤ band lies on the grid's boundary, where a query would miss what is beyond it.
+  // Padded so that no point with |φ| ≤ band is on the grid's boundary, where a query would miss the rest.
   const double padding = 1.01 * shape.band + 0.01 * shape.cell;
   const Vector3d cells = ((shape.surface_box.sizes().array() + 2.0 * padding) / shape.cell).ceil();
   if (cells.maxCoeff() > 1024.0) {

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// Leaves in the places of a cell's octants, where they are proved; the first ones that were tried.
+/// Leaves for a cell's octants, where they are proved; the first ones that were tried.
 struct BlockBuilder::OctantLeaves {
   std::array<std::optional<FittedLeaf>, 8> leaf;
   int tried = 0;
@@ -21,16 +21,16 @@ void BlockBuilder::build(const Vector3i& block, const SignedSurface::Nearest& at
 }
 
 void BlockBuilder::measureFar(const Block& block, SignedSurface::Nearest last, CellTaker& taker) const {
-  Vector3d last_place = center(block);
+  Vector3d last_point = center(block);
   for (int i = 0; i < block.side * block.side * block.side; ++i) {
-    // To and fro, so that each cell is next to the last one.
+    // Back and forth, so that each cell is adjacent to the last one.
     const int row = i / block.side, layer = row / block.side, x = i % block.side, y = row % block.side;
-    const auto turned = [&](int k, int turns) { return turns % 2 == 0 ? k : block.side - 1 - k; };
-    const Vector3i cell = block.low + Vector3i(turned(x, row), turned(y, layer), layer);
+    const auto flipped = [&](int k, int flips) { return flips % 2 == 0 ? k : block.side - 1 - k; };
+    const Vector3i cell = block.low + Vector3i(flipped(x, row), flipped(y, layer), layer);
     if (!withinGrid(cell) || !taker.begin(CellTaker::kFarCell)) continue;
-    const Vector3d place = center(Block{cell, 1});
-    last = surface_.exact().next(place, last, (place - last_place).norm());
-    last_place = place;
+    const Vector3d point = center(Block{cell, 1});
+    last = surface_.exact().next(point, last, (point - last_point).norm());
+    last_point = point;
     taker.takeDistance(index(cell), last.distance);
     taker.end();
   }

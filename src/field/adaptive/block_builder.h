@@ -14,7 +14,7 @@
 
 namespace sdf_ccd {
 
-/// What stands in a cell's place.
+/// The content of a cell.
 struct BuiltCell {
   enum Kind { kFar, kLeaf, kWide, kSplit, kNode } kind = kFar;
   double distance = 0.0;  ///< far: at the centre
@@ -29,14 +29,14 @@ inline int childIndex(int octant, int k) {
   return c.x() + 4 * (c.y() + 4 * c.z());
 }
 
-/// Who has cells built: takes what was made of the top ones, counts, and may leave cells out.
+/// Receives the cells of a builder: stores the top ones, counts all, and may skip cells.
 class CellTaker {
  public:
-  static constexpr int kFarCell = -1, kCube = -2;  ///< in the place of a depth; a cube of top cells near the surface
+  static constexpr int kFarCell = -1, kCube = -2;  ///< instead of a depth; a cube of top cells near the surface
 
   virtual ~CellTaker() = default;
 
-  /// Of the field [bytes]; also those of cells that turn out to be far as a whole.
+  /// Memory of the field [bytes]; includes cells that turn out to be far as a whole.
   virtual void count(std::size_t bytes) = 0;
   /// Whether a cell of this depth is wanted. If it is, end() follows when it has been built.
   virtual bool begin(int /*depth*/) { return true; }
@@ -51,7 +51,7 @@ class BlockBuilder {
  public:
   static constexpr int kSide = 4;  ///< of a block, in top cells
 
-  /// What is handed over must outlive this.
+  /// All arguments must outlive this.
   BlockBuilder(const SurfaceIndex& surface, const AdaptiveShape& shape)
       : surface_(surface), shape_(shape), error_(shape.error_bound) {}
 
@@ -65,7 +65,7 @@ class BlockBuilder {
   }
   Vector3d center(const Vector3i& block) const { return center(Block{kSide * block, kSide}); }
   double side() const { return kSide * shape_.cell; }
-  /// Whether all of a block is far, as its centre is this far from the surface [m].
+  /// Whether all of a block is far, given its centre's distance from the surface [m].
   bool isFar(double center_distance) const { return isFar(center_distance, side()); }
 
   /// May be called from several threads at once.
@@ -97,11 +97,11 @@ class BlockBuilder {
   }
 
   void buildNear(const Block& block, const NearTriangles& near, CellTaker& taker) const;
-  /// Cells that are all far: one by one, each starting from what the last one found.
+  /// Cells that are all far: one by one, each search starting from the last one's result.
   void measureFar(const Block& block, SignedSurface::Nearest last, CellTaker& taker) const;
   BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth, CellTaker& taker) const;
   BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants, CellTaker& taker) const;
-  /// Whether a proved leaf shows that |φ| exceeds the band all over it, on the side that its cell's centre is on.
+  /// Whether a proved leaf shows that |φ| exceeds the band all over it, on its cell's centre's side.
   bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
   /// Whether a far cell at this depth can tell its side: the rounded distance of its centre is not zero.
   bool holdsFar(double center_distance, int depth) const;

@@ -33,7 +33,7 @@ class AdaptiveBuilder : private CellTaker {
   void take(std::size_t index, BuiltCell&& cell) override { built_.emplace_back(index, std::move(cell)); }
 
   void buildBlocks(const Progress& progress);
-  /// For all top cells; those near the surface get other words.
+  /// For all top cells; those near the surface are replaced later.
   void setEmptySpheres();
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
   void addLeaf(const FittedLeaf& leaf);
@@ -70,7 +70,7 @@ void AdaptiveBuilder::buildBlocks(const Progress& progress) {
       nearest[i] = x == 0 ? exact.nearest(center) : exact.next(center, nearest[i - 1], blocks_.side());
     }
   });
-  // Spread over the grid: what is done at any time is a fair sample of what there is to do.
+  // Spread over the grid, so that the part done is at any time a fair sample of the whole.
   const SpreadOrder order(nearest.size());
   ProgressCounter counter(progress, nearest.size());
   parallelFor(std::size_t{0}, nearest.size(), [&](std::size_t k) {
@@ -154,7 +154,7 @@ AdaptiveGrid AdaptiveBuilder::build(const Progress& progress) {
   buildBlocks(progress);
 
   if (blocks_.capped()) {
-    // Leaves of the last depth that are not proved: what holds for any 1-Lipschitz function.
+    // Leaves of the last depth that are not proved get the bound of any 1-Lipschitz function.
     const double side = shape_.unit();
     shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
   }

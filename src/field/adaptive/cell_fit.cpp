@@ -66,7 +66,7 @@ void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
     for (int y = 0; y <= steps; ++y)
       for (int x = 0; x <= steps; ++x) {
         const int i = first + step / kKept * (x + kSide * (y + kSide * z));
-        if (std::isnan(values_[i])) writer.add(i, place(cube.low + step * Vector3i(x, y, z)));
+        if (std::isnan(values_[i])) writer.add(i, point(cube.low + step * Vector3i(x, y, z)));
       }
 }
 
@@ -97,7 +97,7 @@ CellFit::Lattice CellFit::finestLattice(const Cube& cube, const NearTriangles& n
       if ((step.array() != 1).all()) {
         values[i] = at(cube.low + step);
       } else {
-        writer.add(i, place(cube.low + step));
+        writer.add(i, point(cube.low + step));
       }
     }
   }
@@ -109,7 +109,7 @@ Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const 
   const Deviation seen = deviationOf(difference(refined(leaf), exact));
   if (seen.largest() > most) return seen;
   const Deviation whole = bound.deviation(step_ * cube.side, cornersOf(cube), leaf, seen);
-  // A bound far above what is seen comes of the gradients' range: parts know more of it.
+  // A bound far above the errors found is due to the gradients' range: parts have a smaller range.
   constexpr double kTight = 2.0;
   if (whole.largest() <= std::min(most, kTight * seen.largest())) return whole;
   const Deviation in_parts = deviationInParts(cube, near, bound, exact, leaf, most);
@@ -156,7 +156,7 @@ std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& n
   const Deviation seen = deviationOf(difference(refined(corners), exact));
   if (seen.above + seen.below > 2.0 * most) return std::nullopt;
   for (double& value : corners) value -= 0.5 * (seen.above - seen.below);
-  // Where that is not right for the points between, what is found there says which way to go on.
+  // Where that is wrong for the points between, their errors give the direction of the next correction.
   const GradientBound bound(near);
   constexpr int kTries = 4;
   for (int i = 0; i < kTries; ++i) {

@@ -17,17 +17,17 @@ struct FittedLeaf {
   double error = 0.0;
 };
 
-/// A cell's signed distances at a lattice of 9×9×9 points, computed when needed, and what they prove about leaves that
-/// would stand in its place.
+/// A cell's signed distances at a lattice of 9×9×9 points, computed when needed, and the proofs of leaves for the
+/// cell.
 ///
 /// The proof. A leaf's interpolant is, in every part of the cell, that of its own values at the part's corners: see
-/// GradientBound for what it may be off by there. Parts are halved until it is proved, with fewer triangles near them.
+/// GradientBound for its error there. Parts are halved until it is proved, with fewer triangles near them.
 class CellFit {
  public:
   /// @param near  of the cell.
   explicit CellFit(const NearTriangles& near);
 
-  /// For one of the 4×4×4 parts of another cell, with what is known of it there.
+  /// For one of the 4×4×4 parts of another cell, reusing its distances.
   CellFit(const NearTriangles& near, CellFit& around, const Vector3i& part);
 
   /// A leaf for the cell, or for its octant k, if it is proved to differ by at most `most` [m] from φ in it.
@@ -54,23 +54,23 @@ class CellFit {
   static constexpr int kSide = kSteps / kKept + 1;  ///< points that are kept along each side
 
   static int index(const Vector3i& p) { return (p.x() + kSide * (p.y() + kSide * p.z())) / kKept; }
-  Vector3d place(const Vector3i& p) const { return low_ + step_ * p.cast<double>(); }
+  Vector3d point(const Vector3i& p) const { return low_ + step_ * p.cast<double>(); }
   /// Signed distance at a point that is kept: NaN if it is not computed yet.
-  double at(const Vector3i& place) const { return values_[index(place)]; }
-  void set(const Vector3i& place, double distance) { values_[index(place)] = distance; }
+  double at(const Vector3i& point) const { return values_[index(point)]; }
+  void set(const Vector3i& point, double distance) { values_[index(point)] = distance; }
   static Cube octantCube(int k) { return {kSteps / 2 * cubeCorner(k), kSteps / 2}; }
   std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
-  /// Takes the distances that are missing at the cube's places, steps + 1 along each side.
+  /// Computes the missing distances at the cube's points, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
-  /// Those at the corners of a cube, which were taken before.
+  /// Those at the corners of a cube, which have been computed before.
   Corners cornersOf(const Cube& cube) const;
   /// The distances at the points of a cube.
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
   /// Of one of two steps, whose middles are not kept.
   Lattice finestLattice(const Cube& cube, const NearTriangles& near) const;
-  /// How far an interpolant with these values at the cube's corners is from φ in the cube: what is proved if that is
-  /// not more than `most`, else what was found where it is more.
-  /// @param exact  the distances at the cube's places.
+  /// Bound of an interpolant with these values at the cube's corners on |interpolant − φ| in the cube: the proved one
+  /// if it is at most `most`, else an error found that exceeds it.
+  /// @param exact  the distances at the cube's points.
   Deviation deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound, const Lattice& exact,
                       const Corners& leaf, double most);
   Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// Has some of the cells built that a builder comes to, and counts each of them for those that it stands for (Knuth
+/// Builds only some of the cells that a builder visits, and counts each of them for those that it represents (Knuth
 /// 1975, "Estimating the efficiency of backtrack programs", with several branches taken). What is counted is right on
 /// average.
 class ThinnedCells : public CellTaker {

@@ -46,7 +46,7 @@ void BrickSampler::fill(const Vector3i& brick, const Block& block, const NearTri
   for (int z = block.low.z(); z < end(2); ++z)
     for (int y = block.low.y(); y < end(1); ++y)
       for (int x = block.low.x(); x < end(0); ++x) {
-        writer.add((z * kSide + y) * kSide + x, place(brick, Vector3d(x, y, z)));
+        writer.add((z * kSide + y) * kSide + x, point(brick, Vector3d(x, y, z)));
       }
 }
 
@@ -57,7 +57,7 @@ void BrickSampler::fillFromTree(const Vector3i& brick, float* samples) const {
     for (int y = 0; y < kSide; ++y) {
       SignedSurface::Nearest last = y > 0 ? row_start : layer_start;
       for (int x = 0; x < kSide; ++x, ++samples) {
-        const Vector3d p = place(brick, Vector3d(x, y, z));
+        const Vector3d p = point(brick, Vector3d(x, y, z));
         const bool first = x == 0 && y == 0 && z == 0;
         last = first ? surface().nearest(p) : surface().next(p, last, shape_.cell);
         *samples = static_cast<float>(last.distance);

@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 
 /// Signed distances at grid points: of a brick, its halves, their halves, each with the triangles that may be nearest
-/// to its places, until those are few.
+/// to its points, until those are few.
 class BrickSampler {
  public:
   BrickSampler(const Solid& solid, const GridShape& shape);
@@ -26,20 +26,20 @@ class BrickSampler {
     int side;
   };
 
-  Vector3d place(const Vector3i& brick, const Vector3d& cells) const {
+  Vector3d point(const Vector3i& brick, const Vector3d& cells) const {
     return shape_.origin + shape_.cell * ((GridShape::kBrick * brick).cast<double>() + cells);
   }
 
   SpaceCube cubeOf(const Vector3i& brick, const Block& block) const {
     const Vector3d center = block.low.cast<double>().array() + 0.5 * block.side;
-    return {place(brick, center), block.side * shape_.cell};
+    return {point(brick, center), block.side * shape_.cell};
   }
 
   void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, float* samples) const;
-  /// Where triangles are small beside cells lists of them are long: each sample starts from its neighbour's triangle.
+  /// If triangles are small compared with cells the lists are long: each sample starts from its neighbour's triangle.
   void fillFromTree(const Vector3i& brick, float* samples) const;
 
-  std::optional<SurfaceIndex> index_;  ///< where triangles are not small beside cells
+  std::optional<SurfaceIndex> index_;  ///< unless triangles are small compared with cells
   std::optional<SignedSurface> surface_;
   GridShape shape_;
 };

@@ -9,7 +9,7 @@
 #include "common/parallel_for.h"
 #include "field/cube_corner.h"
 #include "field/empty_sphere_search.h"
-#include "field/grid_place.h"
+#include "field/grid_limits.h"
 
 namespace sdf_ccd {
 namespace {
@@ -70,7 +70,7 @@ SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
   arrays_.words = viewOf(owned->words);
   owned->data.slots = {};
   owner_ = owned;
-  const double largest = GridShape::kMostSteps * shape.step;
+  const double largest = GridShape::kMaxSteps * shape.step;
   error_bound_ = kHalfSqrt3 * shape_.cell + rounding() + 2.0 * largest * std::numeric_limits<float>::epsilon();
   check();
 }
@@ -89,7 +89,7 @@ void SparseGrid::check() const {
   if (!(error_bound_ >= 0.0) || !std::isfinite(error_bound_)) fail("error bound " + std::to_string(error_bound_));
   if (shape_.bricks.minCoeff() < 1 || shape_.bricks.maxCoeff() > 4096) fail("brick counts out of 1 to 4096");
   if (!isSurfaceBox(shape_.surface_box)) fail("the surface's box is none");
-  if (!isPlace(shape_.box(), shape_.cell)) fail("its place is too far away for its cells");
+  if (!canResolve(shape_.box(), shape_.cell)) fail("its place is too far away for its cells");
   if (arrays_.words.size != shape_.brickCount())
     fail(std::to_string(arrays_.words.size) + " words do not fit the bricks");
   if (arrays_.corners.size != shape_.cornerCount()) {

@@ -26,15 +26,15 @@ struct GridShape {
   AlignedBox3d surface_box;            ///< of the mesh [m]
   double step = 0.0;                   ///< that samples count in whole numbers of 16 bits [m]
 
-  static constexpr double kMostSteps = 32767.0;  ///< of a sample
+  static constexpr double kMaxSteps = 32767.0;  ///< of a sample
   /// For samples whose magnitude is at most `largest` [m].
-  static double stepFor(double largest) { return largest / kMostSteps; }
+  static double stepFor(double largest) { return largest / kMaxSteps; }
   std::int16_t inSteps(double metres) const { return static_cast<std::int16_t>(std::lround(metres / step)); }
 
   Vector3i cells() const { return kBrick * bricks; }
   std::size_t brickCount() const { return std::size_t(bricks.x()) * bricks.y() * bricks.z(); }
   std::size_t cornerCount() const { return std::size_t(bricks.x() + 1) * (bricks.y() + 1) * (bricks.z() + 1); }
-  /// What a grid takes whatever its samples are.
+  /// The memory of a grid without its samples.
   std::size_t coarseBytes() const { return cornerCount() * sizeof(float) + brickCount() * sizeof(std::int32_t); }
   std::size_t brickIndex(const Vector3i& b) const {
     return (std::size_t(b.z()) * bricks.y() + b.y()) * bricks.x() + b.x();
@@ -45,14 +45,14 @@ struct GridShape {
   AlignedBox3d box() const { return {origin, origin + cell * cells().cast<double>()}; }
 };
 
-/// The values a grid is made of: those of a 1-Lipschitz function, so that no surface is nearer than they say.
+/// The values of a grid: those of a 1-Lipschitz function, so that they bound the distance to the surface.
 struct GridData {
   std::vector<float> corners;         ///< distance at every brick's corners, x fastest [m]
   std::vector<std::int32_t> slots;    ///< per brick: where its samples lie, or kFar
   std::vector<std::int16_t> samples;  ///< kSamples per slot, x fastest [GridShape::step]
 };
 
-/// What a brick's word says: with its last bit set a slot, above it; else a EmptySphere about a brick's corner.
+/// The word of a brick: if its last bit is set a slot, above it; else an EmptySphere about a brick's corner.
 namespace brick_word {
 inline std::uint32_t slot(std::int32_t slot) {
   return static_cast<std::uint32_t>(slot) << 1 | 1U;
@@ -65,7 +65,7 @@ inline bool isFar(std::uint32_t word) {
 /// Samples of a signed distance, dense in bricks near the surface, one per brick corner elsewhere.
 ///
 /// Memory order: x fastest, then y, then z. A brick has samples unless |φ| > band + cell all over it; instead of those
-/// a far brick has a EmptySphere, by which a query goes on (design §3.3): farther than by the paper's min/max octree
+/// a far brick has an EmptySphere, by which a query advances (design §3.3): farther than by the paper's min/max octree
 /// (§3.2), and without its memory.
 class SparseGrid {
  public:
@@ -88,7 +88,7 @@ class SparseGrid {
   View<std::uint32_t> words() const { return arrays_.words; }
   View<std::int16_t> samples() const { return arrays_.samples; }
 
-  /// What whole numbers of steps change a sample by at most, and so all that is interpolated between samples [m].
+  /// Upper bound of the rounding of a sample to steps, and so of all interpolated values [m].
   double rounding() const { return 0.5 * shape_.step; }
 
   /// Bound on |interpolated − true distance| in a brick with samples [m]: for exact samples of a 1-Lipschitz function
@@ -107,9 +107,9 @@ class SparseGrid {
             step * s[kZ], step * s[kZ + 1], step * s[kZ + kY], step * s[kZ + kY + 1]};
   }
 
-  /// A sample of a brick [m], `place` of 0 to kBrick per axis.
-  double sample(std::int32_t slot, const Vector3i& place) const {
-    return shape_.step * arrays_.samples[sampleIndex(slot, place)];
+  /// A sample of a brick [m], `local` from 0 to kBrick per axis.
+  double sample(std::int32_t slot, const Vector3i& local) const {
+    return shape_.step * arrays_.samples[sampleIndex(slot, local)];
   }
 
   /// Distances at a brick's corners, ordered like cellCorners().
@@ -129,9 +129,9 @@ class SparseGrid {
  private:
   void check() const;
 
-  static std::size_t sampleIndex(std::int32_t slot, const Vector3i& place) {
-    return std::size_t(slot) * GridShape::kSamples + (place.z() * GridShape::kSide + place.y()) * GridShape::kSide +
-           place.x();
+  static std::size_t sampleIndex(std::int32_t slot, const Vector3i& local) {
+    return std::size_t(slot) * GridShape::kSamples + (local.z() * GridShape::kSide + local.y()) * GridShape::kSide +
+           local.x();
   }
 
   GridShape shape_;

@@ -44,7 +44,7 @@ class BrickSample {
     return {int(i % shape_.bricks.x()), int(row % shape_.bricks.y()), int(row / shape_.bricks.y())};
   }
 
-  /// Which of the bricks need samples, as far as the time for that goes.
+  /// Finds which bricks need samples, within a time limit.
   void findNeeded() {
     constexpr double kSeconds = 5e-3;
     constexpr std::size_t kFewest = 256;
@@ -61,9 +61,9 @@ class BrickSample {
 
   /// Distances at bricks' corners, each but the first in a row from the one before.
   void measureCorners() {
-    constexpr std::size_t kMost = 128;
+    constexpr std::size_t kMaxSamples = 128;
     const SpreadOrder order(shape_.brickCount());
-    for (std::size_t k = 0; k < std::min(order.size(), kMost); ++k) {
+    for (std::size_t k = 0; k < std::min(order.size(), kMaxSamples); ++k) {
       const Vector3d p = shape_.origin + side() * at(order[k]).cast<double>();
       const SignedSurface::Nearest before = sampler_.surface().nearest(p);
       const double start = threadSeconds();

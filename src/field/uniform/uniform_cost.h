@@ -5,7 +5,7 @@
 
 namespace sdf_ccd {
 
-/// What a field with cells of one size is expected to take; see expectedCost().
+/// The expected cost of a field with cells of one size; see expectedCost().
 FieldCost expectedUniform(const Solid& solid, const FieldOptions& options);
 
 }  // namespace sdf_ccd

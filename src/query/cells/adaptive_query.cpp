@@ -11,24 +11,24 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
   const AdaptiveShape& shape = grid.shape();
   GridWalk walk = walkThrough(grid, segment);
   const BallExit ball_exit(segment);
-  // Balls are free of the true isosurface; leaves may carry it nearer by their error.
+  // Spheres are free of the true isosurface; leaves may place it nearer by their error.
   const double margin = std::abs(options.sigma) + shape.error_bound;
   while (walk.inside()) {
     const AdaptiveBlock block = grid.block(walk.cell());
     if (block.leaf) {
       const double t_exit = walk.exit(block.low, block.low.array() + block.side);
-      // A leaf that is met in one of its corners only says nothing: its neighbours' values there may differ.
+      // A leaf that is only touched at a corner is skipped: its neighbours' values there may differ.
       if (t_exit > walk.t()) {
         appendCellSpans(grid.corners(block), walk, {block.low, block.side, t_exit}, options.sigma, intervals);
       }
       walk.advance();
     } else {
-      // All of the block is on one side, and so is the ball about its centre that reaches to the isosurface.
+      // All of the block is on one side, and so is the sphere about its centre that extends to the isosurface.
       const FreeBall ball = emptySphere(grid, block, margin);
       passFree(block.low, block.side, ball, ball_exit, walk, intervals);
     }
     if (stopsAtEnter(options.mode) && !intervals.empty()) break;
-    // Complete once something else follows it.
+    // Complete once another span follows it.
     const bool first_only = options.mode == SegmentMode::kFirstInterval;
     if (first_only && !intervals.empty() && intervals.back().exit < walk.t()) break;
   }

@@ -13,8 +13,8 @@ inline GridWalk walkThrough(const AdaptiveGrid& grid, const Segment& segment) {
   return {{grid.shape().origin, grid.shape().unit(), grid.shape().units()}, segment};
 }
 
-/// A far block's: the true distance exceeds `margin` [m] all over it, on one side. Less a little: the ball is measured
-/// in metres and the walk in units.
+/// A far block's sphere: the true distance exceeds `margin` [m] all over it, on one side. Slightly reduced: the sphere
+/// is in metres and the walk in units.
 inline FreeBall emptySphere(const AdaptiveGrid& grid, const AdaptiveBlock& block, double margin) {
   const AdaptiveShape& shape = grid.shape();
   return {shape.origin + shape.unit() * block.ball_center, (block.ball_radius - margin) * (1.0 - 1e-9), block.inside};

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// Where a segment leaves a ball that it is in at t; t if it is not.
+/// Where a segment leaves a sphere that contains its point at t; t if it does not.
 class BallExit {
  public:
   explicit BallExit(const Segment& segment)
@@ -20,7 +20,7 @@ class BallExit {
   double operator()(const Vector3d& center, double radius, double t) const {
     const double free = radius - rounding_;
     if (!(free > 0.0) || !(length2_ > 0.0)) return t;
-    // From where it is at t: from the start of a long segment the ball is too small to be seen.
+    // From the point at t: seen from the start of a long segment the sphere is too small for doubles.
     const Vector3d from = start_ + t * step_ - center;
     const double half_b = from.dot(step_), c = from.squaredNorm() - free * free;
     if (!(c < 0.0)) return t;
@@ -30,7 +30,7 @@ class BallExit {
  private:
   Vector3d start_, step_;
   double length2_, per_length2_;
-  double rounding_;  ///< of places along the segment [m]
+  double rounding_;  ///< of points along the segment [m]
 };
 
 }  // namespace sdf_ccd

@@ -35,7 +35,7 @@ Extrema extrema(const CellCubic& f) {
 
 CellCubic cellCubic(const std::array<double, 8>& k, const Vector3d& from, const Vector3d& to, double sigma) {
   const Vector3d d = to - from;
-  // The line put into A(x, y) + z B(x, y), each bilinear.
+  // Substitute the line into A(x, y) + z B(x, y), each bilinear.
   const double xy0 = from.x() * from.y(), xy1 = from.x() * d.y() + from.y() * d.x(), xy2 = d.x() * d.y();
   const double ax = k[1] - k[0], ay = k[2] - k[0], axy = (k[3] - k[2]) - ax;
   const double a0 = k[0] + ax * from.x() + ay * from.y() + axy * xy0;
@@ -52,10 +52,10 @@ CellIntervals nonPositive(const CellCubic& f) {
   CellIntervals result;
   const double touch = 4.0 * std::numeric_limits<double>::epsilon() *
                        (std::abs(f.c[0]) + std::abs(f.c[1]) + std::abs(f.c[2]) + std::abs(f.c[3]));
-  const Extrema turns = extrema(f);
+  const Extrema extremes = extrema(f);
   std::array<double, 4> u{0.0, 0.0, 0.0, 0.0};
   int count = 1;
-  for (int i = 0; i < turns.count; ++i) u[count++] = turns.u[i];
+  for (int i = 0; i < extremes.count; ++i) u[count++] = extremes.u[i];
   u[count++] = 1.0;
 
   bool inside = false;
@@ -82,14 +82,14 @@ CellIntervals nonPositive(const CellCubic& f) {
   return result;
 }
 
-LowestPlace lowestPlace(const CellCubic& f) {
-  LowestPlace lowest{0.0, f(0.0)};
+CubicMinimum minimumOf(const CellCubic& f) {
+  CubicMinimum lowest{0.0, f(0.0)};
   const auto offer = [&](double u) {
     const double value = f(u);
     if (value < lowest.value) lowest = {u, value};
   };
-  const Extrema turns = extrema(f);
-  for (int i = 0; i < turns.count; ++i) offer(turns.u[i]);
+  const Extrema extremes = extrema(f);
+  for (int i = 0; i < extremes.count; ++i) offer(extremes.u[i]);
   offer(1.0);
   return lowest;
 }

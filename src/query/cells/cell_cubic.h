@@ -15,7 +15,7 @@ struct CellCubic {
   double slope(double u) const { return c[1] + u * (2.0 * c[2] + u * 3.0 * c[3]); }
 };
 
-/// The cubic of u in [0, 1] from local place `from` to `to`, both in the cell's [0, 1]³.
+/// The cubic of u in [0, 1] from the local point `from` to `to`, both in the cell's [0, 1]³.
 CellCubic cellCubic(const std::array<double, 8>& corners, const Vector3d& from, const Vector3d& to, double sigma);
 
 /// Where a cubic is not positive within [0, 1].
@@ -24,15 +24,15 @@ struct CellIntervals {
   int count = 0;
 };
 
-/// All of it: the roots are separated by the extrema, and each is bracketed. A minimum that touches zero to rounding
+/// All intervals: the extrema separate the roots, and each root is bracketed. A minimum that touches zero to rounding
 /// counts as an interval of no length.
 CellIntervals nonPositive(const CellCubic& cubic);
 
-/// Where a cubic is lowest within [0, 1].
-struct LowestPlace {
+/// The minimum of a cubic within [0, 1].
+struct CubicMinimum {
   double u;
   double value;
 };
-LowestPlace lowestPlace(const CellCubic& cubic);
+CubicMinimum minimumOf(const CellCubic& cubic);
 
 }  // namespace sdf_ccd

@@ -9,29 +9,29 @@
 
 namespace sdf_ccd {
 
-/// A cell that a walk is in.
+/// The cell that a walk is in.
 struct WalkedCell {
   Vector3i low;   ///< first corner, in cells of the walk
   int side;       ///< in cells of the walk
   double t_exit;  ///< where the walk leaves it
 };
 
-/// Places without the value sigma, all on one side of it.
+/// A sphere without the value sigma, all on one side of it.
 struct FreeBall {
   Vector3d center;  ///< [m]
   double radius;    ///< [m]
   bool inside;
 };
 
-/// Takes a walk to t, within which all is on one side: appends the span if that is the inside.
+/// Advances a walk to t, with all points up to there on one side: appends the span if that is the inside.
 void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals);
 
-/// Takes a walk out of a block of cells [low, low + side) that is as free as a ball next to it, and on to where it
-/// leaves that.
+/// Advances a walk out of a block of cells [low, low + side) that is as free as a sphere next to it, and on to the exit
+/// of that sphere.
 void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals);
 
-/// The trilinear function of a cell's corner values along the walk, from where it is to where it leaves, less sigma.
+/// The trilinear function of a cell's corner values along the walk, from its position to its exit, minus sigma.
 CellCubic cubicAlong(const std::array<double, 8>& corners, const GridWalk& walk, const WalkedCell& cell, double sigma);
 
 /// Appends the spans of the walk's parameter in which the trilinear function of eight corner values is at most sigma.

@@ -12,15 +12,15 @@ namespace {
 
 constexpr int kBrick = GridShape::kBrick;
 
-/// Of a far brick.
+/// The empty sphere of a far brick.
 FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, const EmptySphere& ball, double sigma) {
   const GridShape& shape = grid.shape();
   return {shape.origin + kBrick * shape.cell * (brick + ball.offset).cast<double>(),
           ball.steps * grid.ballStep() - std::abs(sigma) - grid.errorBound(), ball.inside};
 }
 
-/// About the sample nearest to a place of a sampled brick. With v the sample and h the cell no place nearer than
-/// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3); v less its own rounding and that of those around it.
+/// The sphere about the sample nearest to a point of a sampled brick. With v the sample and h the cell no point within
+/// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3); v is reduced by the rounding of it and its neighbours.
 FreeBall sampleBall(const SparseGrid& grid, const Vector3i& brick, std::int32_t slot, const Vector3d& p_F,
                     double sigma) {
   const GridShape& shape = grid.shape();
@@ -49,8 +49,8 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
       passFree(kBrick * brick, kBrick, ball, ball_exit, walk, intervals);
     } else {
       const std::int32_t slot = grid.slot(brick);
-      const Vector3d place = segment.start + walk.t() * (segment.end - segment.start);
-      const FreeBall ball = sampleBall(grid, brick, slot, place, sigma);
+      const Vector3d point = segment.start + walk.t() * (segment.end - segment.start);
+      const FreeBall ball = sampleBall(grid, brick, slot, point, sigma);
       const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
       const double t_ball = ball_exit(ball.center, ball.radius, walk.t());
       if (t_ball > t_exit) {
@@ -62,7 +62,7 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
       }
     }
     if (stopsAtEnter(options.mode) && !intervals.empty()) break;
-    // Complete once something else follows it.
+    // Complete once another span follows it.
     const bool first_only = options.mode == SegmentMode::kFirstInterval;
     if (first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
   }

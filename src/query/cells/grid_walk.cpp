@@ -22,7 +22,7 @@ GridWalk::GridWalk(const CellLattice& lattice, const Segment& segment)
     : lattice_(lattice),
       start_((segment.start - lattice.origin) / lattice.cell),
       step_((segment.end - segment.start) / lattice.cell) {
-  // Of the smallest steps the inverse is not finite; what they do not reach is as far as it is.
+  // The inverse of the smallest steps is not finite; planes that they do not reach are infinitely far.
   constexpr double kLargest = std::numeric_limits<double>::max();
   for (int k = 0; k < 3; ++k) per_step_[k] = std::clamp(1.0 / step_[k], -kLargest, kLargest);
   if (!clipToBox(start_, step_, lattice_.size.cast<double>(), t_, t_end_)) return;

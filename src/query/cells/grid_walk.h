@@ -21,12 +21,12 @@ bool clipToBox(const Vector3d& start, const Vector3d& step, const Vector3d& size
 /// Follows a segment through the cells of a grid, block by block.
 ///
 /// The parameter comes from the plane that is crossed, never from a sum of steps, and the crossed plane's cell index
-/// is set, not computed: so no cell is met twice and none is left out, however the segment runs along faces.
+/// is set, not computed: so no cell is visited twice and none is skipped, even if the segment runs along faces.
 class GridWalk {
  public:
   GridWalk(const CellLattice& lattice, const Segment& segment);
 
-  /// False once the segment has ended or left the grid (or if it never meets it).
+  /// False once the segment has ended or left the grid (or if it never enters it).
   bool inside() const { return inside_; }
 
   const CellLattice& lattice() const { return lattice_; }
@@ -39,8 +39,8 @@ class GridWalk {
   /// Parameter at which the segment ends or leaves the grid.
   double end() const { return t_end_; }
 
-  /// Parameter at which the block of cells [low, high) around the current cell is left, at most the segment's end;
-  /// remembers through which face.
+  /// Parameter at which the segment leaves the block of cells [low, high) around the current cell, at most its end;
+  /// stores the face.
   double exit(const Vector3i& low, const Vector3i& high) {
     low_ = low;
     high_ = high;
@@ -61,14 +61,14 @@ class GridWalk {
   /// Steps through the face that exit() found.
   void advance();
 
-  /// Leaves out all that lies before t, which is not before the current block's exit() and at most the segment's end.
+  /// Advances to t, which is not before the current block's exit() and at most the segment's end.
   void skipTo(double t) {
     inside_ = t < t_end_;
     t_ = std::min(t, t_end_);
     findCell();
   }
 
-  /// The segment's place at t, in cells from `origin_cell`'s first corner.
+  /// The segment's point at t, in cells from `origin_cell`'s first corner.
   Vector3d local(double t, const Vector3i& origin_cell) const {
     return start_ + t * step_ - origin_cell.cast<double>();
   }

@@ -17,7 +17,7 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Which of its eight halves each lane is in.
+/// The octant of its block that each lane is in.
 inline VI halfOf(const VI* cell, VI log_half) {
   const VI one = whole(1);
   const auto bit = [&](VI c) { return hn::And(hn::Shr(c, log_half), one); };
@@ -27,11 +27,11 @@ inline VI halfOf(const VI* cell, VI log_half) {
 inline void enterSplits(MI split, const VI* cell, Blocks& b) {
   if (hn::AllFalse(n, split)) return;
   b.log_side = hn::IfThenElse(split, hn::Sub(b.log_side, whole(1)), b.log_side);
-  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.place), halfOf(cell, b.log_side)), whole(RayQueue::kSplit));
-  b.place = hn::IfThenElse(split, leaf, b.place);
+  const VI leaf = hn::Add(hn::Add(hn::ShiftLeft<3>(b.index), halfOf(cell, b.log_side)), whole(RayQueue::kSplit));
+  b.index = hn::IfThenElse(split, leaf, b.index);
 }
 
-/// What the words of the lanes' top cells say.
+/// Decodes the words of the lanes' top cells.
 inline Blocks locateTop(const AdaptiveLanes& g, VI word, const VI* cell) {
   const VI kind = hn::And(word, whole(3));
   Blocks b;
@@ -40,12 +40,12 @@ inline Blocks locateTop(const AdaptiveLanes& g, VI word, const VI* cell) {
   setEmptySphere(g, word, b);
   b.log_side = whole(LaneBox::kLogUnits);
   const hn::RebindToUnsigned<I> bits;
-  b.place = hn::BitCast(n, hn::ShiftRight<2>(hn::BitCast(bits, word)));
+  b.index = hn::BitCast(n, hn::ShiftRight<2>(hn::BitCast(bits, word)));
   enterSplits(hn::Eq(kind, whole(2)), cell, b);
   return b;
 }
 
-/// Reads the codes of the children that rays are in, and where the children of that kind begin.
+/// Reads the codes of the children that rays are in, and the index of the first child of that kind.
 inline void fetchBelow(const AdaptiveLanes& g, const RayQueue& queue, Fetched& fetched) {
   const VI three = whole(3);
   for (int i = 0; i < queue.size; i += static_cast<int>(hn::Lanes(n))) {
@@ -56,11 +56,11 @@ inline void fetchBelow(const AdaptiveLanes& g, const RayQueue& queue, Fetched& f
   }
   const AdaptiveNode* nodes = g.nodes;
   const NodeBases* bases = g.bases;
-  const std::int32_t* place = queue.place.data();
+  const std::int32_t* index = queue.index.data();
   std::int32_t *word = fetched.word.data(), *base = fetched.base.data();
   for (int i = 0, size = queue.size; i < size; ++i) {
-    const int code = nodes[place[i]].codes[word[i]];
-    const NodeBases& by_kind = bases[place[i]];
+    const int code = nodes[index[i]].codes[word[i]];
+    const NodeBases& by_kind = bases[index[i]];
     const std::uint32_t not_leaf = code < node_code::kSplit ? by_kind.node : by_kind.split;
     word[i] = code;
     const bool leaf = code < node_code::kNode || code >= node_code::kWide;
@@ -68,7 +68,7 @@ inline void fetchBelow(const AdaptiveLanes& g, const RayQueue& queue, Fetched& f
   }
 }
 
-/// What the codes of the lanes' children say; lanes.log_side is their parent's.
+/// Decodes the lanes' children; lanes.log_side is their parent's.
 inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched, int first) {
   const VI code = hn::LoadU(n, fetched.word.data() + first), base = hn::LoadU(n, fetched.base.data() + first);
   // Codes 0 to 63 are leaves, 64 to 127 nodes, 128 to 191 splits, and from 192 on far, but the last eight wide leaves.
@@ -83,7 +83,7 @@ inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetc
   b.radius = hn::Mul(steps, hn::MulAdd(parent, real(g.far_step_per_side), real(g.far_step)));
   b.inside = hn::Ne(hn::And(code, whole(32)), whole(0));
   for (VF& ball : b.ball) ball = hn::Mul(parent, real(0.125F));
-  b.place = hn::Add(base, hn::And(code, hn::IfThenElse(wide, whole(7), whole(63))));
+  b.index = hn::Add(base, hn::And(code, hn::IfThenElse(wide, whole(7), whole(63))));
   enterSplits(hn::Eq(kind, whole(2)), lanes.cell, b);
   return b;
 }
@@ -91,10 +91,10 @@ inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetc
 inline void fetchLeaves(const AdaptiveLanes& g, const RayQueue& queue, Fetched& fetched) {
   // By index rather than by a branch: which of the two it is cannot be foreseen.
   const LeafWord* const leaves[] = {g.leaves, g.splits ? g.splits->leaves.data() : nullptr};
-  const std::int32_t* place = queue.place.data();
+  const std::int32_t* index = queue.index.data();
   std::int32_t* pair = fetched.pairs[0].data();
   for (int i = 0, size = queue.size; i < size; ++i) {
-    const LeafWord* leaf = leaves[place[i] >= RayQueue::kSplit] + (place[i] & (RayQueue::kSplit - 1));
+    const LeafWord* leaf = leaves[index[i] >= RayQueue::kSplit] + (index[i] & (RayQueue::kSplit - 1));
     std::memcpy(pair + 2 * i, leaf, sizeof(LeafWord));
   }
 }

@@ -22,20 +22,20 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Segments on their way into the grid, clipped to its box: in double precision where one reaches far outside. Each
-/// step is taken for all of them before the next, as vectors that are read just after parts of them were written wait.
-/// No vector lies across two lines of the cache.
+/// Segments that enter the grid, clipped to its box: in double precision if one extends far outside. Each
+/// step is done for all of them before the next, as vectors that are read just after parts of them were written stall.
+/// No vector straddles two cache lines.
 struct HWY_ALIGN_MAX BoxEntry {
-  static constexpr int kMost = 128;
+  static constexpr int kMaxSegments = 128;
 
-  float o[3][kMost], d[3][kMost];
-  float *t0, *t1;         ///< the part of each segment that lies in the box; none: t0 > t1
+  float o[3][kMaxSegments], d[3][kMaxSegments];
+  float *t0, *t1;         ///< the part of each segment within the box; none: t0 > t1
   bool doubtful = false;  ///< one may not be within reach
 
-  /// Of 1 to kMost segments; the last one also fills its vector.
+  /// Takes 1 to kMaxSegments segments; the last one also fills its vector.
   /// @param begins, ends  where t0 and t1 are written
   BoxEntry(const LaneBox& g, const Segment* segments, int count, float* begins, float* ends) : t0(begins), t1(ends) {
-    HWY_ALIGN float numbers[kNumbers * kMost];
+    HWY_ALIGN float numbers[kNumbers * kMaxSegments];
     convert(g, segments, count, numbers);
     deinterleave(numbers, count);
     clipAll(g, segments, count);
@@ -48,13 +48,13 @@ struct HWY_ALIGN_MAX BoxEntry {
   static constexpr Single single{};
   static constexpr int kNumbers = 6;
   static_assert(sizeof(Segment) == kNumbers * sizeof(double), "numbers without gaps");
-  static_assert(kMost % hn::MaxLanes(single) == 0, "whole vectors");
+  static_assert(kMaxSegments % hn::MaxLanes(single) == 0, "whole vectors");
 
-  /// Starts, and ways from there, relative to the grid's origin [units].
+  /// Starts, and displacements from there, relative to the grid's origin [units].
   template <class Tag>
-  struct Ways {
-    HWY_INLINE Ways() {}  // as Blocks()
-    hn::Vec<Tag> at[3], way[3];
+  struct Rays {
+    HWY_INLINE Rays() {}  // as Blocks()
+    hn::Vec<Tag> at[3], displacement[3];
   };
 
   template <class Tag>
@@ -106,7 +106,7 @@ struct HWY_ALIGN_MAX BoxEntry {
     }
   }
 
-  /// For segments that stay this near to the grid's origin single precision will do [units].
+  /// Segments that stay within this distance of the grid's origin are clipped in single precision [units].
   static double nearReach(const LaneBox& g) {
     return 2.0 * std::max({g.top_size[0], g.top_size[1], g.top_size[2]}) * LaneBox::kUnits;
   }
@@ -115,16 +115,16 @@ struct HWY_ALIGN_MAX BoxEntry {
     const auto reach = hn::Set(single, static_cast<float>(0.9 * nearReach(g)));
     const auto zero = hn::Zero(single), one = hn::Set(single, 1.0F);
     for (int i = 0; i < count; i += lanes()) {
-      Ways<Single> ways;
-      auto inside = hn::Eq(one, one), surely_near = inside;  // not where a number is none: no comparison holds of it
+      Rays<Single> rays;
+      auto inside = hn::Eq(one, one), surely_near = inside;  // false for NaN: no comparison holds of it
       for (int k = 0; k < 3; ++k) {
-        ways.at[k] = hn::LoadU(single, o[k] + i);
-        ways.way[k] = hn::LoadU(single, d[k] + i);
+        rays.at[k] = hn::LoadU(single, o[k] + i);
+        rays.displacement[k] = hn::LoadU(single, d[k] + i);
         const auto size = hn::Set(single, static_cast<float>(g.top_size[k] * LaneBox::kUnits));
-        const hn::Vec<Single> ends[] = {ways.at[k], hn::Add(ways.at[k], ways.way[k])};
-        for (const auto& place : ends) {
-          inside = hn::And(inside, hn::And(hn::Ge(place, zero), hn::Le(place, size)));
-          surely_near = hn::And(surely_near, hn::Le(hn::Abs(place), reach));
+        const hn::Vec<Single> ends[] = {rays.at[k], hn::Add(rays.at[k], rays.displacement[k])};
+        for (const auto& end : ends) {
+          inside = hn::And(inside, hn::And(hn::Ge(end, zero), hn::Le(end, size)));
+          surely_near = hn::And(surely_near, hn::Le(hn::Abs(end), reach));
         }
       }
       if (hn::AllTrue(single, inside)) {
@@ -132,62 +132,62 @@ struct HWY_ALIGN_MAX BoxEntry {
         put(one, t1 + i);
         continue;
       }
-      store<Single>(clip(single, g, inside, ways), ways, i);
+      store<Single>(clip(single, g, inside, rays), rays, i);
       if (hn::AllTrue(single, surely_near)) continue;
       for (int j = i; j < std::min(i + lanes(), count); ++j) clipFar(g, segments[j], j);
     }
   }
 
-  /// A segment that is not near is clipped anew, in double precision.
+  /// A segment that extends farther is clipped again, in double precision.
   void clipFar(const LaneBox& g, const Segment& segment, int i) {
     constexpr OneWide wide;
     const double reach = kSurelyWithinReach * g.units_per_metre;
-    Ways<OneWide> ways;
+    Rays<OneWide> rays;
     bool near = true;
     for (int k = 0; k < 3; ++k) {
       const double at = (segment.start[k] - g.origin[k]) * g.units_per_metre;
-      const double way = (segment.end[k] - segment.start[k]) * g.units_per_metre;
-      near = near && std::max(std::abs(at), std::abs(at + way)) <= nearReach(g);
-      doubtful = doubtful || !(std::abs(at) <= reach && std::abs(way) <= reach);
-      ways.at[k] = hn::Set(wide, at);
-      ways.way[k] = hn::Set(wide, way);
+      const double displacement = (segment.end[k] - segment.start[k]) * g.units_per_metre;
+      near = near && std::max(std::abs(at), std::abs(at + displacement)) <= nearReach(g);
+      doubtful = doubtful || !(std::abs(at) <= reach && std::abs(displacement) <= reach);
+      rays.at[k] = hn::Set(wide, at);
+      rays.displacement[k] = hn::Set(wide, displacement);
     }
-    if (!near) store<OneWide>(clip(wide, g, hn::MaskFromVec(hn::Zero(wide)), ways), ways, i);
+    if (!near) store<OneWide>(clip(wide, g, hn::MaskFromVec(hn::Zero(wide)), rays), rays, i);
   }
 
   static constexpr double kSurelyWithinReach = 4e11;  ///< from the grid's origin, and along the segment [m]
 
-  /// Leaves of segments what lies in the box. @param inside  those of which all does.
+  /// Clips segments to the box. @param inside  lanes whose segment is all inside the box.
   template <class Tag>
-  static Part<Tag> clip(Tag tag, const LaneBox& g, hn::Mask<Tag> inside, Ways<Tag>& ways) {
+  static Part<Tag> clip(Tag tag, const LaneBox& g, hn::Mask<Tag> inside, Rays<Tag>& rays) {
     using T = hn::TFromD<Tag>;
     const auto zero = hn::Zero(tag), one = hn::Set(tag, T(1));
     auto from = zero, to = one;
     for (int k = 0; k < 3; ++k) {
-      const auto at = ways.at[k], way = ways.way[k];
+      const auto at = rays.at[k], displacement = rays.displacement[k];
       const auto size = hn::Set(tag, T(g.top_size[k] * LaneBox::kUnits));
-      const auto still = hn::Lt(hn::Abs(way), hn::Set(tag, T(1e-30)));
-      const auto per_way = hn::Div(one, hn::IfThenElse(still, one, way));
-      const auto a = hn::Mul(hn::Neg(at), per_way), b = hn::Mul(hn::Sub(size, at), per_way);
+      const auto still = hn::Lt(hn::Abs(displacement), hn::Set(tag, T(1e-30)));
+      const auto inverse = hn::Div(one, hn::IfThenElse(still, one, displacement));
+      const auto a = hn::Mul(hn::Neg(at), inverse), b = hn::Mul(hn::Sub(size, at), inverse);
       const auto beside = hn::And(still, hn::Or(hn::Lt(at, zero), hn::Gt(at, size)));
       from = hn::Max(from, hn::IfThenElse(still, zero, hn::Min(a, b)));
       to = hn::Min(to, hn::IfThenElse(still, one, hn::Max(a, b)));
       to = hn::IfThenElse(beside, hn::Set(tag, T(-1)), to);
     }
-    to = hn::IfThenElse(inside, one, to);  // whatever was rounded
+    to = hn::IfThenElse(inside, one, to);  // despite rounding
     const auto length = hn::Sub(to, from);
     for (int k = 0; k < 3; ++k) {
-      ways.at[k] = hn::MulAdd(from, ways.way[k], ways.at[k]);
-      ways.way[k] = hn::Mul(length, ways.way[k]);
+      rays.at[k] = hn::MulAdd(from, rays.displacement[k], rays.at[k]);
+      rays.displacement[k] = hn::Mul(length, rays.displacement[k]);
     }
     return {from, to};
   }
 
   template <class Tag>
-  void store(const Part<Tag>& part, const Ways<Tag>& ways, int i) {
+  void store(const Part<Tag>& part, const Rays<Tag>& rays, int i) {
     for (int k = 0; k < 3; ++k) {
-      put(ways.at[k], o[k] + i);
-      put(ways.way[k], d[k] + i);
+      put(rays.at[k], o[k] + i);
+      put(rays.displacement[k], d[k] + i);
     }
     put(part.from, t0 + i);
     put(part.to, t1 + i);

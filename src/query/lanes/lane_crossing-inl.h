@@ -15,7 +15,7 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Each lane's leaf: its eight corners and the isovalue, in steps of a length that is its own.
+/// Each lane's leaf: its eight corners and the isovalue, in steps of the leaf's own length.
 struct LeafCorners {
   HWY_INLINE LeafCorners() {}  // as Blocks()
 
@@ -24,19 +24,19 @@ struct LeafCorners {
   VF step;  ///< [units]
 };
 
-/// What a leaf does to the lanes that pass it: a cubic of u in [0, 1] from where a lane is to where it leaves.
+/// The field in a leaf along each lane: a cubic of u in [0, 1] from the lane's position to its exit.
 struct Crossing {
   VF c[4];
-  VF at_end;  ///< its value where the lane leaves
+  VF at_end;  ///< its value at the lane's exit
   MF in_start, in_end;
   MF hard;    ///< several roots, or one that is not found in a few steps
-  VF t_root;  ///< where the ends differ and it is not hard
+  VF t_root;  ///< if the signs at both ends differ and the lane is not hard
 };
 
 inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Exits& exits, VF t_exit) {
-  // The cubic (see cellCubic()) of u in [0, 1] from where the lane is to where it leaves.
+  // The cubic (see cellCubic()) of u in [0, 1] from the lane's position to its exit.
   const VF per_side = hn::Div(real(1.0F), hn::ConvertTo(f, exits.side));
-  VF from[3], way[3];
+  VF from[3], displacement[3];
   for (int k = 0; k < 3; ++k) {
     const VF base = hn::Sub(lanes.o[k], hn::ConvertTo(f, exits.low[k]));
     const auto clamped = [&](VF t) {
@@ -44,17 +44,18 @@ inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Ex
       return hn::Min(hn::Max(u, real(0.0F)), real(1.0F));
     };
     from[k] = clamped(lanes.t);
-    way[k] = hn::Sub(clamped(t_exit), from[k]);
+    displacement[k] = hn::Sub(clamped(t_exit), from[k]);
   }
   const VF* q = leaf.corner;
-  const VF xy0 = hn::Mul(from[0], from[1]), xy2 = hn::Mul(way[0], way[1]);
-  const VF xy1 = hn::MulAdd(from[0], way[1], hn::Mul(from[1], way[0]));
+  const VF xy0 = hn::Mul(from[0], from[1]), xy2 = hn::Mul(displacement[0], displacement[1]);
+  const VF xy1 = hn::MulAdd(from[0], displacement[1], hn::Mul(from[1], displacement[0]));
   struct Quadratic {
     VF c0, c1, c2;
   };
   const auto plane = [&](VF k0, VF kx, VF ky, VF kxy) {
     return Quadratic{hn::MulAdd(kx, from[0], hn::MulAdd(ky, from[1], hn::MulAdd(kxy, xy0, k0))),
-                     hn::MulAdd(kx, way[0], hn::MulAdd(ky, way[1], hn::Mul(kxy, xy1))), hn::Mul(kxy, xy2)};
+                     hn::MulAdd(kx, displacement[0], hn::MulAdd(ky, displacement[1], hn::Mul(kxy, xy1))),
+                     hn::Mul(kxy, xy2)};
   };
   const VF ax = hn::Sub(q[1], q[0]), ay = hn::Sub(q[2], q[0]), axy = hn::Sub(hn::Sub(q[3], q[2]), ax);
   const Quadratic a = plane(hn::Sub(q[0], leaf.iso), ax, ay, axy);
@@ -63,9 +64,9 @@ inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Ex
   const VF bxy = hn::Sub(hn::Sub(hn::Sub(q[7], q[6]), hn::Sub(q[5], q[4])), axy);
   const Quadratic b = plane(bz, bx, by, bxy);
   const VF c0 = hn::MulAdd(from[2], b.c0, a.c0);
-  const VF c1 = hn::MulAdd(from[2], b.c1, hn::MulAdd(way[2], b.c0, a.c1));
-  const VF c2 = hn::MulAdd(from[2], b.c2, hn::MulAdd(way[2], b.c1, a.c2));
-  const VF c3 = hn::Mul(way[2], b.c2);
+  const VF c1 = hn::MulAdd(from[2], b.c1, hn::MulAdd(displacement[2], b.c0, a.c1));
+  const VF c2 = hn::MulAdd(from[2], b.c2, hn::MulAdd(displacement[2], b.c1, a.c2));
+  const VF c3 = hn::Mul(displacement[2], b.c2);
   const auto value = [&](VF u) { return hn::MulAdd(u, hn::MulAdd(u, hn::MulAdd(u, c3, c2), c1), c0); };
 
   const VF zero = real(0.0F), one = real(1.0F);

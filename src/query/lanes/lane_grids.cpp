@@ -23,7 +23,7 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
   const AdaptiveShape& shape = grid.shape();
   setBox(*this, shape.origin, shape.unit(), shape.size, arrays.top.data);
-  ball_place = 0.5F * kUnits;
+  ball_offset = 0.5F * kUnits;
   nodes = arrays.nodes.data;
   bases = arrays.bases.data;
   leaves = arrays.leaves.data;
@@ -31,9 +31,9 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
   const double to_units = units_per_metre;
   sigma = static_cast<float>(sigma_metres * to_units);
   margin = static_cast<float>((std::abs(sigma_metres) + shape.error_bound) * to_units);
-  // There and beyond leaves may be wrong; less what single precision makes of it.
+  // At this distance and beyond leaves may be wrong; reduced by the rounding of single precision.
   leaf_margin = static_cast<float>(2.0 * shape.error_bound * to_units + 0.02);
-  // All grow evenly with the side.
+  // All of them are linear in the side.
   const double none = AdaptiveGrid::farStepFor(0.0, shape.band),
                unit = AdaptiveGrid::farStepFor(shape.unit(), shape.band);
   far_step = static_cast<float>(none * to_units);
@@ -48,7 +48,7 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
 UniformLanes::UniformLanes(const SparseGrid& grid, double sigma_metres) {
   const GridShape& shape = grid.shape();
   setBox(*this, shape.origin, GridShape::kBrick * shape.cell / kUnits, shape.bricks, grid.words().data);
-  ball_place = 0.0F;
+  ball_offset = 0.0F;
   samples = grid.samples().data;
   sigma = static_cast<float>(sigma_metres / shape.step);
   per_sample = static_cast<float>(shape.step * units_per_metre);

@@ -17,14 +17,14 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// By the bricks: 1 in the last bit, and a slot above it; or a distance.
+/// Decodes bricks: last bit 1, and a slot above it; or a distance.
 inline Blocks locateTop(const UniformLanes& g, VI word, const VI* /*cell*/) {
   Blocks b;
   b.far = hn::Eq(hn::And(word, whole(1)), hn::Zero(n));
   b.node = hn::Not(b.far);
   setEmptySphere(g, word, b);
   b.log_side = whole(LaneBox::kLogUnits);
-  b.place = hn::IfThenElseZero(b.node, hn::ShiftRight<1>(word));
+  b.index = hn::IfThenElseZero(b.node, hn::ShiftRight<1>(word));
   return b;
 }
 
@@ -53,15 +53,15 @@ inline void fetchBelow(const UniformLanes& g, const RayQueue& queue, Fetched& fe
     const VI row = hn::Add(hn::Mul(nearest.x[2], whole(GridShape::kSide)), nearest.x[1]);
     hn::StoreU(hn::Add(hn::Mul(row, whole(GridShape::kSide)), nearest.x[0]), n, fetched.word.data() + i);
   }
-  const auto sampleOf = [&](int i) { return std::size_t(queue.place[i]) * GridShape::kSamples + fetched.word[i]; };
+  const auto sampleOf = [&](int i) { return std::size_t(queue.index[i]) * GridShape::kSamples + fetched.word[i]; };
   for (int i = 0; i < queue.size; ++i) fetched.word[i] = g.samples[sampleOf(i)];
 }
 
-/// The ball about the sample nearest to each lane, in a brick: no place of it has the value sigma (design §3.3).
+/// The sphere about the sample nearest to each lane, in a brick: no point of it has the value sigma (design §3.3).
 struct SampleBall {
   VF center[3];  ///< [units]
   VF radius2;    ///< [units²]; negative: none
-  MI inside;     ///< its places are below sigma
+  MI inside;     ///< its points are below sigma
 };
 
 inline SampleBall nearestBall(const UniformLanes& g, const Lanes& lanes, const Fetched& fetched, int first) {
@@ -71,19 +71,19 @@ inline SampleBall nearestBall(const UniformLanes& g, const Lanes& lanes, const F
   const VI word = hn::LoadU(n, fetched.word.data() + first);
   const VF above = hn::Sub(hn::ConvertTo(f, word), real(g.sigma));
   ball.inside = asWhole(hn::Lt(above, real(0.0F)));
-  // Less what single precision makes of it.
+  // Reduced by the rounding of single precision.
   const VF free = hn::MulAdd(hn::Abs(above), real(g.per_sample * (1.0F - 1e-5F)), real(-0.02F - g.rounding));
   const VF radius2 = hn::MulSub(free, free, real(0.75F * kCell * kCell));
   ball.radius2 = hn::IfThenElse(hn::Gt(free, real(0.0F)), radius2, real(-1.0F));
   return ball;
 }
 
-/// Reads the corners of the rays' cells: those that are next to each other along x lie together, in a word.
+/// Reads the corners of the rays' cells: those that are adjacent along x are in one word.
 inline void fetchLeaves(const UniformLanes& g, const RayQueue& queue, Fetched& fetched) {
   constexpr int kSide = GridShape::kSide;
   for (int i = 0; i < queue.size; ++i) {
     const auto in_brick = [&](int k) { return (queue.cell[k][i] >> UniformLanes::kLogCell) & (GridShape::kBrick - 1); };
-    const std::int16_t* first = g.samples + std::size_t(queue.place[i]) * GridShape::kSamples +
+    const std::int16_t* first = g.samples + std::size_t(queue.index[i]) * GridShape::kSamples +
                                 (in_brick(2) * kSide + in_brick(1)) * kSide + in_brick(0);
     const std::int16_t* pairs[] = {first, first + kSide, first + kSide * kSide, first + kSide * kSide + kSide};
     for (int k = 0; k < 4; ++k) std::memcpy(&fetched.pairs[k][i], pairs[k], sizeof(std::int32_t));

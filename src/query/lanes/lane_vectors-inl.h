@@ -53,7 +53,7 @@ struct Lanes {
   VI cell[3];
   VF t, enter;
   VI id;
-  VI place, log_side;
+  VI index, log_side;
 
   Lanes(const RayQueue& queue, int first, MI used) {
     for (int k = 0; k < 3; ++k) {
@@ -64,13 +64,13 @@ struct Lanes {
     t = hn::LoadU(f, queue.t.data() + first);
     enter = real(-1.0F);
     id = hn::LoadU(n, queue.id.data() + first);
-    place = hn::LoadU(n, queue.place.data() + first);
+    index = hn::LoadU(n, queue.index.data() + first);
     log_side = hn::IfThenElseZero(used, hn::LoadU(n, queue.log_side.data() + first));
   }
 
-  /// Those that enter.
+  /// Lanes that enter the grid.
   Lanes(const BoxEntry& entry, int first, int first_id)
-      : t(real(0.0F)), enter(real(-1.0F)), id(countFrom(first_id + first)), place(hn::Zero(n)), log_side(hn::Zero(n)) {
+      : t(real(0.0F)), enter(real(-1.0F)), id(countFrom(first_id + first)), index(hn::Zero(n)), log_side(hn::Zero(n)) {
     for (int k = 0; k < 3; ++k) {
       o[k] = hn::LoadU(f, entry.o[k] + first);
       d[k] = hn::LoadU(f, entry.d[k] + first);
@@ -81,8 +81,8 @@ struct Lanes {
   VF at(int k) const { return hn::MulAdd(d[k], t, o[k]); }
 };
 
-/// Moves the lanes of a mask to the front. The place of each is found once for all the vectors that are moved alike;
-/// Highway's Compress() finds it anew each time, and GCC copies the table that it reads it from.
+/// Moves the lanes of a mask to the front. The permutation is computed once for all vectors that are moved alike;
+/// Highway's Compress() computes it each time, and GCC copies the table that it reads it from.
 class Front {
  public:
   explicit Front(MI which) : which_(which), indices_(indices(which)) {}
@@ -111,10 +111,10 @@ class Front {
 
 /// Puts the lanes of a mask at the end of a queue.
 template <bool keeps_enter>
-HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, RayQueue& queue) {
+HWY_INLINE void append(MI which, const Lanes& lanes, VI index, VI log_side, RayQueue& queue) {
   const int end = queue.size;
   const Front front(which);
-  // Whole vectors: what stands beyond the end is written next.
+  // Whole vectors: the lanes beyond the end are overwritten next.
   const auto put = [&](VF v, RayQueue::Column<float>& column) { hn::StoreU(front(v), f, column.data() + end); };
   const auto putWhole = [&](VI v, RayQueue::Column<std::int32_t>& column) {
     hn::StoreU(front(v), n, column.data() + end);
@@ -127,7 +127,7 @@ HWY_INLINE void append(MI which, const Lanes& lanes, VI place, VI log_side, RayQ
   put(lanes.t, queue.t);
   if constexpr (keeps_enter) put(lanes.enter, queue.enter);
   putWhole(lanes.id, queue.id);
-  putWhole(place, queue.place);
+  putWhole(index, queue.index);
   putWhole(log_side, queue.log_side);
   queue.size = end + static_cast<int>(hn::CountTrue(n, which));
 }
@@ -144,33 +144,33 @@ HWY_INLINE void append(MI which, VI id, VF enter, VF exit, RayHits& hits) {
 
 /// The block that each lane is in.
 struct Blocks {
-  HWY_INLINE Blocks() {}  // one that the compiler makes is not for this kind of processor: on Arm it cannot be called
+  HWY_INLINE Blocks() {}  // the compiler's own one is not compiled for this target: on Arm it cannot be called
 
   VI log_side;
-  VI place;  ///< of a leaf or node
+  VI index;  ///< index of a leaf or node
   MI far;
-  MI node;  ///< to be asked further; neither far nor node: a leaf
-  // Where `far`: a ball free of surface.
+  MI node;  ///< must be descended further; neither far nor node: a leaf
+  // Where `far`: an empty sphere.
   VF ball[3];  ///< its centre, from the block's first corner [units]
   VF radius;   ///< [units]
   MI inside;
 };
 
-/// The balls that the words of far top cells say (see EmptySphere).
+/// The empty spheres that the words of far top cells encode (see EmptySphere).
 inline void setEmptySphere(const LaneBox& g, VI word, Blocks& b) {
   const auto offset = [&](VI high) {
     const VF cells = hn::ConvertTo(f, hn::ShiftRight<27>(high));
-    return hn::MulAdd(cells, real(LaneBox::kUnits), real(g.ball_place));
+    return hn::MulAdd(cells, real(LaneBox::kUnits), real(g.ball_offset));
   };
   b.ball[0] = offset(hn::ShiftLeft<25>(word));
   b.ball[1] = offset(hn::ShiftLeft<20>(word));
   b.ball[2] = offset(hn::ShiftLeft<15>(word));
-  const VI steps = hn::And(hn::ShiftRight<17>(word), whole(EmptySphere::kMostSteps));
+  const VI steps = hn::And(hn::ShiftRight<17>(word), whole(EmptySphere::kMaxSteps));
   b.radius = hn::Mul(hn::ConvertTo(f, steps), real(g.ball_step));
   b.inside = hn::Lt(word, hn::Zero(n));
 }
 
-/// The unit cubes of lanes whose t is anywhere in the grid.
+/// The unit cubes of lanes at any t within the grid.
 HWY_INLINE void findCells(const LaneBox& g, Lanes& lanes) {
   for (int k = 0; k < 3; ++k) {
     const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
@@ -179,7 +179,7 @@ HWY_INLINE void findCells(const LaneBox& g, Lanes& lanes) {
   }
 }
 
-/// The words of top cells; they may take their indices' place.
+/// The words of top cells; the result may overwrite the indices.
 inline void fetchTop(const LaneBox& g, const std::int32_t* index, int count, std::int32_t* word) {
   const std::uint32_t* top = g.top;
   for (int i = 0; i < count; ++i) word[i] = static_cast<std::int32_t>(top[index[i]]);
@@ -211,8 +211,8 @@ HWY_INLINE Exits exitsOf(const Lanes& lanes, VI log_side) {
     e.low[k] = hn::And(lanes.cell[k], mask);
     const MF forward = hn::Gt(lanes.d[k], real(0.0F));
     const VI plane = hn::Add(e.low[k], hn::IfThenElseZero(asWhole(forward), e.side));
-    const VF way = hn::Sub(hn::ConvertTo(f, plane), lanes.o[k]);
-    t[k] = hn::IfThenElse(hn::Eq(lanes.d[k], real(0.0F)), real(1e30F), hn::Div(way, lanes.d[k]));
+    const VF to_plane = hn::Sub(hn::ConvertTo(f, plane), lanes.o[k]);
+    t[k] = hn::IfThenElse(hn::Eq(lanes.d[k], real(0.0F)), real(1e30F), hn::Div(to_plane, lanes.d[k]));
   }
   const VF nearest = hn::Min(t[0], hn::Min(t[1], t[2]));
   e.axis[0] = hn::Eq(t[0], nearest);

@@ -1,5 +1,5 @@
 // Vector code that is compiled once for each kind of processor; the best one is chosen when the program runs.
-// Not for those whose vectors have no size that is known to the compiler: here they stand in structs.
+// Not for targets whose vectors have a size unknown to the compiler: here vectors are members of structs.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "segment_lanes.cpp"
@@ -24,7 +24,7 @@ namespace {
 
 /// Segments wait in queues for the memory that their next step reads: a top cell's word, a node's code, a leaf. A pass
 /// reads it for all of a queue, then takes the queue's rays one step further in vectors.
-/// @tparam first_only  a segment is done with where its first hit begins.
+/// @tparam first_only  a segment is complete where its first hit begins.
 template <class Grid, bool first_only>
 class Follower {
  public:
@@ -32,13 +32,13 @@ class Follower {
 
   int run(const Segment* segments, int count) {
     work_.hits.size = 0;
-    work_.lost.clear();
+    work_.unfinished.clear();
     for (Queues* queues : {&work_.top, &work_.node}) (*queues)[0].size = (*queues)[1].size = 0;
     work_.leaf.size = 0;
-    // Each pass takes each ray through a cell; none meets more than this.
-    const int most = 4 * LaneBox::kUnits * (g_.top_size[0] + g_.top_size[1] + g_.top_size[2]);
+    // Each pass takes each ray through a cell; no ray crosses more cells than this.
+    const int max_passes = 4 * LaneBox::kUnits * (g_.top_size[0] + g_.top_size[1] + g_.top_size[2]);
     int enqueued = 0, last_active = 0;
-    for (int pass = 0; pass < most; ++pass) {
+    for (int pass = 0; pass < max_passes; ++pass) {
       enqueued = enqueue(segments, enqueued, count);
       if (refused_ >= 0) return refused_;
       const int active = this->active();
@@ -47,7 +47,7 @@ class Follower {
       last_active = active;
       next_ ^= 1;
       RayQueue &top = work_.top[next_ ^ 1], &node = work_.node[next_ ^ 1], &leaf = work_.leaf;
-      fetchTop(g_, top.place.data(), top.size, work_.fetched.word.data());
+      fetchTop(g_, top.index.data(), top.size, work_.fetched.word.data());
       takeAll(top, [&](Lanes& lanes, MI used, int first) { crossTop(lanes, used, first, node); });
       fetchBelow(g_, node, work_.fetched);
       takeAll(node, [&](Lanes& lanes, MI used, int first) { descend(g_, lanes, used, first); });
@@ -56,7 +56,7 @@ class Follower {
     }
     for (Queues* queues : {&work_.top, &work_.node}) {
       const RayQueue& queue = (*queues)[next_];
-      work_.lost.insert(work_.lost.end(), queue.id.begin(), queue.id.begin() + queue.size);
+      work_.unfinished.insert(work_.unfinished.end(), queue.id.begin(), queue.id.begin() + queue.size);
     }
     return -1;
   }
@@ -78,10 +78,10 @@ class Follower {
     queue.size = 0;
   }
 
-  /// Fills up with segments from number `first` on. @return the first that still waits.
+  /// Fills up with segments from index `first` on. @return the first one that is not enqueued.
   int enqueue(const Segment* segments, int first, int count) {
-    while (first < count && RayQueue::kCapacity - active() >= BoxEntry::kMost) {
-      const int group = std::min(BoxEntry::kMost, count - first);
+    while (first < count && RayQueue::kCapacity - active() >= BoxEntry::kMaxSegments) {
+      const int group = std::min(BoxEntry::kMaxSegments, count - first);
       const BoxEntry entry(g_, segments + first, group, work_.begin.data() + first, work_.end.data() + first);
       if (entry.doubtful) {
         const auto within = [](const Segment& s) { return isWithinReach(s); };
@@ -94,10 +94,10 @@ class Follower {
     return first;
   }
 
-  /// A group's first step: most short segments are done with it.
+  /// A group's first step: it completes most short segments.
   void dispatch(const BoxEntry& entry, const Segment* segments, int first, int count) {
     const int width = static_cast<int>(hn::Lanes(f));
-    HWY_ALIGN std::int32_t cell[3][BoxEntry::kMost], word[BoxEntry::kMost];
+    HWY_ALIGN std::int32_t cell[3][BoxEntry::kMaxSegments], word[BoxEntry::kMaxSegments];
     for (int i = 0; i < count; i += width) {
       Lanes lanes(entry, i, first);
       findCells(g_, lanes);
@@ -108,7 +108,7 @@ class Follower {
     for (int i = 0; i < count; i += width) {
       Lanes lanes(entry, i, first);
       for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
-      // Those that are enqueued next, and, as they may be in slow memory, some that do after them.
+      // The next segments to enqueue, and, as they may be in slow memory, some of those after them.
       prefetch(segments + first + count + i, static_cast<std::size_t>(width));
       prefetch<CacheLevel::kSecond>(segments + first + 4 * count + i, static_cast<std::size_t>(width));
       const MI in_box = asWhole(hn::Le(hn::LoadU(f, entry.t0 + i), hn::LoadU(f, entry.t1 + i)));
@@ -117,9 +117,9 @@ class Follower {
     }
   }
 
-  /// Lanes found to be inside (or outside) from t on, and not before: begins or ends their hits.
-  /// @return lanes that are done with.
-  HWY_INLINE MI turn(MI inside, MI of, VF t, Lanes& lanes) {
+  /// For lanes that are inside (or outside) from t on, and not before: begins or ends their hits.
+  /// @return lanes that are complete.
+  HWY_INLINE MI flip(MI inside, MI of, VF t, Lanes& lanes) {
     if constexpr (first_only) {
       const MI begin = hn::And(of, inside);
       if (!hn::AllFalse(n, begin)) append(begin, lanes.id, t, t, work_.hits);
@@ -140,47 +140,47 @@ class Follower {
   }
 
   /// Puts lanes into a queue.
-  HWY_INLINE void wait(MI which, const Lanes& lanes, VI place, VI log_side, RayQueue& queue) {
-    append<!first_only>(which, lanes, place, log_side, queue);
+  HWY_INLINE void wait(MI which, const Lanes& lanes, VI index, VI log_side, RayQueue& queue) {
+    append<!first_only>(which, lanes, index, log_side, queue);
   }
 
-  /// Lanes that have come to a new place.
-  HWY_INLINE void arrive(const Lanes& lanes, MI which) {
+  /// Enqueues lanes that have entered a top cell.
+  HWY_INLINE void enterTop(const Lanes& lanes, MI which) {
     if (hn::AllFalse(n, which)) return;
     wait(which, lanes, topIndex(g_, lanes.cell), lanes.log_side, work_.top[next_]);
   }
 
-  /// The same for those that came from other cells of a brick's: they need not ask which brick it is.
-  HWY_INLINE void arriveFrom(const VI* from, const Lanes& lanes, MI which) {
+  /// The same for lanes that come from other cells: those in the same brick skip its look-up.
+  HWY_INLINE void enterTopFrom(const VI* from, const Lanes& lanes, MI which) {
     if constexpr (std::is_same_v<Grid, UniformLanes>) {
       VI changed = hn::Zero(n);
       for (int k = 0; k < 3; ++k) changed = hn::Or(changed, hn::Xor(from[k], lanes.cell[k]));
       const MI same_brick = hn::And(which, hn::Lt(changed, whole(LaneBox::kUnits)));
       if (!hn::AllFalse(n, same_brick)) {
-        wait(same_brick, lanes, lanes.place, whole(LaneBox::kLogUnits), work_.node[next_]);
+        wait(same_brick, lanes, lanes.index, whole(LaneBox::kLogUnits), work_.node[next_]);
       }
       which = hn::AndNot(same_brick, which);
     }
-    arrive(lanes, which);
+    enterTop(lanes, which);
   }
 
-  /// By what the top cell's word says: through a far cell, or to the queue of what stands there.
+  /// According to the top cell's word: passes a far cell, or enqueues the lane for the cell's content.
   HWY_INLINE void crossTop(Lanes& lanes, MI used, int first, RayQueue& nodes) {
     const Blocks at = locateTop(g_, hn::LoadU(n, work_.fetched.word.data() + first), lanes.cell);
     sort(at, lanes, used, nodes);
   }
 
-  /// Lanes at blocks: through far ones, to the queues of others.
+  /// Lanes at blocks: passes far ones, enqueues the others.
   HWY_INLINE void sort(const Blocks& at, Lanes& lanes, MI used, RayQueue& nodes) {
     const MI far = hn::And(used, at.far), node = hn::And(used, at.node);
     const MI leaf = hn::AndNot(hn::Or(at.far, at.node), used);
-    if (!hn::AllFalse(n, node)) wait(node, lanes, at.place, at.log_side, nodes);
-    if (!hn::AllFalse(n, leaf)) wait(leaf, lanes, at.place, at.log_side, work_.leaf);
-    if (!hn::AllFalse(n, far)) arrive(lanes, passFar(lanes, at, far));
+    if (!hn::AllFalse(n, node)) wait(node, lanes, at.index, at.log_side, nodes);
+    if (!hn::AllFalse(n, leaf)) wait(leaf, lanes, at.index, at.log_side, work_.leaf);
+    if (!hn::AllFalse(n, far)) enterTop(lanes, passFar(lanes, at, far));
   }
 
-  /// Where lanes leave a ball that holds them; t where it does not. In numbers relative to where the lanes are: small,
-  /// so that little is rounded.
+  /// Where lanes leave a sphere that contains them; t if it does not. In coordinates relative to the lanes' positions:
+  /// these are small, so the rounding errors are small too.
   static HWY_INLINE VF ballExit(const Lanes& lanes, const VF* center, VF radius2) {
     VF b = real(0.0F), c = real(0.0F), length2 = real(1e-20F);
     for (int k = 0; k < 3; ++k) {
@@ -195,7 +195,7 @@ class Follower {
     return hn::IfThenElse(hn::Lt(excess, real(0.0F)), hn::Add(exit, lanes.t), lanes.t);
   }
 
-  /// Moves lanes to t: anywhere (`jump`), or through their exit. @return those that are not done.
+  /// Moves lanes to t: to any cell (`jump`), or through their exit. @return lanes that are not complete.
   HWY_INLINE MI moveOn(Lanes& lanes, const Exits& exits, MF jump, VF t, MI live) {
     const MI ended = hn::And(live, asWhole(hn::Ge(t, real(1.0F))));
     const MI done = hn::Or(ended, advance(g_, exits, jump, t, live, lanes));
@@ -203,22 +203,22 @@ class Follower {
     return hn::AndNot(done, live);
   }
 
-  /// Through far blocks: to the exit of a ball that is free of the isosurface, or of the block.
-  /// @return lanes that are neither done nor hit; they stand in their new cells.
+  /// Passes far blocks: to the exit of a sphere that is free of the isosurface, or of the block.
+  /// @return lanes that are neither complete nor hit; they are in their new cells.
   HWY_INLINE MI passFar(Lanes& lanes, const Blocks& at, MI live) {
-    live = hn::AndNot(turn(at.inside, live, lanes.t, lanes), live);
+    live = hn::AndNot(flip(at.inside, live, lanes.t, lanes), live);
     const VI side = hn::Shl(whole(1), at.log_side), mask = hn::Neg(side);
     const VF half = hn::Mul(hn::ConvertTo(f, side), real(0.5F));
     const VF rounded = hn::MulAdd(at.radius, real(1.0F - 1e-5F), real(-0.01F));
     const VF radius = hn::Max(hn::Sub(rounded, real(g_.margin)), real(0.0F)), radius2 = hn::Mul(radius, radius);
-    VF center[3], farthest2 = real(0.0F);  // and of the block's farthest corner from it
+    VF center[3], farthest2 = real(0.0F);  // squared distance of the block's farthest corner from it
     for (int k = 0; k < 3; ++k) {
       center[k] = hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), at.ball[k]);
       const VF to_corner = hn::Add(hn::Abs(hn::Sub(at.ball[k], half)), half);
       farthest2 = hn::MulAdd(to_corner, to_corner, farthest2);
     }
     const VF t_ball = ballExit(lanes, center, radius2);
-    // A ball that holds all of the block is left later than the block.
+    // A sphere that contains all of the block is left later than the block.
     const MI covered = asWhole(hn::Gt(radius2, hn::Mul(farthest2, real(1.001F))));
     if (hn::AllFalse(n, hn::AndNot(covered, live))) {
       const MI done = hn::And(live, asWhole(hn::Ge(t_ball, real(1.0F))));
@@ -230,17 +230,17 @@ class Follower {
       return onward;
     }
     const Exits exits = exitsOf(lanes, at.log_side);
-    // Covered lanes go the way they go without neighbours that are not.
+    // Covered lanes jump here too, so that their result does not depend on their neighbours.
     const MF jump = hn::Or(asReal(covered), hn::Gt(t_ball, exits.t));
     return moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_ball, exits.t), live);
   }
 
-  /// To what a node says of the lane's place.
+  /// One level down, according to the node's code for the lane's child.
   HWY_INLINE void descend(const AdaptiveLanes& grid, Lanes& lanes, MI used, int first) {
     sort(locateBelow(grid, lanes, work_.fetched, first), lanes, used, work_.node[next_]);
   }
 
-  /// In a brick: through the ball about the nearest sample, if that takes the lane out of its cell; else to the cell.
+  /// In a brick: through the sphere about the nearest sample, if that takes the lane out of its cell; else to the cell.
   HWY_INLINE void descend(const UniformLanes& grid, Lanes& lanes, MI used, int first) {
     const VI log_cell = whole(UniformLanes::kLogCell);
     const SampleBall ball = nearestBall(grid, lanes, work_.fetched, first);
@@ -249,12 +249,12 @@ class Follower {
     const MF jump = hn::Gt(t_ball, exits.t);
     const MI leaf = hn::AndNot(asWhole(jump), used);
     MI far = hn::And(used, asWhole(jump));
-    if (!hn::AllFalse(n, leaf)) wait(leaf, lanes, lanes.place, log_cell, work_.leaf);
+    if (!hn::AllFalse(n, leaf)) wait(leaf, lanes, lanes.index, log_cell, work_.leaf);
     if (hn::AllFalse(n, far)) return;
-    far = hn::AndNot(turn(ball.inside, far, lanes.t, lanes), far);
+    far = hn::AndNot(flip(ball.inside, far, lanes.t, lanes), far);
     const VI from[3] = {lanes.cell[0], lanes.cell[1], lanes.cell[2]};
     const MI onward = moveOn(lanes, exits, jump, t_ball, far);
-    arriveFrom(from, lanes, onward);
+    enterTopFrom(from, lanes, onward);
   }
 
   HWY_INLINE void crossLeaf(Lanes& lanes, MI used, int first) {
@@ -265,25 +265,25 @@ class Follower {
     const MI in_start = asWhole(crossing.in_start), in_end = asWhole(crossing.in_end);
     const MI hard = hn::And(used, asWhole(crossing.hard));
     const MI easy = hn::AndNot(hard, used);
-    // A sign that differs from the last block's changes at the face.
-    MI over = turn(in_start, easy, lanes.t, lanes);
+    // If the sign differs from the last block's, it changes at the face.
+    MI over = flip(in_start, easy, lanes.t, lanes);
     const MI rest = hn::And(hn::AndNot(over, easy), hn::Xor(in_start, in_end));
-    over = hn::Or(over, turn(in_end, rest, crossing.t_root, lanes));
+    over = hn::Or(over, flip(in_end, rest, crossing.t_root, lanes));
     if (!hn::AllFalse(n, hard)) over = hn::Or(over, crossHardLeaves(crossing, hard, t_exit, lanes));
     const MI going = hn::AndNot(over, used);
-    // Through the face, or out of the ball about the place there that is free, as the leaf's value says.
+    // Through the face, or out of the empty sphere about the exit point, whose radius is the leaf's value.
     VF length2 = real(1e-20F);
     for (int k = 0; k < 3; ++k) length2 = hn::MulAdd(lanes.d[k], lanes.d[k], length2);
     const VF free = hn::MulSub(hn::Abs(crossing.at_end), corners.step, real(g_.leaf_margin));
     const VF t_free = hn::Add(hn::Div(free, hn::Sqrt(length2)), exits.t);
-    // Less than a unit could be lost in rounding, and leave the lane where it is for ever.
+    // A step below one unit could be lost in rounding and leave the lane in its cell for ever.
     const MF jump = hn::And(hn::Gt(free, real(1.0F)), hn::Gt(t_free, exits.t));
     const VI from[3] = {lanes.cell[0], lanes.cell[1], lanes.cell[2]};
     const MI onward = moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_free, exits.t), going);
-    arriveFrom(from, lanes, onward);
+    enterTopFrom(from, lanes, onward);
   }
 
-  /// @return lanes that are done with.
+  /// @return lanes that are complete.
   MI crossHardLeaves(const Crossing& crossing, MI hard, VF t_exit, Lanes& lanes) {
     const Unpacked<std::int32_t> ids(lanes.id);
     const Unpacked<float> k0(crossing.c[0]), k1(crossing.c[1]), k2(crossing.c[2]), k3(crossing.c[3]), starts(lanes.t),
@@ -298,7 +298,7 @@ class Follower {
     return hn::Ne(hn::Load(n, overs.value), hn::Zero(n));
   }
 
-  /// A leaf with several roots, by the exact method. @return true if the ray is done with.
+  /// A leaf with several roots, by the exact method. @return true if the ray is complete.
   bool hardLeaf(const CellCubic& cubic, std::int32_t id, float start, float end, float& enter) {
     const CellIntervals found = nonPositive(cubic);
     const auto timeOf = [&](double u) { return static_cast<float>(start + u * (double(end) - double(start))); };
@@ -323,8 +323,8 @@ class Follower {
 
   const Grid& g_;
   RayWork& work_;
-  int refused_ = -1;  ///< a segment that is not within reach
-  int next_ = 0;      ///< of each pair of queues, the one that is written
+  int refused_ = -1;  ///< index of a segment that is not within reach
+  int next_ = 0;      ///< index of the queue being written, of each pair
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace sdf_ccd {
 
-/// A grid as vector code reads it. Lengths are in units, of which a top cell (the coarsest) has kUnits along its side.
+/// A grid as read by vector code. Lengths are in units; a top cell (the coarsest) has kUnits along its side.
 struct LaneBox {
   static constexpr int kUnits = 128;
   static constexpr int kLogUnits = 7;
@@ -20,9 +20,9 @@ struct LaneBox {
   std::array<std::int32_t, 3> top_size;  ///< top cells per axis
   const std::uint32_t* top;              ///< a word per top cell, x fastest
   float ball_step;                       ///< of EmptySphere [units]
-  float ball_place;   ///< of a top cell's place in the lattice of balls' centres, from its first corner [units]
-  float margin;       ///< a ball of the true distance less this holds no place where the field is sigma [units]
-  float leaf_margin;  ///< and one of a leaf's distance from sigma less this none beyond the leaf [units]
+  float ball_offset;  ///< position of a top cell in the lattice of spheres' centres, from its first corner [units]
+  float margin;       ///< a sphere of the true distance minus this has no point where the field is sigma [units]
+  float leaf_margin;  ///< a sphere of a leaf's distance from sigma minus this has none beyond the leaf [units]
 };
 
 /// An adaptive grid: raw words.
@@ -34,7 +34,7 @@ struct AdaptiveLanes : LaneBox {
   const LeafWord* leaves;
   const SplitLeaves* splits;
   float sigma;  ///< [units]
-  /// [units] per step for a node or leaf of no side, and what a unit of side adds: of far children's distances
+  /// [units] per step for a node or leaf of side 0, and the increment per unit of side: of far children's distances
   /// (AdaptiveGrid::farStepFor) and of leaves' rounding (LeafScale).
   float far_step, far_step_per_side;
   float offset, offset_per_side, corner, corner_per_side;
@@ -49,10 +49,10 @@ struct UniformLanes : LaneBox {
   const std::int16_t* samples;  ///< [steps]
   float sigma;                  ///< [steps]
   float per_sample;             ///< units in a step
-  float rounding;               ///< by which two samples may differ more than their distances do [units]
+  float rounding;               ///< upper bound of how much two samples may differ more than their distances do [units]
 };
 
-/// By the bits of a mask of eight lanes: those that are set, in order; then zeros.
+/// For each mask of eight lanes: the indices of the set ones, in order; then zeros.
 constexpr std::array<std::array<std::uint8_t, 8>, 256> frontLanes() {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
   for (int bits = 0; bits < 256; ++bits) {
@@ -64,14 +64,14 @@ constexpr std::array<std::array<std::uint8_t, 8>, 256> frontLanes() {
 }
 inline constexpr auto kFrontLanes = frontLanes();
 
-/// Of a vector's lanes, on any processor.
+/// The indices of a vector's lanes, for any processor.
 alignas(64) inline constexpr std::array<std::int32_t, 16> kLaneNumbers{0, 1, 2,  3,  4,  5,  6,  7,
                                                                        8, 9, 10, 11, 12, 13, 14, 15};
 
-/// Segments that wait for the same kind of step, an array per quantity. A segment runs from o to o + d within the
+/// Segments that wait for the same kind of step, one array per quantity. A segment runs from o to o + d within the
 /// grid's box while its parameter t goes from 0 to 1; lengths in units.
 struct alignas(64) RayQueue {
-  static constexpr int kCapacity = 512;  ///< and as many are under way: their vectors are full, and fit the cache
+  static constexpr int kCapacity = 512;  ///< and upper bound of active rays: their vectors are full, and fit the cache
   static constexpr int kSlack = 32;      ///< beyond the end, so that whole vectors may be read and written
   template <class T>
   using Column = std::array<T, kCapacity + kSlack>;
@@ -84,13 +84,13 @@ struct alignas(64) RayQueue {
   Column<float> enter;                       ///< t since when it is inside; -1: outside
   std::array<Column<std::int32_t>, 3> cell;  ///< unit cube
   Column<std::int32_t> id;                   ///< of the segment
-  Column<std::int32_t> place;                ///< top cell, node or leaf whose memory it waits for
+  Column<std::int32_t> index;                ///< index of the top cell, node or leaf that it waits for
   Column<std::int32_t> log_side;             ///< of that block
   int size = 0;
 };
 
-/// What a queue's rays wait for, read ray by ray before they are taken on in vectors: of plain loads many are
-/// under way at once, and each costs less than a lane of a gather.
+/// The memory that a queue's rays wait for, loaded ray by ray before the vector step: many plain loads are
+/// in flight at once, and each costs less than a lane of a gather.
 struct alignas(64) Fetched {
   using Pairs = std::array<std::int32_t, 2 * std::tuple_size_v<RayQueue::Column<std::int32_t>>>;
 
@@ -123,20 +123,20 @@ struct RayHits {
   }
 };
 
-/// What following segments needs and gives; reused.
+/// Input and output of followRays(); reused.
 struct RayWork {
-  static constexpr int kSegments = 8192;  ///< at most
+  static constexpr int kSegments = 8192;  ///< upper bound
 
-  std::array<RayQueue, 2> top, node;  ///< in turn: one is read, the other written
+  std::array<RayQueue, 2> top, node;  ///< alternately: one is read, the other written
   RayQueue leaf;
   Fetched fetched;
   std::array<float, kSegments> begin, end;  ///< the part of each segment that is within the grid's box
   RayHits hits;
-  std::vector<std::int32_t> lost;  ///< to be asked one by one: those that did not end
+  std::vector<std::int32_t> unfinished;  ///< to be queried one by one: rays that were not completed
 };
 
-/// Follows segments 0 to count − 1 to their ends or to where their first hit begins (which is all that is known of it).
-/// @return the number of a segment that is not within reach, where there is one; else −1.
+/// Follows segments 0 to count − 1 to their ends, or to the begin of their first hit (the only part found of it).
+/// @return the index of a segment that is not within reach; −1 if there is none.
 int followRays(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work);
 int followRays(const UniformLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work);
 

@@ -18,15 +18,15 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Balls without surface [units].
+/// Empty spheres [units].
 struct FreeBalls {
   HWY_INLINE FreeBalls() {}  // as Blocks()
 
   VF center[3];
-  VF radius;  ///< negative: there is none
+  VF radius;  ///< negative: none
   MI inside;
 
-  /// About places of known distance; less what single precision makes of it, and `less`.
+  /// Around points of known distance; the radius is reduced by the rounding of single precision, and by `less`.
   void setDistance(VF signed_distance, float less) {
     inside = asWhole(hn::Lt(signed_distance, real(0.0F)));
     setRadius(hn::Abs(signed_distance), less);
@@ -40,7 +40,7 @@ struct FreeBalls {
   }
 };
 
-/// Those of far blocks.
+/// The empty spheres of far blocks.
 HWY_INLINE FreeBalls emptySpheres(const Blocks& at, const Lanes& lanes) {
   const VI mask = hn::Neg(hn::Shl(whole(1), at.log_side));
   FreeBalls balls;
@@ -50,7 +50,7 @@ HWY_INLINE FreeBalls emptySpheres(const Blocks& at, const Lanes& lanes) {
   return balls;
 }
 
-/// About the places of leaves that are nearest to the lanes.
+/// Around the points of leaves that are nearest to the lanes.
 HWY_INLINE FreeBalls leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched) {
   const LeafCorners corners = leafCorners(g, lanes, fetched, 0);
   const VI side = hn::Shl(whole(1), lanes.log_side), mask = hn::Neg(side);
@@ -71,7 +71,7 @@ HWY_INLINE FreeBalls leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const
   return balls;
 }
 
-/// About the samples that are nearest to the lanes.
+/// Around the samples that are nearest to the lanes.
 HWY_INLINE FreeBalls sampleBalls(const UniformLanes& g, const Lanes& lanes, const Fetched& fetched) {
   const NearestSample nearest(lanes);
   const VI word = hn::LoadU(n, fetched.word.data());
@@ -81,8 +81,8 @@ HWY_INLINE FreeBalls sampleBalls(const UniformLanes& g, const Lanes& lanes, cons
   return balls;
 }
 
-/// Takes vectors of spheres from ball to ball until all of a vector are answered: neighbours in a tree mostly go the
-/// same way.
+/// Advances vectors of spheres from one empty sphere to the next until all lanes have a result: neighbours in a tree
+/// mostly need the same steps.
 template <class Grid>
 class Sweeper {
  public:
@@ -99,7 +99,7 @@ class Sweeper {
   static constexpr auto kInside = static_cast<std::int32_t>(SweptSide::kInside);
   static constexpr auto kUnknown = static_cast<std::int32_t>(SweptSide::kUnknown);
 
-  /// The centres' ways are o + t d for t in [-1, 1]; Lanes::enter is the radius, and rounding.
+  /// The centres' paths are o + t d for t in [-1, 1]; Lanes::enter is the radius plus rounding.
   void follow(int first) {
     Lanes lanes(work_.waiting, 0, none());
     enqueue(lanes, first);
@@ -128,7 +128,7 @@ class Sweeper {
     };
     for (int k = 0; k < 3; ++k) {
       lanes.o[k] = placed(sweep_.middle[k]);
-      lanes.d[k] = placed(sweep_.way[k]);
+      lanes.d[k] = placed(sweep_.displacement[k]);
     }
     const VF radius = hn::LoadU(f, group_.radius.data() + first);
     lanes.enter =
@@ -136,7 +136,7 @@ class Sweeper {
     lanes.t = real(0.0F);
   }
 
-  /// Of short ways: those that are all farther from the surface's box than their margin.
+  /// For short paths: the lanes that are entirely farther from the surface's box than their margin.
   MI beyondBox(const Lanes& lanes) const {
     VF distance2 = real(0.0F);
     for (int k = 0; k < 3; ++k) {
@@ -145,11 +145,11 @@ class Sweeper {
       const VF beyond = hn::Max(hn::Max(below, above), real(0.0F));
       distance2 = hn::MulAdd(beyond, beyond, distance2);
     }
-    const VF margin = hn::Add(lanes.enter, real(sweep_.outside + sweep_.longest_way));
+    const VF margin = hn::Add(lanes.enter, real(sweep_.outside + sweep_.max_displacement));
     return asWhole(hn::And(hn::Gt(margin, real(0.0F)), hn::Gt(distance2, hn::Mul(margin, margin))));
   }
 
-  /// Leaves of ways what may be near the surface's box. @return those of which nothing is.
+  /// Clips paths to the neighbourhood of the surface's box. @return lanes that are entirely outside of it.
   MI clip(Lanes& lanes) const {
     const VF one = real(1.0F), minus_one = real(-1.0F), zero = real(0.0F);
     const VF reach = hn::Add(lanes.enter, real(sweep_.outside));
@@ -158,8 +158,8 @@ class Sweeper {
       const VF low = hn::Sub(hn::Sub(real(sweep_.surface_low[k]), reach), lanes.o[k]);
       const VF high = hn::Sub(hn::Add(real(sweep_.surface_high[k]), reach), lanes.o[k]);
       const MF still = hn::Lt(hn::Abs(lanes.d[k]), real(1e-20F));
-      const VF per_way = hn::Div(one, hn::IfThenElse(still, one, lanes.d[k]));
-      const VF a = hn::Mul(low, per_way), b = hn::Mul(high, per_way);
+      const VF inverse = hn::Div(one, hn::IfThenElse(still, one, lanes.d[k]));
+      const VF a = hn::Mul(low, inverse), b = hn::Mul(high, inverse);
       const MF beside = hn::And(still, hn::Or(hn::Gt(low, zero), hn::Lt(high, zero)));
       from = hn::Max(from, hn::IfThenElse(still, minus_one, hn::Min(a, b)));
       to = hn::Min(to, hn::IfThenElse(still, one, hn::Max(a, b)));
@@ -173,10 +173,10 @@ class Sweeper {
     return asWhole(hn::Gt(from, to));
   }
 
-  /// How lanes' ways pass a ball, less the spheres and their margins.
+  /// The paths of lanes relative to empty spheres, reduced by the lanes' radii and margins.
   struct Passage {
-    VF along;    ///< of the way from the ball's centre, times d
-    VF from2;    ///< from the ball's centre, squared
+    VF along;    ///< vector from the empty sphere's centre, times d
+    VF from2;    ///< distance from the empty sphere's centre, squared
     VF length2;  ///< of d
     VF radius, margin;
 
@@ -185,7 +185,7 @@ class Sweeper {
       return hn::And(hn::Gt(radius, real(0.0F)), hn::Lt(farthest2, hn::Mul(radius, radius)));
     }
 
-    /// The ball holds the lane, and takes it so far that it pays to go on.
+    /// Whether the empty sphere contains the lane, and extends far enough to be faster than the exact test.
     MF isWide() const {
       return hn::And(hn::Gt(radius, margin),
                      hn::And(hn::Gt(radius, real(0.0F)), hn::Lt(from2, hn::Mul(radius, radius))));
@@ -212,10 +212,10 @@ class Sweeper {
     return passage;
   }
 
-  /// From the ball about the middle to the end, and then to the start. @return the sides.
+  /// From the empty sphere about the middle to the end, and then to the start. @return the sides.
   HWY_NOINLINE VI followLong(Lanes& lanes, MI inside, const Passage& middle, MI active, VI side) {
     const VF one = real(1.0F), minus_one = real(-1.0F);
-    VF high = middle.exit(one), low = middle.exit(minus_one);  // between them all is on one side
+    VF high = middle.exit(one), low = middle.exit(minus_one);  // between them all points are on one side
     for (int i = 1; i < kMaxBalls; ++i) {
       const MF forward = hn::Lt(high, one);
       lanes.t = hn::IfThenElse(forward, high, low);
@@ -233,12 +233,12 @@ class Sweeper {
     return side;
   }
 
-  /// Balls that may hold the lanes: about what is known next to them.
+  /// Empty spheres that may contain the lanes: from the data next to them.
   HWY_INLINE FreeBalls ballsAt(Lanes& lanes, MI active) {
     findCells(g_, lanes);
-    hn::StoreU(topIndex(g_, lanes.cell), n, work_.waiting.place.data());
+    hn::StoreU(topIndex(g_, lanes.cell), n, work_.waiting.index.data());
     std::int32_t* word = work_.fetched.word.data();
-    fetchTop(g_, work_.waiting.place.data(), static_cast<int>(hn::Lanes(n)), word);
+    fetchTop(g_, work_.waiting.index.data(), static_cast<int>(hn::Lanes(n)), word);
     const Blocks at = locateTop(g_, hn::LoadU(n, word), lanes.cell);
     FreeBalls balls = emptySpheres(at, lanes);
     descend(g_, at, active, lanes, balls);
@@ -247,20 +247,20 @@ class Sweeper {
 
   HWY_INLINE void descend(const AdaptiveLanes& grid, Blocks at, MI active, Lanes& lanes, FreeBalls& balls) {
     MI node = hn::And(active, at.node), leaf = hn::AndNot(hn::Or(at.far, at.node), active);
-    VI place = at.place;
+    VI index = at.index;
     lanes.log_side = at.log_side;
     while (!hn::AllFalse(n, node)) {
-      await(node, place, lanes);
+      await(node, index, lanes);
       fetchBelow(grid, work_.waiting, work_.fetched);
       at = locateBelow(grid, lanes, work_.fetched, 0);
       balls.replace(hn::And(node, at.far), emptySpheres(at, lanes));
-      place = hn::IfThenElse(node, at.place, place);
+      index = hn::IfThenElse(node, at.index, index);
       lanes.log_side = hn::IfThenElse(node, at.log_side, lanes.log_side);
       leaf = hn::Or(leaf, hn::AndNot(hn::Or(at.far, at.node), node));
       node = hn::And(node, at.node);
     }
     if (hn::AllFalse(n, leaf)) return;
-    await(leaf, place, lanes);
+    await(leaf, index, lanes);
     fetchLeaves(grid, work_.waiting, work_.fetched);
     balls.replace(leaf, leafBalls(grid, lanes, work_.fetched));
   }
@@ -274,17 +274,17 @@ class Sweeper {
       hn::StoreU(lanes.d[k], f, queue.d[k].data());
     }
     hn::StoreU(lanes.t, f, queue.t.data());
-    await(brick, at.place, lanes);
+    await(brick, at.index, lanes);
     fetchBelow(grid, queue, work_.fetched);
     balls.replace(brick, sampleBalls(grid, lanes, work_.fetched));
   }
 
-  /// Lets lanes wait for the memory of their blocks, and the others with them for that of one of these.
-  HWY_INLINE void await(MI which, VI place, const Lanes& lanes) {
+  /// Fetches the memory of the lanes' blocks; the other lanes fetch that of one of these.
+  HWY_INLINE void await(MI which, VI index, const Lanes& lanes) {
     RayQueue& queue = work_.waiting;
-    hn::StoreU(place, n, queue.place.data());
-    const std::int32_t known = queue.place[hn::FindKnownFirstTrue(n, which)];
-    hn::StoreU(hn::IfThenElse(which, place, whole(known)), n, queue.place.data());
+    hn::StoreU(index, n, queue.index.data());
+    const std::int32_t known = queue.index[hn::FindKnownFirstTrue(n, which)];
+    hn::StoreU(hn::IfThenElse(which, index, whole(known)), n, queue.index.data());
     hn::StoreU(lanes.log_side, n, queue.log_side.data());
     for (int k = 0; k < 3; ++k) hn::StoreU(lanes.cell[k], n, queue.cell[k].data());
     queue.size = static_cast<int>(hn::Lanes(n));
@@ -329,22 +329,22 @@ SphereSweep::SphereSweep(const DistanceField& field, const LaneBox& box, const C
                          const SweptMargins& margins, const BoundingBall& shell) {
   const auto start = chord.X_FP_start.matrix(), end = chord.X_FP_end.matrix();
   const double units = box.units_per_metre, reach = shell.center.norm() + shell.radius;
-  double farthest = 0.0;  // of the terms that a place is the sum of
+  double farthest = 0.0;  // upper bound of the sum of the terms of a coordinate
   for (int k = 0; k < 3; ++k) {
     for (int i = 0; i < 4; ++i) {
       const double at = units * (0.5 * (start(k, i) + end(k, i)) - (i == 3 ? box.origin[k] : 0.0));
       const double step = units * 0.5 * (end(k, i) - start(k, i));
       middle[k][i] = static_cast<float>(at);
-      way[k][i] = static_cast<float>(step);
+      displacement[k][i] = static_cast<float>(step);
       farthest += (i == 3 ? 1.0 : reach) * (std::abs(at) + std::abs(step));
     }
     surface_low[k] = static_cast<float>(units * (field.surfaceBox().min()[k] - box.origin[k]));
     surface_high[k] = static_cast<float>(units * (field.surfaceBox().max()[k] - box.origin[k]));
   }
   rounding = static_cast<float>(1e-6 * farthest) + 0.01F;
-  const Matrix3d turn = 0.5 * (chord.X_FP_end.linear() - chord.X_FP_start.linear());
+  const Matrix3d difference = 0.5 * (chord.X_FP_end.linear() - chord.X_FP_start.linear());
   const Vector3d travel = 0.5 * (chord.X_FP_end * shell.center - chord.X_FP_start * shell.center);
-  longest_way = static_cast<float>(units * (travel.norm() + turn.norm() * shell.radius));
+  max_displacement = static_cast<float>(units * (travel.norm() + difference.norm() * shell.radius));
   outside = static_cast<float>(margins.outside * units);
   inside = static_cast<float>(margins.inside * units);
 }

@@ -10,7 +10,7 @@
 
 namespace sdf_ccd {
 
-/// Spheres of a shell that are asked together; points are spheres of no radius.
+/// Spheres of a shell that are tested together; points are spheres of radius zero.
 struct SphereGroup {
   static constexpr int kCapacity = 256;
   template <class T>
@@ -18,7 +18,7 @@ struct SphereGroup {
 
   std::array<Column<float>, 3> center;  ///< [m], frame P
   Column<float> radius;                 ///< [m]
-  Column<std::int32_t> side;            ///< the answer: a SweptSide
+  Column<std::int32_t> side;            ///< the result: a SweptSide
   int size = 0;
 
   void add(const Vector3d& p_P, double r) {
@@ -28,26 +28,26 @@ struct SphereGroup {
   SweptSide sideOf(int i) const { return static_cast<SweptSide>(side[i]); }
 };
 
-/// A chord in a grid, as vector code reads it: lengths in units, places from the grid's origin.
+/// A chord in a grid, as read by vector code: lengths in units, points relative to the grid's origin.
 struct SphereSweep {
-  /// @param margins  of the spheres' surfaces.
-  /// @param shell    holds their centres, frame P.
+  /// @param margins  added to the spheres' radii.
+  /// @param shell    contains the spheres' centres, frame P.
   SphereSweep(const DistanceField& field, const LaneBox& box, const Chord& chord, const SweptMargins& margins,
               const BoundingBall& shell);
 
-  /// Ways are much longer than most balls that are free of surface: they are followed from ball to ball. (Up to here
-  /// it costs less to ask about the middle only: measured.)
-  bool isLong() const { return longest_way > 4.0F * LaneBox::kUnits; }
+  /// Whether paths are much longer than most empty spheres: then they are followed from one to the next. (Up to this
+  /// length it costs less to test the middle only: measured.)
+  bool isLong() const { return max_displacement > 4.0F * LaneBox::kUnits; }
 
-  /// Of a place (x, y, z, 1) [m]: where it is at the chord's middle, and its way from there to the end.
-  std::array<std::array<float, 4>, 3> middle, way;
-  float longest_way;      ///< no sphere's is longer
-  float rounding;         ///< what single precision may move a place by; not finite where it is good for nothing
-  float outside, inside;  ///< margins
+  /// Transforms of a point (x, y, z, 1) [m]: to its position at the chord's middle; to its displacement from there.
+  std::array<std::array<float, 4>, 3> middle, displacement;
+  float max_displacement;  ///< upper bound of the spheres' displacements
+  float rounding;          ///< upper bound of the error of single precision; not finite if that is too large
+  float outside, inside;   ///< margins
   std::array<float, 3> surface_low, surface_high;  ///< box around the surface
 };
 
-/// A vector's lanes, and what they wait for; reused.
+/// One vector's queue; reused.
 struct SphereWork {
   RayQueue waiting;
   Fetched fetched;

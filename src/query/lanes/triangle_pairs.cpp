@@ -25,7 +25,7 @@ HWY_INLINE V real(double x) {
 }
 
 struct Point {
-  HWY_INLINE Point() {}  // one that the compiler makes is not for this kind of processor
+  HWY_INLINE Point() {}  // the compiler's own one is not compiled for this target
   HWY_INLINE Point(V x0, V y0, V z0) : x(x0), y(y0), z(z0) {}
   HWY_INLINE explicit Point(const Vector3d& p) : x(real(p.x())), y(real(p.y())), z(real(p.z())) {}
 
@@ -103,14 +103,14 @@ struct Pairs {
   Triangle a, start, end;
 };
 
-/// The largest gap so far, and its axis.
+/// The largest gap found so far, and its axis.
 struct Best {
   V gap;
   Point axis;
 
   HWY_INLINE Best() : gap(real(-1e300)), axis(real(0.0), real(0.0), real(1.0)) {}
 
-  /// Of B beyond A along the axis, or (`both`) against it.
+  /// The gap of B beyond A along the axis, or (`both`) against it.
   HWY_INLINE void offer(const Pairs& pairs, const Point& direction, bool both) {
     const V length2 = dot(direction, direction);
     const M sound = hn::Gt(length2, real(1e-250));
@@ -140,53 +140,53 @@ struct Best {
   }
 };
 
-/// The shortest way so far from A to B.
-struct Way {
+/// The shortest displacement found so far from A to B.
+struct Shortest {
   V distance2;
-  Point way;
+  Point displacement;
 
-  HWY_INLINE Way() : distance2(real(1e300)), way(real(0.0), real(0.0), real(0.0)) {}
+  HWY_INLINE Shortest() : distance2(real(1e300)), displacement(real(0.0), real(0.0), real(0.0)) {}
 
   HWY_INLINE void offer(M which, const Point& other) {
     const V other2 = dot(other, other);
     const M nearer = hn::And(which, hn::Lt(other2, distance2));
     distance2 = hn::IfThenElse(nearer, other2, distance2);
-    way = selected(nearer, other, way);
+    displacement = selected(nearer, other, displacement);
   }
 };
 
 HWY_INLINE V clamped(V x) {
   return hn::Min(hn::Max(x, real(0.0)), real(1.0));
 }
-/// Where that is nothing, 0.
+/// 0 if x is tiny.
 HWY_INLINE V inverseOf(V x) {
   const M sound = hn::Gt(x, real(1e-280));
   return hn::IfThenElseZero(sound, hn::Div(real(1.0), hn::IfThenElse(sound, x, real(1.0))));
 }
 
-/// An edge, with what its closest points need again and again.
+/// An edge, with precomputed values for its closest points.
 struct Edge {
   HWY_INLINE Edge() {}  // as Point()
   HWY_INLINE Edge(const Point& p, const Point& q)
-      : from(p), way(q - p), length2(dot(way, way)), inverse2(inverseOf(length2)) {}
+      : from(p), direction(q - p), length2(dot(direction, direction)), inverse2(inverseOf(length2)) {}
 
-  Point from, way;
+  Point from, direction;
   V length2, inverse2;
 };
 
-/// As closestPoints() does it.
+/// The same algorithm as closestPoints().
 HWY_INLINE Point betweenEdges(const Edge& a, const Edge& b) {
   const Point w = a.from - b.from;
-  const V uv = dot(a.way, b.way), uw = dot(a.way, w), vw = dot(b.way, w);
+  const V uv = dot(a.direction, b.direction), uw = dot(a.direction, w), vw = dot(b.direction, w);
   const V determinant = hn::MulSub(a.length2, b.length2, hn::Mul(uv, uv));
   const V s0 = clamped(hn::Mul(hn::MulSub(uv, vw, hn::Mul(b.length2, uw)), inverseOf(determinant)));
   const V t = clamped(hn::Mul(hn::MulAdd(uv, s0, vw), b.inverse2));
   const V s = clamped(hn::Mul(hn::MulSub(uv, t, uw), a.inverse2));
-  return along(along(Point(hn::Neg(w.x), hn::Neg(w.y), hn::Neg(w.z)), t, b.way), hn::Neg(s), a.way);
+  return along(along(Point(hn::Neg(w.x), hn::Neg(w.y), hn::Neg(w.z)), t, b.direction), hn::Neg(s), a.direction);
 }
 
-/// From corners of one to the face of the other, where their feet are within it. @param sign  of the way.
-HWY_INLINE void offerFace(const Triangle& face, const Triangle& corners, double sign, Way& best) {
+/// From corners of one to the face of the other, where their feet are within it. @param sign  of the displacement.
+HWY_INLINE void offerFace(const Triangle& face, const Triangle& corners, double sign, Shortest& best) {
   const Point ab = face.p[1] - face.p[0], ac = face.p[2] - face.p[0], normal = cross(ab, ac);
   const V area2 = dot(normal, normal), inverse = inverseOf(area2);
   const Point to_v = cross(ac, normal), to_w = cross(normal, ab);
@@ -218,7 +218,7 @@ void closestGapsOf(const EndPoses& poses, TrianglePairs& pairs) {
     Edge edges_b[3];
     for (int k = 0; k < 3; ++k) edges_b[k] = Edge(middle.p[k], middle.p[(k + 1) % 3]);
     const M always = hn::Eq(real(0.0), real(0.0));
-    Way nearest;
+    Shortest nearest;
     for (int i = 0; i < 3; ++i) {
       const Edge edge_a(all.a.p[i], all.a.p[(i + 1) % 3]);
       for (int k = 0; k < 3; ++k) nearest.offer(always, betweenEdges(edge_a, edges_b[k]));
@@ -226,7 +226,7 @@ void closestGapsOf(const EndPoses& poses, TrianglePairs& pairs) {
     offerFace(all.a, middle, 1.0, nearest);
     offerFace(middle, all.a, -1.0, nearest);
     Best best;
-    best.offer(all, nearest.way, false);
+    best.offer(all, nearest.displacement, false);
     best.store(first, pairs);
     hn::Store(nearest.distance2, d, pairs.distance2.data() + first);
   }

@@ -13,9 +13,9 @@ struct TrianglePairs {
   using Vectors = std::array<Lane, 3>;  ///< by coordinate
 
   alignas(64) std::array<Vectors, 3> a{}, b{};  ///< by corner [m]
-  alignas(64) Lane gap;                         ///< the answer: as gapAlong(), the least of both poses [m]
-  alignas(64) Vectors axis;                     ///< the answer: of the gap, frame A, unit
-  alignas(64) Lane distance2;                   ///< the answer of closestGaps(): halfway between both poses [m²]
+  alignas(64) Lane gap;                         ///< the result: as gapAlong(), the smaller of both poses [m]
+  alignas(64) Vectors axis;                     ///< the result: direction of the gap, frame A, unit
+  alignas(64) Lane distance2;                   ///< the result of closestGaps(): halfway between both poses [m²]
   int size = 0;                                 ///< lanes in use
 
   void add(const Corners& corners_a, const Corners& corners_b) {
@@ -26,7 +26,7 @@ struct TrianglePairs {
         b[corner][k][i] = corners_b[corner][k];
       }
   }
-  /// One of another group.
+  /// Copies one pair of another group.
   void add(const TrianglePairs& from, int i) {
     for (int corner = 0; corner < 3; ++corner)
       for (int k = 0; k < 3; ++k) {
@@ -46,8 +46,8 @@ struct EndPoses {
 /// Gaps at both ends: along the triangles' normals and a given direction of A's frame, whichever is largest.
 void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs& pairs);
 
-/// The same along the way between the closest points of A and of B halfway between its poses, each corner for itself.
-/// That is where the gap is about largest.
+/// The same along the segment between the closest points of A and of B, each corner of B halfway between its poses.
+/// There the gap is near its maximum.
 void closestGaps(const EndPoses& poses, TrianglePairs& pairs);
 
 }  // namespace sdf_ccd

@@ -39,7 +39,7 @@ void require(bool is_good, const std::string& what) {
   if (!is_good) throw std::runtime_error(what);
 }
 
-/// The files of a check. Without commit() nothing stays.
+/// The files of a check. Without commit() no file is left.
 struct CheckFiles {
   explicit CheckFiles(const std::string& path)
       : directory(path),
@@ -58,7 +58,7 @@ struct CheckFiles {
     for (OutputFile* file : {&plan, &summary}) file->commit();
   }
 
-  Interrupt interrupt;  ///< it must not leave them there
+  Interrupt interrupt;  ///< no files may be left then
   OutputDirectory directory;
   OutputFile summary, plan;
   OutputPath bag_path;
@@ -66,7 +66,7 @@ struct CheckFiles {
   CycleReport report;
 };
 
-/// Passes what the loop finds on to the files, and shows how far it is.
+/// Passes the loop's results to the files, and shows progress.
 class Recorder : public BagObserver {
  public:
   Recorder(const RecordedMotion& motion, const MonitorLoop& loop, CheckedBag& bag, CheckFiles& files)
@@ -79,11 +79,11 @@ class Recorder : public BagObserver {
 
   void onTransforms(const RecordedTransforms& transforms) override {
     bag_.addTransforms(transforms);
-    if (interrupt_.asked()) throw Interrupted();
+    if (interrupt_.requested()) throw Interrupted();
     bar_(length_ > 0.0 ? (transforms.recorded - begin_).toSec() / length_ : 1.0);
   }
   void onCycle(const ros::Time& now) override {
-    if (interrupt_.asked()) throw Interrupted();
+    if (interrupt_.requested()) throw Interrupted();
     const ContactArray contacts = toContactArray(loop_);
     bag_.addCycle(contacts, now);
     report_.add(contacts);
@@ -100,7 +100,7 @@ class Recorder : public BagObserver {
   CycleReport& report_;
 };
 
-/// How long it took [s].
+/// Returns the run time [s].
 double check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
              MonitorLoop& loop, CheckFiles& files) {
   const auto start = std::chrono::steady_clock::now();
@@ -119,7 +119,7 @@ void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
           bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
 }
 
-/// Names on stderr what was never checked; whether there is nothing of that kind.
+/// Prints what was never checked to stderr; true if there is nothing.
 bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
   bool is_complete = statistics.hasCheckedCycle();
   if (!is_complete) {
@@ -190,7 +190,7 @@ void checkThenRun(const Arguments& arguments) {
   if (arguments.threads > 0) {
     limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
   }
-  console_bridge::noOutputHandler();  // what broken transforms leave unchecked is reported as that
+  console_bridge::noOutputHandler();  // what is not checked because of broken transforms is reported
   try {
     run(arguments);
   } catch (const Interrupted&) {

@@ -11,7 +11,7 @@ namespace sdf_ccd::tools {
 
 void ContactRecords::add(const ContactArray& message) {
   for (const Contact& contact : message.contacts) {
-    if (contact.begins) known_.erase(contact.id);  // of a monitor that has been started again
+    if (contact.begins) known_.erase(contact.id);  // the monitor was started again
     const auto [known, is_new] = known_.try_emplace(contact.id, contacts_.size());
     if (is_new) {
       contacts_.push_back(contact);

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd::tools {
 
-/// The contacts that messages tell of, each as the last one has it.
+/// The contacts in messages, each as in its last message.
 class ContactRecords {
  public:
   void add(const ContactArray& message);
@@ -22,7 +22,7 @@ class ContactRecords {
   std::map<std::uint64_t, std::size_t> known_;  // by id
 };
 
-/// contacts.csv: the columns' names, and a contact's row.
+/// contacts.csv: the header, and the row of a contact.
 std::string contactColumns();
 std::string toRow(const Contact& contact);
 

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::tools {
 
-/// What a table and a plot tell of one cycle.
+/// Data of one cycle for tables and plots.
 struct CycleRecord {
   ros::Time start, end, complete_until;
   ros::Time contradicted_since;  ///< by late transforms; 0 if nothing is
@@ -17,7 +17,7 @@ struct CycleRecord {
   unsigned checked = 0, skipped = 0, not_checked = 0, delayed = 0;
   unsigned in_contact = 0, uncertain = 0;  ///< of those checked
   double depth = 0.0;                      ///< of the deepest point [m]; 0 if nothing touches
-  std::string body_a, body_b;              ///< whose it is
+  std::string body_a, body_b;              ///< of that point
   std::string reason;                      ///< why the cycle as a whole is NOT_CHECKED
 
   bool hasBound() const { return checked + skipped > 0; }
@@ -28,11 +28,11 @@ CycleRecord toRecord(const ContactArray& message);
 /// Seconds with nine decimals.
 std::string timeText(const ros::Time& time);
 
-/// cycles.csv: the columns' names, and a cycle's row.
+/// cycles.csv: the header, and the row of a cycle.
 std::string cycleColumns();
 std::string toRow(const CycleRecord& record);
 
-/// A text as a field of CSV: in quotes where it needs them.
+/// A text as a field of CSV: in quotes if necessary.
 std::string csvText(const std::string& text);
 
 }  // namespace sdf_ccd::tools

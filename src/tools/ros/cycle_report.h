@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::tools {
 
-/// Files about what a monitor said: cycles.csv, contacts.csv and error_time.svg. Without commit() nothing stays.
+/// Files with a monitor's results: cycles.csv, contacts.csv and error_time.svg. Without commit() no file is left.
 class CycleReport {
  public:
   /// @throws std::runtime_error if the directory cannot be written.

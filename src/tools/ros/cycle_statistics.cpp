@@ -29,7 +29,7 @@ std::string secondsSince(const ros::Time& begin, const ros::Time& time) {
   return rounded((time - begin).toSec(), 3) + " s";
 }
 
-/// A heading and the first of what it is about.
+/// A heading and the first items.
 std::string list(const std::string& heading, const std::vector<std::string>& items) {
   std::string text = heading + "\n";
   for (std::size_t i = 0; i < std::min(kNamed, items.size()); ++i) text += "  " + items[i] + "\n";
@@ -37,7 +37,7 @@ std::string list(const std::string& heading, const std::vector<std::string>& ite
   return text;
 }
 
-/// A reason without what differs from pair to pair and cycle to cycle: the links' names, and numbers.
+/// A reason without the parts that differ between pairs and cycles: the links' names, and numbers.
 std::string kindOf(std::string reason, const std::vector<std::string>& names) {
   for (const std::string& body : names) {
     for (std::size_t at = reason.find(body); !body.empty() && at != std::string::npos; at = reason.find(body, at + 1)) {
@@ -145,7 +145,7 @@ std::string CycleStatistics::uncertainLines() const {
   return list("uncertain        " + std::to_string(items.size()) + " pairs, in some cycle", items);
 }
 
-/// By reason, that for which most was not checked first.
+/// By reason, the most frequent one first.
 std::vector<CycleStatistics::Unchecked> CycleStatistics::unchecked() const {
   std::map<std::string, Unchecked> reasons;
   const auto addAll = [&](const std::map<std::string, Count>& counts, std::size_t Unchecked::*kind) {
@@ -184,7 +184,7 @@ std::string CycleStatistics::notCheckedLines() const {
   return list("not checked      " + counted(bodies, pairs) + ", in some cycle", items);
 }
 
-/// Empty if no transforms came late behind newer ones.
+/// Empty if no transforms came after newer ones.
 std::string CycleStatistics::contradictedLine(const ros::Time& begin) const {
   const auto isContradicting = [](const CycleRecord& cycle) { return !cycle.contradicted_since.isZero(); };
   const auto first = std::find_if(cycles_.begin(), cycles_.end(), isContradicting);

@@ -10,7 +10,7 @@
 
 namespace sdf_ccd::tools {
 
-/// Counts what a monitor said, cycle by cycle, and sums it up in a few lines.
+/// Counts a monitor's results, cycle by cycle, and summarises them in a few lines.
 class CycleStatistics {
  public:
   void add(const ContactArray& message);
@@ -21,15 +21,15 @@ class CycleStatistics {
   /// How many bodies, and pairs of others, were NOT_CHECKED in every cycle.
   std::size_t neverChecked() const;
 
-  /// Whether some cycle was checked as a whole, its verdict being another than NOT_CHECKED.
+  /// Whether some cycle was checked completely, with a verdict other than NOT_CHECKED.
   bool hasCheckedCycle() const;
 
-  /// "body: reason" or "body - body: reason", an example of the reason for which most was not checked; empty if all
-  /// was.
+  /// "body: reason" or "body - body: reason", an example of the most frequent reason for NOT_CHECKED; empty if
+  /// everything was checked.
   std::string whyNotChecked() const;
 
-  /// Cycles by verdict, what was checked, pairs in contact and in doubt, run times and error bounds.
-  /// @param begin  what times are told from.
+  /// Cycles by verdict, what was checked, pairs in contact and uncertain ones, run times and error bounds.
+  /// @param begin  time zero of the summary.
   std::string summary(const ros::Time& begin) const;
 
   /// Median, 99th percentile and longest; median and largest. A line each, where there are any.
@@ -39,12 +39,12 @@ class CycleStatistics {
   /// Of a pair, or of a body with all of its pairs.
   struct Count {
     std::size_t in_contact = 0, uncertain = 0, not_checked = 0;  // cycles
-    std::string reason, kind;                                    // the first that it was not checked for
+    std::string reason, kind;                                    // the first one for NOT_CHECKED
 
     void addUnchecked(const std::string& why, const std::vector<std::string>& names);
   };
 
-  /// Pairs and bodies that were not checked for one reason, but for the names and numbers in it.
+  /// Pairs and bodies that were not checked for the same reason, up to names and numbers in it.
   struct Unchecked {
     std::string example;  // "body - body: reason", "body: reason"
     std::size_t pairs = 0, bodies = 0, cycles = 0, most_cycles = 0;

@@ -13,7 +13,7 @@
 namespace sdf_ccd::tools {
 namespace {
 
-constexpr double kAcross = 500.0, kUp = 300.0;  // dots that a panel can tell apart
+constexpr double kAcross = 500.0, kUp = 300.0;  // distinguishable dots in a panel
 
 struct Point {
   double x, y;
@@ -65,7 +65,7 @@ set format y '%g'
 set ylabel 'run time [ms]'
 )";
 
-/// Of points that would be drawn over each other, one: an hour's cycles would make a file that no viewer opens.
+/// Keeps one of points that would be drawn over each other: an hour of cycles would make a file that no viewer opens.
 std::vector<Point> thinned(const std::vector<Point>& points) {
   if (points.empty()) return {};
   Point low = points.front(), high = points.front();
@@ -93,7 +93,7 @@ void writeData(const std::string& name, const Points& points, std::ostringstream
   }
 }
 
-/// @param columns  for gnuplot: which it draws over which.
+/// @param columns  for gnuplot's `using`.
 void writePlot(const std::string& name, const Points& points, const std::string& columns, std::ostringstream& script) {
   std::string separator = "plot ";
   for (std::size_t v = 0; v < points.size(); ++v) {

@@ -13,7 +13,7 @@ std::string readText(const std::string& path) {
   return text;
 }
 
-/// The parameters' tree with what the options say instead.
+/// The parameter tree, overridden by the options.
 XmlRpc::XmlRpcValue parameterTree(const MonitorConfig& config) {
   XmlRpc::XmlRpcValue tree;
   if (!config.parameters.empty()) tree = loadYamlParameters(config.parameters);

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::tools {
 
-/// The monitor's parameters from files, and what options say instead.
+/// The monitor's parameters from files, and the options that override them.
 struct MonitorConfig {
   std::string urdf, srdf;           ///< files; no SRDF if empty
   std::string parameters;           ///< file, as config/monitor.yaml; defaults if empty
@@ -15,7 +15,7 @@ struct MonitorConfig {
   std::optional<double> max_error;  ///< [m]
 };
 
-/// Reads them. A parameter that nothing reads, which on a parameter server may be another's, is an error in a file.
+/// Reads them. An unknown parameter, which on a parameter server may be another node's, is an error in a file.
 /// @throws std::runtime_error that names the file, or the parameter and its value.
 MonitorParameters readParameters(const MonitorConfig& config);
 

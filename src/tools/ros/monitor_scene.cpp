@@ -16,7 +16,7 @@ std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const
                                           const BodyOptions& options, const Interrupt& interrupt) {
   ProgressBar bar("fields and shells");
   return buildDescribed(described, plan, options, [&](const std::string&, double share) {
-    if (interrupt.asked()) throw Interrupted();
+    if (interrupt.requested()) throw Interrupted();
     bar(share);
   });
 }

@@ -9,17 +9,17 @@
 
 namespace sdf_ccd::tools {
 
-/// Thrown out of the work when the user ends it; no std::exception, which would be one body's failure.
+/// Thrown when the user interrupts the work; no std::exception, which would count as one body's failure.
 struct Interrupted {};
 
-/// The robot and world that the parameters tell of; relative paths of the URDF at `urdf` start from its folder.
+/// The robot and world of the parameters; relative paths of the URDF at `urdf` start from its folder.
 DescribedScene describeMonitored(const MonitorParameters& parameters, const std::string& urdf);
 
-/// What the monitor builds at its start, with a progress bar. @throws Interrupted.
+/// Builds the scene as the monitor does at start-up, with a progress bar. @throws Interrupted.
 std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const ScenePlan& plan,
                                           const BodyOptions& options, const Interrupt& interrupt);
 
-/// Names on stderr the bodies that could not be made, which no cycle checks; whether there are none.
+/// Prints the bodies that could not be built, which no cycle checks, to stderr; true if there are none.
 bool areAllMade(const Scene& scene);
 
 /// The plan's table, and a line for each warning.

@@ -41,7 +41,7 @@ void requireKept(const Scene& scene) {
 void prepareRobot(const MonitorConfig& config, const std::string& directory) {
   MonitorParameters parameters = readParameters(config);
   parameters.scene.cache_directory = fs::absolute(directory).lexically_normal().string();
-  fs::create_directories(parameters.scene.cache_directory);  // others may read it, unlike a cache of one's own
+  fs::create_directories(parameters.scene.cache_directory);  // other users may read it, unlike a private cache
   requireOwnDirectory(parameters.scene.cache_directory);
   const DescribedScene described = describeMonitored(parameters, config.urdf);
   const ScenePlan plan = affordablePlan(described, parameters.scene);
