@@ -15,6 +15,7 @@
 #include "open_components.h"
 #include "sdf_ccd/common/cancel.h"
 #include "self_crossing.h"
+#include "triangle_cut.h"
 
 namespace sdf_ccd {
 namespace {
@@ -105,6 +106,23 @@ ClosedPatches turnClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, 
   return all;
 }
 
+/// Whether some wall has a side from which nothing leads outside: with others it may be all that is left of a part that
+/// was drawn inside out where it is flush with those that hold it.
+bool enclose(const std::vector<Vector3i>& walls, TriangleMesh mesh) {
+  if (walls.empty()) return false;
+  const std::size_t first = mesh.triangles.size();
+  mesh.triangles.insert(mesh.triangles.end(), walls.begin(), walls.end());
+  const TriangleTree tree(mesh);
+  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();  // farther than rays are wide
+  for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
+    checkCancelled();
+    const Corners c = cornersOf(mesh, static_cast<int>(i));
+    const Vector3d center = (c[0] + c[1] + c[2]) / 3.0, normal = areaNormal(mesh, static_cast<int>(i)).normalized();
+    if (!tree.seesOutside(center + step * normal) || !tree.seesOutside(center - step * normal)) return true;
+  }
+  return false;
+}
+
 /// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `distinct`.
 void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   std::vector<Vector3i>& walls = distinct.walls;
@@ -151,7 +169,8 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   }
   walls.resize(kept);
   // Such walls may be what is left of a part that another one cancels.
-  quality.doubtful = doubtful || (!walls.empty() && (quality.negative_triangles > 0 || !closed.isPlain()));
+  quality.doubtful =
+      doubtful || (!walls.empty() && (quality.negative_triangles > 0 || !closed.isPlain())) || enclose(walls, likeness);
   quality.sign_trusted = isClosed(likeness) && !quality.doubtful;
 }
 

@@ -99,6 +99,39 @@ class BoundaryWriter {
   std::vector<std::uint8_t> separates_;
 };
 
+/// Parts of triangles that others cut; none of those that cost too much.
+///
+/// What one costs is not known before, and differs by thousands. Each may first cost what does for most; those that it
+/// does not do for begin anew and may cost four times that, and so on, until what all may cost is spent. So few that
+/// cost much do not take from the many, and the many that would never be told cost no more than that.
+std::vector<std::vector<SurfacePart>> partsOf(std::vector<int> cut, const TriangleCuts& cuts,
+                                              const TriangleCutter& cutter, const SolidLimits& limits) {
+  using Cost = TriangleCutter::Cost;
+  constexpr Cost kFirst{1'000, 10'000};
+  constexpr std::size_t kMore = 4;
+  std::vector<std::vector<SurfacePart>> parts(cuts.of.size());
+  Cost left{limits.steps, limits.visits};
+  bool is_last = false;
+  for (Cost each = kFirst; !cut.empty() && !is_last; each = {kMore * each.steps, kMore * each.visits}) {
+    const Cost share{left.steps / cut.size(), left.visits / cut.size()};
+    is_last = share.steps < each.steps || share.visits < each.visits;
+    const Cost most{std::min(each.steps, share.steps), std::min(each.visits, share.visits)};
+    std::vector<Cost> costs(cut.size());
+    parallelFor(std::size_t{0}, cut.size(), [&](std::size_t i) {
+      TriangleCutter::Result result = cutter.parts(cut[i], cuts.of[cut[i]], most);
+      parts[cut[i]] = std::move(result.parts);
+      costs[i] = result.cost;
+    });
+    for (const Cost& cost : costs) {
+      left.steps -= std::min(left.steps, cost.steps);
+      left.visits -= std::min(left.visits, cost.visits);
+    }
+    cut.erase(std::remove_if(cut.begin(), cut.end(), [&](int triangle) { return !parts[triangle].empty(); }),
+              cut.end());
+  }
+  return parts;
+}
+
 }  // namespace
 
 Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
@@ -126,13 +159,8 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
                                                    [](Sides s) { return s != Sides::kBuried && s != Sides::kInward; });
   if (as_it_is) return;
 
-  std::vector<std::vector<SurfacePart>> parts(sides.size());
   const TriangleCutter cutter(mesh, *all, interior_, tolerance);
-  constexpr std::size_t kLeastVisits = 50'000;
-  const std::size_t count = std::max<std::size_t>(cut.size(), 1);
-  const TriangleCutter::Limits each{limits.steps / count, std::max(kLeastVisits, limits.visits / count)};
-  parallelFor(std::size_t{0}, cut.size(),
-              [&](std::size_t i) { parts[cut[i]] = cutter.parts(cut[i], cuts.of[cut[i]], each); });
+  const std::vector<std::vector<SurfacePart>> parts = partsOf(std::move(cut), cuts, cutter, limits);
   BoundaryWriter writer(mesh, tolerance, report_);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const int triangle = static_cast<int>(i);

@@ -31,7 +31,7 @@ std::string warning(const SolidReport& report);
 struct SolidLimits {
   std::size_t pairs = 3'000'000;       ///< that cut each other
   std::size_t steps = 60'000'000;      ///< in each of which a triangle is compared with a piece of another
-  std::size_t visits = 1'500'000'000;  ///< of nodes and triangles to tell pieces' sides; 50,000 a triangle at least
+  std::size_t visits = 400'000'000;  ///< of nodes and triangles to tell pieces' sides
 };
 
 /// A mesh as the solid that it bounds, if it is closed (see Interior): all places where the winding number of a part is

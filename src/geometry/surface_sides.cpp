@@ -24,6 +24,7 @@ Sides SideTest::at(const Place& place, const std::vector<int>& layers, std::size
   thread_local std::vector<int> near;
   double free = 0.1 * place.clearance;
   tree_.trianglesWithin(place.point, free + tolerance_.closest, near);
+  if (visited) *visited += near.size();
   for (const int other : near) {
     if (other == place.triangle || std::binary_search(layers.begin(), layers.end(), other)) continue;
     const MeasuredTriangle& t = tree_.triangle(other);

@@ -36,7 +36,7 @@ class SideTest {
 
   /// Sides at a place of a piece that nothing but its layers touches: they are the same all over the piece. Both points
   /// at which inside and outside are asked for are nearer to the place than to any other triangle.
-  /// @param visited  see TriangleTree::inside().
+  /// @param visited  if given, the number of nodes and triangles that were looked at is added to it.
   Sides at(const Place& place, const std::vector<int>& layers, std::size_t* visited = nullptr) const;
 
  private:

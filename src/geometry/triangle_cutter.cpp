@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace sdf_ccd {
@@ -48,8 +47,8 @@ double heightAt(const Other& other, const Vector2d& x) {
 
 class TriangleCutter::Task {
  public:
-  Task(const TriangleCutter& cutter, int triangle, const Limits& limits)
-      : cutter_(cutter), triangle_(triangle), left_(limits) {
+  Task(const TriangleCutter& cutter, int triangle, const Cost& most)
+      : cutter_(cutter), triangle_(triangle), most_(most) {
     const Vector3i& t = cutter.mesh_.triangles[triangle];
     for (int k = 0; k < 3; ++k) corners_[k] = cutter.mesh_.vertices[t[k]];
     normal_ = areaNormal(cutter.mesh_, triangle).normalized();
@@ -57,7 +56,7 @@ class TriangleCutter::Task {
     v_ = normal_.cross(u_);
   }
 
-  std::optional<std::vector<SurfacePart>> run(const std::vector<int>& triangles) {
+  Result run(const std::vector<int>& triangles) {
     for (const int id : triangles) {
       const Other other = seen(id);
       if (other.kind != Other::kApart) others_.push_back(other);
@@ -69,9 +68,9 @@ class TriangleCutter::Task {
       whole.push_back({flat(corners_[k]), corners_[k], cutter_.mesh_.triangles[triangle_][k]});
     }
     std::vector<SurfacePart> parts = divide(FlatPiece(std::move(whole)), std::move(all));
-    if (out_of_steps_) return std::nullopt;
+    if (costs_too_much_) return {{}, cost_};
     for (SurfacePart& part : parts) part.tells_sides = !doubtful_;
-    return parts;
+    return {std::move(parts), cost_};
   }
 
  private:
@@ -196,12 +195,9 @@ class TriangleCutter::Task {
   }
 
   std::vector<SurfacePart> divide(const FlatPiece& piece, std::vector<int> near) {
-    if (out_of_steps_) return {};
-    if (near.size() >= left_.steps) {
-      out_of_steps_ = true;
-      return {};
-    }
-    left_.steps -= near.size() + 1;
+    cost_.steps += near.size() + 1;
+    costs_too_much_ = costs_too_much_ || cost_.steps > most_.steps || cost_.visits > most_.visits;
+    if (costs_too_much_) return {};
     Relation longest;
     int cutting = -1;
     bool unclear = false;
@@ -239,10 +235,8 @@ class TriangleCutter::Task {
     const double clearance = piece.depth(middle);
     if (clearance <= 8.0 * cutter_.tolerance_.border) return Sides::kUnknown;
     const Vector3d place = corners_[0] + middle.x() * u_ + middle.y() * v_;
-    std::size_t visited = 0;
-    const Sides found = cutter_.test_.at({place, normal_, clearance, triangle_}, layers, &visited);
-    out_of_steps_ = visited >= left_.visits;
-    left_.visits -= std::min(left_.visits, visited);
+    const Sides found = cutter_.test_.at({place, normal_, clearance, triangle_}, layers, &cost_.visits);
+    costs_too_much_ = cost_.visits > most_.visits;
     // Of faces that lie on each other all have the same sides, whichever way they are turned. The first one stays.
     const bool has_sides = found == Sides::kOutward || found == Sides::kInward;
     const bool is_first = layers.empty() || layers.front() > triangle_;
@@ -254,14 +248,13 @@ class TriangleCutter::Task {
   std::array<Vector3d, 3> corners_;
   Vector3d normal_, u_, v_;
   std::vector<Other> others_;  ///< ascending
-  Limits left_;
-  bool out_of_steps_ = false;
+  Cost most_, cost_;
+  bool costs_too_much_ = false;
   bool doubtful_ = false;  ///< another triangle is nearly a layer
 };
 
-std::vector<SurfacePart> TriangleCutter::parts(int triangle, const std::vector<int>& others,
-                                               const Limits& limits) const {
-  return Task(*this, triangle, limits).run(others).value_or(std::vector<SurfacePart>());
+TriangleCutter::Result TriangleCutter::parts(int triangle, const std::vector<int>& others, const Cost& most) const {
+  return Task(*this, triangle, most).run(others);
 }
 
 }  // namespace sdf_ccd

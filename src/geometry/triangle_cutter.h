@@ -26,14 +26,18 @@ class TriangleCutter {
                  const SurfaceTolerance& tolerance)
       : mesh_(mesh), tolerance_(tolerance), test_(tree, interior, tolerance) {}
 
-  /// What a triangle may cost at most; empty parts if that does not do.
-  struct Limits {
-    std::size_t steps;   ///< in each of which one other is compared with one part
-    std::size_t visits;  ///< of nodes and triangles of which winding numbers are summed
+  /// What a triangle costs, or may cost at most.
+  struct Cost {
+    std::size_t steps = 0;   ///< in each of which one other is compared with one part
+    std::size_t visits = 0;  ///< of nodes and triangles to tell parts' sides
   };
-  /// Parts that cover the triangle; neighbours of like sides are joined where one cut has made them.
+  struct Result {
+    std::vector<SurfacePart> parts;  ///< that cover the triangle; none if it may not cost enough
+    Cost cost;
+  };
+  /// Neighbouring parts of like sides are joined where one cut has made them.
   /// @param others  that cut it or lie on it, ascending.
-  std::vector<SurfacePart> parts(int triangle, const std::vector<int>& others, const Limits& limits) const;
+  Result parts(int triangle, const std::vector<int>& others, const Cost& most) const;
 
  private:
   class Task;

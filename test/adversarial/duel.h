@@ -37,6 +37,9 @@ class Duel {
  public:
   Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& monitor);
 
+  /// Besides, two boxes far away that jump every cycle: their pair takes the time of a cycle that has none.
+  static Duel inCompany(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& monitor);
+
   const Actor& a() const { return a_; }
   const Actor& b() const { return b_; }
   const Scene& scene() const { return monitor_->scene(); }
@@ -48,13 +51,18 @@ class Duel {
   /// Forgets clearances, checks the motion and judges the verdict. `motion` has two bodies.
   const PairResult& play(const CycleMotion& motion, Tally& tally);
 
+  /// Checks the motion, with what is known since the last one. In company: `has_time` is false of a cycle in which one
+  /// pair alone is tested.
+  const PairResult& follow(const CycleMotion& motion, bool has_time = true);
+
   /// Judges what the monitor said about a motion: by the pair's span of it.
   /// @param what  how to see it again.
   void judge(const CycleMotion& motion, const PairResult& result, const std::string& what, Tally& tally) const;
 
   /// The same where the bodies move otherwise than by constant twists between the motion's poses.
+  /// @param off  how far both may be from where the monitor was told they are, together [m].
   void judge(const PairMotion& solid, const PairMotion& outer, const PairResult& result, const std::string& what,
-             Tally& tally) const;
+             Tally& tally, Real off = 0) const;
 
   /// Least separation of the solids over the pair's span [m], as near as wanted.
   LeastValue least(const CycleMotion& motion, const WaypointSpan& span, const LeastOptions& options) const;
@@ -66,9 +74,12 @@ class Duel {
                const std::function<void(const Vector3d&)>& shift) const;
 
  private:
+  Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& monitor, bool in_company);
   PairMotion motionOf(const CycleMotion& motion, const WaypointSpan& span, bool outer) const;
   void judgeClear(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
-  void judgeNear(const PairMotion& outer, const PairResult& result, const std::string& what, Tally& tally) const;
+  void judgePostponed(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
+  void judgeNear(const PairMotion& outer, const PairResult& result, Real off, const std::string& what,
+                 Tally& tally) const;
   void judgeContact(const PairMotion& outer, const PairResult& result, const std::string& what, Tally& tally) const;
   void judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const;
   Real rounding(const PairMotion& motion) const;
@@ -76,6 +87,8 @@ class Duel {
   Actor a_, b_;
   std::unique_ptr<Monitor> monitor_;
   double bound_ = 0.0, size_ = 0.0;
+  bool in_company_;
+  long cycles_ = 0;
 };
 
 /// Poses of both bodies evenly over a second.

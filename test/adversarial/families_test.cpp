@@ -59,6 +59,36 @@ TEST(Oracle, LeastValueIsBracketed) {
   EXPECT_LE(double(least.high - least.low), 1e-6);
 }
 
+TEST(Oracle, NowhereInAMotionAreBodiesNearerThanItsLeast) {
+  Random random(5);
+  const Pieces a{convexOf(boxMesh({0.5, 0.3, 0.1})), convexOf(translated(boxMesh({0.1, 0.1, 0.4}), {0.6, 0, 0.2}))};
+  const Pieces b{convexOf(boxMesh({0.2, 0.2, 0.2})), ball(0.3)};
+  for (int i = 0; i < 40; ++i) {
+    const double angle = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 1e-3 : 2.0;
+    const Isometry3d X_WA = pose(random, 3.0, 0.8), X_WB = pose(random, 3.0, 0.8);
+    const PairMotion motion(a, b, {0.0, 1.0}, {X_WA, X_WA * pose(random, angle, 0.5)},
+                            {X_WB, X_WB * pose(random, angle, 0.5)});
+    const LeastValue least = motion.least({1e-4L});
+    EXPECT_LE(double(least.high - least.low), 1e-4);
+    EXPECT_NEAR(double(motion.at(least.at).value), double(least.high), 1e-15);
+    for (int k = 0; k <= 2000; ++k) EXPECT_GE(double(motion.at(k / 2000.0L).value - least.low), -1e-15);
+  }
+}
+
+TEST(Oracle, SlidingAlongAFaceNeedsNoSearch) {
+  const Pieces box{convexOf(boxMesh({1, 1, 1}))};
+  Isometry3d X_WB = Isometry3d::Identity();
+  X_WB.translation() = Vector3d(-1.0, 0.3, 2.0);
+  Isometry3d X_WB_end = X_WB;
+  X_WB_end.translation().x() = 1.0;
+  const PairMotion motion(box, box, {0.0, 1.0}, {2, Isometry3d::Identity()}, {X_WB, X_WB_end});
+  LeastOptions few;
+  few.max_samples = 8;
+  const LeastValue least = motion.least(few);
+  EXPECT_EQ(double(least.low), 0.0);
+  EXPECT_EQ(double(least.high), 0.0);
+}
+
 TEST(Oracle, SweepsTellTouchFromOverlap) {
   const WholeConvex a = wholeConvexOf(boxMesh({4, 4, 4}), 1.0), b = wholeConvexOf(boxMesh({2, 2, 2}), 1.0);
   const auto at = [&](int x, int y) {

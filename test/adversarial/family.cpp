@@ -45,11 +45,8 @@ double Tally::medianBoundOverError() const {
 }
 
 std::vector<Family> families() {
-  return {{"both_move", bothMove, 4000},
-          {"degenerate", degenerate, 3000},
-          {"topology", topology, 1500},
-          {"metamorphic", metamorphic, 2000},
-          {"search", search, 4000}};
+  return {{"both_move", bothMove, 4000},      {"degenerate", degenerate, 3000}, {"topology", topology, 1500},
+          {"metamorphic", metamorphic, 2000}, {"search", search, 4000},         {"parts", parts, 6000}};
 }
 
 }  // namespace sdf_ccd::test

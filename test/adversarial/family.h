@@ -50,6 +50,7 @@ Tally degenerate(std::uint64_t seed, long cases);
 Tally topology(std::uint64_t seed, long cases);
 Tally metamorphic(std::uint64_t seed, long cases);
 Tally search(std::uint64_t seed, long cases);
+Tally parts(std::uint64_t seed, long cases);
 
 /// All that need no ROS.
 std::vector<Family> families();

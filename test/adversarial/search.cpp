@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "adversarial/drawn.h"
@@ -6,14 +7,15 @@
 #include "oracle/shapes.h"
 
 /// Hill climbing for the deepest true overlap while the monitor says CLEAR, over runs of cycles with skips, frames that
-/// come late, jumps, partial spans, spin and approach.
+/// come late, jumps, partial spans, spin and approach, motions that are off, and cycles that have no time for the pair.
 namespace sdf_ccd::test {
 namespace {
 
 constexpr int kCycles = 5;    // of a run
 constexpr int kSteps = 3;     // between given poses, of a cycle
 constexpr int kPerStep = 12;  // numbers: the twists of both bodies
-constexpr int kNumbers = 12 + kCycles * kSteps * kPerStep;
+constexpr int kErrors = 6;    // numbers: how far the bodies are from where the motion has them
+constexpr int kNumbers = 12 + kCycles * kSteps * kPerStep + kErrors;
 constexpr int kPatience = 60;  // tries without gain before the search begins anew
 constexpr double kLargestAngle = 3.0;
 
@@ -22,14 +24,18 @@ enum class Arrival { kAll, kNone, kFirstStep, kLastSteps, kJump };
 
 /// What the search changes.
 struct Genes {
-  std::vector<double> numbers;    ///< both poses at the start, then twists
+  std::vector<double> numbers;    ///< both poses at the start, twists, and errors
   std::vector<Arrival> arrivals;  ///< per cycle
+  std::vector<char> in_time;      ///< per cycle: whether there is time for the pair
+  bool is_exact = true;           ///< the errors are zero
 
   static Genes random(Random& random) {
     Genes genes;
     const double calm = logUniform(random, 0.01, 1.0);
     for (int i = 0; i < kNumbers; ++i) genes.numbers.push_back(uniform(random, -1.0, 1.0) * (i < 12 ? 1.0 : calm));
     for (int c = 0; c < kCycles; ++c) genes.arrivals.push_back(Arrival(random() % 8 < 4 ? 0 : 1 + random() % 4));
+    for (int c = 0; c < kCycles; ++c) genes.in_time.push_back(random() % 2 != 0);
+    genes.is_exact = random() % 2 != 0;
     return genes;
   }
 
@@ -40,6 +46,8 @@ struct Genes {
       if (all || random() % 16 == 0) x += size * uniform(random, -1.0, 1.0);
     for (Arrival& arrival : genes.arrivals)
       if (random() % 20 == 0) arrival = Arrival(random() % 5);
+    for (char& in_time : genes.in_time)
+      if (random() % 20 == 0) in_time = in_time == 0;
     return genes;
   }
 };
@@ -91,6 +99,17 @@ std::vector<CycleMotion> cyclesOf(const Genes& genes, double reach) {
   return cycles;
 }
 
+/// Where the bodies are all the time from where the motion has them [m].
+std::array<Vector3d, 2> errorsOf(const Genes& genes) {
+  constexpr double kLargest = 3e-3;
+  std::array<Vector3d, 2> errors;
+  for (int b = 0; b < 2; ++b) {
+    const double* own = genes.numbers.data() + kNumbers - kErrors + 3 * b;
+    errors[b] = genes.is_exact ? Vector3d::Zero() : Vector3d(kLargest * Vector3d(own[0], own[1], own[2]));
+  }
+  return errors;
+}
+
 class Climb {
  public:
   Climb(Duel& duel, Tally& tally) : duel_(duel), tally_(tally) {}
@@ -99,9 +118,14 @@ class Climb {
   Real value(const Genes& genes) {
     Real deepest = -std::numeric_limits<Real>::infinity();
     duel_.monitor().reset();
-    for (const CycleMotion& motion : cyclesOf(genes, 0.5 * duel_.size())) {
-      const PairResult& result = duel_.monitor().run(motion, {false, 0}).pairs.at(0);
+    const std::array<Vector3d, 2> errors = errorsOf(genes);
+    auto in_time = genes.in_time.begin();
+    for (CycleMotion& motion : cyclesOf(genes, 0.5 * duel_.size())) {
+      for (const Vector3d& error : errors) motion.motion_error.push_back((1.0 + 1e-12) * error.norm());
+      const PairResult& result = duel_.follow(motion, *in_time++ != 0);
       if (result.span.empty()) continue;
+      for (int b = 0; b < 2; ++b)
+        for (Isometry3d& X : motion.X_WB[b]) X.translation() += errors[b];
       const long before = tally_.false_clear;
       duel_.judge(motion, result, duel_.name(), tally_);
       if (result.verdict != Verdict::kClear) continue;
@@ -130,10 +154,11 @@ std::vector<Duel> duels() {
   MonitorOptions options;
   options.chords.tolerance = 2e-4;
   std::vector<Duel> all;
-  all.emplace_back(boxActor(arm, reach), boxActor(arm, reach), scene, options);
-  all.emplace_back(convexActor("block", boxMesh({0.15, 0.1, 0.01})), boxActor({0.05, 0.04, 0.03}), scene, options);
-  all.emplace_back(sleeve(), mapAndPost(), scene, options);
-  all.emplace_back(paddedBin(), rod(), scene, options);
+  const auto add = [&](const Actor& a, const Actor& b) { all.push_back(Duel::inCompany(a, b, scene, options)); };
+  add(boxActor(arm, reach), boxActor(arm, reach));
+  add(convexActor("block", boxMesh({0.15, 0.1, 0.01})), boxActor({0.05, 0.04, 0.03}));
+  add(sleeve(), mapAndPost());
+  add(paddedBin(), rod());
   return all;
 }
 

@@ -1,7 +1,10 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 
+#include <algorithm>
 #include <ostream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -224,6 +227,48 @@ INSTANTIATE_TEST_SUITE_P(
                       Expected{"robots/example-robot-data/robots/ur_description/meshes/ur5/collision/wrist3.stl", 5, 0,
                                true, 1.38e-4}),
     test::ParameterName());
+
+/// Sides of unit cells that lie between one that is taken and one that is not.
+TriangleMesh boundaryOf(const std::vector<Vector3i>& cells) {
+  TriangleMesh mesh;
+  for (const Vector3i& cell : cells) {
+    const Vector3d center = cell.cast<double>() + Vector3d::Constant(0.5);
+    for (int face = 0; face < 6; ++face) {
+      Vector3d out = Vector3d::Zero();
+      out[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+      if (std::count(cells.begin(), cells.end(), Vector3i(cell + out.cast<int>())) > 0) continue;
+      const Vector3d across = 0.5 * Vector3d(out.y(), out.z(), out.x()), up = out.cross(across);
+      const int first = static_cast<int>(mesh.vertices.size());
+      for (const auto& [i, k] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+        mesh.vertices.push_back(center + 0.5 * out + i * across + k * up);
+      mesh.triangles.emplace_back(first, first + 1, first + 2);
+      mesh.triangles.emplace_back(first, first + 2, first + 3);
+    }
+  }
+  return welded(mesh);
+}
+
+/// The block's corner is cut out, or a part of its own that somebody has drawn inside out.
+TEST(MeshQuality, WallsThatCloseOffACornerAreDoubtful) {
+  std::vector<Vector3i> block;
+  for (int i = 0; i < 8; ++i) block.emplace_back(i % 2, i / 2 % 2, i / 4);
+  const TriangleMesh corner = boundaryOf({{1, 1, 1}});
+  EXPECT_TRUE(orientOutward(boundaryOf(block)).quality.sign_trusted);
+  EXPECT_TRUE(orientOutward(merged(boundaryOf(block), corner)).quality.sign_trusted);
+  const MeshQuality quality = orientOutward(merged(boundaryOf(block), flipped(corner))).quality;
+  EXPECT_TRUE(quality.doubtful);
+  EXPECT_FALSE(quality.sign_trusted);
+}
+
+TEST(MeshQuality, APaneInAFrameIsNotDoubtful) {
+  std::vector<Vector3i> frame;
+  for (int i = 0; i < 9; ++i)
+    if (i != 4) frame.emplace_back(i % 3, i / 3, 0);
+  TriangleMesh pane{{{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const MeshQuality quality = orientOutward(merged(boundaryOf(frame), merged(pane, flipped(pane)))).quality;
+  EXPECT_EQ(quality.wall_triangles, 4);
+  EXPECT_TRUE(quality.sign_trusted);
+}
 
 }  // namespace
 }  // namespace sdf_ccd

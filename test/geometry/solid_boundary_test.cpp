@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include "common/processor_time.h"
 #include "geometry/triangle.h"
 #include "oracle/box_union.h"
 #include "oracle/drawn_meshes.h"
@@ -161,6 +163,45 @@ TEST(Solid, WhatTellingTheSidesOfPiecesCostsIsLimitedToo) {
   EXPECT_LT(all.doubtful_area, 0.2);
   EXPECT_GT(some.doubtful_area, 0.5);
   EXPECT_LT(some.pieces, all.pieces / 2);
+}
+
+TEST(Solid, FewTrianglesThatManyCutAreToldAmongManyThatFewCut) {
+  constexpr int kBars = 12;
+  constexpr double kHalf = 0.01, kThick = 0.02, kLong = 0.2;  // of a bar; of the plate; of a bar
+  std::vector<OrientedBox> boxes = {boxAt({0, 0, 0}, {0.5, 0.5, kThick / 2})};
+  for (int i = 0; i < kBars; ++i) {
+    for (int k = 0; k < kBars; ++k)
+      boxes.push_back(boxAt({0.07 * i - 0.4, 0.071 * k - 0.4, 0}, {kHalf, kHalf, kLong / 2}));
+  }
+  SolidLimits limits;
+  limits.steps = 3'000'000;  // about 2,600 for each of the triangles that are cut; the plate's need far more
+  const Solid solid(test::meshOf(boxes), limits);
+  const double end = 4 * kHalf * kHalf, sides = 8 * kHalf * (kLong - kThick);
+  EXPECT_EQ(solid.report().doubtful, 0);
+  EXPECT_NEAR(surfaceArea(solid.boundary()), 2 + 4 * kThick + kBars * kBars * sides, 1e-9);
+  EXPECT_NEAR(signedVolume(solid.boundary()), kThick + kBars * kBars * end * (kLong - kThick), 1e-9);
+}
+
+TEST(Solid, WhatCannotBeToldTakesNoLongerThanTheLimit) {
+  // Each needle crosses all others near the middle: a million pieces, of which each needs all triangles.
+  Random random(3);
+  TriangleMesh needles;
+  for (int i = 0; i < 120; ++i) {
+    Isometry3d X(Eigen::Quaterniond(Eigen::AngleAxisd(3.0 * i, test::direction(random))));
+    X.translation() = 0.005 * test::direction(random);
+    needles = merged(needles, transformed(test::boxMesh({0.5, 0.01, 0.01}), X));
+  }
+  const auto secondsWith = [&](std::size_t visits) {
+    SolidLimits limits;
+    limits.visits = visits;
+    const double start = threadSeconds();
+    const Solid solid(needles, limits);
+    EXPECT_NE(warning(solid.report()), "");
+    return threadSeconds() - start;
+  };
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const double least = secondsWith(1);
+  EXPECT_LT(secondsWith(200'000) - least, 0.2 * (secondsWith(20'000'000) - least));
 }
 
 /// Boxes that lie on each other, share edges, are nearly so, or are turned by next to nothing.

@@ -181,15 +181,20 @@ Separation separation(const Convex& a, const LongPose& X_WA, const Convex& b, co
   return best;
 }
 
-Separation separation(const Pieces& a, const LongPose& X_WA, const Pieces& b, const LongPose& X_WB) {
+Separation separation(const Pieces& a, const LongPose& X_WA, const Pieces& b, const LongPose& X_WB,
+                      const VisitPair& visit) {
   Separation least{std::numeric_limits<Real>::infinity(), Vector3l::UnitX()};
   for (const Convex& piece_a : a) {
     const Vector3l center = X_WA * piece_a.center;
     for (const Convex& piece_b : b) {
       const Vector3l apart = X_WB * piece_b.center - center;
-      const Real balls = apart.norm() - piece_a.radius - piece_b.radius;
-      if (balls >= least.value) continue;
+      const Real length = apart.norm(), balls = length - piece_a.radius - piece_b.radius;
+      if (balls >= least.value) {
+        if (visit) visit(piece_a, piece_b, {balls, length > 0 ? Vector3l(apart / length) : Vector3l::UnitX()});
+        continue;
+      }
       const Separation found = separation(piece_a, X_WA, piece_b, X_WB);
+      if (visit) visit(piece_a, piece_b, found);
       if (found.value < least.value) least = found;
     }
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "oracle/long_screw.h"
@@ -39,8 +41,13 @@ struct Separation {
 /// moving B by that much, but not less, ends the overlap.
 Separation separation(const Convex& a, const LongPose& X_WA, const Convex& b, const LongPose& X_WB);
 
+/// Pieces, and how far they are apart along an axis at least [m].
+using VisitPair = std::function<void(const Convex& a, const Convex& b, const Separation& at_least)>;
+
 /// The least over all pairs of pieces. Pieces whose balls are farther apart than another pair's are not looked at.
-Separation separation(const Pieces& a, const LongPose& X_WA, const Pieces& b, const LongPose& X_WB);
+/// @param visit  called for all pairs, if given; where the pieces' balls tell enough, with what these tell.
+Separation separation(const Pieces& a, const LongPose& X_WA, const Pieces& b, const LongPose& X_WB,
+                      const VisitPair& visit = {});
 
 /// Distance of the surfaces [m]; exact, edge against edge and corner against face, unless they cross.
 Real surfaceDistance(const Pieces& a, const LongPose& X_WA, const Pieces& b, const LongPose& X_WB);

@@ -23,11 +23,15 @@ struct LeastOptions {
   int max_samples = 20000;
 };
 
-/// Least value over [from, to] of a function that changes by no more than `rate` per unit: intervals are halved, those
-/// that may hold less first (Piyavskii 1972).
-/// @param f  Real(Real); where it understates the function that has the rate, `low` still holds.
+/// A function's value in the middle of an interval, and what it is nowhere less than in all of it.
+struct LeastSample {
+  Real value, low;
+};
+
+/// Least value over [from, to]: intervals are halved, those that may hold less first (Piyavskii 1972).
+/// @param sample  LeastSample(Real middle, Real half): of [middle − half, middle + half].
 template <class F>
-LeastValue leastValue(const F& f, Real from, Real to, Real rate, const LeastOptions& options) {
+LeastValue leastOfSamples(const F& sample, Real from, Real to, const LeastOptions& options) {
   struct Interval {
     Real low, middle, half;
     bool operator<(const Interval& other) const { return low > other.low; }
@@ -36,16 +40,16 @@ LeastValue leastValue(const F& f, Real from, Real to, Real rate, const LeastOpti
   std::priority_queue<Interval> queue;
   int samples = 0;
   const auto add = [&](Real middle, Real half) {
-    const Real value = f(middle);
+    const LeastSample found = sample(middle, half);
     ++samples;
-    if (value < least.high) {
-      least.high = value;
+    if (found.value < least.high) {
+      least.high = found.value;
       least.at = middle;
     }
-    queue.push({value - rate * half, middle, half});
+    queue.push({found.low, middle, half});
   };
   for (const Real end : {from, to}) {  // the ends themselves: what only touches there is seen
-    const Real value = f(end);
+    const Real value = sample(end, 0).value;
     if (value >= least.high) continue;
     least.high = value;
     least.at = end;
@@ -60,6 +64,17 @@ LeastValue leastValue(const F& f, Real from, Real to, Real rate, const LeastOpti
     add(first.middle - first.half / 2, first.half / 2);
     add(first.middle + first.half / 2, first.half / 2);
   }
+}
+
+/// The same of a function that changes by no more than `rate` per unit.
+/// @param f  Real(Real); where it understates the function that has the rate, `low` still holds.
+template <class F>
+LeastValue leastValue(const F& f, Real from, Real to, Real rate, const LeastOptions& options) {
+  const auto sample = [&](Real middle, Real half) {
+    const Real value = f(middle);
+    return LeastSample{value, value - rate * half};
+  };
+  return leastOfSamples(sample, from, to, options);
 }
 
 }  // namespace sdf_ccd::test

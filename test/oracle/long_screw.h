@@ -56,7 +56,13 @@ class LongScrew {
   }
 
   /// |ω × p + v|: the same all along [m per unit of s].
-  Real speed(const Vector3l& p_B) const { return (omega_.cross(p_B) + velocity_).norm(); }
+  Real speed(const Vector3l& p_B) const { return velocity(p_B).norm(); }
+
+  /// Of a point, in the body's frame [m per unit of s].
+  Vector3l velocity(const Vector3l& p_B) const { return omega_.cross(p_B) + velocity_; }
+
+  /// Of the rotation [rad per unit of s].
+  Real turningSpeed() const { return omega_.norm(); }
 
  private:
   /// ∫₀ˢ exp(u ω) du.

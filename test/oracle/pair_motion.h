@@ -26,7 +26,7 @@ class PairMotion {
   /// A step from one time to another: where the bodies are at a share s of it, and speeds that no point of theirs
   /// exceeds, per unit of s [m].
   void add(Real start, Real end, const LongPath& a, const LongPath& b, Real rate) {
-    steps_.push_back({start, end, a, b, rate});
+    steps_.push_back({start, end, a, b, rate, {}});
   }
 
   Real begin() const { return steps_.front().start; }
@@ -40,8 +40,8 @@ class PairMotion {
   LeastValue least(const LeastOptions& options) const {
     LeastValue all{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), 0};
     for (const Step& step : steps_) {
-      const auto value = [&](Real s) { return separation(*a_, step.a(s), *b_, step.b(s)).value; };
-      const LeastValue found = leastValue(value, 0, 1, step.rate, options);
+      const auto sample = [&](Real middle, Real half) { return sampleOf(step, middle, half); };
+      const LeastValue found = leastOfSamples(sample, 0, 1, options);
       all.low = std::min(all.low, found.low);
       if (found.high >= all.high) continue;
       all.high = found.high;
@@ -55,12 +55,50 @@ class PairMotion {
     Real start, end;
     LongPath a, b;
     Real rate;
+    std::vector<LongScrew> screws;  ///< that a and b follow; empty if they do not
   };
 
   void addScrews(Real start, Real end, const LongScrew& a, const LongScrew& b) {
     add(
         start, end, [a](Real s) { return a.pose(s); }, [b](Real s) { return b.pose(s); },
         fastest(*a_, a) + fastest(*b_, b));
+    steps_.back().screws = {a, b};
+  }
+
+  /// Nothing changes by more than the rate; and along an axis that separates two pieces by a gap g, or overlaps them by
+  /// −g, the gap changes no faster than the points move along it now, and by what their motion may turn.
+  LeastSample sampleOf(const Step& step, Real middle, Real half) const {
+    const LongPose X_WA = step.a(middle), X_WB = step.b(middle);
+    Real low = std::numeric_limits<Real>::infinity();
+    const auto visit = [&](const Convex& a, const Convex& b, const Separation& pair) {
+      Real least = pair.value - step.rate * half;
+      if (!step.screws.empty() && !a.is_ball && !b.is_ball) {
+        const Range along_a = speeds(a, step.screws[0], X_WA, pair.axis_W);
+        const Range along_b = speeds(b, step.screws[1], X_WB, pair.axis_W);
+        const Real closing = std::max({along_a.high - along_b.low, along_b.high - along_a.low, Real(0)});
+        least = std::max(least, pair.value - closing * half - (along_a.turn + along_b.turn) * half * half / 2);
+      }
+      low = std::min(low, least);
+    };
+    const Real value = separation(*a_, X_WA, *b_, X_WB, visit).value;
+    return {value, low};
+  }
+
+  /// How fast a piece's points move along an axis, from low to high; and by how much that changes at most.
+  struct Range {
+    Real low = std::numeric_limits<Real>::infinity(), high = -low, turn = 0;
+  };
+
+  static Range speeds(const Convex& piece, const LongScrew& screw, const LongPose& X, const Vector3l& axis_W) {
+    const Vector3l axis = X.R.transpose() * axis_W;
+    Range range;
+    for (const Vector3l& p : piece.corners) {
+      const Vector3l velocity = screw.velocity(p);
+      range.low = std::min(range.low, axis.dot(velocity));
+      range.high = std::max(range.high, axis.dot(velocity));
+      range.turn = std::max(range.turn, screw.turningSpeed() * velocity.norm());
+    }
+    return range;
   }
 
   /// The speed is convex in the place, so it is greatest at a corner.
