@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <stdexcept>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -57,7 +59,7 @@ class BodyBuilder {
 
   const std::string& warning() const { return warning_; }
 
-  std::shared_ptr<const TriangleTree> doubtful() const { return doubtfulSurface(description_, pool_); }
+  Doubt doubt() const { return doubtOf(description_, pool_); }
 
   std::vector<BodyPart> makeParts(const Progress& progress) {
     std::vector<BodyPart> parts;
@@ -92,7 +94,7 @@ class BodyBuilder {
   }
 
   PointShell makeShell(const std::vector<BodyPart>& parts, const BodyNeeds& needs) {
-    std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings have them in any case
+    std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings always have them
     primitives.reserve(meshes_.size());
     std::vector<ShellPart> shells;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
@@ -110,7 +112,7 @@ class BodyBuilder {
     return unionShell(shells);
   }
 
-  /// Of all geometry but half-spaces, which lie inside no body.
+  /// Of all geometry except half-spaces, which are inside no body.
   PointShell makeWitnesses() const {
     PointShell all;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
@@ -153,7 +155,7 @@ class BodyBuilder {
     return std::get<Primitive>(geometry.shape);
   }
 
-  /// Says what closes an open mesh.
+  /// Describes the caps that close an open mesh.
   void noteCaps(const GeometryDescription& geometry, const PooledMesh& mesh) {
     const OpeningCaps* caps = mesh.field->openings();
     if (!caps) return;
@@ -173,8 +175,8 @@ class BodyBuilder {
   std::string warning_;
 };
 
-/// The shell's points span the surface's hull, where that is not curved; to nowhere on it is it farther from one of
-/// them than the covering radius (of edges alone, which have none, the corners span it).
+/// The hull of the shell's points, where the surface is not curved, contains the surface: no location is farther from
+/// one of them than the covering radius (edges alone have none; there the corners span the surface).
 BoundingBall surfaceBall(const Body& body) {
   if (body.shell->size() == 0) return motionBall(body);
   BoundingBall ball = boundingBall(body.shell);
@@ -184,7 +186,9 @@ BoundingBall surfaceBall(const Body& body) {
 
 void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
   body.warning = builder.warning();
-  body.doubtful = builder.doubtful();
+  const Doubt doubt = builder.doubt();
+  body.doubtful = doubt.of_outside;
+  body.inside_is_doubtful = doubt.of_inside;
   if (needs.field) body.parts = builder.makeParts(progress);
   if (needs.witnesses) {
     PointShell witnesses = builder.makeWitnesses();
@@ -229,6 +233,7 @@ BuiltBody buildOwnBody(const BodyDescription& description, const BodyNeeds& need
   body.frame = description.frame;
   body.X_frame_B = description.X_frame_B;
   body.is_world = description.is_world;
+  body.map = description.map;
   body.failure = description.failure;
   built.report.name = description.name;
   built.report.field = "left out";
@@ -249,7 +254,20 @@ BuiltBody buildOwnBody(const BodyDescription& description, const BodyNeeds& need
   return built;
 }
 
-/// What a body is made of and with; names of meshes too, which warnings tell.
+template <class T>
+void appendTo(std::string& key, const T& number) {
+  static_assert(std::is_arithmetic_v<T>);
+  key.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+/// An absent number differs from zero.
+template <class T>
+void appendTo(std::string& key, const std::optional<T>& number) {
+  appendTo(key, number.has_value());
+  if (number) appendTo(key, *number);
+}
+
+/// Geometry and options of a body, with the names of meshes, which warnings contain.
 std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options) {
   const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache,
                exact_depths, is_shared, max_error, is_shared_out] = options;
@@ -258,31 +276,12 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
   const auto& [spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points] = shell_options;
   const auto& [field, shell, edges_only, decides, witnesses] = needs;
-  const double numbers[] = {double(cells.value_or(0)),
-                            cell_size.value_or(0.0),
-                            field_error.value_or(0.0),
-                            band,
-                            double(max_bytes),
-                            spacing,
-                            edge_gap,
-                            double(has_siblings),
-                            vertex_spacing,
-                            double(seed),
-                            double(max_points),
-                            points_across,
-                            cells_across,
-                            motion_margin,
-                            motion_error,
-                            double(exact_depths),
-                            max_error.value_or(0.0),
-                            double(is_shared_out),
-                            double(field),
-                            double(shell),
-                            double(edges_only),
-                            double(decides),
-                            double(witnesses)};
   std::string key = GeometryKeys().keyOf(description);
-  key.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  const auto add = [&](const auto&... values) { (appendTo(key, values), ...); };
+  add(cells, cell_size, field_error, band, max_bytes);
+  add(spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points);
+  add(points_across, cells_across, motion_margin, motion_error, exact_depths, max_error, is_shared_out);
+  add(field, shell, edges_only, decides, witnesses);
   for (const GeometryDescription& geometry : description.geometry) key += geometry.source + '\n';
   return key;
 }
@@ -308,13 +307,19 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
   mine.body.frame = description.frame;
   mine.body.X_frame_B = description.X_frame_B;
   mine.body.is_world = description.is_world;
-  if (was_known && mine.report.field != "exact" && mine.report.field != "left out") mine.report.field = "shared";
+  mine.body.map = description.map;
+  if (was_known) countAsShared(mine.report);
   return mine;
 }
 
+void countAsShared(BodyReport& report) {
+  if (report.field != "exact" && report.field != "left out") report.field = "shared";
+  report.field_bytes = report.shell_bytes = 0;
+}
+
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool) {
-  // Deviation of a primitive's triangles, over its least size, and over its largest: a disc of no thickness has one
-  // too.
+  // Deviation of a primitive's triangles, relative to its smallest and to its largest dimension: also defined for a
+  // disc without thickness.
   constexpr double kFineOfSize = 1e-3, kFineOfLargest = 1e-6;
   TriangleMesh all;
   double deviation = 0.0;

@@ -9,12 +9,12 @@
 
 namespace sdf_ccd {
 
-/// What of a body is to be made.
+/// Parts of a body to build.
 struct BodyNeeds {
   bool field = true;
   bool shell = true;
-  bool edges_only = false;  ///< the body is one box, of whose shell no pair needs more
-  bool decides = true;      ///< some verdict rests on the shell: no primitive's may have fewer points, if it is large
+  bool edges_only = false;  ///< the body is one box, and no pair needs more of its shell
+  bool decides = true;      ///< some verdict depends on the shell: large primitives must have all points
   bool witnesses = false;
 
   bool any() const { return field || shell || witnesses; }
@@ -23,8 +23,8 @@ struct BodyNeeds {
 /// Why no shell can cover the body's surface; empty if one can.
 std::string whyNoShell(const BodyDescription& body);
 
-/// Whether it has no shell, for the sake of its voxels or half-spaces, and yet some geometry that may lie wholly inside
-/// another body, in many pieces.
+/// Whether it has no shell because of its voxels or half-spaces, but has geometry that may lie completely inside
+/// another body, in many components.
 bool needsWitnesses(const BodyDescription& body);
 
 struct BuiltBody {
@@ -32,16 +32,19 @@ struct BuiltBody {
   BodyReport report;
 };
 
-/// Builds, or takes from the cache, what is needed of a body; meshes of equal content once for all bodies of a pool. If
-/// that cannot be, Body::failure says why. Body::surface is left out: see surfaceOf().
+/// Builds, or reads from the cache, what is needed of a body; meshes of equal content once for all bodies of a pool. If
+/// this fails, Body::failure says why. Body::surface is left out: see surfaceOf().
 ///
-/// Shell points deeper inside a sibling part than the covering radius are left out. The radius stays true for the
-/// union: a location q of its surface is outside the sibling, so (distances being 1-Lipschitz) the point nearest to q
-/// is no deeper in it than the radius, and kept. Kept points inside a sibling stand for no area. Siblings that are
-/// meshes count only where their field is built and their sign is trusted.
-/// @param progress  called with the share of the body's fields done.
+/// Shell points deeper inside a sibling part than the covering radius are left out. The radius stays
+/// valid for the union: a location q of its surface is outside the sibling, so (distances being
+/// 1-Lipschitz) the nearest point to q is no deeper in it than the radius, and is kept. Kept points
+/// inside a sibling have no area. Siblings that are meshes count only if their field is built and their
+/// sign is reliable.
 BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                     MeshPool& pool, const Progress& progress);
+
+/// Has a report say that the body is made of what another one holds, and takes no memory of its own.
+void countAsShared(BodyReport& report);
 
 /// The triangles of a body's geometry; null where it has none.
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool);

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// How deep a point is inside other parts, at least; negative if it may be outside of all of them [m].
+/// Lower bound of the depth of a point inside other parts; negative if it may be outside of all of them [m].
 double knownDepth(const std::vector<ShellPart>& parts, std::size_t own, const Vector3d& p_B) {
   double depth = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -21,8 +21,8 @@ double knownDepth(const std::vector<ShellPart>& parts, std::size_t own, const Ve
   return depth;
 }
 
-/// Sets the radii of the whole. A part whose points cover it as finely as edges are sampled is all edges, and flat:
-/// what meets it is within its covering radius of a point, and off by the other body's flatness alone, whereas
+/// Sets the radii of the union. A part whose points cover it as densely as edges are sampled consists of edges, and is
+/// flat: contact with it is within its covering radius of a point, plus the flatness of the other body only, whereas
 /// contactGap() adds twice the flatness of both.
 void setRadii(const std::vector<ShellPart>& parts, PointShell& all) {
   double covering = 0.0;

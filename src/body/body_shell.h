@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// A part's shell, and its field if that knows what lies inside it.
+/// A part's shell, and its field if that gives a reliable sign.
 struct ShellPart {
   Isometry3d X_BG;
   PointShell shell;            ///< frame G
@@ -16,10 +16,10 @@ struct ShellPart {
 /// The shell of all parts together, frame B, without the points deep inside other parts (see buildBody()).
 ///
 /// contactGap() holds for it, also where parts overlap and their surfaces meet in seams that are no edges of theirs:
-/// of what bodies A and B have in common take an extreme point x of the convex hull. A part that has x inside, or on a
-/// flat piece, holds a plane through x nearby, and two planes share a line through x, of which no extreme point is the
-/// middle. So x lies on an edge of every part of A that it touches and inside none, or so of B; and as no sibling has x
-/// inside, the point near it on that edge is not left out.
+/// take an extreme point x of the convex hull of the intersection of bodies A and B. A part with x inside, or on a flat
+/// piece, contains a plane through x nearby, and two planes share a line through x, of which no extreme point is the
+/// middle. So x lies on an edge of every part of A that it touches and inside none, or the same holds for B; as x is
+/// inside no sibling, the point near it on that edge is kept.
 PointShell unionShell(const std::vector<ShellPart>& parts);
 
 /// A small ball around all points of a shell.

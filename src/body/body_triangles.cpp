@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::size_t kMostTriangles = 500'000;
 
-/// Deviation of a cylinder's triangles: of a hundredth of the error that verdicts are meant to have [m], and of its
-/// size where that is finer than a few thousand triangles can be.
+/// Deviation of a cylinder's triangles: a hundredth of the required error of verdicts [m], or more for large cylinders,
+/// which would need more than a few thousand triangles.
 double cylinderDeviation(const Primitive& cylinder) {
   constexpr double kFine = 2e-6, kOfSize = 1e-5;
   return std::max(kFine, kOfSize * boundingBox(cylinder).sizes().maxCoeff());
 }
 
-/// The farthest along some directions; each once.
+/// The extreme vertices along some directions; each once.
 std::vector<Vector3d> farthestOut(const std::vector<Vector3d>& points) {
   std::vector<Vector3d> farthest;
   for (int x = -1; x <= 1; ++x)
@@ -100,7 +100,7 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
   for (const GeometryDescription& geometry : description.geometry) {
     if (std::holds_alternative<Primitive>(geometry.shape)) continue;
     PooledMesh& pooled = pool.find(geometry);
-    // Of a mesh that is not closed the solid's boundary is all of it, and with the caps it is closed.
+    // For a mesh that is not closed, the boundary of the solid is the whole mesh, and closed with the caps.
     if (!isClosed(pooled.mesh)) all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
   }
   made->components = std::move(all.components);

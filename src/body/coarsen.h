@@ -7,10 +7,10 @@
 
 namespace sdf_ccd {
 
-/// Makes something to a fineness [m], or to twice, four times, ... of it where it would be too large.
-/// @param make      called with the fineness; throws std::length_error where that is too fine.
-/// @param may       false: what make() throws passes through.
-/// @param warning   gets why it is coarser, if it is.
+/// Builds something with a resolution [m], or with twice, four times, ... of it if the result would be too large.
+/// @param make      called with the resolution; throws std::length_error if that is too fine.
+/// @param may       false: exceptions of make() are passed on.
+/// @param warning   set to the reason if the result is coarser.
 template <typename Make>
 auto makeCoarser(double fineness, bool may, const Make& make, std::string& warning) {
   for (double tried = fineness;; tried *= 2.0) {

@@ -5,20 +5,27 @@
 namespace sdf_ccd {
 namespace {
 
-/// Of a mesh whose faces only seem to meet, as findOpenings() tells; none of a closed one.
+/// For a mesh whose faces only seem to meet, by findOpenings(); none for a closed mesh.
 const TriangleMesh& capsOf(PooledMesh& pooled) {
   static const TriangleMesh kNone;
   return isClosed(pooled.mesh) ? kNone : SolidSource(pooled.mesh, pooled.made).closed().openings().caps;
 }
 
-bool isDoubtful(PooledMesh& pooled) {
-  if (pooled.voxels || pooled.quality.sign_trusted) return false;
-  return pooled.quality.doubtful || capsOf(pooled).triangles.empty();
+/// Whether winding numbers may cancel each other where solids are. Of a mesh that stays open which parts face outward
+/// is a guess: those that were tessellated apart beside a loose sheet may be turned against each other.
+bool mayMissSolids(const PooledMesh& pooled) {
+  return !pooled.voxels && !pooled.quality.sign_trusted;
+}
+
+/// Whether they may be there where no solid is, besides.
+bool mayFillCavities(PooledMesh& pooled) {
+  return mayMissSolids(pooled) && (pooled.quality.doubtful || capsOf(pooled).triangles.empty());
 }
 
 }  // namespace
 
-std::shared_ptr<const TriangleTree> doubtfulSurface(const BodyDescription& description, MeshPool& pool) {
+Doubt doubtOf(const BodyDescription& description, MeshPool& pool) {
+  Doubt doubt;
   TriangleMesh all;
   bool any = false;
   for (const GeometryDescription& geometry : description.geometry) {
@@ -29,12 +36,14 @@ std::shared_ptr<const TriangleTree> doubtfulSurface(const BodyDescription& descr
       part = transformed(tessellate(Box{0.5 * box.sizes()}, 1.0), Isometry3d(Eigen::Translation3d(box.center())));
     } else {
       PooledMesh& pooled = pool.find(geometry);
-      any = any || isDoubtful(pooled);
+      any = any || mayMissSolids(pooled);
+      doubt.of_inside = doubt.of_inside || mayFillCavities(pooled);
       part = pooled.voxels ? pooled.mesh : merged(pooled.mesh, capsOf(pooled));
     }
     all = merged(std::move(all), transformed(std::move(part), geometry.X_BG));
   }
-  return any ? std::make_shared<const TriangleTree>(all) : nullptr;
+  if (any) doubt.of_outside = std::make_shared<const TriangleTree>(all);
+  return doubt;
 }
 
 }  // namespace sdf_ccd

@@ -8,7 +8,12 @@
 
 namespace sdf_ccd {
 
-/// See Body::doubtful. Null where what is inside the body's meshes is certain, but for openings.
-std::shared_ptr<const TriangleTree> doubtfulSurface(const BodyDescription& description, MeshPool& pool);
+/// See Body::doubtful and Body::inside_is_doubtful.
+struct Doubt {
+  std::shared_ptr<const TriangleTree> of_outside;
+  bool of_inside = false;
+};
+
+Doubt doubtOf(const BodyDescription& description, MeshPool& pool);
 
 }  // namespace sdf_ccd

@@ -7,7 +7,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kFinest = 1e-3;  // of what follows an element's size [m]
+constexpr double kFinest = 1e-3;  // resolution by an element's size [m]
 
 double across(double area, double count, double coarsest) {
   return std::min(coarsest, std::max(kFinest, std::sqrt(area) / count));

@@ -6,13 +6,13 @@
 
 namespace sdf_ccd {
 
-/// The options of one element's shell and field, of a surface of this area [m²]: BodyOptions::shell and field, or,
-/// where they follow the element's size, finer.
-/// @param is_large  whether the points of a large element may be farther apart than shell.spacing, too.
+/// The options of the shell and field of one element with this surface area [m²]: BodyOptions::shell and field, or
+/// finer ones if they follow the element's size.
+/// @param is_large  whether points of a large element may be farther apart than shell.spacing.
 ShellOptions shellOptionsFor(const BodyOptions& options, double area, bool is_large = false);
 FieldOptions fieldOptionsFor(const BodyOptions& options, double area);
 
-/// The distance of a shell's points that says how many there are: along edges, if these are sampled apart [m].
+/// The spacing that determines the number of a shell's points: that of edges, if these are sampled separately [m].
 inline double finenessOf(const ShellOptions& shell) {
   return shell.edge_gap > 0.0 ? shell.edge_gap : shell.spacing;
 }
@@ -21,7 +21,7 @@ inline void setFineness(double fineness, ShellOptions& shell) {
   shell.spacing = std::max(shell.spacing, fineness);
 }
 
-/// Whether what would be too large is made coarser.
+/// Whether fields and shells that would be too large are made coarser.
 inline bool mayBeCoarser(const BodyOptions& options) {
   return options.is_shared_out || options.points_across > 0.0;
 }

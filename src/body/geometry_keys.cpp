@@ -52,8 +52,8 @@ std::string GeometryKeys::keyOf(const BodyDescription& body) {
     }
     append(geometry.X_BG.data(), 16, key);
     key += geometry.watertight_voxels ? 'v' : '-';
-    const double cell = geometry.cell_size.value_or(0.0);
-    append(&cell, 1, key);
+    key += geometry.cell_size ? 'c' : '-';
+    if (geometry.cell_size) append(&*geometry.cell_size, 1, key);
   }
   return key;
 }

@@ -9,8 +9,8 @@
 
 namespace sdf_ccd {
 
-/// What stands for a body's geometry: equal for equal content, wherever the body is. Meshes are read once, as long as
-/// somebody holds them.
+/// Keys of bodies' geometry: equal for equal content, whatever the pose. Meshes are hashed once, as long as they are
+/// referenced elsewhere.
 class GeometryKeys {
  public:
   std::string keyOf(const BodyDescription& body);
@@ -25,7 +25,7 @@ class GeometryKeys {
   std::unordered_map<const TriangleMesh*, Known> hashes_;
 };
 
-/// Has bodies hold those meshes of equal content that others of this process hold, who have called it too.
+/// Replaces meshes by meshes of equal content that are used elsewhere in this process and were passed here too.
 void shareMeshes(std::vector<BodyDescription>& bodies);
 
 }  // namespace sdf_ccd

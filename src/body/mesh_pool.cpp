@@ -21,7 +21,8 @@ constexpr int kWidestBand = 32;  // cells
 PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   const TriangleMesh& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
   const bool voxels = geometry.watertight_voxels;
-  const std::string hash = contentHash(mesh, {double(voxels), geometry.cell_size.value_or(0.0)});
+  const std::string hash =
+      contentHash(mesh, {double(voxels), double(geometry.cell_size.has_value()), geometry.cell_size.value_or(0.0)});
   const auto known = meshes_.find(hash);
   if (known != meshes_.end()) return known->second;
   PooledMesh pooled;

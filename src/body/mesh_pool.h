@@ -13,18 +13,18 @@
 
 namespace sdf_ccd {
 
-/// A mesh of the scene and what was made of it.
+/// A mesh of the scene and the data built from it.
 struct PooledMesh {
-  TriangleMesh mesh;  ///< oriented, but for voxels, which are right as they come
+  TriangleMesh mesh;  ///< oriented; voxels need no orientation
   bool voxels = false;
-  std::optional<double> cell_size;  ///< of its field [m]; none: as the scene's options say
+  std::optional<double> cell_size;  ///< of its field [m]; none: that of the scene's options
   MeshQuality quality;              ///< empty for voxels
   std::optional<DistanceField> field;
-  MadeSolid made;                       ///< the solid, and that closed by caps
-  std::optional<PointShell> shells[2];  ///< of a body of its own, and beside siblings
+  MadeSolid made;                       ///< the solid, and the solid closed by caps
+  std::optional<PointShell> shells[2];  ///< as the only part of a body, and with siblings
 };
 
-/// Makes fields and shells of meshes, each once however many bodies have it (fingers, a second arm).
+/// Builds fields and shells of meshes, each once for all bodies that share the mesh (fingers, a second arm).
 class MeshPool {
  public:
   explicit MeshPool(const BodyOptions& options) : options_(options), cache_(options.cache_directory) {}
@@ -37,14 +37,14 @@ class MeshPool {
   bool isShared() const { return options_.is_shared; }
 
   struct Made {
-    bool now = false;  ///< false: it was there already, for another body
+    bool now = false;  ///< false: it existed already, for another body
     CacheOutcome outcome;
   };
-  /// How the field of a mesh is made. @throws std::invalid_argument for options that no field can have.
+  /// The options of the field of a mesh. @throws std::invalid_argument for options that no field can have.
   FieldOptions fieldOptions(const PooledMesh& mesh) const;
   ShellOptions shellOptions(const PooledMesh& mesh) const;
 
-  /// Where the options ask for more than a field or shell may cost, and let it be coarser, a coarser one is made; the
+  /// If the options require more than a field or shell may cost, and allow a coarser one, a coarser one is built; the
   /// outcome's warning says so.
   Made makeField(PooledMesh& mesh, const Progress& progress);
   Made makeShell(PooledMesh& mesh, bool has_siblings);

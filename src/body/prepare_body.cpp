@@ -30,7 +30,7 @@ Body prepareBody(const std::string& name, const TriangleMesh& mesh, const Accura
 
 Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
   BodyOptions options = optionsFor(accuracy);
-  options.is_shared_out = false;  // what cannot be had is refused, not made coarser
+  options.is_shared_out = false;  // too large means an error, not a coarser body
   MeshPool pool(options);
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();

@@ -57,7 +57,7 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
 void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
                            const ContactOptions& options, bool with_impulse) {
   bool have_poses = false;
-  is_doubtful_ = role.field().doubtful != nullptr;
+  is_doubtful_ = role.field().inside_is_doubtful;
   const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
     const BodyPart& part = role.field().parts[p];

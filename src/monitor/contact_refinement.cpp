@@ -83,7 +83,7 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
   ContactPoint point = result.deepest;
   if (search.found()) {
     const DeepestPoint& found = search.deepest();
-    const auto& [direction, motion] = ways[found.way];
+    const auto& [direction, motion] = ways[found.motion];
     const Isometry3d X_WF = motion.X_WF.pose(found.s);
     point.time = found.s == 1.0 ? motion.t_end : motion.t_start + found.s * (motion.t_end - motion.t_start);
     point.p_W = X_WF * found.p_F;

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "scene_difference.h"
-#include "tile_name.h"
 
 namespace sdf_ccd {
 namespace {
@@ -48,23 +47,27 @@ double forceWhileTouching(const ObservedCycle& cycle, const PairResult& pair) {
   return touching > 0.0 ? pair.on_a_W.force.norm() * length / touching : 0.0;
 }
 
+/// What follows the first character is the name: of a body, or of the map that it is a tile of. A body may be called as
+/// the map is.
+std::string keyOf(const Body& body) {
+  return body.map.empty() ? "b" + body.name : "m" + body.map;
+}
+
 ContactTracker::Groups groupsOf(const Scene& scene) {
   const std::size_t count = scene.pairs.size();
-  std::vector<std::string> maps;  // per body: that it is a tile of, or its own name
-  for (const Body& body : scene.bodies) maps.push_back(mapOfTile(body.name));
   ContactTracker::Groups groups;
   groups.of_pair.reserve(count);
   std::map<std::pair<std::string, std::string>, int> of_maps;
   for (const PlannedPair& pair : scene.pairs) {
-    const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
-    const std::pair<std::string, std::string> names(maps[a], maps[b]);
-    const auto next = static_cast<int>(groups.names.size());
-    const bool has_tile = maps[a] != scene.bodies[a].name || maps[b] != scene.bodies[b].name;
-    const int group = has_tile ? of_maps.emplace(names, next).first->second : next;
-    if (group == next) groups.names.push_back(names);
+    const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+    const std::pair<std::string, std::string> keys(keyOf(a), keyOf(b));
+    const auto next = static_cast<int>(groups.keys.size());
+    const bool has_tile = !a.map.empty() || !b.map.empty();
+    const int group = has_tile ? of_maps.emplace(keys, next).first->second : next;
+    if (group == next) groups.keys.push_back(keys);
     groups.of_pair.push_back(group);
   }
-  groups.begin.assign(groups.names.size() + 1, 0);
+  groups.begin.assign(groups.keys.size() + 1, 0);
   for (const int group : groups.of_pair) ++groups.begin[static_cast<std::size_t>(group) + 1];
   for (std::size_t g = 1; g < groups.begin.size(); ++g) groups.begin[g] += groups.begin[g - 1];
   groups.pairs.resize(count);
@@ -84,10 +87,10 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples) {
 ContactTracker::Change ContactTracker::prepare(const Scene& next) const {
   Change change;
   change.groups = groupsOf(next);
-  change.groups_now = findPairs(groups_.names, change.groups.names);
-  change.last.assign(change.groups.names.size(), -1);
+  change.groups_now = findPairs(groups_.keys, change.groups.keys);
+  change.last.assign(change.groups.keys.size(), -1);
   // At most one contact of each, and those that end with the pairs until now.
-  change.listed.reserve(change.groups.names.size() + 2 * groups_.names.size());
+  change.listed.reserve(change.groups.keys.size() + 2 * groups_.keys.size());
   return change;
 }
 
@@ -239,9 +242,9 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   last_[group] = index;
   Slot& slot = contacts_[index];
   TrackedContact& said = slot.said;
-  const auto& [body_a, body_b] = groups_.names[group];
-  said.body_a = body_a;
-  said.body_b = body_b;
+  const auto& [key_a, key_b] = groups_.keys[group];
+  said.body_a.assign(key_a, 1);
+  said.body_b.assign(key_b, 1);
   said.id = next_id_++;
   said.begins = true;
   said.ends = said.is_lost = said.seen_at_samples = false;

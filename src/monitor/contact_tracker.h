@@ -66,7 +66,7 @@ class ContactTracker {
 
   /// Pairs that are one here.
   struct Groups {
-    std::vector<std::pair<std::string, std::string>> names;  ///< per group: of bodies, or of a map
+    std::vector<std::pair<std::string, std::string>> keys;  ///< per group: what tells its bodies, or map, from others
     std::vector<int> of_pair;                                ///< per pair of the scene
     std::vector<int> begin;                                  ///< per group, and one more: in `pairs`
     std::vector<int> pairs;                                  ///< of one group after the other

@@ -267,7 +267,7 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
       const auto i = static_cast<std::size_t>(in_line[k].pair);
       const bool is_late = k > 0 && Clock::now() >= until;
       if (is_late) {
-        checkers[i].postpone(motion, *bodies, schedule->leftClearance(in_line[k]), result.pairs[i]);
+        checkers[i].postpone(motion, *bodies, schedule->leftClearance(in_line[k]), *taken, result.pairs[i]);
       } else {
         check(in_line[k], motion, request, *taken);
       }

@@ -93,39 +93,46 @@ bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bod
   return true;
 }
 
-void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairResult& result) {
+void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
+                           PairResult& result) {
+  memory_ = &memory;
   clear(result);
   if (!canBeChecked(motion, bodies, result)) return;
-  // Of bodies that lie in balls, no more than the smaller ball's diameter can be in the other body.
-  double most = std::numeric_limits<double>::infinity(), motion_error = givenError(motion);
-  for (const int body : {pair_.body_a, pair_.body_b}) {
-    const BoundingBall& ball = scene_.bodies[body].ball;
-    most = std::min(most, 2.0 * ball.radius);
-    motion_error += bodies.poseError(body, ball.center.norm() + ball.radius);  // of a point that lies in both
+  double apart = kUnknown;
+  if (balls_hold_) {
+    apart = ballClearance(bodies, result.span);
+    motion_error_ = 0.0;
+    for (const int body : {pair_.body_a, pair_.body_b}) {
+      const BoundingBall& ball = scene_.bodies[body].ball;
+      motion_error_ += bodies.poseError(body, ball.center.norm() + ball.radius);  // of a point that lies in both
+    }
+  } else {
+    setRoles(bodies, result.span);
+    for (const PairRole& role : roles_)
+      if (role.ballHoldsBody())
+        apart = std::max(apart, role.ballClearance(role.motion().start()) - role.motion().travel());
   }
+  motion_error_ += givenError(motion);
   result.error = bound();
-  result.error.chord = motion_error;
-  const double by_balls = ballClearance(bodies, result.span);
-  if (by_balls > margin() + motion_error) {
-    motion_error_ = motion_error;
-    remember(by_balls, motion.X_WB[pair_.body_a][result.span.last], motion.X_WB[pair_.body_b][result.span.last]);
-    setClear(by_balls, result);
+  result.error.chord = motion_error_;
+  if (balls_hold_ && apart > margin() + motion_error_) {
+    remember(apart, motion.X_WB[pair_.body_a][result.span.last], motion.X_WB[pair_.body_b][result.span.last]);
+    setClear(apart, result);
     result.skipped = outside_ = true;
     return;
   }
   result.verdict = Verdict::kUncertain;
   result.postponed = true;
   result.reason = "no time was left for it";
-  result.error.chord += std::min(most, std::max(0.0, -clearance));
+  result.error.chord += std::max(0.0, -std::max(clearance, apart));
   clearance_ = clearance;
   outside_ = false;
 }
 
-/// How far the bodies' balls stay apart all over the span, at least [m]; −∞ if they do not hold the bodies. Along a
-/// constant twist a ball's centre has the same speed all the time, so it is no farther than half its way from where it
-/// is halfway.
+/// How far the bodies' balls stay apart all over the span, at least [m]; below zero how far they overlap at most. Along
+/// a constant twist a ball's centre has the same speed all the time, so it is no farther than half its way from where
+/// it is halfway.
 double PairChecker::ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const {
-  if (!balls_hold_) return kUnknown;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = span.first; k < span.last; ++k) {
     const WorldTwist &a = bodies.twist(pair_.body_a, k), &b = bodies.twist(pair_.body_b, k);
@@ -264,8 +271,9 @@ void PairChecker::doubt(PairResult& result) {
 
 /// Whether a verdict by fields stands, for all that is doubtful about the bodies.
 bool PairChecker::isCertain(const PairResult& result) const {
-  if (surfaces_) return !surfaces_->isDoubtful();
-  if (result.verdict != Verdict::kClear) return true;  // of contacts fields say themselves what is certain
+  const bool is_clear = result.verdict == Verdict::kClear;
+  if (surfaces_) return !(is_clear ? surfaces_->isOutsideDoubtful() : surfaces_->isInsideDoubtful());
+  if (!is_clear) return true;  // of contacts fields say themselves what is certain
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const Body& other = scene_.bodies[body == pair_.body_a ? pair_.body_b : pair_.body_a];
     const bool is_bounded = other.shell->size() > 0 || other.witnesses->size() > 0;  // half-spaces lie in no body

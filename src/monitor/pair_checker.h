@@ -41,7 +41,9 @@ class PairChecker {
   /// Leaves the pair untested, over a span that is not empty: it is UNCERTAIN, or CLEAR if the bodies' balls do not meet.
   /// @param clearance  lower bound of the distance of the bodies all over the span, below zero how far they may overlap
   /// at most [m]; −∞ if nothing is known.
-  void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairResult& result);
+  /// @param memory  this call's alone.
+  void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
+                PairResult& result);
 
   /// Forgets how far apart the bodies were, and all else of earlier cycles.
   void forget() {

@@ -66,9 +66,10 @@ class SurfacePair {
   /// surfaces are apart. False also if that is not known.
   bool isOutside() const;
 
-  /// Whether what is inside one of the bodies is doubtful: then only surfaces tell, that cross, or that are apart from
-  /// what is outside.
-  bool isDoubtful() const { return field_->doubtful || shell_->doubtful; }
+  /// Whether it is doubtful what is outside of one of the bodies, or inside: then only surfaces tell, that are apart
+  /// from what is outside, or that cross.
+  bool isOutsideDoubtful() const { return field_->doubtful || shell_->doubtful; }
+  bool isInsideDoubtful() const { return field_->inside_is_doubtful || shell_->inside_is_doubtful; }
 
  private:
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,

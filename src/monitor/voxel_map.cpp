@@ -12,7 +12,6 @@
 #include "field/voxel_field.h"
 #include "geometry/octree_leaves.h"
 #include "sdf_ccd/common/cancel.h"
-#include "tile_name.h"
 
 namespace sdf_ccd {
 namespace {
@@ -26,12 +25,12 @@ std::size_t indexOf(int x, int y, int z) {
   return (static_cast<std::size_t>(z) * kTile + static_cast<std::size_t>(y)) * kTile + static_cast<std::size_t>(x);
 }
 
-/// Counted from the map's origin.
+/// By its place, counted in tiles from the map's origin.
 std::string nameOf(const std::string& map, const Vector3i& tile) {
-  Vector3i place;
-  for (int i = 0; i < 3; ++i)
-    place[i] = static_cast<int>(std::floor(double(kTile * tile[i] - kOrigin) / kTile));
-  return tileName(map, place);
+  const auto place = [&](int axis) {
+    return std::to_string(static_cast<int>(std::floor(double(kTile * tile[axis] - kOrigin) / kTile)));
+  };
+  return map + "/" + place(0) + "_" + place(1) + "_" + place(2);
 }
 
 /// Lowest corner of a voxel [m].
@@ -283,7 +282,7 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
       made[k].built = known->second;
       return;
     }
-    const VoxelPlace place{cornerOf((kTile * tile).array() - 1, size), size};
+    const VoxelLattice place{cornerOf((kTile * tile).array() - 1, size), size};
     GeometryDescription geometry;
     geometry.shape = std::make_shared<const TriangleMesh>(voxelSurface(built->block, place));
     geometry.source = name_;
@@ -294,6 +293,7 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
     body.name = nameOf(name_, tile);
     body.frame = frame_;
     body.is_world = true;
+    body.map = name_;
     body.geometry.push_back(std::move(geometry));
     made[k].built = std::move(built);
   });

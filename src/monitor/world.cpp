@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 bool samePlace(const Body& body, const BodyDescription& description) {
   return body.frame == description.frame && body.is_world == description.is_world &&
-         body.X_frame_B.matrix() == description.X_frame_B.matrix() && body.failure == description.failure;
+         body.map == description.map && body.X_frame_B.matrix() == description.X_frame_B.matrix() && body.failure == description.failure;
 }
 
 std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& description) {
@@ -30,6 +30,7 @@ std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& 
   body->frame = description.frame;
   body->X_frame_B = description.X_frame_B;
   body->is_world = description.is_world;
+  body->map = description.map;
   body->failure = description.failure;
   return body;
 }
@@ -242,6 +243,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   scene.left_out = plan.left_out;
   scene.visual_only = description.visual_only;
   std::vector<std::shared_ptr<const Body>> bodies(count);
+  std::set<const PreparedBody*> counted;
   for (std::size_t b = 0; b < count; ++b) {
     const BodyDescription& body = description.bodies[b];
     if (prepared[b]) prepared[b]->used = version;
@@ -253,6 +255,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
     if (!same && bodies[b]) ++snapshot->shared;
     scene.reports.push_back(prepared[b] ? prepared[b]->report : BodyReport());
     scene.reports.back().name = body.name;
+    if (prepared[b] && !counted.insert(prepared[b]).second) countAsShared(scene.reports.back());
     if (!prepared[b]) scene.reports.back().field = body.failure.empty() ? "left out" : "failed";
   }
   snapshot->shared = std::max(0, snapshot->shared - snapshot->prepared);

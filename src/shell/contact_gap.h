@@ -4,14 +4,14 @@
 
 namespace sdf_ccd {
 
-/// Where two surfaces touch or cross, a point of either shell is no farther than this from the other surface [m], and
-/// at a distance D of the surfaces, no farther than D more.
+/// Upper bound of the distance from a point of either shell to the other surface if the surfaces touch or cross [m]; at
+/// a distance D of the surfaces, D more.
 ///
 /// A mesh's surface is the boundary of its solid (see Solid): faces within it have no points and need none, as nothing
-/// touches them before the boundary. Seams, where the faces of overlapping parts meet, are borders of triangles that
-/// have no neighbour over them, and so among the edges below.
+/// touches them before the boundary. Seams, where the faces of overlapping parts meet, are borders of triangles without
+/// a neighbour, and so are among the edges below.
 ///
-/// What lies between points of faces does not count, because faces alone never touch first. Let E be the edges of a
+/// Gaps between points of faces do not count, because faces alone never touch first. Let E be the edges of a
 /// surface's flat pieces: away from E a surface is a plane nearby. Of the locations where surfaces A and B meet, take
 /// an extreme point x of their convex hull. Were x neither on E_A nor on E_B, two planes would meet there, along a line
 /// through x, and x not be extreme. So x lies on an edge of one of them, say A, and on B; a point of A's shell is

@@ -9,10 +9,10 @@
 namespace sdf_ccd {
 namespace {
 
-/// A projection that turns a triangle's front by more than 60 degrees is no flat piece, whatever its heights.
+/// A projection that rotates a triangle's normal by more than 60 degrees is no flat piece, whatever its heights.
 constexpr double kLeastFacing = 0.5;
 
-/// The triangle beyond each side, or -1 where that is not exactly one.
+/// The triangle beyond each side, or -1 unless there is exactly one.
 std::vector<Vector3i> neighbours(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   std::vector<Vector3i> beyond(mesh.triangles.size(), Vector3i::Constant(-1));
   const auto set = [&](const EdgeUse& use, std::int32_t other) {
@@ -42,12 +42,12 @@ std::vector<int> growPieces(const TriangleMesh& mesh, const std::vector<Vector3d
     if (piece[seed] >= 0) continue;
     piece[seed] = seed;
     const Vector3d& normal = normals[seed];
-    const Vector3d& place = mesh.vertices[mesh.triangles[seed][0]];
+    const Vector3d& point = mesh.vertices[mesh.triangles[seed][0]];
     const auto fits = [&](int triangle) {
       if (normals[triangle].dot(normal) < kLeastFacing) return false;
       const Vector3i& t = mesh.triangles[triangle];
       return std::all_of(t.data(), t.data() + 3,
-                         [&](int v) { return std::abs(normal.dot(mesh.vertices[v] - place)) <= flatness; });
+                         [&](int v) { return std::abs(normal.dot(mesh.vertices[v] - point)) <= flatness; });
     };
     for (open.assign(1, seed); !open.empty();) {
       const Vector3i around = beyond[open.back()];

@@ -33,7 +33,7 @@ void raise(double value, std::atomic<double>& largest) {
   }
 }
 
-/// What the cells of one triangle add to its points' areas.
+/// Adds the cells of one triangle to its points' areas.
 using Shares = std::vector<std::pair<std::int32_t, double>>;
 
 void shareOut(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& pieces, Shares& shares) {
@@ -49,7 +49,7 @@ void shareOut(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& piec
       shares.emplace_back(candidate.index, cell.area());
       sum += shares.back().second;
     });
-    // The cells fill the piece up to rounding, which would otherwise add up.
+    // Up to rounding, the cells fill the piece; normalised, as the rounding would accumulate.
     const double area = contested.piece.area();
     for (std::size_t share = first; share < shares.size(); ++share) {
       shares[share].second *= sum > 0 ? area / sum : 0;
@@ -65,13 +65,13 @@ double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double 
   const CancelPoint cancel;
   const Vector3d any = Vector3d::Zero();
   std::vector<double> reached2(chunks(mesh), 0.0);
-  // Some location of each triangle first: the better the bound from below, the fewer pieces need cutting.
+  // One location of each triangle first: the better the lower bound, the fewer pieces need cutting.
   forEachChunk(mesh, [&](std::size_t chunk, int first, int last) {
     for (int i = first; i < last; ++i) {
       reached2[chunk] = std::max(reached2[chunk], nearest.find(SurfacePiece::of(mesh, i).centroid(), any).distance2);
     }
   });
-  // Shared by all, whose order does not matter: what one leaves out is below what another has found.
+  // Shared by all tasks, in any order: what one skips is below a radius that another has found.
   std::atomic<double> bound2{*std::max_element(reached2.begin(), reached2.end())};
   forEachChunk(mesh, [&](std::size_t, int first, int last) {
     const auto isBelow = [&](const ContestedPiece& contested) {

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 
 /// Least radius with which balls about the shell's points cover the mesh: exact, to a rounding upwards of 1e-9.
-/// @param scale  about the distance between points [m]: larger triangles are halved before points are looked for.
+/// @param scale  approximate distance between points [m]: larger triangles are halved before points are searched.
 double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double scale);
 
 /// Area of the mesh nearest to each point, among points whose normal is not against the triangle's, so that the two

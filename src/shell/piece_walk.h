@@ -15,13 +15,13 @@ namespace sdf_ccd {
 /// Cuts triangles into pieces with few candidates each for the nearest point.
 class PieceWalk {
  public:
-  /// @param scale   about the distance between points [m].
-  /// @param cancel  ends the walk.
+  /// @param scale   approximate distance between points [m].
+  /// @param cancel  stops the walk.
   PieceWalk(const NearestPoint& nearest, double scale, const CancelPoint& cancel)
       : nearest_(nearest), cancel_(cancel), scale2_(scale * scale), gather2_(kGather * kGather * scale2_) {}
 
   /// Calls visit(contested) for pieces that cover `whole`, each with at most kMaxCells candidates, whose normals are
-  /// not against `facing`. Before that, settle(contested) may end the matter by returning true.
+  /// not against `facing`. Before that, settle(contested) may finish a piece by returning true.
   template <typename Settle, typename Visit>
   void walk(const SurfacePiece& whole, const Vector3d& facing, Settle settle, Visit visit) {
     stack_.assign(1, {whole, 0, 0});
@@ -29,7 +29,7 @@ class PieceWalk {
       cancel_.check();
       const Entry current = stack_.back();
       stack_.pop_back();
-      // What lies above belongs to pieces that are done; what lies below, to the ones this was halved from.
+      // Candidates above belong to pieces that are finished; those below, to the pieces that contain this one.
       candidates_.resize(current.end);
       const double length2 = current.piece.longestEdge().second;
       if (length2 > gather2_) {
@@ -50,7 +50,7 @@ class PieceWalk {
         halve(narrowed);
         continue;
       }
-      // So small a piece with more candidates has all of them at one distance: any few will do.
+      // A piece this small with more candidates has all of them at one distance: any few are sufficient.
       contested.end = std::min(contested.end, contested.begin + kMaxCells);
       visit(contested);
     }
@@ -62,11 +62,11 @@ class PieceWalk {
     std::size_t begin, end;  ///< in candidates_; equal if none have been gathered yet
   };
 
-  /// Looking for points once for a larger piece and sharing them out is cheaper than looking for each small one.
+  /// Searching once for a larger piece and distributing the points is cheaper than searching for each small one.
   static constexpr double kGather = 5;
 
-  /// All points that may be nearest to some location of the piece. That location is no farther from the point that is
-  /// nearest to the centre than some corner is, so what is nearest to it is no farther from it.
+  /// All points that may be nearest to some location of the piece. A location's distance from the point that is nearest
+  /// to the centre is at most that of some corner, so its nearest point is no farther from it.
   void gather(const SurfacePiece& piece, const Vector3d& facing) {
     const Vector3d center = piece.centroid();
     const NearestPoint::Hit hit = nearest_.find(center, facing);

@@ -40,7 +40,7 @@ void lift(const Cylinder& cylinder, Vector3d& p, Vector3d& normal) {
   if (on_cap) normal = (normal + axial).normalized();
 }
 
-/// How far the tessellation may be from a curved solid, over the spacing.
+/// Upper bound of the tessellation's distance from a curved solid, over the spacing.
 constexpr double kDeviation = 0.005;
 constexpr double kEdgeDeviation = 0.5;  ///< the same over the edges' flatness
 
@@ -59,7 +59,7 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
     edges.covering -= 2 * deviation;
     flat.spacing = options.spacing - 2 * deviation;
     if (hasEdges(options)) flat.edge_gap = options.edge_gap - 2 * deviation;
-    // Where the tessellation is finer than the shell, its vertices are no features to be kept.
+    // If the tessellation is finer than the shell, its vertices are not features that must be kept.
     flat.vertex_spacing = std::max(options.vertex_spacing, flat.spacing);
   }
   PointShell shell = sampleSurface(tessellate(solid, curved ? deviation : options.spacing), flat, edges);

@@ -28,7 +28,7 @@ void validate(const ShellOptions& options) {
   throw std::invalid_argument(message.str());
 }
 
-/// Sampling that leaves no gap of this spacing takes about so many points, measured on spheres.
+/// Approximate number of points of a sampling without gaps of this spacing, measured on spheres.
 double facePoints(double area, double spacing) {
   return 0.7 * area / (spacing * spacing);
 }
@@ -47,14 +47,14 @@ double length(const std::vector<SurfaceEdge>& edges) {
   return sum;
 }
 
-/// Balls of radius `spacing` cover at most their disks' area on a plane, so fewer points than this cannot do.
-void requireRoom(double area, const ShellOptions& options) {
-  constexpr double kPi = 3.14159265358979323846;
-  const double least = area / (kPi * options.spacing * options.spacing);
-  if (least <= static_cast<double>(options.max_points)) return;
+/// Refuses what is expected to end in a refusal: that can take a minute of sampling to turn out.
+void requireRoom(double area, double edges, double edge_radius, const ShellOptions& options) {
+  const double expected = facePoints(area, options.spacing) + (edges > 0.0 ? edgePoints(edges, edge_radius) : 0.0);
+  if (expected <= static_cast<double>(options.max_points)) return;
   std::ostringstream message;
-  message << "a point every " << options.spacing << " m on " << area << " m^2 needs more than " << options.max_points
-          << " points";
+  message << "a point every " << options.spacing << " m on " << area << " m^2";
+  if (edges > 0.0) message << " and every " << 2.0 * edge_radius << " m along " << edges << " m of edges";
+  message << " needs more than " << options.max_points << " points";
   throw std::length_error(message.str());
 }
 
@@ -71,7 +71,7 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) 
 PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
   ShellOptions thinned = options;
   if (solid.seam() > 0.0) {
-    // Along seams vertices lie in heaps, of which a few points do; more would take forever to tell apart.
+    // Along seams vertices are dense, of which a few points suffice; more would take very long to separate.
     constexpr double kApart = 0.1;
     const double finest = hasEdges(options) ? options.edge_gap : options.spacing;
     thinned.vertex_spacing = std::max(options.vertex_spacing, kApart * finest);
@@ -79,20 +79,20 @@ PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
   return sampleSurface(solid.boundary(), thinned, EdgeSampling(options));
 }
 
-PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& asked, const EdgeSampling& sampling) {
+PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested, const EdgeSampling& sampling) {
   validate(mesh);
-  validate(asked);
+  validate(requested);
   const TriangleMesh surface = welded(mesh);
   if (surface.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
   const double area = surfaceArea(surface);
-  ShellOptions options = asked;
+  ShellOptions options = requested;
   std::vector<SurfaceEdge> edges;
-  if (hasEdges(asked)) edges = edgesOfFlatPieces(surface, sampling.flatness);
+  if (hasEdges(requested)) edges = edgesOfFlatPieces(surface, sampling.flatness);
   if (kEdgesAreMore * edgePoints(length(edges), sampling.radius) > facePoints(area, sampling.covering)) {
-    options.spacing = sampling.covering;  // all of a finely curved surface needs fewer points than its edges
+    options.spacing = sampling.covering;  // a finely curved surface needs fewer points over all of it than on its edges
     edges.clear();
   }
-  requireRoom(area, options);
+  requireRoom(area, length(edges), sampling.radius, options);
   SurfaceFiller filler(surface, options);
   filler.addVertices();
   filler.fillEdges(edges, sampling.radius);
@@ -100,7 +100,7 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& asked, co
   filler.fillGaps();
   PointShell shell = filler.take();
   shell.areas = nearestAreas(surface, shell, options.spacing);
-  // The filler has certified the spacing; the measured radius is an upper bound of its own.
+  // The filler has certified the spacing; the measured radius is an upper bound too.
   shell.covering_radius = std::min(options.spacing, coveringRadius(surface, shell, options.spacing));
   if (!edges.empty()) {
     shell.edge_radius = sampling.radius;
@@ -115,9 +115,11 @@ PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
   if (options.edge_gap == 0.0) throw std::invalid_argument("a shell of edges needs an edge gap above 0");
   const TriangleMesh surface = welded(mesh);
   const EdgeSampling sampling(options);
+  const std::vector<SurfaceEdge> edges = edgesOfFlatPieces(surface, sampling.flatness);
+  requireRoom(0.0, length(edges), sampling.radius, options);
   SurfaceFiller filler(surface, options);
   filler.addVertices();
-  filler.fillEdges(edgesOfFlatPieces(surface, sampling.flatness), sampling.radius);
+  filler.fillEdges(edges, sampling.radius);
   PointShell shell = filler.take();
   shell.areas.assign(shell.size(), 0.0);
   shell.covering_radius = std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Counts what the same options have meant.
+/// Version of the options' meaning.
 constexpr double kMeaning = 3;
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr std::uint32_t kVersion = 4;
 
 static_assert(sizeof(Vector3d) == 3 * sizeof(double), "points are written as three numbers each");
 
-/// The first point whose location, normal or area is not one; as many as there are if all are.
+/// The index of the first point with an invalid location, normal or area; the number of points if all are valid.
 std::size_t firstBad(View<Vector3d> points, View<Vector3d> normals, View<double> areas) {
   constexpr double kFarthest = 1e15;  // [m]: squares of distances, and volumes, stay finite
   for (std::size_t i = 0; i < points.size; ++i) {

@@ -76,7 +76,7 @@ class Builder {
   }
 
   /// Start: the smallest of the balls about the box's centre, the centroid and of Ritter 1990. Then steps towards
-  /// the farthest point, ever shorter (Bădoiu & Clarkson 2003); the best ball on the way is kept.
+  /// the farthest point, ever shorter (Bădoiu & Clarkson 2003); the smallest ball found is kept.
   Ball boundingBall(std::int32_t begin, std::int32_t end) const {
     AlignedBox3d box;
     Vector3d sum = Vector3d::Zero();

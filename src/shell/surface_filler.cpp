@@ -55,7 +55,7 @@ class CoveredParts {
     if (half2 > 0.0) parts_.emplace_back(s - std::sqrt(half2), s + std::sqrt(half2));
   }
 
-  /// Calls visit(begin, end) for what is left.
+  /// Calls visit(begin, end) for each part that is not covered.
   template <typename Visit>
   void forEachGap(Visit visit) {
     std::sort(parts_.begin(), parts_.end());
@@ -108,13 +108,13 @@ void SurfaceFiller::addVertices() {
     return;
   }
   PointGrid kept(thinning);
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> points;
   for (std::size_t v = 0; v < normals.size(); ++v) {
     cancel_.check();
     const Vector3d& p = mesh_.vertices[v];
-    if (kept.anyNear(p, [&](std::int32_t i) { return (places[i] - p).squaredNorm() < thinning * thinning; })) continue;
+    if (kept.anyNear(p, [&](std::int32_t i) { return (points[i] - p).squaredNorm() < thinning * thinning; })) continue;
     kept.insert(p);
-    places.push_back(p);
+    points.push_back(p);
     add(p, normals[v]);
   }
 }
@@ -127,9 +127,9 @@ void SurfaceFiller::fillEdges(const std::vector<SurfaceEdge>& edges, double edge
   for (const SurfaceEdge& edge : edges) {
     cancel_.check();
     CoveredParts covered(edge, radius);
-    const double places = std::floor(covered.length() / radius);
-    if (places > static_cast<double>(options_.max_points)) refuse();
-    for (double k = 0.0; k <= places; ++k) {
+    const double steps = std::floor(covered.length() / radius);
+    if (steps > static_cast<double>(options_.max_points)) refuse();
+    for (double k = 0.0; k <= steps; ++k) {
       near.anyNear(covered.at(std::min((k + 0.5) * radius, covered.length())), [&](std::int32_t i) {
         covered.add(shell_.points[i]);
         return false;
@@ -158,8 +158,8 @@ void SurfaceFiller::throwDarts() {
   for (double dart = 0; dart < darts; ++dart) {
     cancel_.check();
     const double choice = uniform(random) * area, u = std::sqrt(uniform(random)), v = uniform(random);
-    const auto place = std::upper_bound(area_below.begin(), area_below.end(), choice);
-    const std::size_t i = std::min<std::size_t>(place - area_below.begin(), area_below.size() - 1);
+    const auto chosen = std::upper_bound(area_below.begin(), area_below.end(), choice);
+    const std::size_t i = std::min<std::size_t>(chosen - area_below.begin(), area_below.size() - 1);
     const Vector3i& t = mesh_.triangles[i];
     // Uniform in the triangle: Turk 1990, Generating random points in triangles.
     const Vector3d p = mesh_.vertices[t[0]] + u * (1 - v) * (mesh_.vertices[t[1]] - mesh_.vertices[t[0]]) +

@@ -11,8 +11,8 @@
 
 namespace sdf_ccd {
 
-/// Adds points to a shell until no location of the mesh is farther than options.spacing from one that faces its way, or
-/// until that is cancelled.
+/// Adds points to a shell until no location of the mesh is farther than options.spacing from a point whose normal is
+/// not against the location's, or until that is cancelled.
 class SurfaceFiller {
  public:
   /// @param mesh  welded.
@@ -22,7 +22,7 @@ class SurfaceFiller {
   void addVertices();
   /// Points along edges, until no location of one is farther than `radius` from a point [m].
   void fillEdges(const std::vector<SurfaceEdge>& edges, double radius);
-  /// Poisson-disk sampling: random locations, kept if no point that faces their way is nearer than the spacing.
+  /// Poisson-disk sampling: random locations, kept if no point with a compatible normal is nearer than the spacing.
   void throwDarts();
   /// Halves triangles until one point covers each piece; adds a point wherever none does.
   void fillGaps();

@@ -8,7 +8,7 @@
 
 namespace sdf_ccd {
 
-/// A triangular piece of a surface that is halved until it is small enough to decide about.
+/// A triangular piece of a surface that is halved until a decision about it is possible.
 struct SurfacePiece {
   std::array<Vector3d, 3> corners;
 

@@ -27,7 +27,7 @@ void CellPolygon::keepNearer(const Vector3d& p, const Vector3d& q, bool wins_tie
   int count = 0;
   for (int i = 0; i < size_; ++i) {
     const int next = i + 1 < size_ ? i + 1 : 0;
-    // Rounding can make a sliver cross the plane more than twice; what does not fit has no area.
+    // Rounding can make a sliver cross the plane more than twice; corners beyond the capacity have no area.
     if (count + 2 > static_cast<int>(kept.size())) break;
     if (side[i] <= 0) kept[count++] = corners_[i];
     if ((side[i] < 0 && side[next] > 0) || (side[i] > 0 && side[next] < 0)) {

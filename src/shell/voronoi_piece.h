@@ -32,7 +32,7 @@ class CellPolygon {
  public:
   explicit CellPolygon(const SurfacePiece& piece);
 
-  /// Keeps what is nearer to p than to q; all or nothing if they are at the same location, as `wins_ties` says.
+  /// Keeps the part nearer to p than to q; all or nothing if they are at the same location, according to `wins_ties`.
   void keepNearer(const Vector3d& p, const Vector3d& q, bool wins_ties);
 
   bool empty() const { return size_ == 0; }

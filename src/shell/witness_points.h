@@ -5,9 +5,9 @@
 
 namespace sdf_ccd {
 
-/// One point of each component of a surface, components being what is connected over shared vertices: a component that
-/// touches no other surface lies wholly inside or wholly outside of another body, and this point tells which (design
-/// §3.15). The points stand for no area, and the covering radius is infinite.
+/// One point of each component of a surface (triangles connected by shared vertices): a component that
+/// touches no other surface is wholly inside or wholly outside of another body, and this point decides which (design
+/// §3.15). The points represent no area, and the covering radius is infinite.
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 PointShell witnessPoints(const TriangleMesh& mesh);
 

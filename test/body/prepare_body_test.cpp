@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "body/body_builder.h"
 #include "body/body_triangles.h"
@@ -141,6 +143,10 @@ TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
     const BuiltBody left = build("left"), right = build("right");
     EXPECT_NE(left.report.field, "shared");
     EXPECT_EQ(right.report.field, "shared");
+    EXPECT_GT(left.report.field_bytes, 0u);
+    EXPECT_GT(left.report.shell_bytes, 0u);
+    EXPECT_EQ(right.report.field_bytes + right.report.shell_bytes, 0u) << "it takes no more";
+    EXPECT_EQ(right.report.shell_points, left.report.shell_points);
     EXPECT_EQ(&*left.body.shell, &*right.body.shell);
     EXPECT_EQ(&*left.body.tree, &*right.body.tree);
     EXPECT_EQ(left.body.triangles, right.body.triangles);
@@ -156,6 +162,55 @@ TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
   options = optionsForContacts(0.01);
   options.is_shared = true;
   EXPECT_NE(build("left").report.field, "shared") << "nobody holds it any more";
+}
+
+/// Two bodies that differ in one thing, one after the other.
+TEST(SharedBodies, AreOfTheSameContentAndOptions) {
+  BodyOptions options;
+  options.field.cell_size = 0.02;
+  options.shell.spacing = 0.02;
+  options.is_shared = true;
+  const auto mesh = std::make_shared<const TriangleMesh>(test::boxMesh({0.05, 0.04, 0.03}));
+  BodyDescription body;
+  body.name = body.frame = "body";
+  body.geometry.push_back({mesh, at(0, 0, 0.1), "box"});
+  const auto make = [](const BodyDescription& description, const BodyOptions& with) {
+    MeshPool pool(with);
+    return buildBody(description, {}, with, pool, {});
+  };
+  const BuiltBody first = make(body, options);
+  ASSERT_TRUE(first.body.content);
+  EXPECT_EQ(make(body, options).body.content, first.body.content);
+  const auto expectOther = [&](const BodyDescription& description, const BodyOptions& with, const char* what) {
+    const BuiltBody other = make(description, with);
+    EXPECT_NE(other.body.content, first.body.content) << what;
+    return other;
+  };
+
+  BodyOptions other = options;
+  other.field.cells = 0;  // is refused, not the same as none
+  EXPECT_FALSE(expectOther(body, other, "no cells").body.failure.empty());
+  other = options;
+  other.max_error = 0.0;
+  expectOther(body, other, "max_error");
+  other = options;
+  other.shell.seed = (std::uint64_t{1} << 60) + 1;
+  const BuiltBody seeded = make(body, other);
+  ++other.shell.seed;
+  EXPECT_NE(make(body, other).body.content, seeded.body.content) << "seeds that are one as doubles";
+
+  BodyDescription with_cells = body;
+  with_cells.geometry[0].cell_size = 0.0;
+  EXPECT_FALSE(expectOther(with_cells, options, "no cell size").body.failure.empty());
+  BodyDescription mirrored = body, reordered = body;
+  TriangleMesh changed = *mesh;
+  for (Vector3d& v : changed.vertices) v.x() = -v.x();
+  mirrored.geometry[0].shape = std::make_shared<const TriangleMesh>(changed);
+  expectOther(mirrored, options, "mirrored");
+  changed = *mesh;
+  std::reverse(changed.triangles.begin(), changed.triangles.end());
+  reordered.geometry[0].shape = std::make_shared<const TriangleMesh>(changed);
+  expectOther(reordered, options, "order of triangles");
 }
 
 }  // namespace

@@ -188,13 +188,11 @@ int run(const ros::NodeHandle& private_node) {
   const ros::Publisher fixed = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1000);
   const ros::WallTime start = ros::WallTime::now();
   const double seconds = private_node.param("seconds", 1e9);
-  for (long count = 0; ros::ok();) {
-    const double elapsed = (ros::WallTime::now() - start).toSec();
-    if (elapsed > seconds) break;
-    for (; static_cast<double>(count) < rate * elapsed; ++count) {
-      (storm.isStatic(count) ? fixed : moving).publish(storm.message(count, ros::Time::now()));
-    }
-    ros::WallDuration(std::min(1e-3, 0.5 / rate)).sleep();
+  for (long count = 0; ros::ok(); ++count) {
+    const double due = static_cast<double>(count) / rate;
+    if (due > seconds) break;
+    ros::WallTime::sleepUntil(start + ros::WallDuration(due));
+    (storm.isStatic(count) ? fixed : moving).publish(storm.message(count, ros::Time::now()));
   }
   return 0;
 }

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "monitor/scene_case.h"
-#include "monitor/tile_name.h"
 
 namespace sdf_ccd {
 namespace {
@@ -18,8 +17,8 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 constexpr double kLength = 0.1;  // of a cycle [s]
 
-/// A scene that only has names.
-Scene named(const Pairs& pairs) {
+/// A scene that only has names; some are of tiles of the map "map".
+Scene named(const Pairs& pairs, const std::set<std::string>& tiles) {
   Scene scene;
   std::map<std::string, int> bodies;
   const auto indexOf = [&](const std::string& name) {
@@ -27,6 +26,7 @@ Scene named(const Pairs& pairs) {
     if (is_new) {
       Body body;
       body.name = name;
+      if (tiles.count(name) > 0) body.map = "map";
       scene.bodies.push_back(std::move(body));
     }
     return found->second;
@@ -58,8 +58,8 @@ struct Said {
 
 class TrackerTest : public ::testing::Test {
  protected:
-  void world(const Pairs& pairs) {
-    scene_ = named(pairs);
+  void world(const Pairs& pairs, const std::set<std::string>& tiles = {}) {
+    scene_ = named(pairs, tiles);
     if (tracker_) {
       tracker_->adopt(scene_);
     } else {
@@ -353,7 +353,8 @@ TEST_F(TrackerTest, AnyRunSaysWhatAllIntervalsTogetherSay) {
 }
 
 TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
-  world({{"hand", "map/0_0_-1"}, {"hand", "map/1_0_-1"}, {"arm", "map/0_0_-1"}, {"hand", "map/x"}});
+  world({{"hand", "map/0_0_-1"}, {"hand", "map/1_0_-1"}, {"arm", "map/0_0_-1"}, {"hand", "map/x"}},
+        {"map/0_0_-1", "map/1_0_-1"});
   cycle({{Verdict::kContact, {{0.05, 0.1, 0.004}}}});
   const std::uint64_t id = said().at(0).id;
   EXPECT_EQ(said()[0].body_a, "hand");
@@ -365,7 +366,8 @@ TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
   EXPECT_EQ(said()[0].cycles, 2u);
   EXPECT_DOUBLE_EQ(said()[0].deepest.depth, 0.008);
   // Both are made anew, and the map has another one.
-  world({{"arm", "map/0_0_-1"}, {"map/5_5_5", "hand"}, {"hand", "map/1_0_-1"}, {"hand", "map/x"}});
+  world({{"arm", "map/0_0_-1"}, {"map/5_5_5", "hand"}, {"hand", "map/1_0_-1"}, {"hand", "map/x"}},
+        {"map/0_0_-1", "map/1_0_-1", "map/5_5_5"});
   cycle({{}, {}, {Verdict::kContact, {{0.0, 0.04, 0.002}}}});
   ASSERT_EQ(said().size(), 1u);
   EXPECT_EQ(said()[0].id, id);
@@ -378,7 +380,7 @@ TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
 }
 
 TEST_F(TrackerTest, OfTilesOnlyWhatNobodySeesIsLost) {
-  world({{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}});
+  world({{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}}, {"map/0_0_0", "map/1_0_0"});
   cycle({{Verdict::kContact, {{0.05, 0.1}}}});
   cycle({{Verdict::kNotChecked, {}}, {Verdict::kContact, {{0.0, 0.1}}}});
   ASSERT_EQ(said().size(), 1u);
@@ -389,10 +391,24 @@ TEST_F(TrackerTest, OfTilesOnlyWhatNobodySeesIsLost) {
   EXPECT_TRUE(said()[0].is_lost);
 }
 
-TEST(TileName, TellsItsMap) {
-  EXPECT_EQ(mapOfTile(tileName("a/map", {-3, 0, 12})), "a/map");
-  for (const char* name : {"map", "map/", "map/1_2", "map/1_2_3_4", "map/1_2_x", "map/1__2", "map/1_2_-", "1_2_3"})
-    EXPECT_EQ(mapOfTile(name), name);
+TEST_F(TrackerTest, WhatIsOnlyCalledLikeAMapOrItsTileIsItself) {
+  const Pairs pairs = {{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}, {"hand", "map"}};
+  const Said touches{Verdict::kContact, {{0.0, 0.1}}};
+  world(pairs, {"map/0_0_0"});
+  cycle({touches, touches, touches});
+  ASSERT_EQ(said().size(), 3u);
+  const std::vector<TrackedContact> before = said();
+  EXPECT_EQ(before[0].body_b, "map");
+  EXPECT_EQ(before[1].body_b, "map/1_0_0");
+  EXPECT_EQ(before[2].body_b, "map");
+  // In another order each goes on, or ends, as what it was.
+  world({pairs[2], pairs[1], pairs[0]}, {"map/0_0_0"});
+  cycle({{}, touches, touches});
+  ASSERT_EQ(said().size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(said()[i].id, before[i].id);
+    EXPECT_EQ(said()[i].ends, i == 2);
+  }
 }
 
 }  // namespace

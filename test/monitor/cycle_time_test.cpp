@@ -182,6 +182,49 @@ TEST_F(CycleTime, WhatCannotBeCheckedIsNotPostponed) {
   EXPECT_EQ(result.not_checked, kBalls - 1);
 }
 
+/// A bead in the middle of a ball: to part them it has to go both radii.
+TEST(CycleTimeOfTwo, WhatIsLeftMayLieDeepInALargerBody) {
+  const auto scene = build({body("ball", Primitive(Sphere{0.3})), body("bead", Primitive(Sphere{0.02})),
+                            body("other", Primitive(Sphere{0.02}))});
+  Monitor monitor(scene, {});
+  CycleRequest request;
+  request.max_time = kNoTime;
+  const Isometry3d X = Isometry3d::Identity();
+  int postponed = 0;
+  for (const PairResult& pair : monitor.run(cycle(0.1, {still(X), still(X), still(X)}), request).pairs) {
+    if (!pair.postponed) continue;
+    ++postponed;
+    const bool are_beads = pair.body_a > 0;
+    EXPECT_GE(pair.error.total(), are_beads ? 0.04 : 0.32);
+    EXPECT_LT(pair.error.total(), 0.35);
+  }
+  EXPECT_EQ(postponed, 2);
+}
+
+/// A half-space's surface strays by its motion error within 10 m of its origin, and in proportion beyond; beads 30 m
+/// away, before any test of their pairs.
+TEST(CycleTimeOfTwo, WhatIsLeftOnAHalfSpaceKnowsHowFarThatMayStray) {
+  constexpr double kAway = 30.0, kError = 1e-3;
+  const auto scene =
+      build({body("floor", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true), body("a", Primitive(Sphere{0.05})),
+             body("b", Primitive(Sphere{0.05})), body("c", Primitive(Sphere{0.05}))});
+  Monitor monitor(scene, {});
+  CycleRequest request;
+  request.max_time = kNoTime;
+  CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation({kAway, 0, 0})),
+                                   still(translation({kAway, 1, 0})), still(translation({kAway, 2, 0}))});
+  motion.motion_error = {kError, 0.0, 0.0, 0.0};
+  int postponed = 0;
+  for (const PairResult& pair : monitor.run(motion, request).pairs) {
+    if (!pair.postponed) continue;
+    ++postponed;
+    // A radius deep, by a ball that is larger by up to the shell's spacing, and what the floor strays.
+    EXPECT_GE(pair.error.chord, 0.05 + 3.0 * kError);
+    EXPECT_LT(pair.error.chord, 0.06 + 4.0 * kError);
+  }
+  EXPECT_EQ(postponed, 2);
+}
+
 /// A bead that gets into a box while the pair is left, so that no surfaces cross afterwards.
 TEST(CycleTimeOfTwo, WhatGotInsideMeanwhileIsFound) {
   const auto scene = build({body("box", Primitive(Box{{0.3, 0.3, 0.3}}), true), body("bead", Primitive(Sphere{0.02})),

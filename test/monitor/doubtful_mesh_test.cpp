@@ -66,6 +66,27 @@ TEST(DoubtfulMesh, WhatIsInACavityThatMayBeFilledIsNoContact) {
   }
 }
 
+/// Nothing is inside out, but where boxes are tessellated apart and a loose sheet keeps the mesh open, which way their
+/// faces look is a guess.
+TEST(DoubtfulMesh, WhatIsInPartsBesideALooseSheetIsNotClear) {
+  struct Case {
+    Vector3d first, second, offset, place;
+  };
+  const TriangleMesh sheet{{{1, 0, 0}, {1, 0.1, 0}, {1, 0, 0.1}}, {{0, 1, 2}}};
+  for (const auto& [first, second, offset, place] :
+       {Case{{0.2, 0.1, 0.1}, {0.3, 0.3, 0.2}, {-0.1, 0.1, 0}, {0.0957, 0.0208, 0.0369}},
+        Case{{0.1, 0.3, 0.1}, {0.2, 0.3, 0.3}, {0.1, 0, 0}, {-0.0625, -0.0207, 0.0543}},
+        Case{{0.3, 0.3, 0.3}, {0.1, 0.3, 0.1}, {0.1, -0.1, 0}, {0.147, -0.1018, -0.0052}}}) {
+    const TriangleMesh boxes =
+        merged(test::boxOfDividedFaces(first), translated(test::boxOfDividedFaces(second), offset));
+    const TriangleMesh mesh = merged(boxes, sheet);
+    EXPECT_NE(verdictOf(mesh, place, place), Verdict::kClear);
+    EXPECT_EQ(verdictOf(mesh, {0.7, 0, 0}, {0.7, 0, 0.1}), Verdict::kClear);
+    EXPECT_EQ(verdictOf(mesh, {1, 0.02, 0}, {1, 0.02, 0.01}), Verdict::kContact);
+    EXPECT_EQ(verdictOf(boxes, place, place), Verdict::kContact);
+  }
+}
+
 TEST(DoubtfulMesh, BoxesThatShareAnEndAreNotDoubtful) {
   const TriangleMesh mesh = merged(block({0, 0, 0}, {0.5, 0.5, 0.5}), block({0, 0, 0.25}, {0.5, 0.5, 0.5}));
   EXPECT_EQ(verdictOf(mesh, {0.2, 0.2, 0.4}, {0.21, 0.2, 0.4}), Verdict::kContact);

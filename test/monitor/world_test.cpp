@@ -203,6 +203,23 @@ TEST(World, KeepsIdsAndBodiesThatDoNotChange) {
   EXPECT_EQ(first->scene->bodies.size(), 2U);  // as it was
 }
 
+TEST(World, WhatBodiesShareCountsOnce) {
+  const auto torus = meshShape(torusMesh(0.12, 0.04, 16, 8));
+  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("torus", torus, true)}, {}};
+  WorldEditor editor(coarse());
+  const auto bytesOf = [&](const Scene& scene) {
+    std::size_t bytes = 0;
+    for (const BodyReport& report : scene.reports) bytes += report.field_bytes + report.shell_bytes;
+    return bytes;
+  };
+  const std::size_t alone = bytesOf(*editor.next(description)->scene);
+  EXPECT_GT(alone, 0u);
+  description.bodies.push_back(body("twin", torus, true));
+  EXPECT_EQ(bytesOf(*editor.next(description)->scene), alone);
+  description.bodies.erase(description.bodies.begin() + 1);
+  EXPECT_EQ(bytesOf(*editor.next(description)->scene), alone) << "it is the twin's then";
+}
+
 TEST(World, AChangeThatFailsChangesNothing) {
   SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
   WorldEditor editor(coarse());

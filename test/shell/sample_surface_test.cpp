@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/processor_time.h"
 #include "geometry/triangle_tree.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
@@ -232,6 +233,22 @@ TEST(SampleSurface, BadInputIsRefused) {
   options.spacing = 0.05;
   options.max_points = 100;
   EXPECT_THROW(sampleSurface(mesh, options), std::length_error);
+}
+
+TEST(SampleSurface, WhatWouldTakeTooManyPointsIsRefusedBeforeItIsSampled) {
+  const TriangleMesh plate = test::boxMesh({1.0, 1.0, 0.005});
+  ShellOptions options;
+  options.spacing = 0.006;
+  double start = threadSeconds();
+  const std::size_t points = sampleSurface(plate, options).size();
+  const double sampled = threadSeconds() - start;
+  // More than can be covered with so few by any means, and not much less than darts would take.
+  for (const double share : {0.2, 0.8}) {
+    options.max_points = static_cast<std::size_t>(share * static_cast<double>(points));
+    start = threadSeconds();
+    EXPECT_THROW(sampleSurface(plate, options), std::length_error);
+    EXPECT_LT(threadSeconds() - start, 0.05 * sampled) << share;
+  }
 }
 
 TEST(SampleSurface, DegenerateTrianglesDoNoHarm) {
