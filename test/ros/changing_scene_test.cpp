@@ -146,7 +146,7 @@ TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
   attach.touch_links = {"ba*", "table"};
   apply(attach);
   EXPECT_EQ(reason("box", "base"), "attached, and may touch");
-  EXPECT_EQ(reason("box", "table"), "attached, and may touch");
+  EXPECT_EQ(reason("box", "table"), "checked") << "it is neither a link nor attached";
   EXPECT_NE(refusal(change(SceneChange::MOVE)).find("attached to tip"), std::string::npos);
 
   SceneChange detach = change(SceneChange::DETACH);
@@ -157,6 +157,25 @@ TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
   EXPECT_NEAR(body("box").X_frame_B.translation().x(), 3.0 - 7.0, 1e-9);
   EXPECT_EQ(reason("box", "base"), "checked");
   EXPECT_EQ(refusal(detach), "box is not attached");
+}
+
+TEST_F(ChangingSceneTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
+  BodyDescription tile;
+  tile.name = "octomap/0_0_0";
+  tile.frame = "base";
+  tile.is_world = true;
+  scene_->setTiles({tile});
+  SceneChange attach = box();
+  attach.type = SceneChange::ATTACH;
+  attach.link = "tip";
+  attach.touch_links = {"*"};
+  SceneChange other = box("other");
+  other.type = SceneChange::ATTACH;
+  other.link = "base";
+  apply({attach, other, box("crate")});
+  EXPECT_EQ(reason("box", "base"), "attached, and may touch");
+  EXPECT_EQ(reason("other", "box"), "attached, and may touch");
+  for (const char* object : {"table", "crate", "octomap/0_0_0"}) EXPECT_EQ(reason("box", object), "checked") << object;
 }
 
 TEST_F(ChangingSceneTest, AttachesWhatIsNotThereYet) {
@@ -232,6 +251,21 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   limits_.objects = 3;
   apply({box("1"), box("2"), box("3")});
   EXPECT_THROW(description(), std::length_error);
+}
+
+TEST_F(ChangingSceneTest, NamesOfALiveMapsTilesAreItsOwn) {
+  apply(box("octomap/0_0_0"));  // there is no such map
+  parameters_.live_map.topic = "/octomap";
+  described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
+  scene_ = std::make_unique<ChangingScene>(described_, parameters_.pairs, described_.scene);
+  const std::string why = "octomap/0_0_0: names that begin with octomap/ are those of the live map's tiles";
+  EXPECT_EQ(refusal(box("octomap/0_0_0")), why);
+  const std::string world = (folder_ / "w.yaml").string();
+  std::ofstream(world) << "world: [{name: octomap/0_0_0, type: sphere, radius: 0.1}]";
+  SceneChange load = change(SceneChange::LOAD, "");
+  load.file = world;
+  EXPECT_EQ(refusal(load), why);
+  apply(box("octomap"));
 }
 
 TEST_F(ChangingSceneTest, ReadsNoFilesButThoseBelowTheRoots) {

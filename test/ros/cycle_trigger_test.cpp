@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <random>
 #include <thread>
 
 namespace sdf_ccd {
@@ -23,6 +24,39 @@ TEST(CycleTrigger, AGridStaysWhereItIsHoweverLateACycleBegins) {
     EXPECT_EQ((next - nanoseconds(500)) % period, nanoseconds(0));
     due = next;
   }
+}
+
+TEST(CycleTrigger, NewsAtTheRateBeginACycleEachHoweverTheyJitter) {
+  const nanoseconds period(1000000), start(3600000000000);
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> late(0, 450000);
+  nanoseconds due(0), last(0);
+  int cycles = 0;
+  for (int news = 0; news < 60000;) {
+    // Those that have come when the cycle begins, 50 us after it may, are all in it.
+    const nanoseconds came = start + news * period + nanoseconds(late(random));
+    const nanoseconds begun = std::max(came, due) + nanoseconds(50000);
+    if (cycles > 0) EXPECT_GE(begun - last, period / 2);
+    while (start + news * period <= begun) ++news;
+    last = begun;
+    ++cycles;
+    due = dueAfter(due, begun, period);
+  }
+  EXPECT_GT(cycles, 59940);
+  EXPECT_LE(cycles, 60000);
+}
+
+TEST(CycleTrigger, NewsFasterThanTheRateDoNotExceedIt) {
+  const nanoseconds period(1000000), start(3600000000000);
+  nanoseconds due(0), now = start;
+  int cycles = 0;
+  for (; now < start + 1000 * period; now += nanoseconds(10000)) {
+    if (now < due) continue;
+    due = dueAfter(due, now, period);
+    ++cycles;
+  }
+  EXPECT_LE(cycles, 1002);
+  EXPECT_GE(cycles, 990);
 }
 
 TEST(CycleTrigger, ATimerIsNeverEarlyAndDoesNotDrift) {

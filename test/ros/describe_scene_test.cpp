@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/failure.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -40,6 +42,20 @@ std::set<std::string> pairsOf(const MonitorParameters& parameters, std::vector<s
   if (left_out)
     for (const LeftOut& entry : scene->left_out) left_out->push_back(entry.what + ": " + entry.reason);
   return pairs;
+}
+
+TEST(DescribeScene, NamesOfALiveMapsTilesAreItsOwn) {
+  const auto failureOf = [](const MonitorParameters& parameters) {
+    return test::failureOf<std::invalid_argument>(
+        [&] { describeScene(parameters, [](const std::string&) { return Resource(); }); });
+  };
+  MonitorParameters parameters = cart();
+  parameters.world[0].name = "octomap/1_2_3";
+  EXPECT_EQ(failureOf(parameters), "");
+  parameters.live_map.topic = "/octomap";
+  EXPECT_NE(failureOf(parameters).find("octomap/1_2_3: names that begin with octomap/"), std::string::npos);
+  parameters.world[0].name = "octomap";
+  EXPECT_EQ(failureOf(parameters), "");
 }
 
 using Pairs = std::set<std::string>;

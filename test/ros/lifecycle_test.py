@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
@@ -18,12 +17,11 @@ from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
 
 from monitor_case import Recorder, ball_transforms
-from own_master import start_master, use_own_master
+from own_master import PATIENCE, MasterCase, sliders
 from sdf_ccd.msg import Contact, ContactArray, MonitorState
 
 SOURCE = os.path.abspath(sys.argv.pop())
 RATE, SECONDS = 50.0, 3.0  # of the bag
-PATIENCE = 60.0            # [s]
 
 
 def write_bag(path):
@@ -34,48 +32,19 @@ def write_bag(path):
             bag.write('/tf', ball_transforms(stamp, 0.3 if i < RATE * SECONDS / 2 else 0.7), stamp)
 
 
-class Lifecycle(unittest.TestCase):
+class Lifecycle(MasterCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.port = use_own_master(ROS_HOME=cls.folder.name)
+        super().setUpClass()
         cls.bag = os.path.join(cls.folder.name, 'ball.bag')
         write_bag(cls.bag)
-        cls.children = []
-        cls.start_master()
-        with open(SOURCE + '/test/ros/sliders.urdf') as urdf:
-            rospy.set_param('/robot_description', urdf.read())
+        rospy.set_param('/robot_description', sliders())
         subprocess.check_call(['rosparam', 'load', SOURCE + '/test/ros/monitor.yaml', '/collision_monitor'])
         rospy.set_param('/use_sim_time', True)
         rospy.init_node('lifecycle_test', disable_signals=True)
         cls.states = Recorder('/collision_monitor/state', MonitorState, PATIENCE)
         cls.contacts = Recorder('/collision_monitor/contacts', ContactArray, PATIENCE)
         cls.monitor = cls.start('rosrun', 'sdf_ccd', 'collision_monitor', '__name:=collision_monitor')
-
-    @classmethod
-    def start(cls, *command):
-        # A group of its own: what it starts, as `rosbag play` its player, is to end with it.
-        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-        cls.children.append(child)
-        return child
-
-    @staticmethod
-    def kill(child):
-        if child.poll() is None:
-            os.killpg(child.pid, signal.SIGKILL)
-        child.wait()
-
-    @classmethod
-    def start_master(cls):
-        cls.master = start_master(cls.port, PATIENCE)
-
-    @classmethod
-    def tearDownClass(cls):
-        for child in reversed(cls.children):
-            cls.kill(child)
-        cls.master.kill()
-        cls.master.wait()
-        cls.folder.cleanup()
 
     def play(self, *options):
         self.start_player('--wait-for-subscribers', *options).wait(PATIENCE)

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Sends maps of voxels to a running monitor, as octomap_server does, from a bag too."""
-import math
 import os
-import struct
 import subprocess
 import sys
 import tempfile
@@ -12,42 +10,11 @@ import unittest
 import rosbag
 import rospy
 import rostest
-from std_msgs.msg import Header
 
-from monitor_case import MovingBalls, Recorder, wait_for_service
-from sdf_ccd.msg import ContactArray, Plan
-from sdf_ccd.srv import GetPlan
-
-sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)) + '/../../scripts')
-from octomap_message import Octomap, binary_data, octomap, octree  # noqa: E402
-
-SIZE = 0.05  # of a voxel [m]
-
-
-def full_data(tree):
-    """As OcTree::writeData()."""
-    if not isinstance(tree, dict):
-        return struct.pack('<fB', 0.85 if tree else -0.4, 0)
-    return struct.pack('<fB', 0.85, sum(1 << child for child in tree)) + b''.join(map(full_data, tree.values()))
-
-
-def voxels_near(x, y, z, radius):
-    """Those whose centres are."""
-    reach = int(radius / SIZE) + 1
-    middle = [int(math.floor(c / SIZE)) for c in (x, y, z)]
-    near = {}
-    for dx in range(-reach, reach + 1):
-        for dy in range(-reach, reach + 1):
-            for dz in range(-reach, reach + 1):
-                v = (middle[0] + dx, middle[1] + dy, middle[2] + dz)
-                if math.dist([SIZE * (c + 0.5) for c in v], (x, y, z)) <= radius:
-                    near[tuple(32768 + c for c in v)] = True
-    return near
-
-
-def message(voxels, is_binary=True):
-    data = (binary_data if is_binary else full_data)(octree(voxels))
-    return octomap(Header(stamp=rospy.Time.now(), frame_id='base'), SIZE, data, is_binary)
+from monitor_case import MovingBalls, Recorder, box, pose, touches, wait_for_service
+from sdf_ccd.msg import ContactArray, Plan, SceneChange
+from sdf_ccd.srv import GetPlan, UpdateScene
+from voxel_maps import Octomap, message, touches_map, voxels_near
 
 
 class MapTest(unittest.TestCase):
@@ -79,9 +46,6 @@ class MapTest(unittest.TestCase):
         return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == m.CLEAR)
 
     def find_touching_map(self):
-        def touches_map(m):
-            return any(p.verdict == p.CONTACT and 'ball' in (p.body_a, p.body_b) and
-                       any(b.startswith('octomap/') for b in (p.body_a, p.body_b)) for p in m.pairs)
         return self.contacts.find_new(touches_map)
 
     def test_a_map_is_checked_and_its_next_one_too(self):
@@ -134,7 +98,26 @@ class MapTest(unittest.TestCase):
         self.assertEqual({c.body_a for c in contacts} | {c.body_b for c in contacts}, {'ball', 'octomap'})
         self.assertFalse(any(c.ends for c in contacts))
         self.robot.ball = 0.0
-        self.assertIsNotNone(self.contacts.find_new(lambda m: any(c.id == contacts[0].id and c.ends for c in m.contacts)))
+        self.assertIsNotNone(self.contacts.find_new(
+            lambda m: any(c.id == contacts[0].id and c.ends for c in m.contacts)))
+
+    def test_no_object_takes_a_tiles_name(self):
+        update = wait_for_service('/collision_monitor/update_scene', UpdateScene)
+        self.send(message(voxels_near(0.5, 0.0, 0.0, 0.05)))
+        for name in ('octomap/0_-1_-1', 'octomap/1_0_0'):  # one that is there, and one that may come
+            answer = update(changes=[box(name, pose(0.0, 3.0))])
+            self.assertFalse(answer.success)
+            self.assertIn('live map', answer.message)
+        # As the map itself one may be called, and is not taken for it.
+        self.assertTrue(update(changes=[box('octomap', pose(0.0, 0.03))]).success)
+        self.assertIsNotNone(self.contacts.find_new(lambda m: touches(m, 'ball', 'octomap')))
+        touching = self.contacts.messages[-1].contacts[0]
+        self.assertTrue(update(changes=[SceneChange(type=SceneChange.REMOVE, object='octomap')]).success)
+        self.send(message(voxels_near(0.9, 0.0, 0.0, 0.05)))
+        self.robot.ball = 0.9
+        found = self.contacts.find_new(lambda m: touches_map(m) and m.contacts)
+        self.assertIsNotNone(found)
+        self.assertNotEqual(found.contacts[0].id, touching.id)
 
     def test_a_map_from_a_bag(self):
         file = os.path.join(tempfile.mkdtemp(), 'map.bag')

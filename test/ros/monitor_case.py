@@ -4,16 +4,24 @@ import time
 import unittest
 
 import rospy
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Point, Pose, Quaternion, TransformStamped
+from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from sdf_ccd.msg import ContactArray, Plan
+from sdf_ccd.msg import ContactArray, Plan, SceneChange
 from sdf_ccd.srv import QueryMotion, QueryMotionRequest
 
 RADIUS, PLATE = 0.02, 0.4995         # of the balls of sliders.urdf, and x of the plate's face [m]
 PERIOD, SAMPLE_PERIOD = 0.02, 0.033  # of MovingBalls and of MonitorCase [s]
+
+# A cube of 1 m from the origin, as the text of a file.
+CUBE = """OFF
+8 12 0
+0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1
+3 0 2 3\n3 0 3 1\n3 4 5 7\n3 4 7 6\n3 0 1 5\n3 0 5 4\n3 2 6 7\n3 2 7 3\n3 0 4 6\n3 0 6 2\n3 1 3 7\n3 1 7 5
+"""
 
 
 def wait_for_service(name, kind, patience=60.0):
@@ -92,6 +100,16 @@ def ball_transforms(stamp, ball, other=0.0):
     """Where the two balls of sliders.urdf are along x [m]; None leaves one out."""
     return TFMessage([transform(stamp, frame, x, y) for frame, x, y in (('ball', ball, 0.0), ('other', other, 0.5))
                       if x is not None])
+
+
+def pose(x=0.0, y=0.0, z=0.0):
+    return Pose(position=Point(x, y, z), orientation=Quaternion(0, 0, 0, 1))
+
+
+def box(name, where, size=(0.1, 0.1, 0.1), frame=''):
+    """A change that adds it."""
+    return SceneChange(type=SceneChange.ADD, object=name, pose=where, header=Header(frame_id=frame),
+                       primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=size)])
 
 
 class MovingBalls:

@@ -9,22 +9,13 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import Point, Pose, Quaternion
+from geometry_msgs.msg import Point, Vector3
 from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import Header
 
-from monitor_case import MovingBalls, Recorder, touches, wait_for_service
+from monitor_case import CUBE, MovingBalls, Recorder, box, pose, touches, wait_for_service
 from sdf_ccd.msg import ContactArray, MonitorState, Plan, SceneChange
 from sdf_ccd.srv import GetPlan, QueryPoints, UpdateScene
-
-
-def pose(x=0.0, y=0.0, z=0.0):
-    return Pose(position=Point(x, y, z), orientation=Quaternion(0, 0, 0, 1))
-
-
-def box(name, where, size=(0.1, 0.1, 0.1), frame=''):
-    return SceneChange(type=SceneChange.ADD, object=name, pose=where, header=Header(frame_id=frame),
-                       primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=size)])
 
 
 class WorldTest(unittest.TestCase):
@@ -128,6 +119,73 @@ class WorldTest(unittest.TestCase):
         self.assertIsNotNone(self.touching('ball', 'mesh', answer.scene_version))
         again = self.change(SceneChange(type=SceneChange.ADD, object='twin', pose=pose(3.0), meshes=[mesh]))
         self.assertEqual(again.prepared, 0)
+
+    def test_meshes_from_files(self):
+        folder = tempfile.mkdtemp(dir='/tmp')
+        file = os.path.join(folder, 'cube.off')
+        with open(file, 'w') as out:
+            out.write(CUBE)
+        # A cube of 1 m whose corner the ball is in, and one in millimetres, which is beside it and then around it.
+        for uri in (file, 'file://' + file):
+            answer = self.change(SceneChange(type=SceneChange.ADD, object='cube', pose=pose(-0.01, -0.01, -0.01),
+                                             mesh_resources=[uri]))
+            self.assertIsNotNone(self.touching('ball', 'cube', answer.scene_version))
+            small = self.change(SceneChange(type=SceneChange.ADD, object='cube', pose=pose(0.05, 0.0, 0.0),
+                                            mesh_resources=[uri], mesh_resource_scales=[Vector3(0.1, 0.1, 0.1)]))
+            self.assertIsNotNone(self.clear(small.scene_version))
+            self.robot.ball = 0.06
+            self.assertIsNotNone(self.touching('ball', 'cube', small.scene_version))
+            self.robot.ball = 0.0
+            time.sleep(0.2)
+        # It was read when it was added.
+        os.remove(file)
+        moved = self.change(SceneChange(type=SceneChange.MOVE, object='cube', pose=pose(-0.05, -0.05, -0.05)))
+        self.assertIsNotNone(self.touching('ball', 'cube', moved.scene_version))
+
+    def test_hostile_files_change_nothing(self):
+        folder = tempfile.mkdtemp(dir='/tmp')
+        before = self.change(box('kept', pose(1.0))).scene_version
+        for name, content in (('empty.off', ''), ('count.off', 'OFF\n99999999 99999999 0\n0 0 0\n'),
+                              ('nan.off', CUBE.replace('1 1 1\n', 'nan inf 1e300\n')),
+                              ('index.off', CUBE.replace('3 0 2 3', '3 0 2 9')), ('not.stl', 'x' * 100),
+                              ('text.off', 'root:x:0:0')):
+            with open(os.path.join(folder, name), 'w') as out:
+                out.write(content)
+        os.symlink('/etc/passwd', os.path.join(folder, 'link.off'))
+        os.symlink('/dev/zero', os.path.join(folder, 'zero.off'))
+        os.symlink('/etc', os.path.join(folder, 'etc'))
+        os.mkfifo(os.path.join(folder, 'pipe.off'))
+        below = ['empty.off', 'count.off', 'nan.off', 'index.off', 'not.stl', 'text.off', 'link.off', 'zero.off',
+                 'etc/passwd', 'pipe.off', 'missing.off', '', '.', '../' * 9 + 'etc/passwd', 'a\nb.off', 'x' * 100000]
+        uris = [folder + '/' + name for name in below] + [
+            '', '/etc/passwd', 'file:///etc/passwd', 'file://' + folder + '/../../etc/passwd', 'FILE:///etc/passwd',
+            'relative.off', 'package://sdf_ccd/../../../../../../../etc/passwd', 'package://nowhere/mesh.off',
+            'package://sdf_ccd', 'package://', 'http://127.0.0.1:9/mesh.stl', 'https://127.0.0.1:9/mesh.stl',
+            'ftp://127.0.0.1/mesh.stl', '://', '/proc/self/environ', '/proc/self/mem']
+        for uri in uris:
+            start = time.monotonic()
+            answer = self.update(changes=[SceneChange(type=SceneChange.ADD, object='bad', mesh_resources=[uri])])
+            self.assertFalse(answer.success, uri[:80])
+            self.assertEqual(answer.failed_change, 0, uri[:80])
+            self.assertEqual(answer.scene_version, before)
+            self.assertEqual(answer.objects, ['kept'])
+            self.assertTrue(answer.message and answer.message.isprintable() and len(answer.message) < 2000,
+                            answer.message[:3000])
+            self.assertNotIn('root:', answer.message)
+            self.assertLess(time.monotonic() - start, 10.0, uri[:80])
+        # Nor are worlds, maps and what is written led elsewhere.
+        for change in (SceneChange(type=SceneChange.LOAD, file=folder + '/link.off'),
+                       SceneChange(type=SceneChange.LOAD, file=folder + '/pipe.off'),
+                       SceneChange(type=SceneChange.ADD, object='bad', octomap_file=folder + '/zero.off')):
+            self.assertFalse(self.update(changes=[change]).success)
+        for file in (folder + '/etc/out.scene', '/etc/out.scene', folder + '/../../etc/out.scene'):
+            self.assertFalse(self.update(save_file=file).success, file)
+        elsewhere = os.path.join(tempfile.mkdtemp(dir='/var/tmp'), 'elsewhere')
+        for name in ('out.scene', 'out.scene.part'):
+            os.symlink(elsewhere, os.path.join(folder, name))
+        self.update(save_file=folder + '/out.scene')
+        self.assertFalse(os.path.exists(elsewhere) or os.path.exists('/etc/out.scene'))
+        self.assertIsNotNone(self.clear(before))
 
     def test_a_scene_is_saved_and_loaded(self):
         folder = tempfile.mkdtemp(dir='/tmp')

@@ -16,7 +16,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr const char* kName = "octomap";
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 const ros::WallDuration kPatience(0.1);  // until tf has the map's stamp
 constexpr std::chrono::milliseconds kLook(2);
@@ -70,7 +69,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   const std::vector<VoxelMask> masks = masksOf(*world, frame, message.header.stamp);
   const double read = secondsSince(start);
   if (!map_ || frame != frame_) {
-    map_ = std::make_unique<VoxelMap>(kName, frame, options);
+    map_ = std::make_unique<VoxelMap>(LiveMapParameters::kName, frame, options);
     frame_ = frame;
     tiles_.clear();
   }

@@ -12,6 +12,7 @@
 #include "common/seconds_since.h"
 #include "ros/monitor/low_priority.h"
 #include "sdf_ccd/common/cancel.h"
+#include "storage/temporary_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -119,13 +120,14 @@ void SceneEditor::save(const std::string& file, const ChangingScene& scene, Chan
   const std::string path = sources.files.path(file);
   if (fs::path(path).extension() != ".scene") throw std::invalid_argument(file + ": a scene's file ends in .scene");
   const std::string text = scene.text(sources, sources.warnings);
-  const std::string part = path + ".part";
+  // Whoever may write in the folder could have laid a link under any name that is known beforehand.
+  TemporaryFile made(path);
   {
-    std::ofstream stream(part, std::ios::binary | std::ios::trunc);
+    std::ofstream stream(made.path(), std::ios::binary | std::ios::trunc);
     stream << text;
-    if (!stream.flush()) throw std::runtime_error(part + ": cannot be written");
+    if (!stream.flush()) throw std::runtime_error(path + ": cannot be written");
   }
-  fs::rename(part, path);
+  made.place();
 }
 
 void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Response& response) {

@@ -37,6 +37,8 @@ struct ProximityParameters {
 
 /// The world as an OctoMap that comes on a topic, from the parameters `octomap/…` too.
 struct LiveMapParameters {
+  static constexpr const char* kName = "octomap";  ///< of the map; its tiles are named "octomap/x_y_z"
+
   std::string topic;  ///< empty: none
   UnknownSpace unknown = UnknownSpace::kFree;
   double unknown_distance = 0.5;  ///< [m]

@@ -18,6 +18,10 @@ nanoseconds nextOnGrid(nanoseconds begin, nanoseconds now, nanoseconds period) {
   return begin + ((now - begin) / period + 1) * period;
 }
 
+nanoseconds dueAfter(nanoseconds due, nanoseconds begun, nanoseconds period) {
+  return std::max(due, begun - period / 2) + period;
+}
+
 nanoseconds CycleTrigger::now() {
   return Clock::now().time_since_epoch();
 }
@@ -91,9 +95,8 @@ bool CycleTrigger::wait(const std::function<void()>& woken) {
   }
   if (woken_ && !stop_) doBetween();
   takeNews();
-  // A timer keeps its grid; what is triggered by others keeps the distance.
   const bool is_timer = options_.kind == TriggerKind::kTimer && due_.count() > 0;
-  due_ = is_timer ? nextOnGrid(due_, now(), period()) : now() + period();
+  due_ = is_timer ? nextOnGrid(due_, now(), period()) : dueAfter(due_, now(), period());
   return !stop_;
 }
 

@@ -20,7 +20,7 @@ enum class TriggerKind {
 struct TriggerOptions {
   TriggerKind kind = TriggerKind::kTimer;
   std::vector<std::string> frames;  ///< of kFrames, without leading slashes
-  double period = 1.0;              ///< between two cycles at least; a timer's [s]
+  double period = 1.0;              ///< between two cycles, see dueAfter(); a timer's [s]
   double patience = 0.1;            ///< without news a cycle begins all the same after so long [s]
 };
 
@@ -28,6 +28,12 @@ struct TriggerOptions {
 /// that come after it, and what was missed is left out.
 std::chrono::nanoseconds nextOnGrid(std::chrono::nanoseconds begin, std::chrono::nanoseconds now,
                                     std::chrono::nanoseconds period);
+
+/// From when on news may begin the next cycle, after one that might have begun at `due` and has at `begun`. News that
+/// come once a period, some of them late by up to half of it, thus begin a cycle each: the late ones do not shift those
+/// that come after them. From a cycle to the next it is half a period at least, to the n-th after it n - 1/2 periods.
+std::chrono::nanoseconds dueAfter(std::chrono::nanoseconds due, std::chrono::nanoseconds begun,
+                                  std::chrono::nanoseconds period);
 
 /// Says when the next cycle is due. One thread waits; any may bring news.
 class CycleTrigger {

@@ -17,13 +17,7 @@ void JointWatch::add(const sensor_msgs::JointState& joints) {
     const auto joint = counts_.find(joints.name[i]);
     if (joint == counts_.end()) continue;
     ++joint->second;
-    ++count_;
   }
-}
-
-std::size_t JointWatch::count() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return count_;
 }
 
 std::vector<std::string> JointWatch::lines(const std::string& topic) const {

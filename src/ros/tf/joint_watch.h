@@ -20,16 +20,12 @@ class JointWatch {
 
   void add(const sensor_msgs::JointState& joints);
 
-  /// How many there were.
-  std::size_t count() const;
-
   /// "60 positions of joint elbow in joint_states are not finite", per joint; `topic` is named as given.
   std::vector<std::string> lines(const std::string& topic) const;
 
  private:
   mutable std::mutex mutex_;
   std::map<std::string, std::size_t> counts_;  // of all joints of the robot
-  std::size_t count_ = 0;
 };
 
 }  // namespace sdf_ccd

@@ -27,7 +27,7 @@ Isometry3d lookup(const TfHistory& history, const std::string& frame, const ros:
 
 struct ChangingScene::Fixed {
   std::shared_ptr<const RobotModel> robot;
-  std::string tf_prefix, fixed_frame;
+  std::string tf_prefix, fixed_frame, tiles_begin;
   PairRules rules;
   std::vector<BodyDescription> links;
   std::set<std::string> link_names;  // of the robot, bodies or not
@@ -43,6 +43,7 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
   fixed->robot = described.robot;
   fixed->tf_prefix = described.tf_prefix;
   fixed->fixed_frame = described.fixed_frame;
+  fixed->tiles_begin = described.tiles_begin;
   fixed->rules = rules;
   fixed->visual_only = first.visual_only;
   fixed->disabled = first.disabled;
@@ -132,8 +133,14 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
   return body;
 }
 
+/// For an object to have.
+void ChangingScene::requireFree(const std::string& name) const {
+  if (fixed_->link_names.count(name) > 0) refuse(name + " is a link of the robot");
+  requireNoTile(name, fixed_->tiles_begin);
+}
+
 void ChangingScene::add(const SceneChange& change, ChangeSources& sources) {
-  if (fixed_->link_names.count(change.object) > 0) refuse(change.object + " is a link of the robot");
+  requireFree(change.object);
   set(make(change, sources));
 }
 
@@ -214,7 +221,7 @@ void ChangingScene::load(const SceneChange& change, ChangeSources& sources) {
   for (const WorldObject& object : loadWorldFile(sources.files.path(change.file))) {
     checkCancelled();
     requireName(object.name, "an object's name", sources.limits);
-    if (fixed_->link_names.count(object.name) > 0) refuse(object.name + " is a link of the robot");
+    requireFree(object.name);
     const std::string frame = object.frame.empty() ? fixed_->fixed_frame : withoutLeadingSlash(object.frame);
     BodyDescription body = toBody(object, frame, loader, sources.warnings);
     if (!body.failure.empty()) refuse(body.failure);
@@ -243,8 +250,10 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
     return std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return matches(pattern, touched); });
   };
-  if (mayTouch(object.touch_links, other.name)) return "attached, and may touch";
-  if (known != objects_.end() && mayTouch(known->second.touch_links, name)) return "attached, and may touch";
+  const bool are_of_robot = isLink(object.link) && isLink(other_link);
+  const bool may_touch = mayTouch(object.touch_links, other.name) ||
+                         (known != objects_.end() && mayTouch(known->second.touch_links, name));
+  if (are_of_robot && may_touch) return "attached, and may touch";
   return whyAllowed(fixed_->rules, name, other.name);
 }
 

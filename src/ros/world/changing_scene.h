@@ -78,6 +78,7 @@ class ChangingScene {
 
   BodyDescription make(const SceneChange& change, ChangeSources& sources) const;
   std::string frameOf(const SceneChange& change, const std::string& otherwise) const;
+  void requireFree(const std::string& name) const;
   Object& find(const std::string& name);
   const Rule* lastRule(const std::string& a, const std::string& b) const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;

@@ -62,6 +62,8 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   if (!parameters.octomap.file.empty()) {
     described.scene.bodies.push_back(toBody("octomap", parameters.octomap, frameOf(parameters.octomap.frame)));
   }
+  if (!parameters.live_map.topic.empty()) described.tiles_begin = std::string(LiveMapParameters::kName) + "/";
+  for (const BodyDescription& body : described.scene.bodies) requireNoTile(body.name, described.tiles_begin);
   disableUnreachable(*robot, described.scene);
   applyRules(parameters.pairs, described.scene, described.warnings);
   described.kept = parameters.pairs.checked;
@@ -72,6 +74,11 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
   }
   return described;
+}
+
+void requireNoTile(const std::string& body, const std::string& tiles_begin) {
+  if (tiles_begin.empty() || body.rfind(tiles_begin, 0) != 0) return;
+  throw std::invalid_argument(body + ": names that begin with " + tiles_begin + " are those of the live map's tiles");
 }
 
 ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options) {

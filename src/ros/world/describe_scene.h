@@ -19,6 +19,7 @@ struct DescribedScene {
   std::string tf_prefix;                     ///< of all links' frames: empty, or ending in a slash
   std::string base_joint;                    ///< the SRDF's virtual joint of the root link; empty if there is none
   std::string fixed_frame;                   ///< without leading slash
+  std::string tiles_begin;                   ///< what names of a live map's tiles begin with; empty: there is none
   std::vector<PairRule> kept;                ///< pairs that are to be checked whatever they do
   bool leave_out_overlapping = true;         ///< as MonitorParameters
   std::vector<UnreachablePair> unreachable;  ///< left out, as long as joints keep to their limits
@@ -32,8 +33,12 @@ ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::stri
 
 /// Reads URDF, SRDF, world objects and the OctoMap. A link or object whose mesh cannot be read is there, with the
 /// reason in BodyDescription::failure.
-/// @throws std::exception if the URDF or the SRDF cannot be read, or two bodies share a name.
+/// @throws std::exception if the URDF or the SRDF cannot be read, two bodies share a name, or one has a name that a
+/// live map's tile may get.
 DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader);
+
+/// @throws std::invalid_argument if a body's name is one that a live map's tiles may get.
+void requireNoTile(const std::string& body, const std::string& tiles_begin);
 
 /// What the scene needs, and what building that is expected to cost. @throws as affordableCost() of the core.
 ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options);

@@ -1,0 +1,118 @@
+#include "ros/monitor/health_watch.h"
+
+#include <algorithm>
+
+#include <ros/console.h>
+
+#include "monitor/over_budget.h"
+#include "ros/monitor/cycle_messages.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kLateShown = 3.0;    // a contradiction by late transforms [s]
+constexpr double kFramePeriod = 1.0;  // between two looks at the fixed frame [s]
+constexpr double kPatience = 2.0;     // until it is warned of what is not checked [s]
+constexpr double kWarnPeriod = 10.0;  // of such warnings [s]
+
+}  // namespace
+
+void HealthWatch::warn(const std::string& warning) {
+  ROS_WARN("%s", warning.c_str());
+  health_.warnings.push_back(warning);
+}
+
+void HealthWatch::takeScene(const Scene& scene, const DescribedScene& described, const MonitorParameters& parameters) {
+  health_.warnings = described.warnings;
+  health_.bad_bodies = failedBodies(scene);
+  for (const std::string& body : health_.bad_bodies) ROS_ERROR("Not checked: %s", body.c_str());
+  for (const BodyReport& report : scene.reports)
+    for (const std::string& warning : report.warnings) warn(report.name + ": " + warning);
+  for (const std::string& warning : scene.warnings) warn(warning);
+  const std::string over = overBudget(scene);
+  if (!over.empty()) warn(over);
+  health_.wanted_rate = parameters.rate;
+  health_.is_timed = parameters.trigger.kind == TriggerKind::kTimer;
+  health_.max_error = parameters.scene.max_error.value_or(0.0);
+  health_.pairs = static_cast<int>(scene.pairs.size());
+  health_.pairs_left_out = static_cast<int>(std::count_if(
+      scene.left_out.begin(), scene.left_out.end(), [](const LeftOut& left_out) { return left_out.body_a >= 0; }));
+}
+
+void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent) {
+  const ros::WallTime now = ros::WallTime::now();
+  const CycleResult& result = loop.result();
+  measureRate(now);
+  health_.stalled = false;
+  health_.world_version = loop.world()->version();
+  health_.latency = state.latency;
+  health_.age = (sent - state.complete_until).toSec();
+  health_.run_time = state.run_time;
+  health_.error = result.error;
+  health_.contact_error = result.contact_error;
+  health_.missing = missingBodies(loop);
+  health_.pairs_delayed = result.delayed;
+  health_.pairs_postponed = result.postponed;
+  health_.short_cycles += health_.pairs_postponed > 0;
+  watchLate(loop, now);
+  watchFixedFrame(loop, now);
+  watchUnchecked(loop, !health_.missing.empty());
+}
+
+void HealthWatch::takeStall(const MonitorLoop& loop) {
+  health_.stalled = true;
+  health_.rate = 0.0;
+  watchUnchecked(loop, true);
+}
+
+void HealthWatch::forget() {
+  health_.missing.clear();
+  last_cycle_ = ros::WallTime();
+}
+
+void HealthWatch::measureRate(const ros::WallTime& now) {
+  if (!last_cycle_.isZero()) {
+    const double rate = 1.0 / std::max(1e-6, (now - last_cycle_).toSec());
+    health_.rate = health_.rate > 0.0 ? 0.9 * health_.rate + 0.1 * rate : rate;
+  }
+  last_cycle_ = now;
+}
+
+void HealthWatch::watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& now) {
+  if ((now - last_frame_check_).toSec() < kFramePeriod) return;
+  last_frame_check_ = now;
+  const std::string warning = loop.movingFixedFrame();
+  if (warning.empty()) return;
+  if (health_.moving_frame.empty()) ROS_WARN("%s", warning.c_str());
+  health_.moving_frame = warning;  // from then on: also while the robot rests
+}
+
+void HealthWatch::watchUnchecked(const MonitorLoop& loop, bool is_unchecked) {
+  const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run
+  if (!is_unchecked) {
+    unchecked_since_ = ros::WallTime();
+    return;
+  }
+  if (unchecked_since_.isZero()) unchecked_since_ = now;
+  if ((now - unchecked_since_).toSec() < kPatience) return;
+  if (!last_warning_.isZero() && (now - last_warning_).toSec() < kWarnPeriod) return;
+  last_warning_ = now;
+  std::string cause = uncheckedCause(loop);
+  for (const std::string& line : health_.bad_joints) cause += "; " + line;
+  ROS_WARN("Not checked: %s", cause.c_str());
+}
+
+/// What late transforms have contradicted in the last seconds.
+void HealthWatch::watchLate(const MonitorLoop& loop, const ros::WallTime& now) {
+  const std::vector<LateTransforms>& late = loop.cycle().late;
+  if (!late.empty()) {
+    last_late_ = now;
+    health_.contradicted = late.front().frame + (late.size() > 1 ? " and others" : "") +
+                           " came late behind newer ones: what was said of the time since then is checked again";
+    ROS_WARN_THROTTLE(10.0, "Transforms of %s", health_.contradicted.c_str());
+  } else if (!last_late_.isZero() && (now - last_late_).toSec() > kLateShown) {
+    health_.contradicted.clear();
+  }
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,109 @@
+#include "ros/monitor/monitor_services.h"
+
+#include "ros/monitor/plan_message.h"
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// One for each query and change that is answered or waits, and one that says that there are too many.
+int threads() {
+  return QueryLimits().queries + 4;
+}
+
+}  // namespace
+
+MonitorServices::MonitorServices(const ros::NodeHandle& private_node, const std::atomic<bool>& stop)
+    : stop_(stop), node_(private_node), spinner_(threads(), &queue_) {
+  node_.setCallbackQueue(&queue_);
+  services_ = {node_.advertiseService("query_motion", &MonitorServices::queryMotion, this),
+               node_.advertiseService("query_motions", &MonitorServices::queryMotions, this),
+               node_.advertiseService("query_points", &MonitorServices::queryPoints, this),
+               node_.advertiseService("update_scene", &MonitorServices::updateScene, this),
+               node_.advertiseService("get_plan", &MonitorServices::getPlan, this),
+               node_.advertiseService("reset", &MonitorServices::reset, this)};
+  spinner_.start();
+}
+
+MonitorServices::~MonitorServices() {
+  stop();
+}
+
+void MonitorServices::stop() {
+  queue_.disable();  // the spinner wakes up at once
+  spinner_.stop();
+}
+
+void MonitorServices::setWaiting(const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (queries_ == nullptr) waiting_ = reason;
+}
+
+void MonitorServices::setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  queries_ = &queries;
+  editor_ = &editor;
+  fixed_frame_ = fixed_frame;
+}
+
+bool MonitorServices::isReady(std::string& why_not) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (queries_ == nullptr) why_not = "not ready: " + waiting_;
+  return queries_ != nullptr;
+}
+
+bool MonitorServices::queryMotion(QueryMotion::Request& request, QueryMotion::Response& response) {
+  answer(request, response);
+  if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
+  return true;
+}
+
+bool MonitorServices::queryMotions(QueryMotions::Request& request, QueryMotions::Response& response) {
+  answer(request, response);
+  return true;
+}
+
+bool MonitorServices::queryPoints(QueryPoints::Request& request, QueryPoints::Response& response) {
+  answer(request, response);
+  return true;
+}
+
+template <class Request, class Response>
+void MonitorServices::answer(const Request& request, Response& response) {
+  if (!isReady(response.message)) return;
+  const CancelScope scope(stop_);
+  try {
+    queries_->answer(request, response);
+  } catch (const Cancelled&) {
+    response = {};
+    response.message = "the monitor ends";
+  }
+}
+
+bool MonitorServices::updateScene(UpdateScene::Request& request, UpdateScene::Response& response) {
+  response.failed_change = -1;
+  if (!isReady(response.message)) return true;
+  const CancelScope scope(stop_);
+  try {
+    editor_->update(request, response);
+  } catch (const Cancelled&) {
+    response = {};
+    response.failed_change = -1;
+    response.message = "the monitor ends";
+  }
+  return true;
+}
+
+bool MonitorServices::getPlan(GetPlan::Request&, GetPlan::Response& response) {
+  if (!isReady(response.message)) return true;
+  response.plan = toPlan(*queries_->world(), fixed_frame_, ros::Time::now());
+  response.success = true;
+  return true;
+}
+
+bool MonitorServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  reset_asked_ = true;
+  return true;
+}
+
+}  // namespace sdf_ccd
