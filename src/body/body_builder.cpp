@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "body/body_place.h"
 #include "body/body_shell.h"
 #include "body/coarsen.h"
 #include "body/doubtful_surface.h"
@@ -229,12 +230,7 @@ BuiltBody buildOwnBody(const BodyDescription& description, const BodyNeeds& need
                        MeshPool& pool, const Progress& progress) {
   BuiltBody built;
   Body& body = built.body;
-  body.name = description.name;
-  body.frame = description.frame;
-  body.X_frame_B = description.X_frame_B;
-  body.is_world = description.is_world;
-  body.map = description.map;
-  body.failure = description.failure;
+  setPlace(description, body);
   built.report.name = description.name;
   built.report.field = "left out";
   if (body.failure.empty() && needs.any()) {
@@ -303,11 +299,8 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
   }
   BuiltBody mine = *known;
   mine.body.content = known;
-  mine.body.name = mine.report.name = description.name;
-  mine.body.frame = description.frame;
-  mine.body.X_frame_B = description.X_frame_B;
-  mine.body.is_world = description.is_world;
-  mine.body.map = description.map;
+  setPlace(description, mine.body);
+  mine.report.name = description.name;
   if (was_known) countAsShared(mine.report);
   return mine;
 }

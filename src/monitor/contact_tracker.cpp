@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 #include "scene_difference.h"
@@ -57,14 +58,16 @@ ContactTracker::Groups groupsOf(const Scene& scene) {
   const std::size_t count = scene.pairs.size();
   ContactTracker::Groups groups;
   groups.of_pair.reserve(count);
-  std::map<std::pair<std::string, std::string>, int> of_maps;
+  std::vector<std::string> key_of_body;
+  key_of_body.reserve(scene.bodies.size());
+  for (const Body& body : scene.bodies) key_of_body.push_back(keyOf(body));
+  std::map<std::pair<std::string_view, std::string_view>, int> of_maps;
   for (const PlannedPair& pair : scene.pairs) {
-    const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
-    const std::pair<std::string, std::string> keys(keyOf(a), keyOf(b));
+    const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
     const auto next = static_cast<int>(groups.keys.size());
-    const bool has_tile = !a.map.empty() || !b.map.empty();
-    const int group = has_tile ? of_maps.emplace(keys, next).first->second : next;
-    if (group == next) groups.keys.push_back(keys);
+    const bool has_tile = !scene.bodies[a].map.empty() || !scene.bodies[b].map.empty();
+    const int group = has_tile ? of_maps.try_emplace({key_of_body[a], key_of_body[b]}, next).first->second : next;
+    if (group == next) groups.keys.emplace_back(key_of_body[a], key_of_body[b]);
     groups.of_pair.push_back(group);
   }
   groups.begin.assign(groups.keys.size() + 1, 0);

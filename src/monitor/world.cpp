@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "body/body_place.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"
@@ -19,19 +20,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-bool samePlace(const Body& body, const BodyDescription& description) {
-  return body.frame == description.frame && body.is_world == description.is_world &&
-         body.map == description.map && body.X_frame_B.matrix() == description.X_frame_B.matrix() && body.failure == description.failure;
-}
-
 std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& description) {
   auto body = std::make_shared<Body>(prepared);
-  body->name = description.name;
-  body->frame = description.frame;
-  body->X_frame_B = description.X_frame_B;
-  body->is_world = description.is_world;
-  body->map = description.map;
-  body->failure = description.failure;
+  setPlace(description, *body);
   return body;
 }
 
@@ -250,7 +241,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
     if (prepared[b]) bodies[b] = prepared[b]->body;
     const auto known = impl_->named.find(body.name);
     const bool same =
-        known != impl_->named.end() && known->second.prepared == bodies[b] && samePlace(*known->second.body, body);
+        known != impl_->named.end() && known->second.prepared == bodies[b] && hasPlace(*known->second.body, body);
     scene.bodies.push_back(same ? known->second.body : placed(bodies[b] ? *bodies[b] : Body(), body));
     if (!same && bodies[b]) ++snapshot->shared;
     scene.reports.push_back(prepared[b] ? prepared[b]->report : BodyReport());

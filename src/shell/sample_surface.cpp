@@ -88,11 +88,13 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested
   ShellOptions options = requested;
   std::vector<SurfaceEdge> edges;
   if (hasEdges(requested)) edges = edgesOfFlatPieces(surface, sampling.flatness);
-  if (kEdgesAreMore * edgePoints(length(edges), sampling.radius) > facePoints(area, sampling.covering)) {
+  double edge_length = length(edges);
+  if (kEdgesAreMore * edgePoints(edge_length, sampling.radius) > facePoints(area, sampling.covering)) {
     options.spacing = sampling.covering;  // a finely curved surface needs fewer points over all of it than on its edges
     edges.clear();
+    edge_length = 0.0;
   }
-  requireRoom(area, length(edges), sampling.radius, options);
+  requireRoom(area, edge_length, sampling.radius, options);
   SurfaceFiller filler(surface, options);
   filler.addVertices();
   filler.fillEdges(edges, sampling.radius);

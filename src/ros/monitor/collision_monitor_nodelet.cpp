@@ -181,25 +181,20 @@ void CollisionMonitor::cycle() {
     loop_->reset();
     forget("reset");
   }
-  listener_->report(health_watch_.health());
   listener_->recoverStatic();
   CycleRequest request = outputs_->request(parameters_.max_points);
   request.max_time = parameters_.max_cycle_time;
   request.refine = parameters_.refine;
-  switch (loop_->step(ros::Time::now(), request)) {
-    case TfTracker::Step::kWaiting:
-      if (!isSilent()) return diagnostics_->update(health_watch_.health());
-      [[fallthrough]];
-    case TfTracker::Step::kStalled:
-      health_watch_.takeStall(*loop_);
-      return idle("no new transforms");
-    case TfTracker::Step::kJump:
-      NODELET_WARN("Time has jumped back: starting anew");
-      return forget("time has jumped back");
-    case TfTracker::Step::kCycle:
-      break;
+  const TfTracker::Step step = loop_->step(ros::Time::now(), request);
+  if (step == TfTracker::Step::kCycle) return publishCycle();
+  listener_->report(health_watch_.health());
+  if (step == TfTracker::Step::kJump) {
+    NODELET_WARN("Time has jumped back: starting anew");
+    return forget("time has jumped back");
   }
-  publishCycle();
+  if (step == TfTracker::Step::kWaiting && !isSilent()) return diagnostics_->update(health_watch_.health());
+  health_watch_.takeStall(*loop_);
+  idle("no new transforms");
 }
 
 /// A simulated clock that stands still does not tell that nothing comes.
@@ -214,6 +209,7 @@ void CollisionMonitor::publishCycle() {
   const ros::Time sent = ros::Time::now();
   setMonitorState(*loop_, sent, *state);
   outputs_->publish(state, proximity_->measure(*loop_, sent, *state));
+  listener_->report(health_watch_.health());
   health_watch_.takeCycle(*loop_, *state, sent);
   diagnostics_->update(health_watch_.health());
 }
