@@ -63,6 +63,11 @@ std::map<NamePair, std::string> disabledPairs(const SceneDescription& descriptio
   return reasons;
 }
 
+/// A map's tile that cannot be checked is one that is awaited: what it will need is prepared.
+bool isPlanned(const BodyDescription& body) {
+  return body.failure.empty() || !body.map.empty();
+}
+
 /// Why the pair is not tested; empty if it is.
 std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
                        const std::map<NamePair, std::string>& disabled) {
@@ -70,7 +75,7 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
   if (found != disabled.end()) return found->second;
   if (a.is_world && b.is_world) return "both of the world";
   if (a.frame == b.frame) return "in the same frame";
-  if (!a.failure.empty() || !b.failure.empty()) return {};
+  if (!isPlanned(a) || !isPlanned(b)) return {};
   if (a.geometry.empty() || b.geometry.empty()) return "without collision geometry";
   if (!whyNoShell(a).empty() && !whyNoShell(b).empty()) return "neither can be covered with points";
   return {};
@@ -89,7 +94,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
   std::vector<bool> has_pair(count, false), is_large(count, false);
   std::vector<Extent> extents(count);
   for (int i = 0; i < count; ++i) {
-    if (!description.bodies[i].failure.empty()) continue;
+    if (!isPlanned(description.bodies[i])) continue;
     is_large[i] = isLarge(description.bodies[i], options);
     extents[i] = extentOf(description.bodies[i]);
   }
@@ -112,7 +117,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
         plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason, i, k});
         continue;
       }
-      const bool checkable = a.failure.empty() && b.failure.empty();
+      const bool checkable = isPlanned(a) && isPlanned(b);
       const bool a_can = checkable && whyNoShell(a).empty(), b_can = checkable && whyNoShell(b).empty();
       const bool a_faces = a_can && !(b_can && isOnlyAField(i, k)), b_faces = b_can && !(a_can && isOnlyAField(k, i));
       const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);

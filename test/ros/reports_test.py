@@ -6,6 +6,7 @@ import threading
 import time
 import unittest
 
+import genpy.dynamic
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
@@ -18,6 +19,15 @@ from sdf_ccd.msg import MonitorState
 
 STIFFNESS = 1e6                   # [N/m^3]
 ARM, DEPTH = 0.4, 0.003           # from the arm's joint to the hand, and how deep that is in a wall [m]
+SEPARATOR = '=' * 80 + '\n'
+ContactsState = genpy.dynamic.generate_dynamic('gazebo_msgs/ContactsState', SEPARATOR.join((
+    'Header header\ngazebo_msgs/ContactState[] states\n',
+    'MSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n',
+    'MSG: gazebo_msgs/ContactState\nstring info\nstring collision1_name\nstring collision2_name\n'
+    'geometry_msgs/Wrench[] wrenches\ngeometry_msgs/Wrench total_wrench\n'
+    'geometry_msgs/Vector3[] contact_positions\ngeometry_msgs/Vector3[] contact_normals\nfloat64[] depths\n',
+    'MSG: geometry_msgs/Wrench\nVector3 force\nVector3 torque\n',
+    'MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n')))['gazebo_msgs/ContactsState']
 WARNING, STOP, HYSTERESIS = 0.1, 0.02, 0.01  # [m]
 
 # A hand that slides along an arm, which turns about z.
@@ -119,6 +129,29 @@ class ReportsTest(MasterCase):
             type(self).turn = angle
             time.sleep(0.5)
             self.assertIsNotNone(torques.find_new(says(turn, reach), 10.0), (angle, force, torques.messages[-1:]))
+
+    def test_contacts_are_as_those_of_gazebo(self):
+        self.assertEqual(ContactsState._md5sum, 'acbcb1601a8e525bf72509f18e6f668d')  # of gazebo_msgs 2.9
+        force = math.pi * STIFFNESS * RADIUS * DEPTH ** 2
+        states = Recorder('/arm/contact_states', ContactsState, PATIENCE)
+        type(self).turn = 0.0
+
+        def is_hand_in_wall(m):
+            if len(m.states) != 1 or not m.states[0].depths:
+                return False
+            one = m.states[0]
+            sizes = {len(values) for values in (one.wrenches, one.contact_positions, one.contact_normals, one.depths)}
+            towards = one.contact_normals[0].y
+            return (one.info.startswith('CONTACT') and 'hand' in (one.collision1_name, one.collision2_name) and
+                    sizes == {1} and one.wrenches[0] == one.total_wrench and abs(one.depths[0] - DEPTH) < 3e-4 and
+                    abs(abs(towards) - 1) < 1e-3 and abs(one.total_wrench.force.y - towards * force) < 0.07 * force and
+                    towards == math.copysign(towards, -1 if one.collision1_name == 'hand' else 1) and
+                    abs(one.contact_positions[0].x - ARM) < 5e-3)
+        message = states.find_new(is_hand_in_wall, 10.0)
+        self.assertIsNotNone(message, states.messages[-1:])
+        self.assertEqual(message.header.frame_id, 'base')
+        type(self).turn = math.pi / 4
+        self.assertIsNotNone(states.find_new(lambda m: not m.states, 10.0), 'nothing touches there')
 
     def test_levels_of_nearness_are_left_behind_the_hysteresis(self):
         states = Recorder('/near/state', MonitorState, PATIENCE)

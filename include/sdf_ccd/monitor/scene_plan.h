@@ -59,8 +59,9 @@ struct PlanOptions {
 /// a field to bodies too small to hold it: their shells against its exact field see every contact of the surfaces. If
 /// it is a box and edges are sampled apart, its edges stay: with them, contacts are seen to the edge gap, not the
 /// spacing. All others are tested in both roles. A pair with a body that cannot be checked stays, asks for nothing to
-/// be built, and is NOT_CHECKED. A disabled pair may name bodies that the scene does not have (an SRDF's links without
-/// collision geometry).
+/// be built, and is NOT_CHECKED; if that is a tile of a map (BodyDescription::map), which is to come, the other body is
+/// prepared for it. A disabled pair may name bodies that the scene does not have (an SRDF's links without collision
+/// geometry).
 /// @throws std::invalid_argument if two bodies share a name, or a disabled pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 

@@ -65,7 +65,7 @@ std::vector<Vector3d> surfaceVoxels(const TriangleMesh& surface, double& size) {
 visualization_msgs::MarkerArray toWorldMarkers(const SceneDescription& scene) {
   visualization_msgs::MarkerArray markers;
   for (const BodyDescription& body : scene.bodies) {
-    if (!body.is_world) continue;
+    if (!body.is_world || !body.failure.empty()) continue;
     for (const GeometryDescription& geometry : body.geometry) {
       const int id = static_cast<int>(markers.markers.size());
       Marker marker = makeMarker(body.frame, body.name, id, Marker::CUBE);

@@ -25,7 +25,11 @@ void HealthWatch::warn(const std::string& warning) {
 void HealthWatch::takeScene(const Scene& scene, const DescribedScene& described, const MonitorParameters& parameters) {
   health_.warnings = described.warnings;
   health_.bad_bodies = failedBodies(scene);
-  for (const std::string& body : health_.bad_bodies) ROS_ERROR("Not checked: %s", body.c_str());
+  for (const Body& body : scene.bodies) {
+    if (body.failure.empty()) continue;
+    const auto level = body.map.empty() ? ros::console::levels::Error : ros::console::levels::Warn;  // a map may come
+    ROS_LOG(level, ROSCONSOLE_DEFAULT_NAME, "Not checked: %s: %s", body.name.c_str(), body.failure.c_str());
+  }
   for (const BodyReport& report : scene.reports)
     for (const std::string& warning : report.warnings) warn(report.name + ": " + warning);
   for (const std::string& warning : scene.warnings) warn(warning);
@@ -44,6 +48,7 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   const CycleResult& result = loop.result();
   measureRate(now);
   health_.stalled = false;
+  if (health_.world_version != loop.world()->version()) health_.bad_bodies = failedBodies(loop.scene());
   health_.world_version = loop.world()->version();
   health_.latency = state.latency;
   health_.age = (sent - state.complete_until).toSec();

@@ -6,11 +6,13 @@
 
 #include <ros/console.h>
 
+#include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "common/shown_text.h"
 #include "field/uniform/sparse_grid.h"
 #include "monitor/voxel_mask.h"
 #include "ros/monitor/low_priority.h"
+#include "ros/world/world_bodies.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -19,6 +21,7 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 const ros::WallDuration kPatience(0.1);  // until tf has the map's stamp
 constexpr std::chrono::milliseconds kLook(2);
+constexpr double kShortestLook = 0.02, kLongestLook = 1.0;  // at the map's age [s]
 
 }  // namespace
 
@@ -32,8 +35,16 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
   ros::NodeHandle own(node);
   own.setCallbackQueue(&queue_);
   const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> hear =
-      [this](const octomap_msgs::Octomap::ConstPtr& message) { this->hear(*message); };
+      [this](const octomap_msgs::Octomap::ConstPtr& message) {
+        work("A map is not taken, and the last one stays", [&] { take(*message); });
+      };
   subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, hear);
+  if (parameters_.max_age > 0.0) {
+    const ros::WallDuration look(std::clamp(0.2 * parameters_.max_age, kShortestLook, kLongestLook));
+    age_timer_ = own.createWallTimer(look, [this](const ros::WallTimerEvent&) {
+      work("A map that is too old stays", [this] { watchAge(); });
+    });
+  }
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
 }
@@ -43,16 +54,28 @@ LiveMap::~LiveMap() {
   spinner_->stop();
 }
 
-void LiveMap::hear(const octomap_msgs::Octomap& message) {
+void LiveMap::work(const char* what, const std::function<void()>& job) const {
   lowerPriority();
   const CancelScope scope(stop_);
   try {
-    take(message);
+    job();
   } catch (const Cancelled&) {
     // The monitor ends.
   } catch (const std::exception& error) {
-    ROS_ERROR_THROTTLE(5.0, "A map is not taken, and the last one stays: %s", error.what());
+    ROS_ERROR_THROTTLE(5.0, "%s: %s", what, error.what());
   }
+}
+
+/// A map that stays in place although nobody sends it any more would be trusted for ever.
+void LiveMap::watchAge() {
+  const ros::Time now = ros::Time::now();
+  if (now < taken_) taken_ = now;  // time has jumped
+  if (!is_in_scene_ || (now - taken_).toSec() <= parameters_.max_age) return;
+  const std::string why = "the last map on " + parameters_.topic + " is older than " +
+                          numberText(parameters_.max_age) + " s (octomap/max_age)";
+  editor_.setMap({awaitedTile(history_.fixedFrame(), why)}, {});
+  is_in_scene_ = false;
+  ROS_WARN("%s: the robot is not checked against it", why.c_str());
 }
 
 void LiveMap::take(const octomap_msgs::Octomap& message) {
@@ -72,6 +95,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
     map_ = std::make_unique<VoxelMap>(LiveMapParameters::kName, frame, options);
     frame_ = frame;
     tiles_.clear();
+    is_in_scene_ = false;
   }
   VoxelMap::Change change;
   editor_.arena().execute([&, cancel = CancelPoint()] {
@@ -89,7 +113,13 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   std::vector<BodyDescription> tiles;
   tiles.reserve(tiles_.size());
   for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
-  const std::uint64_t version = made > 0 || !change.removed.empty() ? editor_.setMap(std::move(tiles), fields) : world->version();
+  std::uint64_t version = world->version();
+  if (made > 0 || !change.removed.empty() || !is_in_scene_) {
+    is_in_scene_ = false;  // if this fails, the next map is to try again
+    version = editor_.setMap(std::move(tiles), fields);
+    is_in_scene_ = true;
+  }
+  taken_ = ros::Time::now();
   ROS_INFO_THROTTLE(10.0,
                     "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
                     "%.1f ms (reading %.1f, tiles %.1f)",

@@ -19,6 +19,8 @@ namespace sdf_ccd {
 /// A map of voxels that comes on a topic, as tiles of the world: each map takes the place of the last one, what has not
 /// changed of it is shared. While one is being taken the newest that comes waits, and others are dropped.
 ///
+/// Before the first map, and where the last one is older than may be, the robot is NOT_CHECKED against the map.
+///
 /// Voxels that the robot, and what is attached to it, fill where tf had them at the map's stamp do not count.
 ///
 /// Subscribes:
@@ -31,7 +33,8 @@ class LiveMap {
   ~LiveMap();
 
  private:
-  void hear(const octomap_msgs::Octomap& message);
+  void work(const char* what, const std::function<void()>& job) const;
+  void watchAge();
   void take(const octomap_msgs::Octomap& message);
   std::vector<VoxelMask> masksOf(const CheckedWorld& world, const std::string& frame, const ros::Time& stamp) const;
 
@@ -43,8 +46,11 @@ class LiveMap {
   std::unique_ptr<VoxelMap> map_;
   std::string frame_;
   std::map<std::string, BodyDescription> tiles_;  // by name
+  bool is_in_scene_ = false;                      // what tiles_ has
+  ros::Time taken_;                               // when the last map came
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
+  ros::WallTimer age_timer_;
   std::unique_ptr<ros::AsyncSpinner> spinner_;
 };
 

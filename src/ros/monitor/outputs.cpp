@@ -5,6 +5,7 @@
 #include <ros/console.h>
 
 #include "monitor/scene_difference.h"
+#include "ros/messages/contact_states.h"
 #include "ros/messages/shape_marker.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
@@ -30,6 +31,7 @@ Outputs::Outputs(const ros::NodeHandle& private_node, const ros::Publisher& stat
       marker_options_(options),
       drawer_(loop.fixedFrame(), options) {
   contacts_ = node_.advertise<ContactArray>("contacts", 100);
+  contact_states_ = node_.advertise<gazebo_msgs::ContactsState>("contact_states", 100);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 10);
   links_ = node_.advertise<visualization_msgs::MarkerArray>("links", 10, true);
   torques_.advertise(node_);
@@ -83,7 +85,8 @@ void Outputs::lookForSubscribers() {
   const ros::WallTime now = ros::WallTime::now();
   if (now - looked_ < kLookPeriod) return;
   looked_ = now;
-  contacts_wanted_ = contacts_.getNumSubscribers() > 0;
+  contact_states_wanted_ = contact_states_.getNumSubscribers() > 0;
+  contacts_wanted_ = contact_states_wanted_ || contacts_.getNumSubscribers() > 0;
   state_wanted_ = state_.getNumSubscribers() > 0;
   markers_wanted_ = markers_.getNumSubscribers() > 0;
   torques_wanted_ = torques_.isWanted();
@@ -100,6 +103,7 @@ void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost:
   report.is_unchecked = false;
   report.state = state;
   report.distances = distances;
+  report.has_contact_states = contact_states_wanted_;
   if (torques_wanted_) report.torques = torques_.toMessage(loop_);
   report.draws_markers = markers_wanted_;
   report.draws_links = links_wanted_;
@@ -123,6 +127,7 @@ void Outputs::publishUnchecked(const std::string& reason, const boost::shared_pt
   lookForSubscribers();
   Report& report = worker_->next();
   report.is_unchecked = true;
+  report.has_contact_states = false;
   report.reason = reason;
   report.state = state;
   report.draws_links = links_wanted_;
@@ -160,6 +165,7 @@ void Outputs::finish() {
 void Outputs::send(Report& report) {
   try {
     if (report.contacts) contacts_.publish(report.contacts);
+    if (report.contacts && report.has_contact_states) contact_states_.publish(toContactStates(*report.contacts));
     for (const auto& [publisher, wrench] : report.wrenches) publisher.publish(wrench);
     if (report.state) state_.publish(report.state);
     if (report.torques) torques_.publish(report.torques);

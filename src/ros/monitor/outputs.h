@@ -25,6 +25,7 @@ namespace sdf_ccd {
 ///
 /// Publishes, below the node's name:
 ///   contacts         sdf_ccd/ContactArray            every cycle, and once a second while there is none
+///   contact_states   gazebo_msgs/ContactsState       every cycle: what touched, see toContactStates()
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
 ///                                                    link's frame, about its origin [N, N·m]
 ///   joint_torques    sensor_msgs/JointState          as TorqueOutput does
@@ -95,6 +96,7 @@ class Outputs {
 
   struct Report {                              // of a cycle, or that there is none
     boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
+    bool has_contact_states = false;           // they are published too
     boost::shared_ptr<MonitorState> state;
     boost::shared_ptr<DistanceArray> distances;
     boost::shared_ptr<sensor_msgs::JointState> torques;
@@ -119,7 +121,7 @@ class Outputs {
   ros::NodeHandle node_;
   MonitorLoop& loop_;
   ProximityOutputs& proximity_;
-  ros::Publisher state_, world_publisher_, contacts_, markers_, links_;
+  ros::Publisher state_, world_publisher_, contacts_, contact_states_, markers_, links_;
   std::vector<LinkWrench> wrenches_;
   TorqueOutput torques_;
   MarkerOptions marker_options_;
@@ -135,6 +137,7 @@ class Outputs {
   MessagePool<ContactArray> contact_messages_;
 
   ros::WallTime looked_;  // for subscribers
+  bool contact_states_wanted_ = false;
   bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
   bool markers_wanted_ = false, links_wanted_ = false;
 

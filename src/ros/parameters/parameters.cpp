@@ -134,6 +134,7 @@ OctomapObject readOctomap(ParameterReader reader, LiveMapParameters& live) {
       reader.choice("unknown", {"free", "occupied", "occupied_near"}, static_cast<int>(live.unknown)));
   live.unknown_distance = reader.notNegative("unknown_distance", live.unknown_distance);
   live.padding = reader.notNegative("padding", live.padding);
+  live.max_age = reader.notNegative("max_age", live.max_age);
   octomap.file = reader.text("file", "");
   octomap.frame = reader.name("frame", "");
   octomap.X_frame_B = readPose(reader);

@@ -43,6 +43,7 @@ struct LiveMapParameters {
   UnknownSpace unknown = UnknownSpace::kFree;
   double unknown_distance = 0.5;  ///< [m]
   double padding = 0.03;          ///< of the robot's own voxels [m]
+  double max_age = 0.0;           ///< the robot is NOT_CHECKED against maps that came longer ago [s]; 0: however old
 };
 
 /// All parameters of the monitor; config/monitor.yaml documents them.

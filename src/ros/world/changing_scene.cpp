@@ -58,6 +58,8 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
   for (const BodyDescription& body : first.bodies) {
     if (!body.is_world) {
       fixed->links.push_back(body);
+    } else if (!body.map.empty()) {
+      setTiles({body});  // that is awaited
     } else {
       objects_[body.name] = {body, "", {}, ++count_, true};
     }

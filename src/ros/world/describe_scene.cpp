@@ -65,6 +65,10 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   if (!parameters.live_map.topic.empty()) described.tiles_begin = std::string(LiveMapParameters::kName) + "/";
   for (const BodyDescription& body : described.scene.bodies) requireNoTile(body.name, described.tiles_begin);
   disableUnreachable(*robot, described.scene);
+  if (!parameters.live_map.topic.empty()) {
+    const std::string why = "no map has come on " + parameters.live_map.topic + " yet";
+    described.scene.bodies.push_back(awaitedTile(frameOf(""), why));
+  }
   applyRules(parameters.pairs, described.scene, described.warnings);
   described.kept = parameters.pairs.checked;
   for (const auto& [a, b] : srdf.enabled) described.kept.push_back({a, b});

@@ -70,4 +70,16 @@ BodyDescription toBody(const std::string& name, const OctomapObject& octomap, co
   return body;
 }
 
+BodyDescription awaitedTile(const std::string& frame, const std::string& why) {
+  BodyDescription body = emptyBody(std::string(LiveMapParameters::kName) + "/awaited", frame, Isometry3d::Identity());
+  body.map = LiveMapParameters::kName;
+  body.failure = why;
+  GeometryDescription voxel;  // stands for those that come
+  voxel.shape = std::make_shared<const TriangleMesh>(tessellate(Box{Vector3d::Constant(0.1)}, 0.01));
+  voxel.source = body.name;
+  voxel.watertight_voxels = true;
+  body.geometry.push_back(std::move(voxel));
+  return body;
+}
+
 }  // namespace sdf_ccd

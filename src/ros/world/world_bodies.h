@@ -16,4 +16,7 @@ BodyDescription toBody(const WorldObject& object, const std::string& frame, cons
 /// The same of an OctoMap's file: a body of that name.
 BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame);
 
+/// Stands for a live map while there is none: the robot is NOT_CHECKED against it, for this reason, and prepared for it.
+BodyDescription awaitedTile(const std::string& frame, const std::string& why);
+
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include <console_bridge/console.h>
 #include <tbb/global_control.h>
@@ -136,10 +137,12 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
 }
 
 void run(const Arguments& arguments) {
-  const MonitorParameters parameters = readParameters(arguments.config);
+  MonitorParameters parameters = readParameters(arguments.config);
+  const std::string map_topic = std::exchange(parameters.live_map.topic, "");
   require(parameters.rate <= kFastestRate,
           "a rate of " + numberText(parameters.rate) + " Hz is above the largest, " + numberText(kFastestRate) + " Hz");
-  const DescribedScene described = describeMonitored(parameters, arguments.config.urdf);
+  DescribedScene described = describeMonitored(parameters, arguments.config.urdf);
+  if (!map_topic.empty()) described.warnings.push_back("nothing is checked against the maps on " + map_topic);
   const RecordedMotion motion(arguments.bag, described, arguments.motion);
   const ScenePlan plan = affordablePlan(described, parameters.scene);
   const std::string expected = "expected         " + summary(*plan.expected) + "\n";

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/model/scene_description.h"
+
+namespace sdf_ccd {
+
+/// Gives a body what its description says of it besides geometry: bodies of one geometry differ in nothing else.
+inline void setPlace(const BodyDescription& description, Body& body) {
+  body.name = description.name;
+  body.frame = description.frame;
+  body.X_frame_B = description.X_frame_B;
+  body.is_world = description.is_world;
+  body.map = description.map;
+  body.failure = description.failure;
+}
+
+/// Whether setPlace() would change nothing.
+inline bool hasPlace(const Body& body, const BodyDescription& description) {
+  return body.name == description.name && body.frame == description.frame &&
+         body.X_frame_B.matrix() == description.X_frame_B.matrix() && body.is_world == description.is_world &&
+         body.map == description.map && body.failure == description.failure;
+}
+
+}  // namespace sdf_ccd
