@@ -41,9 +41,8 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
   subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, hear);
   if (parameters_.max_age > 0.0) {
     const ros::WallDuration look(std::clamp(0.2 * parameters_.max_age, kShortestLook, kLongestLook));
-    age_timer_ = own.createWallTimer(look, [this](const ros::WallTimerEvent&) {
-      work("A map that is too old stays", [this] { watchAge(); });
-    });
+    age_timer_ = own.createWallTimer(
+        look, [this](const ros::WallTimerEvent&) { work("A map that is too old stays", [this] { watchAge(); }); });
   }
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
@@ -71,8 +70,8 @@ void LiveMap::watchAge() {
   const ros::Time now = ros::Time::now();
   if (now < taken_) taken_ = now;  // time has jumped
   if (!is_in_scene_ || (now - taken_).toSec() <= parameters_.max_age) return;
-  const std::string why = "the last map on " + parameters_.topic + " is older than " +
-                          numberText(parameters_.max_age) + " s (octomap/max_age)";
+  const std::string why = "the last map on " + parameters_.topic + " is older than " + numberText(parameters_.max_age) +
+                          " s (octomap/max_age)";
   editor_.setMap({awaitedTile(history_.fixedFrame(), why)}, {});
   is_in_scene_ = false;
   ROS_WARN("%s: the robot is not checked against it", why.c_str());
@@ -120,11 +119,12 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
     is_in_scene_ = true;
   }
   taken_ = ros::Time::now();
-  ROS_INFO_THROTTLE(10.0,
-                    "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
-                    "%.1f ms (reading %.1f, tiles %.1f)",
-                    change.occupied, tiles_.size(), made, change.masked, static_cast<unsigned long>(version),
-                    1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
+  ROS_INFO_THROTTLE(
+      10.0,
+      "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
+      "%.1f ms (reading %.1f, tiles %.1f)",
+      change.occupied, tiles_.size(), made, change.masked, static_cast<unsigned long>(version),
+      1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
 }
 
 /// Of the robot and what is attached to it, as tf has them at the map's stamp; what it has not, where that is now.
