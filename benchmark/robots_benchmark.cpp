@@ -1,8 +1,11 @@
-// What a robot's max_error costs in memory, start-up and cycle time, and what verdicts it leaves open.
+// What a robot's max_error costs in memory, start-up and cycle time, and what verdicts it leaves open; what
+// contact/accuracy costs, and what forces it gives.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <tuple>
 
 #include "common/seconds_since.h"
 #include "monitor/scene_cost.h"
@@ -32,46 +35,119 @@ CycleMotion shortCycle(const Robot& robot, const Scene& scene, const JointPositi
   return motion;
 }
 
-void study(const Robot& robot, double max_error, const StudyOptions& options) {
-  MonitorOptions monitor_options;
-  monitor_options.max_error = max_error;
-  const BodyOptions scene_options = preparedAsMonitored(monitor_options);
-  const ScenePlan plan = planScene(robot.scene, planOptions(scene_options));
-  const SceneCost expected = expectedCost(robot.scene, plan, scene_options);
-  const auto start = Clock::now();
-  const auto scene = std::make_shared<const Scene>(buildScene(robot.scene, plan, scene_options));
-  const double build_seconds = secondsSince(start);
-  std::fprintf(stderr, "%s", planTable(*scene).c_str());
-  double bytes = 0.0;
-  for (const BodyReport& report : scene->reports) bytes += double(report.field_bytes + report.shell_bytes);
+struct Checked {
+  SceneCost expected;
+  std::shared_ptr<const Scene> scene;
+  double build_seconds = 0.0, bytes = 0.0, bound = 0.0;  // the largest bound [m]
+  std::vector<double> milliseconds;                      // per cycle
+  std::vector<Verdict> verdicts;                         // per cycle and pair
+  std::vector<Vector3d> forces_W;                        // on body A, likewise [N]
 
-  Monitor monitor(scene, monitor_options);
+  double medianCycle() {
+    const auto middle = milliseconds.begin() + static_cast<std::ptrdiff_t>(milliseconds.size() / 2);
+    std::nth_element(milliseconds.begin(), middle, milliseconds.end());
+    return *middle;
+  }
+};
+
+/// Prepares a robot, and checks the same short cycles each time.
+Checked check(const Robot& robot, const BodyOptions& prepared, const MonitorOptions& monitor_options, int cycles) {
+  Checked checked;
+  const ScenePlan plan = planScene(robot.scene, planOptions(prepared));
+  checked.expected = expectedCost(robot.scene, plan, prepared);
+  const auto start = Clock::now();
+  checked.scene = std::make_shared<const Scene>(buildScene(robot.scene, plan, prepared));
+  checked.build_seconds = secondsSince(start);
+  const Scene& scene = *checked.scene;
+  std::fprintf(stderr, "%s", planTable(scene).c_str());
+  for (const BodyReport& report : scene.reports) checked.bytes += double(report.field_bytes + report.shell_bytes);
+
+  Monitor monitor(checked.scene, monitor_options);
   std::mt19937_64 random(1);
-  std::vector<double> milliseconds;
-  double bound = 0.0, verdicts[4] = {};
-  for (int i = 0; i < options.pairs; ++i) {
+  for (int i = 0; i < cycles; ++i) {
     const JointPositions from = randomPositions(robot.model, random), to = randomPositions(robot.model, random);
     monitor.reset();
-    const CycleResult& result = monitor.run(shortCycle(robot, *scene, from, to), {});
-    milliseconds.push_back(1e3 * result.run_time);
-    bound = std::max(bound, result.error_bound);
-    for (const PairResult& pair : result.pairs) ++verdicts[static_cast<int>(pair.verdict)];
+    const CycleResult& result = monitor.run(shortCycle(robot, scene, from, to), {});
+    checked.milliseconds.push_back(1e3 * result.run_time);
+    checked.bound = std::max(checked.bound, result.error_bound);
+    for (const PairResult& pair : result.pairs) {
+      checked.verdicts.push_back(pair.verdict);
+      checked.forces_W.push_back(pair.on_a_W.force);
+    }
   }
-  std::nth_element(milliseconds.begin(), milliseconds.begin() + milliseconds.size() / 2, milliseconds.end());
-  const double pairs = double(scene->pairs.size()) * options.pairs;
+  return checked;
+}
+
+void printCost(const std::string& name, Checked& checked) {
+  const auto row = [&](const char* metric, double value, const char* unit) {
+    print({"robots", name, "sdf_ccd", metric, value, unit, int(checked.milliseconds.size())});
+  };
+  row("memory", 1e-6 * checked.bytes, "MB");
+  row("expected_memory", 1e-6 * checked.expected.bytes, "MB");
+  row("build", checked.build_seconds, "s");
+  row("expected_build", checked.expected.seconds, "s");
+  row("cycle", checked.medianCycle(), "ms");
+}
+
+void studyMaxError(const Robot& robot, double max_error, const StudyOptions& options) {
+  MonitorOptions monitor_options;
+  monitor_options.max_error = max_error;
+  Checked checked = check(robot, preparedAsMonitored(monitor_options), monitor_options, options.pairs);
   char name[64];
   std::snprintf(name, sizeof name, "%s/%ldum", robot.name.c_str(), std::lround(1e6 * max_error));
+  printCost(name, checked);
   const auto row = [&](const char* metric, double value, const char* unit) {
     print({"robots", name, "sdf_ccd", metric, value, unit, options.pairs});
   };
-  row("bound", 1e3 * bound, "mm");
-  row("memory", 1e-6 * bytes, "MB");
-  row("expected_memory", 1e-6 * expected.bytes, "MB");
-  row("build", build_seconds, "s");
-  row("expected_build", expected.seconds, "s");
-  row("cycle", milliseconds[milliseconds.size() / 2], "ms");
-  row("uncertain", 100.0 * verdicts[static_cast<int>(Verdict::kUncertain)] / pairs, "%");
-  row("contact", 100.0 * verdicts[static_cast<int>(Verdict::kContact)] / pairs, "%");
+  const auto share = [&](Verdict verdict) {
+    const auto count = std::count(checked.verdicts.begin(), checked.verdicts.end(), verdict);
+    return 100.0 * double(count) / double(checked.verdicts.size());
+  };
+  row("bound", 1e3 * checked.bound, "mm");
+  row("uncertain", share(Verdict::kUncertain), "%");
+  row("contact", share(Verdict::kContact), "%");
+}
+
+/// How far forces are off from those of a finer scene, relative, and how many verdicts are others.
+void studyAccuracy(const Robot& robot, const StudyOptions& options) {
+  constexpr double kFinest = 0.00125;  // the reference [m]
+  const MonitorOptions monitor_options;
+  const auto checkAt = [&](const std::optional<double>& accuracy) {
+    BodyOptions prepared = preparedAsMonitored(monitor_options);
+    const BodyOptions wanted = optionsForContacts(accuracy);
+    std::tie(prepared.field, prepared.shell) = std::tie(wanted.field, wanted.shell);
+    std::tie(prepared.points_across, prepared.cells_across) = std::tie(wanted.points_across, wanted.cells_across);
+    return check(robot, prepared, monitor_options, options.pairs);
+  };
+  const Checked reference = checkAt(kFinest);
+  const std::vector<std::optional<double>> accuracies{0.04, 0.02, 0.01, 0.005, std::nullopt, 0.0025};
+  for (const std::optional<double>& accuracy : accuracies) {
+    Checked checked = checkAt(accuracy);
+    const std::string name =
+        robot.name + "/accuracy_" + (accuracy ? std::to_string(std::lround(1e6 * *accuracy)) + "um" : "default");
+    printCost(name, checked);
+    std::vector<double> errors;
+    double difference = 0.0, all_forces = 0.0;
+    long others = 0;
+    for (std::size_t i = 0; i < reference.verdicts.size(); ++i) {
+      others += checked.verdicts[i] != reference.verdicts[i];
+      const double force = reference.forces_W[i].norm();
+      difference += (checked.forces_W[i] - reference.forces_W[i]).norm();
+      all_forces += force;
+      if (force > 0.0) errors.push_back((checked.forces_W[i] - reference.forces_W[i]).norm() / force);
+    }
+    std::sort(errors.begin(), errors.end());
+    const auto quantile = [&](double q) {
+      return errors.empty() ? 0.0 : errors[std::size_t(q * double(errors.size() - 1))];
+    };
+    const auto row = [&](const char* metric, double value, const char* unit) {
+      print({"robots", name, "sdf_ccd", metric, value, unit, int(errors.size())});
+    };
+    row("force_error_median", 100.0 * quantile(0.5), "%");
+    row("force_error_p90", 100.0 * quantile(0.9), "%");
+    row("force_error_all", all_forces > 0.0 ? 100.0 * difference / all_forces : 0.0, "%");
+    row("other_verdicts", double(others), "pairs");
+  }
 }
 
 }  // namespace
@@ -84,11 +160,13 @@ int main(int argc, char** argv) {
   StudyOptions quick = full;
   quick.errors = {"0.01", "0.0001"};
   quick.pairs = 100;
-  return runStudy(argc, argv, "A robot's max_error against memory, start-up and cycle time", full, quick,
-                  [](const StudyOptions& options) {
+  return runStudy(argc, argv, "A robot's max_error and contact/accuracy against memory, start-up and cycle time", full,
+                  quick, [](const StudyOptions& options) {
                     for (const std::string& argument : options.robots) {
                       const Robot robot = loadRobot(argument);
-                      for (const std::string& error : options.errors) study(robot, std::stod(error), options);
+                      if (isWanted(options.cases, "max_error"))
+                        for (const std::string& error : options.errors) studyMaxError(robot, std::stod(error), options);
+                      if (isWanted(options.cases, "accuracy")) studyAccuracy(robot, options);
                     }
                   });
 }

@@ -19,7 +19,7 @@ TEST(ElementOptions, PointsAndCellsFollowTheSizeWithinLimits) {
     EXPECT_GE(shell.spacing, std::max(last, 1e-3));
     EXPECT_LE(shell.spacing, options.shell.spacing);
     EXPECT_NEAR(shell.vertex_spacing, 0.4 * shell.spacing, 1e-12);
-    if (shell.spacing > 1.3e-3) EXPECT_NEAR(*field.cell_size, 0.8 * shell.spacing, 1e-12);
+    if (shell.spacing > 1.3e-3) EXPECT_NEAR(*field.cell_size, 1.2 * shell.spacing, 1e-12);
     last = shell.spacing;
   }
   EXPECT_EQ(last, options.shell.spacing);
@@ -29,7 +29,7 @@ TEST(ElementOptions, WhatIsGivenHoldsEverywhere) {
   const BodyOptions options = optionsForContacts(0.003);
   for (const double area : {1e-6, kFinger, 10.0}) {
     EXPECT_EQ(shellOptionsFor(options, area).spacing, 0.003);
-    EXPECT_EQ(*fieldOptionsFor(options, area).cell_size, 0.8 * 0.003);
+    EXPECT_EQ(*fieldOptionsFor(options, area).cell_size, 1.2 * 0.003);
   }
   EXPECT_FALSE(mayBeCoarser(options));
   EXPECT_TRUE(mayBeCoarser(optionsForContacts()));

@@ -152,7 +152,7 @@ TEST(YamlParameters, ContactAccuracySetsFieldsAndShells) {
   EXPECT_EQ(accurate.cells_across, 0.0);
   EXPECT_EQ(accurate.shell.spacing, 0.002);
   EXPECT_EQ(accurate.shell.vertex_spacing, 0.0008);
-  EXPECT_EQ(accurate.field.cell_size, 0.0016);
+  EXPECT_EQ(accurate.field.cell_size, 1.2 * 0.002);
   const BodyOptions cells = parse("contact: {accuracy: 0.002}\nfield: {max_error: 0.001}\nshell: {edge_gap: 0.0005}");
   EXPECT_EQ(cells.field.max_error, 0.001);
   EXPECT_FALSE(cells.field.cell_size);

@@ -47,8 +47,8 @@ struct BodyOptions {
 };
 
 /// Fields and shells for contacts alone, where triangles decide the verdicts.
-/// @param accuracy  maximum distance from a surface location to a point that produces forces; field cells are four
-/// fifths of it [m]. None: by the sizes of the elements, at most 5 mm.
+/// @param accuracy  maximum distance from a surface location to a point that produces forces; field cells are 1.2
+/// times that [m]. None: by the sizes of the elements, at most 5 mm.
 BodyOptions optionsForContacts(const std::optional<double>& accuracy = {});
 
 /// Limits of a body's field and shell, whatever the required accuracy.
