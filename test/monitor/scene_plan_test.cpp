@@ -89,6 +89,18 @@ TEST(ScenePlan, PairsOfFailedBodiesStay) {
   EXPECT_TRUE(plan.needs_field[0]);
 }
 
+TEST(ScenePlan, BodiesArePreparedForATileThatIsToCome) {
+  std::vector<BodyDescription> bodies = {body("link", kBall), body("tile", kBall, true)};
+  bodies[1].geometry[0].watertight_voxels = true;
+  bodies[1].failure = "no map has come yet";
+  EXPECT_FALSE(planScene({bodies, {}}).needs_shell[0]);  // of a body that failed nothing comes
+  bodies[1].map = "map";
+  const ScenePlan plan = planScene({bodies, {}});
+  ASSERT_EQ(plan.pairs.size(), 1u);
+  EXPECT_TRUE(plan.pairs[0].a_shell_b_field);
+  EXPECT_TRUE(plan.needs_shell[0]);
+}
+
 TEST(ScenePlan, BodiesWithoutGeometryHaveNoPairs) {
   std::vector<BodyDescription> bodies = {body("a", kBall), body("frame", kBall)};
   bodies[1].geometry.clear();
