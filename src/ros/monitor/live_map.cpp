@@ -69,11 +69,12 @@ void LiveMap::work(const char* what, const std::function<void()>& job) const {
 void LiveMap::watchAge() {
   const ros::Time now = ros::Time::now();
   if (now < taken_) taken_ = now;  // time has jumped
-  if (!is_in_scene_ || (now - taken_).toSec() <= parameters_.max_age) return;
+  if (is_awaited_ || (now - taken_).toSec() <= parameters_.max_age) return;
   const std::string why = "the last map on " + parameters_.topic + " is older than " + numberText(parameters_.max_age) +
                           " s (octomap/max_age)";
   editor_.setMap({awaitedTile(history_.fixedFrame(), why)}, {});
   is_in_scene_ = false;
+  is_awaited_ = true;
   ROS_WARN("%s: the robot is not checked against it", why.c_str());
 }
 
@@ -117,6 +118,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
     is_in_scene_ = false;  // if this fails, the next map is to try again
     version = editor_.setMap(std::move(tiles), fields);
     is_in_scene_ = true;
+    is_awaited_ = false;
   }
   taken_ = ros::Time::now();
   ROS_INFO_THROTTLE(

@@ -47,6 +47,7 @@ class LiveMap {
   std::string frame_;
   std::map<std::string, BodyDescription> tiles_;  // by name
   bool is_in_scene_ = false;                      // what tiles_ has
+  bool is_awaited_ = true;                        // the scene has no map, and says so
   ros::Time taken_;                               // when the last map came
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
