@@ -1,19 +1,11 @@
 #include "ros/messages/contact_states.h"
 
-#include <utility>
-
 #include <fmt/format.h>
+
+#include "ros/messages/conversions.h"
 
 namespace sdf_ccd {
 namespace {
-
-geometry_msgs::Vector3 toVector(const geometry_msgs::Point& point) {
-  geometry_msgs::Vector3 vector;
-  vector.x = point.x;
-  vector.y = point.y;
-  vector.z = point.z;
-  return vector;
-}
 
 geometry_msgs::Vector3 opposite(geometry_msgs::Vector3 vector) {
   vector.x = -vector.x;
@@ -32,7 +24,7 @@ gazebo_msgs::ContactState toContactState(const PairContact& pair) {
   state.info += fmt::format(" from {:.6f} s, depth {:.3g} m, error bound {:.3g} m", pair.first_contact.toSec(),
                             pair.depth, pair.deepest.depth_error);
   state.wrenches.push_back(pair.wrench_on_a);
-  state.contact_positions.push_back(toVector(pair.deepest.position));
+  state.contact_positions.push_back(toVector3(toEigen(pair.deepest.position)));
   state.contact_normals.push_back(opposite(pair.normal));
   state.depths.push_back(pair.depth);
   return state;
