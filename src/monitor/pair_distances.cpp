@@ -16,6 +16,9 @@ namespace {
 /// What the distance of triangles may be off by, over the size of the bodies: see surfaceDistance().
 constexpr double kTriangleError = 1e-7;
 
+constexpr double kUnknown = -1.0;   // within no range
+constexpr double kSameTime = 1e-8;  // that stamps are rounded to, some times [s]
+
 bool isHalfSpaceBody(const Body& body) {
   return !body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
     return part.field.primitive() && isHalfSpace(*part.field.primitive());
@@ -37,11 +40,14 @@ double closingAlong(const Vector3d& n_F, const Isometry3d& X_from, const Isometr
 }  // namespace
 
 PairDistances::PairDistances(std::shared_ptr<const Scene> scene)
-    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {}
+    : scene_(std::move(scene)), pairs_(scene_->pairs.size()), known_within_(scene_->pairs.size(), kUnknown) {}
 
 void PairDistances::forget() {
+  if (is_empty_) return;
   for (Pair& pair : pairs_) pair.is_known = pair.is_near = false;
+  std::fill(known_within_.begin(), known_within_.end(), kUnknown);
   near_.clear();
+  is_empty_ = true;
 }
 
 void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_now) {
@@ -56,21 +62,30 @@ void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_no
     near.body_b = scene_->pairs[now].body_b;
     pairs_[now].last = near;
   }
+  for (std::size_t pair = 0; pair < pairs_now.size(); ++pair)
+    if (pairs_now[pair] >= 0) known_within_[pairs_now[pair]] = before.known_within_[pair];
+  record_.origin = before.record_.origin;
+  is_empty_ = before.is_empty_;
 }
 
 const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion, const CycleResult& result,
-                                                       double range) {
+                                                       double range, const CycleRecord& record) {
+  const double later = std::chrono::duration<double>(record.origin - record_.origin).count();
+  record_ = record;
+  has_unknown_ = is_empty_ = false;
   near_.clear();
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const PairResult& pair = result.pairs[i];
     Pair& known = pairs_[i];
     if (pair.span.empty()) {
-      // Its time is before the cycle: told from the cycle's start on.
-      if (known.is_near) known.last.time -= motion.times.back();
+      if (known.is_near) known.last.time -= later;  // told from this cycle's start on
+      has_unknown_ |= !known.is_near && known_within_[i] < range;
     } else if (pair.verdict == Verdict::kNotChecked) {
       known.is_near = known.is_known = false;
+      known_within_[i] = kUnknown;
     } else {
       measure(i, motion, pair, range);
+      known_within_[i] = range;
     }
     if (known.is_near) near_.push_back(known.last);
   }
@@ -205,12 +220,18 @@ void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& spa
   const Isometry3d X_then = f_is_a ? relativePose(X_WA_then, X_WB_then) : relativePose(X_WB_then, X_WA_then);
   const Isometry3d X_now = f_is_a ? relativePose(X_WA_now, X_WB_now) : relativePose(X_WB_now, X_WA_now);
   found.any.closing = maxDisplacement(X_then, X_now, ball) / over;
+  // Poses between two recorded ones are interpolated, so that is a mean over all of the time between these: of each
+  // body over its own, and if these are not the step itself, their errors add up.
   found.any.over = over;
+  if (record_.gaps) {
+    const double a = (*record_.gaps)[found.body_a], b = (*record_.gaps)[found.body_b];
+    if (std::max(a, b) > over + kSameTime) found.any.over = std::max(over, a + b);
+  }
   if (!found.slab) return;
   const Vector3d away_F = f_is_a ? Vector3d(X_WA_now.linear().transpose() * found.normal_W)
                                  : Vector3d(X_WB_now.linear().transpose() * -found.normal_W);
   found.slab->closing = closingAlong(away_F, X_then, X_now, ball) / over;
-  found.slab->over = over;
+  found.slab->over = found.any.over;
 }
 
 }  // namespace sdf_ccd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,13 @@ struct ClosingGap {
   double width = 0.0;  ///< lower bound of the bodies' distance [m]
   double closing =
       0.0;            ///< upper bound of the mean speed at which that becomes less over `over` [m/s]; may be negative
-  double over = 0.0;  ///< up to the time of the distance [s]
+  double over = 0.0;  ///< up to the time of the distance [s]; not less than what lies between two recorded poses
+};
+
+/// What a cycle's motion does not tell itself.
+struct CycleRecord {
+  std::chrono::nanoseconds origin{0};         ///< its time 0, since the clock's epoch
+  const std::vector<double>* gaps = nullptr;  ///< per body: longest time between two recorded poses; null: none [s]
 };
 
 /// How far two bodies are apart at one time: the end of what is known of them in the cycle.
@@ -42,11 +49,18 @@ class PairDistances {
 
   /// Takes a cycle of the scene. @param range  pairs that surely are farther apart are not listed [m].
   /// @param result  with the clearances of all pairs (CycleRequest::skipped_pairs).
-  const std::vector<PairDistance>& update(const CycleMotion& motion, const CycleResult& result, double range);
+  /// @param record  of the motion; cycles may overlap, as pairs are caught up on.
+  const std::vector<PairDistance>& update(const CycleMotion& motion, const CycleResult& result, double range,
+                                          const CycleRecord& record);
 
   /// In the order of Scene::pairs; pairs that are not checked are not listed, those that are delayed as they were.
   const std::vector<PairDistance>& near() const { return near_; }
 
+  /// Whether some pair is delayed of which it was not known before whether it is within the range: it is not listed, and
+  /// may be anywhere.
+  bool hasUnknown() const { return has_unknown_; }
+
+  /// As where cycles are left out. Costs nothing if nothing is known.
   void forget();
 
   /// Goes on from another scene's, between two cycles, and leaves it empty: what was near there, and is the same pair
@@ -75,7 +89,11 @@ class PairDistances {
 
   std::shared_ptr<const Scene> scene_;
   std::vector<Pair> pairs_;
+  std::vector<double> known_within_;  // per pair: range of its last measurement [m]; below zero if nothing is known
   std::vector<PairDistance> near_;
+  CycleRecord record_;  // of the last cycle; its gaps hold during update()
+  bool has_unknown_ = false;
+  bool is_empty_ = true;  // nothing is known
   SeparationMemory memory_;
   std::vector<int> pending_;
 };

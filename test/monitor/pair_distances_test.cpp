@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "monitor/scene_case.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
@@ -23,8 +25,8 @@ double boxDistance(const Vector3d& half_a, const Isometry3d& X_WA, const Vector3
   Real least = 1e300L;
   for (int i = 0; i < int(a.triangles.size()); ++i)
     for (int k = 0; k < int(b.triangles.size()); ++k)
-      least = std::min(
-          least, test::triangleDistance(test::exact(cornersOf(a, i), X_WA), test::exact(cornersOf(b, k), X_WB)));
+      least = std::min(least,
+                       test::triangleDistance(test::exact(cornersOf(a, i), X_WA), test::exact(cornersOf(b, k), X_WB)));
   return static_cast<double>(least);
 }
 
@@ -41,8 +43,24 @@ class PairDistancesTest : public ::testing::Test {
     CycleMotion motion;
     motion.times = {0.0, 0.1};
     for (std::size_t b = 0; b < to.size(); ++b) motion.X_WB.push_back({from[b], to[b]});
+    return update(motion);
+  }
+
+  /// Of a cycle that begins where the last one ended.
+  const std::vector<PairDistance>& update(const CycleMotion& motion) {
     result_ = monitor_.run(motion, {true, 3});
-    return distances_.update(motion, result_, kRange);
+    const auto origin = std::chrono::nanoseconds(std::llround(1e9 * end_));
+    end_ += motion.times.back();
+    return distances_.update(motion, result_, kRange, {origin});
+  }
+
+  /// All pairs wait in it.
+  static CycleMotion delayed(const Scene& scene, const std::vector<Isometry3d>& at, double length) {
+    CycleMotion motion;
+    motion.times = {0.0, length};
+    for (const Isometry3d& X : at) motion.X_WB.push_back({X, X});
+    motion.spans.assign(scene.pairs.size(), {0, 0});
+    return motion;
   }
 
   static const Vector3d kBox, kBlock;
@@ -52,6 +70,7 @@ class PairDistancesTest : public ::testing::Test {
   Monitor monitor_;
   PairDistances distances_;
   CycleResult result_;
+  double end_ = 0.0;  // of the last cycle [s]
 };
 
 const Vector3d PairDistancesTest::kBox(0.1, 0.05, 0.08), PairDistancesTest::kBlock(0.05, 0.3, 0.2);
@@ -132,6 +151,17 @@ TEST_F(PairDistancesTest, SpeedsAreThoseAtWhichTheyClose) {
   EXPECT_NEAR(found[0].slab->closing, 0.3, 1e-6);
   const auto& back = cycle(moved, rest);
   EXPECT_NEAR(back[0].slab->closing, -0.3, 1e-6);
+  CycleMotion motion;
+  motion.times = {0.0, 0.1};
+  for (const Isometry3d& X : rest) motion.X_WB.push_back({X, X});
+  const auto over = [&](const std::vector<double>& gaps) {  // poses are interpolated over as long
+    const auto& between = distances_.update(motion, monitor_.run(motion, {true, 3}), kRange, {{}, &gaps});
+    EXPECT_EQ(between[0].slab->over, between[0].any.over);
+    return between[0].any.over;
+  };
+  EXPECT_EQ(over({0.1, 0.1, 0.0, 0.0}), 0.1);  // both moved from sample to sample
+  EXPECT_EQ(over({0.25, 0.0, 0.0, 0.0}), 0.25);
+  EXPECT_EQ(over({0.25, 0.15, 0.0, 0.0}), 0.4);
 }
 
 TEST_F(PairDistancesTest, WhatTouchesHasNone) {
@@ -150,19 +180,52 @@ TEST_F(PairDistancesTest, OfPairsThatAreDelayedTheLastOneStands) {
   const std::vector<Isometry3d> rest = {test::translation({0.4, 0, 0.5}), test::translation({0, 0, 0.5}),
                                         test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
   cycle(rest, rest);
-  CycleMotion motion;
-  motion.times = {0.0, 0.1};
-  for (const Isometry3d& X : rest) motion.X_WB.push_back({X, X});
-  motion.spans.assign(scene_->pairs.size(), {0, 0});
-  result_ = monitor_.run(motion, {true, 3});
-  const auto& found = distances_.update(motion, result_, kRange);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_NEAR(found[0].time, 0.0, 1e-12);
+  CycleMotion motion = delayed(*scene_, rest, 0.01);
+  ASSERT_EQ(update(motion).size(), 1u);
+  EXPECT_NEAR(distances_.near()[0].time, 0.0, 1e-12);  // the end of the cycle before, however long that was
+  update(motion);
+  EXPECT_NEAR(distances_.near()[0].time, -0.01, 1e-12);
+  EXPECT_FALSE(distances_.hasUnknown());
   motion.spans.clear();
   motion.missing.assign(4, "");
   motion.missing[0] = "lost";
-  result_ = monitor_.run(motion, {true, 3});
-  EXPECT_TRUE(distances_.update(motion, result_, kRange).empty());
+  EXPECT_TRUE(update(motion).empty());
+}
+
+TEST_F(PairDistancesTest, WhatIsDelayedAndWasNotMeasuredIsUnknown) {
+  const std::vector<Isometry3d> rest = {test::translation({0.4, 0, 0.5}), test::translation({0, 0, 0.5}),
+                                        test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
+  const CycleMotion waits = delayed(*scene_, rest, 0.1);
+  update(waits);
+  EXPECT_TRUE(distances_.hasUnknown());  // from the first cycle on
+  cycle(rest, rest);
+  EXPECT_FALSE(distances_.hasUnknown());
+  update(waits);
+  EXPECT_FALSE(distances_.hasUnknown());
+  distances_.update(waits, result_, 2.0 * kRange, {});
+  EXPECT_TRUE(distances_.hasUnknown());  // others may be that near
+  CycleMotion lost = waits;
+  lost.spans.clear();
+  lost.missing = {"lost", "", "", ""};
+  update(lost);
+  update(waits);
+  EXPECT_TRUE(distances_.hasUnknown());
+  cycle(rest, rest);
+  distances_.forget();
+  update(waits);
+  EXPECT_TRUE(distances_.hasUnknown());
+  cycle(rest, rest);
+  std::vector<int> now(scene_->pairs.size());
+  for (std::size_t p = 0; p < now.size(); ++p) now[p] = static_cast<int>(p);
+  PairDistances same(scene_), other(scene_);
+  same.take(distances_, now);
+  result_ = monitor_.run(waits, {true, 3});
+  same.update(waits, result_, kRange, {});
+  EXPECT_FALSE(same.hasUnknown());
+  now.back() = -1;  // another body in its place
+  other.take(same, now);
+  other.update(waits, result_, kRange, {});
+  EXPECT_TRUE(other.hasUnknown());
 }
 
 TEST_F(PairDistancesTest, TwoScenesTakenOverInARowKeepIt) {
@@ -174,16 +237,13 @@ TEST_F(PairDistancesTest, TwoScenesTakenOverInARowKeepIt) {
   PairDistances next(scene_), last(scene_);
   next.take(distances_, same);
   last.take(next, same);
-  CycleMotion motion;
-  motion.times = {0.0, 0.1};
-  for (const Isometry3d& X : rest) motion.X_WB.push_back({X, X});
-  motion.spans.assign(scene_->pairs.size(), {0, 0});
+  const CycleMotion motion = delayed(*scene_, rest, 0.1);
   result_ = monitor_.run(motion, {true, 3});
-  EXPECT_EQ(last.update(motion, result_, kRange).size(), 1u);
+  EXPECT_EQ(last.update(motion, result_, kRange, {}).size(), 1u);
   std::fill(same.begin(), same.end(), -1);  // no pair stays
   PairDistances other(scene_);
   other.take(last, same);
-  EXPECT_TRUE(other.update(motion, result_, kRange).empty());
+  EXPECT_TRUE(other.update(motion, result_, kRange, {}).empty());
 }
 
 }  // namespace

@@ -233,8 +233,9 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       }
       const CycleResult& result = monitor.run(motion, {false, 0});
       ASSERT_EQ(result.verdict, Verdict::kClear);
-      robot.hear(
-          now, velocityScale(distances.update(motion, result, scaleRange(promise)), motion.times.back(), 0.0, promise));
+      const std::chrono::nanoseconds origin(std::llround(1e9 * (now - motion.times.back())));
+      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise), {origin}), motion.times.back(),
+                                    0.0, promise));
       poses = {X};
       known = now;
     }

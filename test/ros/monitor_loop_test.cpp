@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "monitor/scene_case.h"
 #include "oracle/busy_machine.h"
@@ -344,6 +345,88 @@ TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
   EXPECT_EQ(verdicts(ContactArray::CONTACT), 0);
   // Of 13 periods one is sampled for the foot and the plate; the foot and the hand need another, 12 periods ago.
   EXPECT_LT(most_times, 20u);
+}
+
+/// The same world, which changes.
+class ChangingLoopTest : public MonitorLoopTest {
+ protected:
+  ChangingLoopTest() : editor_(test::fine(0.005)) {
+    description_.bodies = {test::body("hand", Sphere{kRadius}), test::body("foot", Sphere{kRadius}),
+                           test::body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true)};
+    plate().X_frame_B.translation().x() = kPlate;
+    const ScenePlan plan = planScene(description_);
+    MonitorParameters parameters;
+    parameters.monitor = test::soft();
+    loop_ = std::make_unique<MonitorLoop>(
+        checked(editor_.begin(description_, plan, buildScene(description_, plan, test::fine(0.005)))),
+        test::describedWorld(), parameters);
+  }
+
+  BodyDescription& plate() { return description_.bodies[2]; }
+
+  /// The cycles go on with the description as it is now.
+  void change() { loop_->adopt(*loop_->prepare(checked(editor_.next(description_)))); }
+
+  static std::shared_ptr<const CheckedWorld> checked(const std::shared_ptr<const WorldSnapshot>& snapshot) {
+    return std::make_shared<const CheckedWorld>(snapshot, std::vector<UnreachablePair>());
+  }
+
+  SceneDescription description_;
+  WorldEditor editor_;
+};
+
+TEST_F(ChangingLoopTest, WhatChangesAllTheTimeIsCheckedAgainstAFrameThatLagsBehind) {
+  for (int i = 0; i < 60; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    sendHand(now - 4 * kPeriod, 0.02 * i);  // through the plate, which is placed anew in half of that time
+    step(now);
+    if (i % 2 != 0) continue;
+    plate().X_frame_B.translation().y() = i % 4 == 0 ? 0.0 : 0.01;
+    change();
+  }
+  EXPECT_GT(verdicts(ContactArray::CONTACT), 3);
+  EXPECT_EQ(last().verdict, ContactArray::CLEAR) << last().reason;
+}
+
+TEST_F(ChangingLoopTest, AContactWithWhatGoesIsSaidToEnd) {
+  const auto touch = [&](int i) {
+    sendFoot(10.0 + i * kPeriod);
+    sendHand(10.0 + i * kPeriod, kPlate - kRadius);
+    step(10.0 + i * kPeriod);
+  };
+  for (int i = 0; i < 4; ++i) touch(i);
+  ASSERT_EQ(last().contacts.size(), 1u);
+  description_.bodies.pop_back();
+  change();
+  ASSERT_EQ(step(10.0 + 3 * kPeriod), Step::kWaiting);
+  touch(4);
+  ASSERT_EQ(last().contacts.size(), 1u);
+  EXPECT_TRUE(last().contacts[0].ends && last().contacts[0].is_lost);
+  touch(5);
+  EXPECT_TRUE(last().contacts.empty());
+}
+
+TEST_F(MonitorLoopTest, SpeedsOfWhatIsInterpolatedAreBoundedByTheTimeBetweenItsTransforms) {
+  constexpr double kAcceleration = 1.0, kGap = 0.1;  // the hand's [m/s², s]
+  int measured = 0;
+  for (int i = 0; i < 80; ++i) {
+    const double now = 10.0 + 0.01 * i, t = 0.01 * i;
+    sendFoot(now);
+    if (i % 10 == 0) sendHand(now, 0.5 * kAcceleration * t * t);
+    CycleRequest request;
+    request.skipped_pairs = true;
+    if (loop_->step(ros::Time(now), request) != Step::kCycle) continue;
+    for (const PairDistance& pair : loop_->measureDistances(0.5)) {
+      if (pair.body_a != 0 || pair.body_b != 2) continue;
+      const double speed = kAcceleration * (loop_->cycle().origin.toSec() + pair.time - 10.0);
+      EXPECT_GE(pair.any.closing + 0.5 * kAcceleration * pair.any.over, speed - 1e-6) << i;
+      EXPECT_LE(pair.any.over, kGap + 1e-6);
+      EXPECT_NEAR(std::fmod(speed / kAcceleration + 1e-6, kGap), 0.0, 1e-5) << "it is known at its transforms' times";
+      ++measured;
+    }
+  }
+  EXPECT_GT(measured, 50);
 }
 
 TEST_F(MonitorLoopTest, StampsFarAheadStopNothing) {

@@ -208,7 +208,7 @@ void CollisionMonitor::publishCycle() {
   const boost::shared_ptr<MonitorState> state = state_messages_.take();
   const ros::Time sent = ros::Time::now();
   setMonitorState(*loop_, sent, *state);
-  outputs_->publish(state, proximity_->measure(*loop_, sent, *state));
+  outputs_->publish(state, proximity_->measure(*loop_, *state));
   listener_->report(health_watch_.health());
   health_watch_.takeCycle(*loop_, *state, sent);
   diagnostics_->update(health_watch_.health());

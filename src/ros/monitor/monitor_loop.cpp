@@ -53,6 +53,8 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   change->monitor = monitor_.prepare(next->snapshot->scene);
   change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
   change->tracker->warmUp();
+  // Also of bodies that have changed: else a frame that lags behind what changes again and again is never checked.
+  change->pairs_before = findPairs(pairNames(scene), pairNames(monitor_.scene()));
   change->reach_guard = std::make_unique<ReachGuard>(*next, described_);
   change->contacts = contacts_.prepare(scene);
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
@@ -63,6 +65,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   motion.missing.resize(scene.bodies.size());
   motion.motion_error.reserve(scene.bodies.size());
   motion.spans.reserve(scene.pairs.size());
+  change->cycle.gaps.reserve(scene.bodies.size());
   change->world = std::move(next);
   return change;
 }
@@ -70,7 +73,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
 void MonitorLoop::adopt(LoopChange& change) {
   const SceneDifference& difference = change.monitor->difference();
   monitor_.adopt(*change.monitor);
-  change.tracker->take(*tracker_, difference.bodiesBefore(), difference.pairsBefore());
+  change.tracker->take(*tracker_, difference.bodiesBefore(), change.pairs_before);
   tracker_.swap(change.tracker);
   reach_guard_.swap(change.reach_guard);
   contacts_.adopt(change.contacts);
@@ -150,7 +153,8 @@ std::string MonitorLoop::movingFixedFrame() const {
 }
 
 const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
-  return distances_->update(cycle_.motion, *result_, range);
+  return distances_->update(cycle_.motion, *result_, range,
+                            {std::chrono::nanoseconds(cycle_.origin.toNSec()), &cycle_.gaps});
 }
 
 void MonitorLoop::reset() {

@@ -15,6 +15,7 @@ struct LoopChange {
   std::shared_ptr<const CheckedWorld> world;
   std::unique_ptr<MonitorChange> monitor;
   std::unique_ptr<TfTracker> tracker;
+  std::vector<int> pairs_before;  ///< per pair: that of bodies of these names until now; -1 if it is new
   std::unique_ptr<ReachGuard> reach_guard;
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;
@@ -72,6 +73,12 @@ class MonitorLoop {
 
   /// As measured last.
   const std::vector<PairDistance>& distances() const { return distances_->near(); }
+
+  /// Whether of some pair that is delayed, and not measured therefore, nothing was known before (PairDistances).
+  bool hasUnknownDistance() const { return distances_->hasUnknown(); }
+
+  /// To be called where cycles are not measured: what was known of pairs that are delayed does not hold later.
+  void forgetDistances() { distances_->forget(); }
 
  private:
   void run(const CycleRequest& request);

@@ -29,15 +29,19 @@ double ProximityOutputs::range() const {
   return range;
 }
 
-boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, const ros::Time& now,
-                                                           MonitorState& state) {
+boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, MonitorState& state) {
   const double wanted = range();
   state.proximity = MonitorState::NOT_WATCHED;
-  if (!(wanted > 0.0)) return nullptr;
+  if (!(wanted > 0.0)) {
+    loop.forgetDistances();
+    return nullptr;
+  }
   const std::vector<PairDistance>& near = loop.measureDistances(wanted);
   const CycleResult& result = loop.result();
-  const bool is_known = result.not_checked == 0 && result.verdict != Verdict::kUncertain;
+  const bool is_known =
+      result.not_checked == 0 && result.verdict != Verdict::kUncertain && !loop.hasUnknownDistance();
   if (scalesVelocity()) {
+    const ros::Time now = ros::Time::now();  // measuring takes time, too
     const double age = (now - loop.cycle().origin).toSec(), oldest = (now - loop.cycle().complete_until).toSec();
     const bool is_safe = is_known && result.verdict != Verdict::kContact;
     publishScale(is_safe ? velocityScale(near, age, oldest, *parameters_.promise) : 0.0);

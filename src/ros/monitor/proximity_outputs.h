@@ -31,7 +31,7 @@ class ProximityOutputs {
 
   /// Of the loop's last cycle: publishes the velocity scale at once, and sets the state's proximity.
   /// @return the distances, to be published; null if nobody listens.
-  boost::shared_ptr<DistanceArray> measure(MonitorLoop& loop, const ros::Time& now, MonitorState& state);
+  boost::shared_ptr<DistanceArray> measure(MonitorLoop& loop, MonitorState& state);
 
   void publishDistances(const boost::shared_ptr<DistanceArray>& distances) { distances_.publish(distances); }
 

@@ -43,6 +43,7 @@ struct TrackedCycle {
   /// [s] from origin: the recorded transforms between which a body moves, and the ends of all pairs' spans.
   std::vector<double> samples;
   std::vector<double> recorded;  ///< [s] from origin: all recorded transforms, as a check at samples would take them
+  std::vector<double> gaps;      ///< per body: longest time between two transforms that its poses are interpolated of [s]
 
   /// Transforms that came behind newer ones, where cycles had used an interpolation already, one a frame. The pairs
   /// that this concerns are dealt with again in this cycle, from there on.
@@ -83,7 +84,9 @@ class TfTracker {
   void reset();
 
   /// Goes on with other bodies where another tracker is between two cycles; without allocating.
-  /// @param bodies, pairs  per body and pair, its index there; -1 if it is new, and begins at the last cycle's end.
+  /// @param bodies  per body, its index there; -1 if it is new or has changed.
+  /// @param pairs  per pair, that of bodies of the same names there, from whose time it goes on; -1 if it is new, and
+  /// begins at the last cycle's end.
   void take(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs);
 
   /// Finds the ways to all frames, ahead of the first step.

@@ -38,10 +38,14 @@ void TfTracker::follow(TrackedCycle& cycle) {
   motion.motion_error.assign(bodies_.size(), 0.0);
   cycle.samples.clear();
   cycle.recorded.clear();
+  cycle.gaps.assign(bodies_.size(), 0.0);
   findWindows(cycle);
   for (const TimePart& part : windows_) {
     findNeeded(part, cycle);
     copyMotion(cycle, motion.missing);
+    for (std::size_t body = 0; body < bodies_.size(); ++body)
+      if (needed_[body].from < needed_[body].until)
+        cycle.gaps[body] = std::max(cycle.gaps[body], window_.longestGap(body));
     sample(part, cycle);
   }
 }
