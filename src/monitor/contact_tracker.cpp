@@ -120,6 +120,7 @@ void ContactTracker::adopt(Change& change) {
     if (contact.is_open) {
       close(contact, true);
       list(static_cast<int>(i));
+      contact.is_unsaid = true;
     }
     if (!contact.is_listed) free_.push_back(static_cast<int>(i));
   }
@@ -130,21 +131,36 @@ void ContactTracker::adopt(Change& change) {
 void ContactTracker::settle() {
   for (const int slot : listed_) {
     Slot& contact = contacts_[slot];
-    contact.said.begins = contact.said.ends = false;
+    contact.said.begins = false;
+    if (contact.is_unsaid) {
+      unsaid_.push_back(slot);
+      continue;
+    }
+    contact.said.ends = false;
     contact.is_listed = contact.is_open;
     if (!contact.is_open && (contact.group < 0 || last_[contact.group] != slot)) free_.push_back(slot);
   }
-  listed_.erase(std::remove_if(listed_.begin(), listed_.end(), [&](int slot) { return !contacts_[slot].is_open; }),
-                listed_.end());
+  const auto isOver = [&](int slot) { return !contacts_[slot].is_listed || contacts_[slot].is_unsaid; };
+  listed_.erase(std::remove_if(listed_.begin(), listed_.end(), isOver), listed_.end());
+}
+
+void ContactTracker::sayUnsaid() {
+  for (const int slot : unsaid_) contacts_[slot].is_unsaid = false;
+  listed_.insert(listed_.end(), unsaid_.begin(), unsaid_.end());
+  unsaid_.clear();
 }
 
 void ContactTracker::lose() {
+  sayUnsaid();
   for (const int slot : listed_) {
     if (contacts_[slot].is_open) close(contacts_[slot], true);
   }
   // Nothing that comes joins them.
   std::fill(last_.begin(), last_.end(), -1);
-  for (const int slot : listed_) contacts_[slot].group = -1;
+  for (const int slot : listed_) {
+    contacts_[slot].group = -1;
+    contacts_[slot].is_unsaid = false;
+  }
   free_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!contacts_[i].is_listed) free_.push_back(static_cast<int>(i));
@@ -153,6 +169,7 @@ void ContactTracker::lose() {
 
 void ContactTracker::update(const ObservedCycle& cycle) {
   settle();
+  sayUnsaid();
   ++cycle_;
   stays_.clear();
   if (cycle.result.verdict != Verdict::kClear) {
@@ -239,6 +256,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
     free_.push_back(static_cast<int>(contacts_.size()));
     contacts_.emplace_back();
     free_.reserve(contacts_.capacity());
+    unsaid_.reserve(contacts_.capacity());
   }
   const int index = free_.back();
   free_.pop_back();

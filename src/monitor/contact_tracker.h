@@ -80,8 +80,8 @@ class ContactTracker {
   };
   Change prepare(const Scene& next) const;
 
-  /// Takes another world over between two cycles. Contacts of pairs that it holds too go on; others end as lost. Costs
-  /// what touches; frees and allocates nothing.
+  /// Takes another world over between two cycles. Contacts of pairs that it holds too go on; others end as lost, and
+  /// are listed with the next cycle. Costs what touches; frees and allocates nothing.
   /// @param change  that prepare() made since the last call; afterwards what was before.
   void adopt(Change& change);
   void adopt(const Scene& scene);
@@ -110,6 +110,7 @@ class ContactTracker {
     int group = -1;        // of pairs; −1: free
     bool is_open = false;  // it goes on
     bool is_listed = false;
+    bool is_unsaid = false;  // it ended with its world, and no cycle has come since
     bool has_deepest = false;
     std::uint64_t cycle = 0;  // in which it was seen last
   };
@@ -125,12 +126,14 @@ class ContactTracker {
   Slot& slotFor(std::size_t group, Time start, Time end);
   void close(Slot& slot, bool is_lost);
   void list(int slot);
+  void sayUnsaid();
 
   Groups groups_;
   std::vector<int> last_;  // per group: slot of its last contact; −1: none
   std::vector<Slot> contacts_;
   std::vector<int> free_;
   std::vector<int> listed_;
+  std::vector<int> unsaid_;  // to be listed with the next cycle
   std::vector<Stay> stays_;  // of the cycle
   std::size_t open_ = 0;
   std::uint64_t next_id_ = 1;

@@ -268,17 +268,25 @@ TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
   cycle({kThrough, kThrough, kThrough});
   std::map<std::uint64_t, TrackedContact> by_id;
   for (const TrackedContact& contact : said()) by_id[contact.id] = contact;
-  ASSERT_EQ(by_id.size(), 3u);
+  ASSERT_EQ(by_id.size(), 4u);
+  EXPECT_TRUE(by_id[3].ends && by_id[3].is_lost);
   EXPECT_EQ(by_id[1].body_a, "hand");
   EXPECT_EQ(by_id[2].body_a, "foot");
   EXPECT_FALSE(by_id[1].begins || by_id[2].begins);
   EXPECT_EQ(by_id[4].body_a, "new");
   EXPECT_TRUE(by_id[4].begins);
-  // The box is gone: said when it went.
+  tracker_->settle();
+  // The others are gone: said when they went.
   world({{"hand", "table"}});
   ASSERT_EQ(tracker_->size(), 3u);
   for (const TrackedContact& contact : said()) EXPECT_EQ(contact.is_lost, contact.id != 1);
   EXPECT_EQ(tracker_->open(), 1u);
+  // And in the next cycle, whose message is the first since then; not before and not later.
+  tracker_->settle();
+  EXPECT_EQ(tracker_->size(), 1u);
+  cycle({kThrough});
+  ASSERT_EQ(tracker_->size(), 3u);
+  for (const TrackedContact& contact : said()) EXPECT_EQ(contact.ends && contact.is_lost, contact.id != 1);
   cycle({kThrough});
   EXPECT_EQ(only().id, 1u);
 }
