@@ -159,6 +159,22 @@ TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
   EXPECT_EQ(refusal(detach), "box is not attached");
 }
 
+TEST_F(ChangingSceneTest, AttachesAndDetachesByTransformsOfOneTime) {
+  SceneChange added = box();
+  added.header.frame_id = "belt";  // 5 m before the arm, with which it moves on; the arm's transforms come later
+  added.pose.position.x = 0.0;
+  apply(added);
+  history_.add(message({stampedTransform("base", "belt", kNow + 0.1, 9.0)}), false);
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link = "arm";
+  apply(attach);
+  EXPECT_NEAR(body("box").X_frame_B.translation().x(), 5.0, 1e-9);  // 7 - 2, both at kNow
+  SceneChange detach = change(SceneChange::DETACH);
+  detach.header.frame_id = "belt";
+  apply(detach);
+  EXPECT_NEAR(body("box").X_frame_B.translation().x(), 0.0, 1e-9);
+}
+
 TEST_F(ChangingSceneTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
   BodyDescription tile;
   tile.name = "octomap/0_0_0";

@@ -23,6 +23,15 @@ Isometry3d lookup(const TfHistory& history, const std::string& frame, const ros:
   return X_WF;
 }
 
+/// Where a frame is in another one, at a time or, for 0, at the latest at which both are known: one may lag behind.
+Isometry3d poseOf(const TfHistory& history, const std::string& frame, const std::string& in, ros::Time time) {
+  if (time.isZero()) {
+    const TfSpan a = history.span(frame), b = history.span(in);
+    if (a.problem.empty() && b.problem.empty() && !a.is_static && !b.is_static) time = std::min(a.last, b.last);
+  }
+  return lookup(history, in, time).inverse() * lookup(history, frame, time);
+}
+
 }  // namespace
 
 struct ChangingScene::Fixed {
@@ -175,10 +184,7 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   const std::string frame = given ? frameOf(made, link_frame) : object.body.frame;
   const Isometry3d X_FB = given ? *given : object.body.X_frame_B;
   Isometry3d X_LB = X_FB;
-  if (frame != link_frame) {
-    const ros::Time& when = change.header.stamp;
-    X_LB = lookup(sources.history, link_frame, when).inverse() * lookup(sources.history, frame, when) * X_FB;
-  }
+  if (frame != link_frame) X_LB = poseOf(sources.history, frame, link_frame, change.header.stamp) * X_FB;
   if (change.touch_links.size() > sources.limits.rules) refuse("too many touch_links");
   for (const std::string& touched : change.touch_links) requireName(touched, "a touch_link", sources.limits);
   object.body.frame = link_frame;
@@ -196,9 +202,8 @@ void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
   if (const auto given = poseIn(change.pose)) {
     object.body.X_frame_B = *given;
   } else {
-    const ros::Time& when = change.header.stamp;
-    const Isometry3d X_WB = lookup(sources.history, object.body.frame, when) * object.body.X_frame_B;
-    object.body.X_frame_B = lookup(sources.history, frame, when).inverse() * X_WB;
+    object.body.X_frame_B =
+        poseOf(sources.history, object.body.frame, frame, change.header.stamp) * object.body.X_frame_B;
   }
   object.body.frame = frame;
   object.body.is_world = true;
