@@ -94,6 +94,17 @@ class AwaitedMapTest(MasterCase):
         # The other one is told by nothing that its map is old.
         self.assertEqual(reasons(self.contacts['waits'].find_new(lambda m: True)), [])
 
+    def test_4_a_map_that_cannot_be_taken_lets_the_last_one_grow_old_all_the_same(self):
+        heard = self.contacts['watches']
+        self.robot.ball = 0.0
+        self.maps.publish(message(FREE))
+        self.assertIsNotNone(heard.find_new(lambda m: m.verdict == m.CLEAR, 10.0))
+        refused = message(FREE)
+        refused.header.frame_id = 'ball'
+        refused.resolution = 1e-4  # too small for what is near
+        self.maps.publish(refused)
+        self.assertIsNotNone(heard.find_new(lambda m: 'is older than 2 s' in str(reasons(m)), 10.0))
+
 
 if __name__ == '__main__':
     unittest.main()

@@ -58,6 +58,25 @@ TEST(DescribeScene, NamesOfALiveMapsTilesAreItsOwn) {
   EXPECT_EQ(failureOf(parameters), "");
 }
 
+TEST(DescribeScene, AStopDistanceWithinTheMapsPaddingIsWarnedOf) {
+  const auto warnings = [](const MonitorParameters& parameters) {
+    return describeScene(parameters, [](const std::string&) { return Resource(); }).warnings;
+  };
+  MonitorParameters parameters = cart();
+  parameters.proximity.promise = StoppingPromise();
+  parameters.proximity.promise->stop_distance = 0.02;
+  EXPECT_TRUE(warnings(parameters).empty());
+  parameters.live_map.topic = "/octomap";
+  parameters.live_map.padding = 0.02;
+  ASSERT_EQ(warnings(parameters).size(), 1u);
+  EXPECT_NE(warnings(parameters)[0].find("set a larger stop_distance"), std::string::npos);
+  parameters.proximity.promise->stop_distance = 0.021;
+  EXPECT_TRUE(warnings(parameters).empty());
+  parameters.proximity.promise.reset();
+  parameters.live_map.padding = 0.1;
+  EXPECT_TRUE(warnings(parameters).empty());
+}
+
 using Pairs = std::set<std::string>;
 
 TEST(DescribeScene, LinksThatOverlapAlwaysAreLeftOutByDefault) {

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 const ros::WallDuration kPatience(0.1);  // until tf has the map's stamp
+const ros::WallDuration kAgain(0.2);     // looks for transforms that a map was taken without
 constexpr std::chrono::milliseconds kLook(2);
 constexpr double kShortestLook = 0.02, kLongestLook = 1.0;  // at the map's age [s]
 
@@ -36,7 +37,11 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
   own.setCallbackQueue(&queue_);
   const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> hear =
       [this](const octomap_msgs::Octomap::ConstPtr& message) {
-        work("A map is not taken, and the last one stays", [&] { take(*message); });
+        work("A map is not taken, and the last one stays", [&] {
+          take(*message);
+          taken_ = ros::Time::now();
+          last_ = unknown_ > 0 ? message : nullptr;
+        });
       };
   subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, hear);
   if (parameters_.max_age > 0.0) {
@@ -44,6 +49,9 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
     age_timer_ = own.createWallTimer(
         look, [this](const ros::WallTimerEvent&) { work("A map that is too old stays", [this] { watchAge(); }); });
   }
+  again_timer_ = own.createWallTimer(kAgain, [this](const ros::WallTimerEvent&) {
+    work("A map is not taken again", [this] { takeAgain(); });
+  });
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
 }
@@ -78,18 +86,31 @@ void LiveMap::watchAge() {
   ROS_WARN("%s: the robot is not checked against it", why.c_str());
 }
 
+void LiveMap::takeAgain() {
+  if (!last_ || is_awaited_) return;
+  std::size_t unknown = 0;
+  masksOf(*editor_.world(), *last_, ros::WallDuration(), unknown);
+  if (unknown >= unknown_) return;
+  take(*last_);
+  if (unknown_ == 0) last_.reset();
+}
+
+std::string LiveMap::frameOf(const octomap_msgs::Octomap& message) const {
+  const std::string frame = withoutLeadingSlash(message.header.frame_id);
+  return frame.empty() ? history_.fixedFrame() : frame;
+}
+
 void LiveMap::take(const octomap_msgs::Octomap& message) {
   const auto start = std::chrono::steady_clock::now();
   if (message.data.size() > kMostBytes) throw std::runtime_error("it is larger than 256 MiB");
-  std::string frame = withoutLeadingSlash(message.header.frame_id);
-  if (frame.empty()) frame = history_.fixedFrame();
+  const std::string frame = frameOf(message);
   if (frame.size() > RequestLimits().name || frame != shownText(frame)) throw std::runtime_error("its frame is none");
   VoxelMapOptions options = options_;
   options.band += 1.1 * kHalfSqrt3 * 0.5 * message.resolution;
   VoxelGrid grid(message.resolution, options);
   grid.addOctree(message.data.data(), message.data.size(), message.id, message.binary != 0);
   const std::shared_ptr<const CheckedWorld> world = editor_.world();
-  const std::vector<VoxelMask> masks = masksOf(*world, frame, message.header.stamp);
+  const std::vector<VoxelMask> masks = masksOf(*world, message, kPatience, unknown_);
   const double read = secondsSince(start);
   if (!map_ || frame != frame_) {
     map_ = std::make_unique<VoxelMap>(LiveMapParameters::kName, frame, options);
@@ -120,7 +141,6 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
     is_in_scene_ = true;
     is_awaited_ = false;
   }
-  taken_ = ros::Time::now();
   ROS_INFO_THROTTLE(
       10.0,
       "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
@@ -130,8 +150,11 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
 }
 
 /// Of the robot and what is attached to it, as tf has them at the map's stamp; what it has not, where that is now.
-std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const std::string& frame,
-                                        const ros::Time& stamp) const {
+/// @param unknown  gets how many it has neither then nor now.
+std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const octomap_msgs::Octomap& message,
+                                        const ros::WallDuration& patience, std::size_t& unknown) const {
+  const std::string frame = frameOf(message);
+  const ros::Time& stamp = message.header.stamp;
   std::vector<TrackedBody> tracked = {{frame, Isometry3d::Identity(), {}}};
   std::vector<std::size_t> robot;  // bodies, each tracked behind the map's frame
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
@@ -146,7 +169,7 @@ std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const std::st
     posesAt(history_, tracked, stamp, X_W, missing);
     return std::all_of(missing.begin(), missing.end(), [](const std::string& why) { return why.empty(); });
   };
-  const ros::WallTime end = ros::WallTime::now() + kPatience;
+  const ros::WallTime end = ros::WallTime::now() + patience;
   while (!areKnown() && ros::WallTime::now() < end) {
     checkCancelled();
     std::this_thread::sleep_for(kLook);
@@ -159,6 +182,8 @@ std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const std::st
     X_W[i] = X_W_now[i];
     missing[i] = missing_now[i];
   }
+  const auto isMissing = [](const std::string& why) { return !why.empty(); };
+  unknown = missing[0].empty() ? std::count_if(missing.begin(), missing.end(), isMissing) : missing.size();
   if (!missing[0].empty()) {
     ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", missing[0].c_str());
     return {};

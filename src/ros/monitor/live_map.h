@@ -21,7 +21,8 @@ namespace sdf_ccd {
 ///
 /// Before the first map, and where the last one is older than may be, the robot is NOT_CHECKED against the map.
 ///
-/// Voxels that the robot, and what is attached to it, fill where tf had them at the map's stamp do not count.
+/// Voxels that the robot, and what is attached to it, fill where tf had them at the map's stamp do not count. Where that
+/// was not known of some body yet, the map is taken again when it is: a latched one comes only once.
 ///
 /// Subscribes:
 ///   the parameter octomap/topic  octomap_msgs/Octomap  binary or full, of OcTree or ColorOcTree; in a thread of its own
@@ -35,8 +36,11 @@ class LiveMap {
  private:
   void work(const char* what, const std::function<void()>& job) const;
   void watchAge();
+  void takeAgain();
   void take(const octomap_msgs::Octomap& message);
-  std::vector<VoxelMask> masksOf(const CheckedWorld& world, const std::string& frame, const ros::Time& stamp) const;
+  std::string frameOf(const octomap_msgs::Octomap& message) const;
+  std::vector<VoxelMask> masksOf(const CheckedWorld& world, const octomap_msgs::Octomap& message,
+                                 const ros::WallDuration& patience, std::size_t& unknown) const;
 
   LiveMapParameters parameters_;
   SceneEditor& editor_;
@@ -49,9 +53,11 @@ class LiveMap {
   bool is_in_scene_ = false;                      // what tiles_ has
   bool is_awaited_ = true;                        // the scene has no map, and says so
   ros::Time taken_;                               // when the last map came
+  octomap_msgs::Octomap::ConstPtr last_;          // map that was taken, if some bodies were unknown then
+  std::size_t unknown_ = 0;                       // how many
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
-  ros::WallTimer age_timer_;
+  ros::WallTimer age_timer_, again_timer_;
   std::unique_ptr<ros::AsyncSpinner> spinner_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "common/shown_text.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "ros/parameters/world_file.h"
@@ -68,6 +69,13 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   if (!parameters.live_map.topic.empty()) {
     const std::string why = "no map has come on " + parameters.live_map.topic + " yet";
     described.scene.bodies.push_back(awaitedTile(frameOf(""), why));
+    const std::optional<StoppingPromise>& promise = parameters.proximity.promise;
+    if (promise && promise->stop_distance <= parameters.live_map.padding) {
+      described.warnings.push_back(
+          "the velocity scale does not keep the robot from voxels of the map that are nearer than " +
+          numberText(parameters.live_map.padding) +
+          " m, which are ignored (octomap/padding): set a larger stop_distance");
+    }
   }
   applyRules(parameters.pairs, described.scene, described.warnings);
   described.kept = parameters.pairs.checked;
