@@ -24,8 +24,8 @@ struct PlainShell {
     test::Random random(1);
     const precision::SurfacePlaces surface(mesh);
     while (shell.points.size() < points) shell.points.push_back(surface(random));
-    shell.normals.assign(points, Vector3d::Zero());
-    shell.areas.assign(points, 0.0);
+    shell.normals.assign(points, Vector3f::Zero());
+    shell.areas.assign(points, 0.0F);
     tree = buildSphereTree(shell);
   }
 

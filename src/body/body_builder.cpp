@@ -124,7 +124,7 @@ class BodyBuilder {
       all.areas.insert(all.areas.end(), part.areas.begin(), part.areas.end());
       const Isometry3d& X_BG = description_.geometry[i].X_BG;
       for (const Vector3d& p_G : part.points) all.points.push_back(X_BG * p_G);
-      for (const Vector3d& normal_G : part.normals) all.normals.push_back(X_BG.linear() * normal_G);
+      for (const Vector3f& normal_G : part.normals) all.normals.push_back(X_BG.linear().cast<float>() * normal_G);
     }
     return all;
   }
@@ -204,8 +204,8 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   body.ball = surfaceBall(body);
   if (!needs.shell) return;
   report.shell_points = body.shell->size();
-  report.shell_bytes =
-      body.shell->size() * (2 * sizeof(Vector3d) + sizeof(double)) + body.tree->nodes.size() * sizeof(SphereTree::Node);
+  report.shell_bytes = body.shell->size() * (sizeof(Vector3d) + sizeof(Vector3f) + sizeof(float)) +
+                       body.tree->nodes.size() * sizeof(SphereTree::Node);
   report.gap = contactGap(body.shell, body.shell);
 }
 

@@ -54,8 +54,8 @@ PointShell unionShell(const std::vector<ShellPart>& parts) {
       const double depth = knownDepth(parts, own, p_B);
       if (depth > shell.covering_radius) continue;
       all.points.push_back(p_B);
-      all.normals.push_back(parts[own].X_BG.linear() * shell.normals[i]);
-      all.areas.push_back(depth > 0.0 ? 0.0 : shell.areas[i]);
+      all.normals.push_back(parts[own].X_BG.linear().cast<float>() * shell.normals[i]);
+      all.areas.push_back(depth > 0.0 ? 0.0F : shell.areas[i]);
     }
   }
   return all;

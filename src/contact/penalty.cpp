@@ -47,8 +47,8 @@ class Integrator {
       poses_.begin(ChordFrame(input_.X_CF[chord_], input_.X_CF[chord_ + 1]));
     }
     const Chord& chord = input_.path.chords[chord_];
-    const ChordPoint point(chord, input_.shell.points[hit.point], input_.shell.normals[hit.point]);
-    const double share = options_.stiffness_per == StiffnessPer::kArea ? input_.shell.areas[hit.point] : 1.0;
+    const ChordPoint point(chord, input_.shell.points[hit.point], input_.shell.normals[hit.point].cast<double>());
+    const double share = options_.stiffness_per == StiffnessPer::kArea ? double(input_.shell.areas[hit.point]) : 1.0;
     stiffness_ = share * options_.stiffness;
     damping_ = share * options_.damping;
 

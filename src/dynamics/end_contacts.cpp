@@ -26,8 +26,8 @@ class EndContacts {
     const int point = first->point;
     const Vector3d p_F = end.X_FP_end * shell_.points[point];
     const Vector3d r_P_F = end.X_FP_end.linear() * shell_.points[point];
-    const Vector3d inward_F = -(end.X_FP_end.linear() * shell_.normals[point]);
-    const double share = options_.stiffness_per == StiffnessPer::kArea ? shell_.areas[point] : 1.0;
+    const Vector3d inward_F = -(end.X_FP_end.linear() * shell_.normals[point].cast<double>());
+    const double share = options_.stiffness_per == StiffnessPer::kArea ? double(shell_.areas[point]) : 1.0;
     const FieldValue at_end = field_.interpolate(p_F);
 
     PointContact contact;

@@ -20,7 +20,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kSecondsPerPoint = 3.5e-5;  // of a shell, on one thread; measured on robots' links
-constexpr double kBytesPerPoint = 88.0;      // with its share of the sphere tree
+constexpr double kBytesPerPoint = 72.0;      // with its share of the sphere tree
 constexpr double kFinestOfSize = 2e-3;       // gap that a curved primitive is tessellated for, over its size
 constexpr double kUncertain = 0.35;          // two such standard errors are less than a factor of two
 constexpr double kHopeless = 2.0;            // affordableCost() refuses what is this much too large

@@ -15,7 +15,7 @@ constexpr int kStackSize = 64;  // splits halve the count, so the tree is at mos
 NearestPoint::NearestPoint(const PointShell& shell) {
   const auto count = static_cast<std::int32_t>(shell.size());
   entries_.reserve(count);
-  for (std::int32_t i = 0; i < count; ++i) entries_.push_back({shell.points[i], shell.normals[i], i});
+  for (std::int32_t i = 0; i < count; ++i) entries_.push_back({shell.points[i], shell.normals[i].cast<double>(), i});
   if (count == 0) return;
   nodes_.push_back({{}, 0, count});
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

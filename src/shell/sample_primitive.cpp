@@ -66,8 +66,10 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
   double area = 0;
   for (const double share : shell.areas) area += share;
   for (std::size_t i = 0; i < shell.size(); ++i) {
-    lift(solid, shell.points[i], shell.normals[i]);
-    shell.areas[i] *= exactArea(solid) / area;
+    Vector3d normal = shell.normals[i].cast<double>();
+    lift(solid, shell.points[i], normal);
+    shell.normals[i] = normal.cast<float>();
+    shell.areas[i] *= static_cast<float>(exactArea(solid) / area);
   }
   shell.covering_radius += 2 * deviation;
   shell.edge_radius += deviation;

@@ -101,7 +101,8 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested
   filler.throwDarts();
   filler.fillGaps();
   PointShell shell = filler.take();
-  shell.areas = nearestAreas(surface, shell, options.spacing);
+  const std::vector<double> areas = nearestAreas(surface, shell, options.spacing);
+  shell.areas.assign(areas.begin(), areas.end());
   // The filler has certified the spacing; the measured radius is an upper bound too.
   shell.covering_radius = std::min(options.spacing, coveringRadius(surface, shell, options.spacing));
   if (!edges.empty()) {
@@ -123,7 +124,7 @@ PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
   filler.addVertices();
   filler.fillEdges(edges, sampling.radius);
   PointShell shell = filler.take();
-  shell.areas.assign(shell.size(), 0.0);
+  shell.areas.assign(shell.size(), 0.0F);
   shell.covering_radius = std::numeric_limits<double>::infinity();
   shell.edge_radius = sampling.radius;
   shell.flatness = sampling.flatness;

@@ -10,15 +10,15 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "shell";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
-static_assert(sizeof(Vector3d) == 3 * sizeof(double), "points are written as three numbers each");
+static_assert(sizeof(Vector3d) == 3 * sizeof(double) && sizeof(Vector3f) == 3 * sizeof(float), "written as numbers");
 
 /// The index of the first point with an invalid location, normal or area; the number of points if all are valid.
-std::size_t firstBad(View<Vector3d> points, View<Vector3d> normals, View<double> areas) {
+std::size_t firstBad(View<Vector3d> points, View<Vector3f> normals, View<float> areas) {
   constexpr double kFarthest = 1e15;  // [m]: squares of distances, and volumes, stay finite
   for (std::size_t i = 0; i < points.size; ++i) {
-    const bool good = (points[i].array().abs() < kFarthest).all() && normals[i].squaredNorm() < 1.0 + 1e-6 &&
+    const bool good = (points[i].array().abs() < kFarthest).all() && normals[i].squaredNorm() < 1.0F + 1e-5F &&
                       areas[i] >= 0.0 && std::isfinite(areas[i]);
     if (!good) return i;
   }
@@ -32,8 +32,8 @@ void saveShell(const PointShell& shell, const std::string& path, const std::stri
   writeCheckedFile(path, {kKind, kVersion, key},
                    {{radii, sizeof radii},
                     {shell.points.data(), shell.points.size() * sizeof(Vector3d)},
-                    {shell.normals.data(), shell.normals.size() * sizeof(Vector3d)},
-                    {shell.areas.data(), shell.areas.size() * sizeof(double)}});
+                    {shell.normals.data(), shell.normals.size() * sizeof(Vector3f)},
+                    {shell.areas.data(), shell.areas.size() * sizeof(float)}});
 }
 
 PointShell loadShell(const std::string& path, const std::string& key) {
@@ -41,8 +41,8 @@ PointShell loadShell(const std::string& path, const std::string& key) {
   std::size_t numbers = 0, points = 0, normals = 0, areas = 0;
   const auto* radii = file->section<double>(0, numbers);
   const auto* point = file->section<Vector3d>(1, points);
-  const auto* normal = file->section<Vector3d>(2, normals);
-  const auto* area = file->section<double>(3, areas);
+  const auto* normal = file->section<Vector3f>(2, normals);
+  const auto* area = file->section<float>(3, areas);
   if (numbers != 3 || normals != points || areas != points) {
     throw std::runtime_error(path + ": damaged: " + std::to_string(points) + " points, " + std::to_string(normals) +
                              " normals, " + std::to_string(areas) + " areas");

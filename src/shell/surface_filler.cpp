@@ -89,14 +89,14 @@ void SurfaceFiller::refuse() const {
 void SurfaceFiller::add(const Vector3d& p, const Vector3d& normal) {
   if (shell_.size() >= options_.max_points) refuse();
   shell_.points.push_back(p);
-  shell_.normals.push_back(normal);
+  shell_.normals.push_back(normal.cast<float>());
   grid_.insert(p);
 }
 
 bool SurfaceFiller::isCovered(const Vector3d& p, const Vector3d& normal) const {
   const double spacing2 = options_.spacing * options_.spacing;
   return grid_.anyNear(p, [&](std::int32_t i) {
-    return (shell_.points[i] - p).squaredNorm() < spacing2 && shell_.normals[i].dot(normal) >= 0;
+    return (shell_.points[i] - p).squaredNorm() < spacing2 && shell_.normals[i].cast<double>().dot(normal) >= 0;
   });
 }
 
@@ -184,7 +184,7 @@ void SurfaceFiller::fillGaps() {
       const Vector3d center = piece.centroid();
       if (length2 <= 4 * spacing2) {
         const bool done = grid_.anyNear(center, [&](std::int32_t q) {
-          return piece.farthest2(shell_.points[q]) <= spacing2 && shell_.normals[q].dot(normal) >= 0;
+          return piece.farthest2(shell_.points[q]) <= spacing2 && shell_.normals[q].cast<double>().dot(normal) >= 0;
         });
         if (done) continue;
         if (length2 <= kSmallest2 * spacing2 || !isCovered(center, normal)) {

@@ -18,8 +18,9 @@ PointShell witnessPoints(const TriangleMesh& mesh) {
     component_seen = 1;
     witnesses.points.push_back(mesh.vertices[mesh.triangles[i][0]]);
     const Vector3d normal = areaNormal(mesh, static_cast<int>(i));
-    witnesses.normals.push_back(normal.squaredNorm() > 0.0 ? Vector3d(normal.normalized()) : Vector3d::UnitZ());
-    witnesses.areas.push_back(0.0);
+    const Vector3d unit = normal.squaredNorm() > 0.0 ? Vector3d(normal.normalized()) : Vector3d::UnitZ();
+    witnesses.normals.push_back(unit.cast<float>());
+    witnesses.areas.push_back(0.0F);
   }
   return witnesses;
 }

@@ -29,9 +29,10 @@ inline PointShell spiralSphere(double radius, int count) {
   for (int i = 0; i < count; ++i) {
     const double z = 1.0 - (2.0 * i + 1.0) / count, turn = kPi * (3.0 - std::sqrt(5.0)) * i;
     const double r = std::sqrt(1.0 - z * z);
-    shell.normals.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
-    shell.points.push_back(radius * shell.normals.back());
-    shell.areas.push_back(4.0 * kPi * radius * radius / count);
+    const Vector3d normal(r * std::cos(turn), r * std::sin(turn), z);
+    shell.normals.push_back(normal.cast<float>());
+    shell.points.push_back(radius * normal);
+    shell.areas.push_back(static_cast<float>(4.0 * kPi * radius * radius / count));
   }
   return shell;
 }
@@ -43,15 +44,15 @@ inline PointShell bottomFace(double half, int count) {
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < count; ++k) {
       shell.points.emplace_back(-half + (i + 0.5) * side, -half + (k + 0.5) * side, 0.0);
-      shell.normals.emplace_back(0, 0, -1);
-      shell.areas.push_back(side * side);
+      shell.normals.emplace_back(0.0F, 0.0F, -1.0F);
+      shell.areas.push_back(static_cast<float>(side * side));
     }
   }
   return shell;
 }
 
 inline PointShell onePoint(const Vector3d& p, const Vector3d& normal) {
-  return {{p}, {normal}, {1.0}, 0.0};
+  return {{p}, {normal.cast<float>()}, {1.0F}, 0.0};
 }
 
 /// One shell against one field over chords, every point tested.

@@ -61,8 +61,8 @@ TEST(Penalty, BoxFlatOnPlaneCarriesAreaTimesDepth) {
     const ContactCase pressed{DistanceField(ground()), bottomFace(half, count), oneChord(T, X_FP, X_FP)};
     const Wrench w = pressed.run(perArea()).on_shell_body;
     const Vector3d force(0, 0, kStiffness * 4.0 * half * half * delta);
-    EXPECT_LT((w.force / T - force).norm(), 1e-9 * force.norm()) << count;
-    EXPECT_LT((w.torque / T - place.cross(force)).norm(), 1e-9 * force.norm()) << count;
+    EXPECT_LT((w.force / T - force).norm(), 1e-7 * force.norm()) << count;
+    EXPECT_LT((w.torque / T - place.cross(force)).norm(), 1e-7 * force.norm()) << count;
   }
 }
 
@@ -238,7 +238,7 @@ TEST(Penalty, FrameOfTheShellDoesNotMatter) {
   const Wrench before = moving.run(perArea()).on_shell_body;
   const Isometry3d X_PQ = randomPose(random, 1.0);
   for (Vector3d& p : moving.shell.points) p = X_PQ.inverse() * p;
-  for (Vector3d& n : moving.shell.normals) n = X_PQ.linear().transpose() * n;
+  for (Vector3f& n : moving.shell.normals) n = X_PQ.linear().transpose().cast<float>() * n;
   moving.path.chords[0].X_FP_start = moving.path.chords[0].X_FP_start * X_PQ;
   moving.path.chords[0].X_FP_end = moving.path.chords[0].X_FP_end * X_PQ;
   const Wrench after = moving.run(perArea()).on_shell_body;

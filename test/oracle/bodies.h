@@ -25,7 +25,7 @@ inline RigidBody pointBody(const std::string& name, double mass) {
   body.mass = mass;
   body.inertia = mass * Matrix3d::Identity();
   body.shape =
-      std::make_shared<CollisionShape>(makeShape(PointShell{{Vector3d::Zero()}, {-Vector3d::UnitZ()}, {1.0}, 0.0}));
+      std::make_shared<CollisionShape>(makeShape(PointShell{{Vector3d::Zero()}, {-Vector3f::UnitZ()}, {1.0F}, 0.0}));
   return body;
 }
 

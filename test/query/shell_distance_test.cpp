@@ -15,8 +15,8 @@ TEST(ShellDistance, IsThatOfTheNearestPointOfAll) {
   PointShell shell;
   for (int i = 0; i < 3000; ++i) {
     shell.points.push_back(0.2 * test::direction(random));
-    shell.normals.push_back(shell.points.back().normalized());
-    shell.areas.push_back(1e-4);
+    shell.normals.push_back(shell.points.back().normalized().cast<float>());
+    shell.areas.push_back(1e-4F);
   }
   const SphereTree tree = buildSphereTree(shell);
   const DistanceField field{Primitive(Box{Vector3d(0.1, 0.2, 0.3)})};

@@ -50,7 +50,7 @@ Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
     for (int k = 0; k < 3; ++k) whole.push_back(mesh.vertices[mesh.triangles[t][k]].cast<Real>());
     const Vector3d facing = areaNormal(mesh, static_cast<int>(t));
     std::vector<char> takes(shell.size());
-    for (std::size_t i = 0; i < shell.size(); ++i) takes[i] = shell.normals[i].dot(facing) >= 0;
+    for (std::size_t i = 0; i < shell.size(); ++i) takes[i] = shell.normals[i].cast<double>().dot(facing) >= 0;
     const bool any = std::count(takes.begin(), takes.end(), 1) == 0;
     for (std::size_t i = 0; i < shell.size(); ++i) {
       Polygon cell = whole, own = any || takes[i] ? whole : Polygon();
@@ -92,7 +92,7 @@ PointShell drawnShell(const TriangleMesh& mesh, std::size_t count, std::mt19937_
     const int copies = uniform(random) < 0.1 ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       shell.points.push_back(p);
-      shell.normals.push_back((i == 0 ? 1.0 : -1.0) * areaNormal(mesh, triangle).normalized());
+      shell.normals.push_back(((i == 0 ? 1.0 : -1.0) * areaNormal(mesh, triangle).normalized()).cast<float>());
     }
   }
   return shell;

@@ -16,7 +16,9 @@
 namespace sdf_ccd {
 namespace {
 
-double sum(const std::vector<double>& values) {
+constexpr double kRounding = 1e-6;  // of normals and areas, over their size
+
+double sum(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -88,7 +90,7 @@ TEST(SampleSurface, AreasSumToTheMeshAndGoToTheNearest) {
     ShellOptions options;
     options.spacing = 0.1;
     const PointShell shell = sampleSurface(mesh, options);
-    EXPECT_NEAR(sum(shell.areas), surfaceArea(mesh), 1e-9 * surfaceArea(mesh)) << name;
+    EXPECT_NEAR(sum(shell.areas), surfaceArea(mesh), kRounding * surfaceArea(mesh)) << name;
     for (const double area : shell.areas) EXPECT_GE(area, 0);
   }
 }
@@ -121,7 +123,7 @@ TEST(SampleSurface, AThinPlateHasPointsAndAreaOnBothSides) {
   for (std::size_t i = 0; i < shell.size(); ++i) (shell.normals[i].z() > 0 ? up : down) += shell.areas[i];
   EXPECT_NEAR(up, down, 0.02);
   std::size_t above = 0;
-  for (const Vector3d& normal : shell.normals) above += normal.z() > 0.9;
+  for (const Vector3f& normal : shell.normals) above += normal.z() > 0.9;
   EXPECT_NEAR(static_cast<double>(above) / shell.size(), 0.5, 0.05);
 }
 
@@ -134,8 +136,8 @@ TEST(SampleSurface, PointsKeepTheirDistanceAndLieOnTheMesh) {
   const std::size_t vertices = mesh.vertices.size();
   for (std::size_t i = 0; i < shell.size(); ++i) {
     EXPECT_LT(tree.closestPoint(shell.points[i]).distance, 1e-14);
-    EXPECT_NEAR(shell.normals[i].norm(), 1, 1e-12);
-    EXPECT_GT(shell.normals[i].dot(shell.points[i].normalized()), 0.9);
+    EXPECT_NEAR(shell.normals[i].norm(), 1, kRounding);
+    EXPECT_GT(shell.normals[i].cast<double>().dot(shell.points[i].normalized()), 0.9);
     for (std::size_t j = vertices; j < i; ++j) {
       EXPECT_GT((shell.points[i] - shell.points[j]).norm(), 0.94 * options.spacing);
     }
@@ -179,11 +181,11 @@ TEST(SampleSurface, PrimitivesArePointsOfTheirSurface) {
       options.spacing = spacing;
       const PointShell shell = sampleSurface(solid, options);
       EXPECT_LE(shell.covering_radius, spacing);
-      EXPECT_NEAR(sum(shell.areas), area, 1e-9 * area);
+      EXPECT_NEAR(sum(shell.areas), area, kRounding * area);
       for (std::size_t i = 0; i < shell.size(); ++i) {
         EXPECT_NEAR(signedDistance(solid, shell.points[i]), 0, 1e-15);
-        EXPECT_NEAR(shell.normals[i].norm(), 1, 1e-12);
-        EXPECT_GT(signedDistance(solid, shell.points[i] + 1e-6 * shell.normals[i]), 5e-7);
+        EXPECT_NEAR(shell.normals[i].norm(), 1, kRounding);
+        EXPECT_GT(signedDistance(solid, shell.points[i] + 1e-6 * shell.normals[i].cast<double>()), 5e-7);
       }
       double sampled = 0;
       for (const Vector3d& near : randomPlaces(tessellate(solid, 1e-6), 5000)) {
@@ -206,7 +208,7 @@ TEST(SampleSurface, NormalsOfACylinderAreThoseOfItsSides) {
     ASSERT_TRUE(on_cap || on_side);
     if (on_cap && on_side) continue;
     const Vector3d expected = on_cap ? Vector3d(0, 0, p.z() > 0 ? 1 : -1) : Vector3d(p.x() / 0.1, p.y() / 0.1, 0);
-    EXPECT_TRUE(shell.normals[i].isApprox(expected, 1e-9)) << p.transpose();
+    EXPECT_TRUE(shell.normals[i].isApprox(expected.cast<float>(), float(kRounding))) << p.transpose();
   }
 }
 
@@ -258,8 +260,8 @@ TEST(SampleSurface, DegenerateTrianglesDoNoHarm) {
   ShellOptions options;
   options.spacing = 0.1;
   const PointShell shell = sampleSurface(mesh, options);
-  EXPECT_NEAR(sum(shell.areas), 6, 1e-9);
-  for (const Vector3d& normal : shell.normals) EXPECT_NEAR(normal.norm(), 1, 1e-12);
+  EXPECT_NEAR(sum(shell.areas), 6, 6 * kRounding);
+  for (const Vector3f& normal : shell.normals) EXPECT_NEAR(normal.norm(), 1, kRounding);
 }
 
 TEST(SampleSurface, ExpectedPointsAreAboutRight) {
@@ -287,7 +289,7 @@ TEST(SampleSurface, RobotMeshes) {
     options.spacing = boundingBox(mesh).sizes().maxCoeff() / 50;
     const PointShell shell = sampleSurface(mesh, options);
     EXPECT_LE(shell.covering_radius, options.spacing);
-    EXPECT_NEAR(sum(shell.areas), surfaceArea(mesh), 1e-9 * surfaceArea(mesh));
+    EXPECT_NEAR(sum(shell.areas), surfaceArea(mesh), kRounding * surfaceArea(mesh));
     for (const Vector3d& place : randomPlaces(mesh, 500)) {
       EXPECT_LE(nearestDistance(shell, place), shell.covering_radius);
     }

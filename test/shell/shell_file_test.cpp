@@ -16,7 +16,7 @@ class ShellFile : public ::testing::Test {
   void SetUp() override {
     shell_.points = {{1, 2, 3}, {4, 5, 6}};
     shell_.normals = {{1, 0, 0}, {0, 1, 0}};
-    shell_.areas = {0.1, 0.2};
+    shell_.areas = {0.1F, 0.2F};
     shell_.covering_radius = 0.007;
     shell_.edge_radius = 0.001;
     shell_.flatness = 0.0001;
@@ -59,10 +59,10 @@ TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
   };
   for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan(""), 1e300}) {
     expectRefused([&] { shell_.points[1].y() = bad; });
-    expectRefused([&] { shell_.normals[0].z() = bad; });
+    expectRefused([&] { shell_.normals[0].z() = static_cast<float>(bad); });
   }
   for (const double bad : {HUGE_VAL, -1e-9, std::nan("")}) {
-    expectRefused([&] { shell_.areas[1] = bad; });
+    expectRefused([&] { shell_.areas[1] = static_cast<float>(bad); });
     expectRefused([&] { shell_.covering_radius = bad; });
     expectRefused([&] { shell_.flatness = bad; });
   }

@@ -15,8 +15,8 @@ PointShell shellOf(std::vector<Vector3d> points) {
   PointShell shell;
   shell.points = std::move(points);
   for (std::size_t i = 0; i < shell.size(); ++i) {
-    shell.normals.push_back(Vector3d::UnitZ());
-    shell.areas.push_back(static_cast<double>(i));  // tells points apart
+    shell.normals.push_back(Vector3f::UnitZ());
+    shell.areas.push_back(static_cast<float>(i));  // tells points apart
   }
   return shell;
 }

@@ -13,6 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using Eigen::Vector3f;
 using Eigen::Vector3i;
 
 }  // namespace sdf_ccd

@@ -13,8 +13,8 @@ namespace sdf_ccd {
 /// Points on a body's surface, in its frame P.
 struct PointShell {
   std::vector<Vector3d> points;   ///< [m]
-  std::vector<Vector3d> normals;  ///< unit, pointing out
-  std::vector<double> areas;      ///< surface area that each point represents [m²]
+  std::vector<Vector3f> normals;  ///< unit, pointing out
+  std::vector<float> areas;       ///< surface area that each point represents [m²]
   double covering_radius = 0.0;   ///< upper bound of the distance from the surface's locations to the points [m]
 
   /// The same for the edges of its flat pieces, which deviate from planes by `flatness` [m]; see contact_gap.h.
