@@ -1,6 +1,7 @@
 #include "sdf_ccd/monitor/voxel_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -17,7 +18,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr int kTile = VoxelGrid::kTile;
-constexpr int kCells = 1 << 16;     // voxels along a side of the whole tree
+constexpr int kCells = 1 << 16;      // voxels along a side of the whole tree
 constexpr int kOrigin = kCells / 2;  // the voxel that begins at the map's origin
 static_assert(VoxelBlock::kSide == kTile + 2, "a tile and one voxel around it");
 
@@ -76,7 +77,7 @@ void VoxelGrid::add(const Vector3i& low, int side, bool is_occupied) {
   const Vector3i first = low / kTile, last = (low.array() + side - 1) / kTile;
   const Vector3i tiles = last - first;
   if (double(tiles.x() + 1) * (tiles.y() + 1) * (tiles.z() + 1) > double(options_.max_tiles)) {
-    if (!is_occupied) return;  // free space that large is nobody's neighbourhood
+    if (!is_occupied) return addLargeFree(low, side);
     throw std::runtime_error("a map of more than " + std::to_string(options_.max_tiles) + " tiles");
   }
   for (Vector3i t = first; t.z() <= last.z(); ++t.z())
@@ -92,6 +93,51 @@ void VoxelGrid::add(const Vector3i& low, int side, bool is_occupied) {
               if (keeps_known_) tile.known.set(indexOf(x, y, z));
             }
       }
+}
+
+namespace {
+
+constexpr int kLevels = 17;
+
+/// The cube of a level of the octree that holds a voxel.
+std::uint64_t cubeAt(const Vector3i& voxel, int level) {
+  const auto place = [&](int axis) { return static_cast<std::uint64_t>(voxel[axis] >> level); };
+  return static_cast<std::uint64_t>(level) << 48 | place(2) << 32 | place(1) << 16 | place(0);
+}
+
+}  // namespace
+
+void VoxelGrid::addLargeFree(const Vector3i& low, int side) {
+  int level = 0;
+  while (level + 1 < kLevels && 1 << level < side) ++level;
+  if (side != 1 << level || side < kTile || ((low.array() / side) * side != low.array()).any())
+    throw std::invalid_argument("free space of " + std::to_string(side) + " voxels that is no leaf of an octree");
+  large_free_.insert(cubeAt(low, level));
+}
+
+std::optional<VoxelGrid::Key> VoxelGrid::largeFreeAt(const Vector3i& voxel) const {
+  for (int level = 0; level < kLevels; ++level)
+    if (large_free_.count(cubeAt(voxel, level)) > 0) return cubeAt(voxel, level);
+  return std::nullopt;
+}
+
+/// What of a tile is known.
+VoxelGrid::Bits VoxelGrid::known(const Vector3i& tile) const {
+  const auto found = tiles_.find(keyOf(tile));
+  Bits bits = found == tiles_.end() ? Bits() : found->second.known;
+  if (large_free_.empty()) return bits;
+  // Such a leaf is larger than a tile, so it holds a corner of each that it meets.
+  std::array<std::optional<Key>, 8> corners;
+  for (int i = 0; i < 8; ++i)
+    corners[i] = largeFreeAt(kTile * tile + (kTile - 1) * Vector3i(i & 1, i >> 1 & 1, i >> 2));
+  if (std::none_of(corners.begin(), corners.end(), [](const auto& corner) { return corner.has_value(); })) return bits;
+  if (std::all_of(corners.begin(), corners.end(), [&](const auto& corner) { return corner == corners[0]; }))
+    return bits.set();
+  for (int z = 0; z < kTile; ++z)
+    for (int y = 0; y < kTile; ++y)
+      for (int x = 0; x < kTile; ++x)
+        if (largeFreeAt(kTile * tile + Vector3i(x, y, z))) bits.set(indexOf(x, y, z));
+  return bits;
 }
 
 void VoxelGrid::addOctree(const std::int8_t* data, std::size_t bytes, const std::string& type, bool is_binary) {
@@ -158,7 +204,8 @@ std::vector<Vector3i> tilesNear(const Vector3d& center, double reach, double siz
   return tiles;
 }
 
-VoxelBlock blockOf(const Vector3i& tile, const BitsOfTiles& all, const std::function<std::uint64_t(const Vector3i&)>& keyOf) {
+VoxelBlock blockOf(const Vector3i& tile, const BitsOfTiles& all,
+                   const std::function<std::uint64_t(const Vector3i&)>& keyOf) {
   const Bits* around[27];
   for (int i = 0; i < 27; ++i) {
     const Vector3i other = tile + Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
@@ -198,23 +245,20 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
     }
     const Vector3i count = last - first;
     if (double(count.x() + 1) * (count.y() + 1) * (count.z() + 1) > double(options_.max_tiles))
-      throw std::runtime_error("a map whose unknown space is more than " + std::to_string(options_.max_tiles) + " tiles");
+      throw std::runtime_error("a map whose unknown space is more than " + std::to_string(options_.max_tiles) +
+                               " tiles");
     for (Vector3i t = first; t.z() <= last.z(); ++t.z())
       for (t.y() = first.y(); t.y() <= last.y(); ++t.y())
-        for (t.x() = first.x(); t.x() <= last.x(); ++t.x()) {
-          const auto known = grid.tiles_.find(VoxelGrid::keyOf(t));
-          occupied[VoxelGrid::keyOf(t)] |= known == grid.tiles_.end() ? Bits().set() : ~known->second.known;
-        }
+        for (t.x() = first.x(); t.x() <= last.x(); ++t.x()) occupied[VoxelGrid::keyOf(t)] |= ~grid.known(t);
   }
   for (const VoxelMask& mask : masks) {
     if (options_.unknown != UnknownSpace::kOccupiedNear) break;
     const double reach = mask.radius + options_.near_distance;
     for (const Vector3i& t : tilesNear(mask.center_M, reach, size, options_.max_tiles)) {
-      const auto known = grid.tiles_.find(VoxelGrid::keyOf(t));
+      const Bits known = grid.known(t);
       Bits& bits = occupied[VoxelGrid::keyOf(t)];
       visitNear(t, size, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
-        const bool is_known = known != grid.tiles_.end() && known->second.known[i];
-        if (!is_known && mask.distance(p_M) <= options_.near_distance) bits.set(i);
+        if (!known[i] && mask.distance(p_M) <= options_.near_distance) bits.set(i);
       });
     }
   }

@@ -76,7 +76,8 @@ TEST(VoxelMap, AChangedMapIsAsOneMadeAnew) {
     std::size_t changed = 0;
     std::set<std::array<int, 3>> tiles;
     for (int i = 0; i < (scan == 0 ? 0 : 30); ++i) {
-      const std::array<int, 3> v{int(uniform(random, -30, 30)), int(uniform(random, -30, 30)), int(uniform(random, -6, 20))};
+      const std::array<int, 3> v{int(uniform(random, -30, 30)), int(uniform(random, -30, 30)),
+                                 int(uniform(random, -6, 20))};
       if (!voxels.erase(v)) voxels.insert(v);
       ++changed;
     }
@@ -86,7 +87,8 @@ TEST(VoxelMap, AChangedMapIsAsOneMadeAnew) {
     EXPECT_LE(change.made.size(), scan == 0 ? 100U : 8 * changed);
     for (int i = 0; i < 300; ++i) {
       const auto& near = *std::next(voxels.begin(), long(uniform(random, 0.0, 0.99) * double(voxels.size())));
-      const Vector3d p = kSize * Vector3d(near[0] + uniform(random, -1, 2), near[1] + uniform(random, -1, 2), near[2] + uniform(random, -1, 2));
+      const Vector3d p = kSize * Vector3d(near[0] + uniform(random, -1, 2), near[1] + uniform(random, -1, 2),
+                                          near[2] + uniform(random, -1, 2));
       const double truth = distanceTo(voxels, p), said = kept.distance(p);
       if (truth > 0.0) {
         EXPECT_NEAR(said, truth, 0.88 * 0.5 * kSize);
@@ -162,8 +164,30 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   Kept kept_near;
   kept_near.take(near.take(gridOfFree(), {ball}));
   EXPECT_GT(kept_near.distance({0.4, 0.4, 0.4}), 0.1);
-  EXPECT_LT(kept_near.distance({1.05, 0.4, 0.4}), 0.0);   // unknown, 0.2 m from the ball
-  EXPECT_GT(kept_near.distance({1.5, 0.4, 0.4}), 0.2);    // unknown, but far
+  EXPECT_LT(kept_near.distance({1.05, 0.4, 0.4}), 0.0);  // unknown, 0.2 m from the ball
+  EXPECT_GT(kept_near.distance({1.5, 0.4, 0.4}), 0.2);   // unknown, but far
+}
+
+TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {
+  constexpr int kSide = 1024, kTo = kMiddle + kSide;  // a leaf from 0 to 51.2 m
+  for (const UnknownSpace unknown : {UnknownSpace::kOccupiedNear, UnknownSpace::kOccupied}) {
+    VoxelMapOptions options;
+    options.unknown = unknown;
+    options.near_distance = 0.3;
+    VoxelGrid grid(kSize, options);
+    grid.add(Vector3i::Constant(kMiddle), kSide, false);
+    for (const int far : {kMiddle + 2, kTo + 20}) grid.add(Vector3i(far, far, kMiddle + 500), 1, true);
+    for (int i = 0; i < 100; ++i) grid.add(Vector3i(kMiddle + 10 * i, kMiddle + 10 * i, kMiddle + 500), 1, false);
+    VoxelMap map("map", "world", options);
+    Kept kept;
+    kept.take(map.take(std::move(grid), {ballMask({20.0, 20.0, 25.0}, 0.1), ballMask({51.1, 51.1, 25.0}, 0.1)}));
+    EXPECT_GT(kept.distance({20.0, 20.0, 25.0}), 0.3);
+    EXPECT_GT(kept.distance({20.2, 20.1, 25.1}), 0.1);
+    EXPECT_GT(kept.distance({51.0, 51.0, 25.0}), 0.0);
+    EXPECT_LT(kept.distance({51.35, 51.15, 25.0}), 0.0);  // beyond its end
+    EXPECT_THROW(grid.add(Vector3i::Constant(kMiddle + 1), kSide, false), std::invalid_argument);
+    EXPECT_THROW(grid.add(Vector3i::Constant(kMiddle), kSide - 1, false), std::invalid_argument);
+  }
 }
 
 TEST(VoxelMap, RefusesWhatIsTooLarge) {
@@ -217,7 +241,8 @@ TEST(VoxelMap, ARealMapIsAWorld) {
   for (const DistanceField& field : change.fields) box.extend(field.box());
   const Vector3d middle = box.center();
   motion.X_WB.assign(description.bodies.size(), still(Isometry3d::Identity()));
-  motion.X_WB[0] = {translation({box.min().x(), middle.y(), middle.z()}), translation({box.max().x(), middle.y(), middle.z()})};
+  motion.X_WB[0] = {translation({box.min().x(), middle.y(), middle.z()}),
+                    translation({box.max().x(), middle.y(), middle.z()})};
   EXPECT_EQ(monitor.run(motion, {}).verdict, Verdict::kContact);
 }
 

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "sdf_ccd/field/distance_field.h"
@@ -25,15 +27,15 @@ struct VoxelMapOptions {
   double band = 0.0;  ///< of the tiles' fields [m]; see BodyOptions
   UnknownSpace unknown = UnknownSpace::kFree;
   double near_distance = 0.5;  ///< [m]
-  double padding = 0.03;       ///< voxels whose centres are nearer than this and half a voxel to a VoxelMask are free [m]
+  double padding = 0.03;  ///< voxels whose centres are nearer than this and half a voxel to a VoxelMask are free [m]
   std::size_t max_voxels = 20'000'000;  ///< occupied ones
   std::size_t max_tiles = 20'000;
 };
 
 /// What fills voxels that do not count: a robot's own links.
 struct VoxelMask {
-  Vector3d center_M = Vector3d::Zero();                ///< of a ball that holds it, in the map's frame M [m]
-  double radius = 0.0;                                 ///< [m]
+  Vector3d center_M = Vector3d::Zero();                 ///< of a ball that holds it, in the map's frame M [m]
+  double radius = 0.0;                                  ///< [m]
   std::function<double(const Vector3d& p_M)> distance;  ///< to it, no more than the true one [m]; from several threads
 };
 
@@ -54,7 +56,8 @@ class VoxelGrid {
   void addOctree(const std::int8_t* data, std::size_t bytes, const std::string& type, bool is_binary);
 
   /// A cube of voxels from `low` on; counted as in OctreeLeaf: voxel 32768 begins at the origin.
-  /// @throws std::runtime_error if there are more than the options allow.
+  /// @throws std::runtime_error if there are more than the options allow; std::invalid_argument if a free one of more
+  /// tiles than that is no leaf of an octree: its side a power of two, its place a multiple of that.
   void add(const Vector3i& low, int side, bool is_occupied);
 
   double size() const { return size_; }
@@ -66,19 +69,23 @@ class VoxelGrid {
   static Key keyOf(const Vector3i& tile);
   static Vector3i tileOf(Key key);
   Tile& tileAt(const Vector3i& tile);
+  void addLargeFree(const Vector3i& low, int side);
+  std::optional<Key> largeFreeAt(const Vector3i& voxel) const;
+  Bits known(const Vector3i& tile) const;
 
   double size_;
   VoxelMapOptions options_;
   bool keeps_known_;
   std::size_t occupied_ = 0;
   std::unordered_map<Key, Tile> tiles_;
+  std::unordered_set<Key> large_free_;  // leaves of more tiles than may be, by level and place
   Key last_ = ~Key{0};
   Tile* last_tile_ = nullptr;
 };
 
-/// A map of voxels that changes, as bodies of the world: tiles of 18 voxels a side that overlap by one, each with a field
-/// of its own that is never changed. A new map makes those tiles anew that differ, and shares the rest (Xu & Barbič, §6,
-/// name dynamic octrees as what their fields lack).
+/// A map of voxels that changes, as bodies of the world: tiles of 18 voxels a side that overlap by one, each with a
+/// field of its own that is never changed. A new map makes those tiles anew that differ, and shares the rest (Xu &
+/// Barbič, §6, name dynamic octrees as what their fields lack).
 ///
 /// Tiles overlap, so that what is inside a wall is as deep inside one of them as in the wall, to a voxel; where two
 /// overlap, both bear force.

@@ -49,9 +49,8 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
     age_timer_ = own.createWallTimer(
         look, [this](const ros::WallTimerEvent&) { work("A map that is too old stays", [this] { watchAge(); }); });
   }
-  again_timer_ = own.createWallTimer(kAgain, [this](const ros::WallTimerEvent&) {
-    work("A map is not taken again", [this] { takeAgain(); });
-  });
+  again_timer_ = own.createWallTimer(
+      kAgain, [this](const ros::WallTimerEvent&) { work("A map is not taken again", [this] { takeAgain(); }); });
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
 }
@@ -77,17 +76,16 @@ void LiveMap::work(const char* what, const std::function<void()>& job) const {
 void LiveMap::watchAge() {
   const ros::Time now = ros::Time::now();
   if (now < taken_) taken_ = now;  // time has jumped
-  if (is_awaited_ || (now - taken_).toSec() <= parameters_.max_age) return;
+  if (in_scene_ == InScene::kAwaited || (now - taken_).toSec() <= parameters_.max_age) return;
   const std::string why = "the last map on " + parameters_.topic + " is older than " + numberText(parameters_.max_age) +
                           " s (octomap/max_age)";
   editor_.setMap({awaitedTile(history_.fixedFrame(), why)}, {});
-  is_in_scene_ = false;
-  is_awaited_ = true;
+  in_scene_ = InScene::kAwaited;
   ROS_WARN("%s: the robot is not checked against it", why.c_str());
 }
 
 void LiveMap::takeAgain() {
-  if (!last_ || is_awaited_) return;
+  if (!last_ || in_scene_ == InScene::kAwaited) return;
   std::size_t unknown = 0;
   masksOf(*editor_.world(), *last_, ros::WallDuration(), unknown);
   if (unknown >= unknown_) return;
@@ -112,11 +110,15 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   const std::shared_ptr<const CheckedWorld> world = editor_.world();
   const std::vector<VoxelMask> masks = masksOf(*world, message, kPatience, unknown_);
   const double read = secondsSince(start);
-  if (!map_ || frame != frame_) {
+  const auto isBehind = [this] {
+    if (in_scene_ == InScene::kTiles) in_scene_ = InScene::kOther;
+  };
+  if (!map_ || frame != frame_ || message.resolution != resolution_) {
     map_ = std::make_unique<VoxelMap>(LiveMapParameters::kName, frame, options);
     frame_ = frame;
+    resolution_ = message.resolution;
     tiles_.clear();
-    is_in_scene_ = false;
+    isBehind();
   }
   VoxelMap::Change change;
   editor_.arena().execute([&, cancel = CancelPoint()] {
@@ -135,11 +137,10 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   tiles.reserve(tiles_.size());
   for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
   std::uint64_t version = world->version();
-  if (made > 0 || !change.removed.empty() || !is_in_scene_) {
-    is_in_scene_ = false;  // if this fails, the next map is to try again
+  if (made > 0 || !change.removed.empty() || in_scene_ != InScene::kTiles) {
+    isBehind();  // if this fails, the next map is to try again
     version = editor_.setMap(std::move(tiles), fields);
-    is_in_scene_ = true;
-    is_awaited_ = false;
+    in_scene_ = InScene::kTiles;
   }
   ROS_INFO_THROTTLE(
       10.0,

@@ -21,11 +21,13 @@ namespace sdf_ccd {
 ///
 /// Before the first map, and where the last one is older than may be, the robot is NOT_CHECKED against the map.
 ///
-/// Voxels that the robot, and what is attached to it, fill where tf had them at the map's stamp do not count. Where that
-/// was not known of some body yet, the map is taken again when it is: a latched one comes only once.
+/// Voxels that the robot, and what is attached to it, fill where tf had them at the map's stamp do not count. Where
+/// that was not known of some body yet, the map is taken again when it is: a latched one comes only once.
 ///
 /// Subscribes:
-///   the parameter octomap/topic  octomap_msgs/Octomap  binary or full, of OcTree or ColorOcTree; in a thread of its own
+///   the parameter octomap/topic  octomap_msgs/Octomap  binary or full, of OcTree or ColorOcTree
+///
+/// Works in a thread of its own.
 class LiveMap {
  public:
   /// @param stop  ends what is being done when it is set.
@@ -49,12 +51,17 @@ class LiveMap {
   VoxelMapOptions options_;
   std::unique_ptr<VoxelMap> map_;
   std::string frame_;
+  double resolution_ = 0.0;                       // [m]
   std::map<std::string, BodyDescription> tiles_;  // by name
-  bool is_in_scene_ = false;                      // what tiles_ has
-  bool is_awaited_ = true;                        // the scene has no map, and says so
-  ros::Time taken_;                               // when the last map came
-  octomap_msgs::Octomap::ConstPtr last_;          // map that was taken, if some bodies were unknown then
-  std::size_t unknown_ = 0;                       // how many
+  enum class InScene {
+    kAwaited,  // no map, and it says so
+    kTiles,    // what tiles_ has
+    kOther,    // an older map, as tiles_ could not be taken over
+  };
+  InScene in_scene_ = InScene::kAwaited;
+  ros::Time taken_;                       // when the last map came
+  octomap_msgs::Octomap::ConstPtr last_;  // map that was taken, if some bodies were unknown then
+  std::size_t unknown_ = 0;               // how many
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
   ros::WallTimer age_timer_, again_timer_;
