@@ -20,6 +20,18 @@ std::vector<SolidPart> partsOf(const Body& body) {
   return parts;
 }
 
+/// No point of one body goes farther against the other from one time to a later one [m].
+double travelBetween(const RelativeMotion& motion, double from, double to) {
+  double travel = 0.0;
+  for (std::size_t step = 0; step < motion.steps(); ++step) {
+    const TwoBodyMotion along = motion.motion(step);
+    const double share = (std::min(to, along.t_end) - std::max(from, along.t_start)) / (along.t_end - along.t_start);
+    // A step's bound is for all of it; no part of it is twice as fast (see relativeMotionBounds()).
+    if (share > 0.0) travel += std::min(1.0, 2.0 * share) * motion.bounds(step).travel;
+  }
+  return travel;
+}
+
 /// The times of an interval that holds the time; of none of them that time alone, which is one then.
 void setTimes(std::vector<Interval>& intervals, ContactPoint& point) {
   for (const Interval& interval : intervals) {
@@ -53,15 +65,29 @@ ContactRefinement::ContactRefinement(const Scene& scene, const PlannedPair& pair
 
 void ContactRefinement::run(const SweptBodies& bodies, SurfacePair& surfaces, double motion_error, Memory& memory,
                             PairResult& result) const {
-  const std::optional<Interval> touch = surfaces.firstTouch(motion_error, memory.separation);
-  if (touch) {
-    result.first_touch = touch;
-    if (std::isfinite(touch->exit) && touch->exit < result.intervals.front().enter) {
-      result.intervals.push_back({touch->exit, result.intervals.front().enter});
-      mergeIntervals(result.intervals, 0.0);
-    }
-  }
+  result.refined = true;
+  if (const std::optional<Interval> touch = surfaces.firstTouch(motion_error, memory.separation))
+    setBegin(*touch, surfaces, result);
   findDeepest(bodies, motion_error + surfaces.deviation(), memory, result);
+}
+
+/// Contact begins where the surfaces first touch, if no body is inside the other then.
+void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfaces, PairResult& result) const {
+  const RelativeMotion& motion = surfaces.motion();
+  std::vector<Interval>& intervals = result.intervals;
+  if (touch.enter == motion.motion(0).t_start || surfaces.isOutside(motion.start())) {
+    result.first_touch = touch;
+    const auto isBefore = [&](const Interval& interval) { return interval.exit < touch.enter; };
+    intervals.erase(std::remove_if(intervals.begin(), intervals.end(), isBefore), intervals.end());
+    if (intervals.empty()) intervals.push_back({touch.enter, touch.enter});
+    intervals.front().enter = std::max(intervals.front().enter, touch.enter);
+    result.deepest.time = std::max(result.deepest.time, intervals.front().enter);
+  }
+  if (!(touch.exit < intervals.front().enter)) return;
+  // What the shells see goes on from there, if the bodies can come no farther apart meanwhile than the shells see.
+  const bool goes_on = travelBetween(motion, touch.exit, intervals.front().enter) <= result.contact_error.total();
+  intervals.insert(intervals.begin(), {touch.exit, goes_on ? intervals.front().enter : touch.exit});
+  mergeIntervals(intervals, 0.0);
 }
 
 /// @param error  of places, but for what the search leaves [m].

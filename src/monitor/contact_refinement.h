@@ -38,6 +38,7 @@ class ContactRefinement {
     std::vector<SolidPart> solid;
   };
 
+  void setBegin(const Interval& touch, const SurfacePair& surfaces, PairResult& result) const;
   void findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const;
 
   const Scene& scene_;

@@ -216,6 +216,8 @@ void ContactTracker::takeStay(const ObservedCycle& cycle, const Stay& stay) {
     contact.deepest_origin = cycle.origin;
     slot.has_deepest = true;
   }
+  if (pair.refined) slot.reach = std::max(slot.reach, pair.deepest.depth + pair.deepest.depth_error);
+  contact.deepest.depth_error = std::max(contact.deepest.depth_error, slot.reach - contact.deepest.depth);
 }
 
 /// Where one of its pairs is not known and none is seen to touch, it is lost.
@@ -278,6 +280,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   said.cycles = 0;
   slot.group = static_cast<int>(group);
   slot.has_deepest = false;
+  slot.reach = 0.0;
   slot.is_open = true;
   slot.cycle = 0;
   ++open_;

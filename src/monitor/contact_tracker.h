@@ -112,6 +112,7 @@ class ContactTracker {
     bool is_listed = false;
     bool is_unsaid = false;  // it ended with its world, and no cycle has come since
     bool has_deepest = false;
+    double reach = 0.0;       // where refined: no place gets deeper [m]
     std::uint64_t cycle = 0;  // in which it was seen last
   };
 

@@ -1,6 +1,7 @@
 #include "monitor/join_results.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "summarise.h"
 
@@ -33,6 +34,7 @@ void ResultJoiner::add(const CycleMotion& motion, const CycleResult& result) {
       ends_.X_WB.push_back({X_WB, X_WB});
     }
     joined_.pairs.resize(result.pairs.size());
+    known_.resize(result.pairs.size());
     for (std::size_t i = 0; i < result.pairs.size(); ++i) {
       PairResult& pair = joined_.pairs[i];
       pair.body_a = result.pairs[i].body_a;
@@ -42,7 +44,7 @@ void ResultJoiner::add(const CycleMotion& motion, const CycleResult& result) {
       pair.span = {0, 1};
     }
   }
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) addPair(motion, result.pairs[i], joined_.pairs[i]);
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) addPair(motion, result.pairs[i], joined_.pairs[i], known_[i]);
   for (std::size_t body = 0; body < motion.X_WB.size(); ++body) {
     if (!motion.X_WB[body].empty()) ends_.X_WB[body][1] = motion.X_WB[body].back();
   }
@@ -50,7 +52,7 @@ void ResultJoiner::add(const CycleMotion& motion, const CycleResult& result) {
   joined_.run_time += result.run_time;
 }
 
-void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair) const {
+void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair, Known& known) const {
   const double start = ends_.times[1], length = motion.times.back();
   pair.verdict = std::max(pair.verdict, piece.verdict);
   if (pair.reason.empty()) pair.reason = piece.reason;
@@ -61,8 +63,13 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   if (!piece.intervals.empty() && (pair.intervals.empty() || piece.deepest.depth > pair.deepest.depth)) {
     pair.deepest = later(piece.deepest, start);
   }
-  if (piece.first_touch && !pair.first_touch)
-    pair.first_touch = Interval{start + piece.first_touch->enter, start + piece.first_touch->exit};
+  addFirstTouch(start, piece, pair, known);
+  pair.refined |= piece.refined;
+  if (!piece.intervals.empty()) {
+    known.reach = std::max(known.reach, piece.deepest.depth + piece.deepest.depth_error);
+  } else if (piece.verdict == Verdict::kUncertain) {
+    known.reach = std::max(known.reach, piece.error.total());
+  }
   for (const Interval& interval : piece.intervals) {
     const bool goes_on = !pair.intervals.empty() && interval.enter <= kAtEnd * length &&
                          pair.intervals.back().exit >= start - kAtEnd * length;
@@ -82,6 +89,14 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   pair.on_b_W += length * piece.on_b_W;
 }
 
+/// What is not CLEAR may touch from the piece's start on, if nothing else is known of it.
+void ResultJoiner::addFirstTouch(double start, const PairResult& piece, PairResult& pair, Known& known) {
+  const std::optional<Interval>& touch = piece.first_touch;
+  if (!known.apart_until && piece.verdict != Verdict::kClear) known.apart_until = start + (touch ? touch->enter : 0.0);
+  const bool is_known = pair.first_touch && std::isfinite(pair.first_touch->exit);
+  if (touch && !is_known) pair.first_touch = Interval{known.apart_until.value_or(start), start + touch->exit};
+}
+
 /// From the body's origin at the piece's end to that at its start.
 Vector3d ResultJoiner::shift(int body, const CycleMotion& motion) const {
   const std::vector<Isometry3d>& poses = motion.X_WB[body];
@@ -91,7 +106,10 @@ Vector3d ResultJoiner::shift(int body, const CycleMotion& motion) const {
 
 CycleResult ResultJoiner::result() const {
   CycleResult result = joined_;
-  for (PairResult& pair : result.pairs) {
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    PairResult& pair = result.pairs[i];
+    if (pair.refined)
+      pair.deepest.depth_error = std::max(pair.deepest.depth_error, known_[i].reach - pair.deepest.depth);
     if (pair.verdict != Verdict::kNotChecked) pair.reason.clear();
     pair.on_a_W = 1.0 / ends_.times[1] * pair.on_a_W;
     pair.on_b_W = 1.0 / ends_.times[1] * pair.on_b_W;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sdf_ccd/monitor/monitor.h"
@@ -27,11 +28,19 @@ class ResultJoiner {
   const CycleMotion& motion() const { return ends_; }
 
  private:
-  void addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair) const;
+  /// Of a pair, over all pieces.
+  struct Known {
+    std::optional<double> apart_until;  // start of the first piece that is not CLEAR, or when bodies first touch in it
+    double reach = 0.0;                 // no place gets deeper, where refined [m]
+  };
+
+  void addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair, Known& known) const;
+  static void addFirstTouch(double start, const PairResult& piece, PairResult& pair, Known& known);
   Vector3d shift(int body, const CycleMotion& motion) const;
 
   int max_points_;
   CycleResult joined_;  // wrenches are impulses, times from the whole's start
+  std::vector<Known> known_;
   CycleMotion ends_;
 };
 

@@ -42,6 +42,7 @@ void clear(PairResult& result) {
   result.clearance = -1.0;
   result.intervals.clear();
   result.deepest = {};
+  result.refined = false;
   result.first_touch.reset();
   result.on_a_W = {};
   result.on_b_W = {};
@@ -324,7 +325,7 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
     answer = surfaces_->decide(motion_error_, memory_->separation);
     if (answer.state != SeparationState::kApart) return false;
     clearance = std::max(clearance, answer.clearance);
-    outside_ = outside_ || surfaces_->isOutside();
+    outside_ = outside_ || surfaces_->isOutside(surfaces_->motion().end());
     if (!outside_) return false;
   }
   setClear(clearance, result);

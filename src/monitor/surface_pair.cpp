@@ -160,9 +160,8 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
   return touch;
 }
 
-bool SurfacePair::isOutside() const {
-  return componentsAreOutside(*shell_, *field_, motion_.end()) &&
-         componentsAreOutside(*field_, *shell_, motion_.end().inverse());
+bool SurfacePair::isOutside(const Isometry3d& X_FP) const {
+  return componentsAreOutside(*shell_, *field_, X_FP) && componentsAreOutside(*field_, *shell_, X_FP.inverse());
 }
 
 }  // namespace sdf_ccd

@@ -62,9 +62,9 @@ class SurfacePair {
   /// where they graze. Nothing if they are apart all along, as also of a body that is wholly inside the other [s].
   std::optional<Interval> firstTouch(double motion_error, SeparationMemory& memory);
 
-  /// Whether neither body has a component wholly inside the other (design §3.15) at the motion's end, given that the
-  /// surfaces are apart. False also if that is not known.
-  bool isOutside() const;
+  /// Whether neither body has a component wholly inside the other (design §3.15) at a pose at which the surfaces are
+  /// apart. False also if that is not known.
+  bool isOutside(const Isometry3d& X_FP) const;
 
   /// Whether it is doubtful what is outside of one of the bodies, or inside: then only surfaces tell, that are apart
   /// from what is outside, or that cross.

@@ -17,6 +17,13 @@ BodyOptions coarse(bool exact_depths = true) {
   return options;
 }
 
+/// As the monitor prepares robots.
+BodyOptions usual() {
+  BodyOptions options = optionsForContacts();
+  options.exact_depths = true;
+  return options;
+}
+
 CycleRequest refined() {
   CycleRequest request;
   request.refine = Refinement::kDeepest;
@@ -72,6 +79,7 @@ TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
     EXPECT_LE(pair.first_touch->exit - pair.first_touch->enter, 0.002);  // 0.2 mm
     ASSERT_EQ(pair.intervals.size(), 1u);
     EXPECT_LE(pair.intervals[0].enter, pair.first_touch->exit);
+    EXPECT_GE(pair.intervals[0].enter, pair.first_touch->enter);
     EXPECT_EQ(pair.intervals[0].exit, 0.09);
     EXPECT_EQ(pair.deepest.exit, 0.09);
   }
@@ -104,6 +112,66 @@ TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
     EXPECT_LE(pair.first_touch->enter, begin + 1e-9);
     EXPECT_GE(pair.first_touch->exit, begin - 1e-9);
   }
+}
+
+TEST(ContactRefinement, ContactDoesNotBeginBeforeTheBodiesTouch) {
+  // Shells and fields also see contact before that.
+  const auto scene = build(
+      {body("ball", meshShape(icosphere(0.05, 2))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))}, usual());
+  Monitor monitor(scene, soft());
+  int touching = 0, is_cut = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto at = [&](double depth) {
+      return translation({0.002 * i - 0.03, 0.001 * i, kHalf + 0.05 - depth}) * pose({0, 0, 0}, 0.1 * i, {1, 2, 3});
+    };
+    monitor.reset();
+    const PairResult& pair =
+        monitor.run(cycle(0.1, {{at(-0.01), at(0.002)}, still(Isometry3d::Identity())}), refined()).pairs[0];
+    if (!pair.first_touch) continue;
+    ++touching;
+    is_cut += pair.intervals[0].enter == pair.first_touch->enter;
+    EXPECT_GE(pair.intervals[0].enter, pair.first_touch->enter) << i;
+    EXPECT_GE(pair.deepest.time, pair.first_touch->enter) << i;
+  }
+  EXPECT_GT(touching, 20);
+  EXPECT_GT(is_cut, 0);
+}
+
+TEST(ContactRefinement, DoesNotLastWhileTheBodiesAreApart) {
+  const auto scene = build(
+      {body("a", meshShape(boxMesh({kHalf, kHalf, kHalf}))), body("b", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+      usual());
+  Monitor monitor(scene, soft());
+  const double edge = std::sqrt(2.0) * kHalf;
+  const Isometry3d X_WA = pose({0, 0, 0}, kPi / 4, {1, 0, 0});
+  const auto at = [&](double height) {
+    return translation({0.0011, 0.0007, 2.0 * edge + height}) * pose({0, 0, 0}, kPi / 4, {0, 1, 0});
+  };
+  // Edges that cross touch for a moment, 0.2 mm deep, where no point of a shell is; then they are 0.2 m apart.
+  const CycleMotion motion =
+      cycle(3.0, {std::vector<Isometry3d>(4, X_WA), {at(0.005), at(-2e-4), at(0.2), at(-0.008)}});
+  const PairResult& pair = monitor.run(motion, refined()).pairs[0];
+  ASSERT_TRUE(pair.first_touch);
+  EXPECT_NEAR(pair.first_touch->enter, 0.96, 0.03);
+  ASSERT_GE(pair.intervals.size(), 2u);
+  EXPECT_EQ(pair.intervals[0].exit, pair.first_touch->exit);
+  for (const Interval& interval : pair.intervals) EXPECT_FALSE(interval.enter < 1.5 && interval.exit > 1.5);
+}
+
+TEST(ContactRefinement, OfWhatIsWithinAtFirstNothingIsCut) {
+  const auto scene =
+      build({body("block", meshShape(boxMesh({0.1, 0.1, 0.1}))), body("cube", meshShape(boxMesh({0.01, 0.01, 0.01})))},
+            coarse());
+  Monitor monitor(scene, soft());
+  const PairResult& pair =
+      monitor
+          .run(cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, 0.06}), translation({0, 0, 0.13})}}),
+               refined())
+          .pairs[0];
+  EXPECT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_FALSE(pair.first_touch);
+  ASSERT_FALSE(pair.intervals.empty());
+  EXPECT_EQ(pair.intervals.front().enter, 0.0);
 }
 
 TEST(ContactRefinement, OfWhatRestsFlatIsTight) {

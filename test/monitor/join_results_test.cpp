@@ -64,6 +64,78 @@ TEST(ResultJoiner, PiecesTogetherSayWhatTheWholeSays) {
   EXPECT_NEAR(joiner.motion().times[1], 4.0, 1e-12);
 }
 
+/// Pieces of two seconds each.
+CycleResult joined(Monitor& monitor, const CycleMotion& motion, const CycleRequest& request) {
+  ResultJoiner joiner(0);
+  for (std::size_t first = 0; first + 1 < motion.times.size(); first += 2) {
+    const CycleMotion part = piece(motion, first, std::min(first + 2, motion.times.size() - 1));
+    joiner.add(part, monitor.run(part, request));
+  }
+  return joiner.result();
+}
+
+BodyOptions exactDepths() {
+  BodyOptions options = optionsForContacts();
+  options.exact_depths = true;
+  return options;
+}
+
+/// A cube whose corner points down, so far below its middle.
+constexpr double kHalf = 0.05;
+const double kCorner = std::sqrt(3.0) * kHalf, kEdge = std::sqrt(2.0) * kHalf;
+Isometry3d onCorner() {
+  return Isometry3d(Eigen::Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1)));
+}
+
+CycleRequest refined() {
+  CycleRequest request;
+  request.refine = Refinement::kDeepest;
+  return request;
+}
+
+TEST(ResultJoiner, WhatAnUncertainPieceMayTouchIsNotApart) {
+  const TriangleMesh cube = boxMesh({kHalf, kHalf, kHalf});
+  const auto scene = build({body("ridge", meshShape(cube)), body("cube", meshShape(cube))}, exactDepths());
+  const auto at = [](double y, double height) {
+    return translation({0.0123, y, kEdge + kCorner + height}) * onCorner();
+  };
+  // Its corner passes over the edge, 5 um deep; later it comes down on it.
+  std::vector<Isometry3d> poses{at(-0.0313, -5e-6), at(0.0517, -5e-6)};
+  for (int i = 0; i < 9; ++i) poses.push_back(at(0.0517, 0.05 + 0.001 * i));
+  poses.push_back(at(0.0, 0.05));
+  poses.push_back(at(0.0, -0.003));
+  const CycleMotion motion = cycle(double(poses.size() - 1),
+                                   {std::vector<Isometry3d>(poses.size(), pose({0, 0, 0}, kPi / 4, {1, 0, 0})), poses});
+  Monitor monitor(scene, soft());
+  const PairResult pair = joined(monitor, motion, refined()).pairs[0];
+  ASSERT_TRUE(pair.first_touch);
+  EXPECT_LE(pair.first_touch->enter, 0.0313 / 0.083);
+  EXPECT_GE(pair.first_touch->exit, 11.0);  // it was uncertain at first
+}
+
+TEST(ResultJoiner, NoPieceIsDeeperThanTheWholeSays) {
+  const auto scene = build(
+      {body("slab", meshShape(boxMesh({0.3, 0.3, kHalf}))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+      exactDepths());
+  for (const double max_error : {1e-2, 1e-4}) {
+    MonitorOptions options = soft();
+    options.max_error = max_error;
+    const double first = 0.012, second = first + 0.45 * max_error, arm = 0.2 + kCorner;
+    const double half_angle = std::acos((arm - (second - (first - 0.01 * max_error))) / arm);
+    const auto at = [&](double depth, double angle) {
+      return translation({0.013, 0.021, kHalf - depth + arm}) * pose({0, 0, 0}, angle, {0, 1, 0}) *
+             translation({0, 0, -0.2}) * onCorner();
+    };
+    // One piece ends exactly where it is deepest, the next one swings through a little deeper.
+    const std::vector<Isometry3d> poses{at(first - 1e-3, 0.0), at(first, 0.0), at(first - 1e-3, 0.0),
+                                        at(second, -half_angle), at(second, half_angle)};
+    const CycleMotion motion = cycle(4.0, {std::vector<Isometry3d>(poses.size(), Isometry3d::Identity()), poses});
+    Monitor monitor(scene, options);
+    const ContactPoint deepest = joined(monitor, motion, refined()).pairs[0].deepest;
+    EXPECT_GE(deepest.depth + deepest.depth_error, second - 1e-9) << max_error;
+  }
+}
+
 TEST(ResultJoiner, WhatOnePieceDoesNotKnowTheWholeDoesNotKnow) {
   const auto scene = build(
       {body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box{{0.05, 0.05, 0.05}}), true)}, fine(0.01));

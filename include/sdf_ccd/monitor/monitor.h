@@ -70,8 +70,10 @@ struct PairResult {
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
   ContactPoint deepest;             ///< valid if intervals is not empty. Its depth_error, where refined: no place
                                     ///< of either surface gets deeper into the other body by more in this span
-  /// Where refined, and the surfaces cross: they are apart before `enter`, and surely touch by `exit`, with which the
-  /// first interval begins at the latest; `exit` is infinite if no certain crossing was found.
+  bool refined = false;             ///< see CycleRequest::refine: the deepest point is of triangles
+  /// Where refined, and the surfaces cross: the bodies are apart before `enter`, and surely touch by `exit`. The first
+  /// interval begins between them. `exit` is infinite if no certain crossing was found. None where one body may be
+  /// inside the other at first.
   std::optional<Interval> first_touch;
   Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
   Wrench on_b_W;                    ///< the same on B, about B's origin
