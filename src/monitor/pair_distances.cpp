@@ -6,6 +6,7 @@
 
 #include "body/body_triangles.h"
 #include "monitor/contact_tracker.h"
+#include "monitor/pose_rounding.h"
 #include "query/shell_distance.h"
 #include "query/surface_distance.h"
 #include "sdf_ccd/motion/two_body_motion.h"
@@ -19,10 +20,10 @@ constexpr double kTriangleError = 1e-7;
 constexpr double kUnknown = -1.0;   // within no range
 constexpr double kSameTime = 1e-8;  // that stamps are rounded to, some times [s]
 
-bool isHalfSpaceBody(const Body& body) {
-  return !body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
-    return part.field.primitive() && isHalfSpace(*part.field.primitive());
-  });
+bool isOneHalfSpace(const Body& body) {
+  if (body.parts.size() != 1) return false;
+  const Primitive* const primitive = body.parts.front().field.primitive();
+  return primitive && isHalfSpace(*primitive);
 }
 
 /// Whether the bodies touch at the end of the span, as far as the cycle tells.
@@ -112,14 +113,19 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
   found.body_a = result.body_a;
   found.body_b = result.body_b;
   found.time = motion.times[result.span.last];
-  if (touchesAtEnd(result, found.time)) {
+  const bool touches = touchesAtEnd(result, found.time);
+  const bool is_exact = scene_->bodies[result.body_a].triangles && scene_->bodies[result.body_b].triangles;
+  // What touched may be gone a little later; of triangles it is known.
+  const bool is_within = (is_exact || !touches) && findNearest(i, X_WA, X_WB, range, found);
+  if (touches && !(is_within && found.distance > 0.0)) {
+    if (!is_within)
+      found.error = result.contact_error.total() + travelSince(result.intervals.back().exit, motion, result);
+    found.distance = 0.0;
     found.p_A_W = found.p_B_W = result.deepest.p_W;
     found.normal_W = result.deepest.normal_W;
     pair.is_known = false;
   } else {
-    const bool is_within = findNearest(i, X_WA, X_WB, range, found);
-    // A half-space's ball does not hold it; what is known of others is told of from here on.
-    pair.is_known = !isHalfSpaceBody(scene_->bodies[result.body_b]);
+    pair.is_known = ballHolds(scene_->bodies[result.body_b]);  // what is known of it is told of from here on
     pair.at_least = is_within ? found.distance - found.error : range;
     pair.X_FP = X_AB;
     if (!is_within) return;
@@ -197,10 +203,28 @@ bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is
     found.p_B_W = shell_is_a ? on_f : on_p;
     found.normal_W = shell_is_a ? Vector3d(-out_W) : out_W;
   }
-  if (is_within && isHalfSpaceBody(f) && f.parts.size() == 1) {
+  if (is_within && isOneHalfSpace(f)) {
     found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
   }
   return is_within;
+}
+
+/// Where a ball does not hold its body, as that of a half-space, the other body moves against it.
+PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const {
+  const bool f_is_a = ballHolds(scene_->bodies[body_b]);
+  const auto &X_WF = motion.X_WB[f_is_a ? body_a : body_b], &X_WP = motion.X_WB[f_is_a ? body_b : body_a];
+  return {f_is_a, relativePose(X_WF[last - 1], X_WP[last - 1]), relativePose(X_WF[last], X_WP[last]),
+          scene_->bodies[f_is_a ? body_b : body_a].ball};
+}
+
+/// How far the bodies at most get apart from a time on until the end of the span [m].
+double PairDistances::travelSince(double time, const CycleMotion& motion, const PairResult& result) const {
+  double travel = 0.0;
+  for (std::size_t last = result.span.last; last > result.span.first && motion.times[last] > time; --last) {
+    const Step step = stepOf(motion, last, result.body_a, result.body_b);
+    travel += maxDisplacement(step.X_then, step.X_now, step.ball);
+  }
+  return travel;
 }
 
 /// Mean speeds over the last step.
@@ -214,11 +238,7 @@ void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& spa
                  q_then = X_WB_then * (X_WB_now.inverse() * found.p_B_W);
   found.closing_speed = ((found.p_A_W - p_then) - (found.p_B_W - q_then)).dot(found.normal_W) / over;
 
-  // A half-space's ball does not hold it, so the other body moves against it.
-  const bool f_is_a = !isHalfSpaceBody(scene_->bodies[found.body_b]);
-  const BoundingBall& ball = scene_->bodies[f_is_a ? found.body_b : found.body_a].ball;
-  const Isometry3d X_then = f_is_a ? relativePose(X_WA_then, X_WB_then) : relativePose(X_WB_then, X_WA_then);
-  const Isometry3d X_now = f_is_a ? relativePose(X_WA_now, X_WB_now) : relativePose(X_WB_now, X_WA_now);
+  const auto [f_is_a, X_then, X_now, ball] = stepOf(motion, span.last, found.body_a, found.body_b);
   found.any.closing = maxDisplacement(X_then, X_now, ball) / over;
   // Poses between two recorded ones are interpolated, so that is a mean over all of the time between these: of each
   // body over its own, and if these are not the step itself, their errors add up.

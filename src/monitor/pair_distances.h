@@ -56,8 +56,8 @@ class PairDistances {
   /// In the order of Scene::pairs; pairs that are not checked are not listed, those that are delayed as they were.
   const std::vector<PairDistance>& near() const { return near_; }
 
-  /// Whether some pair is delayed of which it was not known before whether it is within the range: it is not listed, and
-  /// may be anywhere.
+  /// Whether some pair is delayed of which it was not known before whether it is within the range: it is not listed,
+  /// and may be anywhere.
   bool hasUnknown() const { return has_unknown_; }
 
   /// As where cycles are left out. Costs nothing if nothing is known.
@@ -85,6 +85,15 @@ class PairDistances {
                          PairDistance& found);
   bool nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
                       double range, PairDistance& found);
+
+  /// How P moves against F from one waypoint to the next, `last`.
+  struct Step {
+    bool f_is_a;
+    Isometry3d X_then, X_now;
+    const BoundingBall& ball;  // of P
+  };
+  Step stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const;
+  double travelSince(double time, const CycleMotion& motion, const PairResult& result) const;
   void setSpeeds(const CycleMotion& motion, const WaypointSpan& span, PairDistance& found) const;
 
   std::shared_ptr<const Scene> scene_;

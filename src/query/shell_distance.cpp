@@ -37,7 +37,7 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
       nearest = {i, sample.value, sample.error, p_F, sample.gradient};
     }
   }
-  if (nearest.point < 0 || nearest.value - nearest.error > max_distance) return {};
+  if (nearest.point < 0 || low > max_distance) return {};
   // Another point with a larger error may truly be nearer; a point whose lower bound exceeded the value
   // cannot be.
   nearest.error = std::max(nearest.error, nearest.value - low);

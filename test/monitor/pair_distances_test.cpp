@@ -176,6 +176,44 @@ TEST_F(PairDistancesTest, WhatTouchesHasNone) {
   for (const PairDistance& each : cycle(inside, inside)) EXPECT_EQ(each.any.width, 0.0) << each.pair;
 }
 
+TEST_F(PairDistancesTest, WhatHasJustLeftDoesNotTouch) {
+  const double touching = 0.4 - 0.25 - 1e-6;  // where the box touches the block
+  CycleMotion motion;
+  motion.times = {0.0, 0.0325, 0.0333};  // leaves at 5 m/s in the last 0.8 ms
+  const auto at = [](double x) { return test::translation({x, 0, 0.5}); };
+  motion.X_WB = {{at(touching), at(touching), at(touching + 0.004)},
+                 std::vector<Isometry3d>(3, at(0.0)),
+                 std::vector<Isometry3d>(3, test::translation({-2, 0, 1.5})),
+                 std::vector<Isometry3d>(3, Isometry3d::Identity())};
+  const auto& found = update(motion);
+  ASSERT_EQ(result_.pairs[0].verdict, Verdict::kContact);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].distance, 0.004 - 1e-6, 1e-9);
+  EXPECT_GE(found[0].error, 0.0);
+  EXPECT_EQ(found[0].any.width, 0.0);
+}
+
+TEST(PairDistancesOf, AnObjectWithAPlaneAndMoreItsPlaneIsHeldByNoBall) {
+  BodyDescription ground = test::body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true);
+  ground.geometry.push_back({Primitive(Box{Vector3d(0.1, 0.1, 0.1)}), test::translation({0, 0, 0.1}), "box", false});
+  const BodyDescription ball = test::body("ball", Primitive(Sphere{0.1}));
+  for (const bool ground_first : {false, true}) {
+    const auto scene = test::build(ground_first ? std::vector<BodyDescription>{ground, ball}
+                                                : std::vector<BodyDescription>{ball, ground});
+    Monitor monitor(scene, {});
+    PairDistances distances(scene);
+    // On an arc around the origin, 100 m away, down towards the plane.
+    const auto at = [](double angle) {
+      return test::pose({0, 0, 0}, angle, {0, 1, 0}) * test::translation({100, 0, 0});
+    };
+    CycleMotion motion = test::cycle(0.1, {{at(-0.005), at(-0.003)}, test::still(Isometry3d::Identity())});
+    if (ground_first) std::swap(motion.X_WB[0], motion.X_WB[1]);
+    const auto& found = distances.update(motion, monitor.run(motion, {}), 2.0, {});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_GE(found[0].any.closing, 100.0 * (std::sin(0.005) - std::sin(0.003)) / 0.1 - 1e-9) << ground_first;
+  }
+}
+
 TEST_F(PairDistancesTest, OfPairsThatAreDelayedTheLastOneStands) {
   const std::vector<Isometry3d> rest = {test::translation({0.4, 0, 0.5}), test::translation({0, 0, 0.5}),
                                         test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
