@@ -12,9 +12,14 @@
 namespace sdf_ccd {
 namespace {
 
+std::vector<double> fromZero(std::vector<double> times) {
+  const double start = times.front();
+  for (double& time : times) time -= start;
+  return times;
+}
+
 void startAtZero(CycleMotion& motion) {
-  const double start = motion.times.front();
-  for (double& time : motion.times) time -= start;
+  motion.times = fromZero(std::move(motion.times));
 }
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -45,7 +50,7 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
   if (!bodies.missing.empty() && bodies.missing.size() != bodies.bodies.size())
     refuse(std::to_string(bodies.missing.size()) + " reasons for " + std::to_string(bodies.bodies.size()) + " bodies");
   PlannedMotion result;
-  result.samples = plan.trajectory.times;
+  result.samples = fromZero(plan.trajectory.times);
   result.assumed = plan.assumed;
   result.unchecked = reachableAlong(robot, plan, unreachable);
   std::vector<std::string> missing = bodies.missing;
@@ -57,8 +62,9 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
     if (body.link >= 0 && missing[i].empty()) missing[i] = plan.missing[body.link];
   }
   const auto along = std::make_shared<TrajectoryMotion>(robot, plan.trajectory, bodies.bodies);
-  result.waypoints = along->waypoints();
-  result.piece = [along, waypoints = result.waypoints, missing, balls, sampling, errors = along->jointErrors()](
+  const std::vector<double> waypoints = along->waypoints();
+  result.waypoints = fromZero(waypoints);
+  result.piece = [along, waypoints, missing, balls, sampling, errors = along->jointErrors()](
                      std::size_t first, std::size_t last, CycleMotion& motion) {
     motion.missing = missing;
     sampleMotion({waypoints.begin() + first, waypoints.begin() + last + 1}, along->source(), balls, sampling, motion);
@@ -72,7 +78,7 @@ PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
                           const std::vector<UnreachablePair>& unreachable) {
   complete(motion, is_moved);
   PlannedMotion result;
-  result.samples = result.waypoints = motion.times;
+  result.samples = result.waypoints = fromZero(motion.times);
   result.unchecked = reachableAlong(motion, is_moved, unreachable);
   const auto whole = std::make_shared<const CycleMotion>(std::move(motion));
   result.piece = [whole](std::size_t first, std::size_t last, CycleMotion& piece) {

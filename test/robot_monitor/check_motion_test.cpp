@@ -53,10 +53,11 @@ class CheckMotionTest : public ::testing::Test {
         buildScene(description, planScene(description, planOptions(options)), options));
   }
 
-  PlannedMotion motionOf(const Scene& scene, const std::vector<double>& angles, double tolerance = 1e-4) const {
+  PlannedMotion motionOf(const Scene& scene, const std::vector<double>& angles, double tolerance = 1e-4,
+                         double start = 0.0) const {
     RobotTrajectory trajectory;
     for (std::size_t i = 0; i < angles.size(); ++i) {
-      trajectory.times.push_back(double(i));
+      trajectory.times.push_back(start + double(i));
       trajectory.states.emplace_back().positions["turn"] = angles[i];
     }
     MotionSampling sampling;
@@ -66,6 +67,17 @@ class CheckMotionTest : public ::testing::Test {
 
   const RobotModel robot_{kRod};
 };
+
+TEST_F(CheckMotionTest, TimesCountFromTheFirstPoint) {
+  const std::shared_ptr<const Scene> scene = sceneOf({post("base", 2.0)});
+  const auto motion = [&](std::size_t, double tolerance) { return motionOf(*scene, {0.0, 4.0}, tolerance, 5.0); };
+  const PlannedMotion planned = motion(0, 1e-4);
+  EXPECT_EQ(planned.samples, (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(planned.waypoints.front(), 0.0);
+  EXPECT_EQ(planned.waypoints.back(), 1.0);
+  EXPECT_NEAR(checkMotion(scene, {}, planned).pairs[0].intervals.at(0).enter, 0.5, 0.02);
+  EXPECT_LE(checkMotions(scene, {}, 1, motion).at(0).time, 0.51);
+}
 
 TEST_F(CheckMotionTest, FindsWhatLiesBetweenTheWaypoints) {
   // The rod's side is at the post's when it still has asin((0.01 + 0.03) / 0.9) to turn.
@@ -160,8 +172,8 @@ TEST(PlanThrough, RefusesWhatDoesNotFit) {
 /// Turns of the rod by angles that are drawn, among posts.
 class CheckMotionsTest : public CheckMotionTest {
  protected:
-  static constexpr double kPost = 2.0, kOther = 4.0;                   // where the posts are [rad]
-  const double half_angle_ = std::asin(0.04 / 0.9);                    // that the rod still has to turn to a post
+  static constexpr double kPost = 2.0, kOther = 4.0;  // where the posts are [rad]
+  const double half_angle_ = std::asin(0.04 / 0.9);   // that the rod still has to turn to a post
   const std::shared_ptr<const Scene> scene_ = sceneOf(posts());
 
   std::vector<BodyDescription> posts() const {
