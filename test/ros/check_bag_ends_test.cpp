@@ -54,6 +54,12 @@ TEST_F(CheckBag, BadBagsAreRefused) {
   }
 }
 
+TEST_F(CheckBag, ABagThatLastsLongerThanADurationIsNamed) {
+  writeJointStates(2147483647.0);
+  expectRefused(check("arm.bag", "no"),
+                "arm.bag: lasts 2.14748e+09 s, longer than ROS can tell times apart: 2147483647");
+}
+
 TEST_F(CheckBag, WhatCannotBeMeantIsRefusedBeforeItIsBuilt) {
   for (const char* error : {"1e-6", "1e-300", "0.02", "1e9"})
     expectRefused(check("arm.bag", "no", std::string("--max-error ") + error), "expected from 1e-05 to 0.01 m");

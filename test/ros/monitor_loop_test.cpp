@@ -306,7 +306,7 @@ TEST_F(MonitorLoopTest, ResetsAndJumpsEndAllContacts) {
   sendFoot(5.0);
   sendHand(5.0, 0.0);
   ASSERT_EQ(step(5.0), Step::kJump);
-  told = toUncheckedContacts(*loop_, "time has jumped back");
+  told = toUncheckedContacts(*loop_, "time has jumped");
   ASSERT_EQ(told.contacts.size(), 1u);
   EXPECT_TRUE(told.contacts[0].is_lost);
   touch(5.1);

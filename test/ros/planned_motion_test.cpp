@@ -97,6 +97,15 @@ TEST_F(PlannedMotionTest, WholeRevolutionsAreNotTakenForRest) {
   EXPECT_NE(refusal(swing({0.0, 1e300})).find("1e+300"), std::string::npos);
 }
 
+TEST_F(PlannedMotionTest, TimesFartherApartThanADurationHoldsAreRefused) {
+  QueryMotion::Request request = swing({0.0, 0.1});
+  request.trajectory.points[0].time_from_start = ros::Duration(-2147483648.0);
+  request.trajectory.points[1].time_from_start = ros::Duration(2147483647.0);
+  EXPECT_EQ(refusal(request),
+            "the trajectory: time_from_start of point 1 is 4.29497e+09 s from the first, ROS can tell no more than "
+            "2147483647 s apart");
+}
+
 TEST_F(PlannedMotionTest, OldTransformsAreSaid) {
   now_.oldest = ros::Time(100.0);
   now_.oldest_frame = "rod";
@@ -230,8 +239,7 @@ TEST_F(PlannedMotionTest, ObjectsThatMoveWithTheBaseAreSaid) {
   EXPECT_EQ(planned_.notes.find("wall"), std::string::npos) << "it rests: " << planned_.notes;
   now_.carriers[1] = {0, Isometry3d::Identity()};
   motion(base);
-  EXPECT_NE(planned_.notes.find("these objects move with the robot's base"), std::string::npos)
-      << planned_.notes;
+  EXPECT_NE(planned_.notes.find("these objects move with the robot's base"), std::string::npos) << planned_.notes;
   EXPECT_NE(planned_.notes.find("wall"), std::string::npos) << planned_.notes;
   motion(swing({0.0, 0.1}));
   EXPECT_EQ(planned_.notes.find("wall"), std::string::npos) << "the base rests: " << planned_.notes;

@@ -81,6 +81,38 @@ TEST_F(TfTrackerTest, AFrameBeyondAllNumbersIsMissing) {
   EXPECT_EQ(cycle_.motion.missing[2], "");
 }
 
+/// A ros::Duration holds no more than 2^31 s.
+TEST_F(TfTrackerTest, AClockThatIsSetFartherAheadThanADurationHoldsIsSurvived) {
+  constexpr double kAhead = 4294967000.0;
+  const auto lastStep = [&](double time) {
+    for (const double stamp : {time, time + 0.1}) {
+      for (const char* link : {"hand", "foot"}) send(stampedTransform("world", link, stamp, 0.0));
+      if (next(stamp) == Step::kCycle) return Step::kCycle;
+    }
+    return Step::kWaiting;
+  };
+  EXPECT_EQ(lastStep(100.0), Step::kCycle);
+  EXPECT_EQ(next(kAhead), Step::kStalled);
+  send(stampedTransform("world", "hand", 101.0, 0.0));
+  EXPECT_EQ(next(kAhead + 1.0), Step::kCycle);
+  EXPECT_EQ(cycle_.motion.missing[0].find("hand is late by 4294966"), 0u) << cycle_.motion.missing[0];
+  EXPECT_EQ(next(200.0), Step::kJump);
+  EXPECT_EQ(lastStep(201.0), Step::kCycle);
+  EXPECT_EQ(cycle_.motion.missing[0], "");
+}
+
+TEST_F(TfTrackerTest, WhereNothingMovesAClockThatIsSetFarAheadBeginsAnew) {
+  for (const char* link : {"hand", "foot"}) send(stampedTransform("world", link, 0.0, 0.0), true);
+  for (const double begin : {100.0, 4294967000.0, 100.0}) {
+    if (!cycle_.end.isZero()) {
+      EXPECT_EQ(next(begin), Step::kJump);
+    }
+    EXPECT_EQ(next(begin + 0.1), Step::kWaiting);
+    EXPECT_EQ(next(begin + 0.2), Step::kCycle);
+    EXPECT_EQ(cycle_.motion.missing[0], "");
+  }
+}
+
 TEST_F(TfTrackerTest, RestingFramesAddNoTimes) {
   for (int i = 0; i <= 10; ++i) {
     send(stampedTransform("world", "hand", 10.0 + 0.01 * i, i == 5 ? 0.3 : 0.0));

@@ -21,7 +21,7 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
     const TfTracker::Step step = loop.step(now, request);
     const bool stalls = step == TfTracker::Step::kStalled && last != TfTracker::Step::kStalled;
     if (step == TfTracker::Step::kCycle) observer.onCycle(now);
-    if (step == TfTracker::Step::kJump) observer.onUnchecked("time has jumped back", now);
+    if (step == TfTracker::Step::kJump) observer.onUnchecked("time has jumped", now);
     if (stalls) observer.onUnchecked("no new transforms", now);
     last = step;
     return step;

@@ -16,7 +16,7 @@ class BagObserver {
   /// The loop has a new cycle.
   virtual void onCycle(const ros::Time& now) = 0;
 
-  /// Nothing is checked after the last cycle. Time has jumped back, so that what was found before is about another
+  /// Nothing is checked after the last cycle. Time has jumped, so that what was found before is about another
   /// time, or no transforms have come for max_latency; told when it begins.
   virtual void onUnchecked(const std::string& reason, const ros::Time& now) = 0;
 };

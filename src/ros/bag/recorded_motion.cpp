@@ -10,6 +10,7 @@
 #include "common/number_text.h"
 #include "robot/joint_kind.h"
 #include "ros/bag/read_bag.h"
+#include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 namespace {
@@ -53,7 +54,11 @@ void RecordedMotion::findTopics() {
   rosbag::View all(bag_);
   if (all.size() == 0) throw std::runtime_error(file_ + ": holds no messages");
   const ros::Time first = all.getBeginTime(), last = all.getEndTime();
-  const double length = (last - first).toSec();
+  const double length = secondsBetween(first, last);
+  if (length > kLongestDuration) {
+    throw std::runtime_error(file_ + ": lasts " + numberText(length) + " s, longer than ROS can tell times apart: " +
+                             std::to_string(std::int64_t(kLongestDuration)) + " s");
+  }
   if (options_.start > length) {
     throw std::runtime_error(file_ + ": lasts " + numberText(length) + " s, nothing is left after the start at " +
                              numberText(options_.start) + " s");

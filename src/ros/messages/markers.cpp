@@ -4,6 +4,7 @@
 
 #include "ros/messages/shape_marker.h"
 #include "ros/messages/status_text.h"
+#include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 namespace {
@@ -90,7 +91,7 @@ MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cy
   for (const PairState& pair : states_.pairs()) {
     if (pair.verdict != Verdict::kNotChecked) known_until = std::min(known_until, pair.until);
   }
-  std::string text = statusText(states_, result, cycle, (now - known_until).toSec());
+  std::string text = statusText(states_, result, cycle, secondsBetween(known_until, now));
   for (std::size_t i = 0; i < listed.size(); ++i) text += "\n" + std::to_string(i + 1) + "  " + listed[i]->text;
   if (shown_.size() > listed.size()) text += "\nand " + std::to_string(shown_.size() - listed.size()) + " more";
   markers.markers.push_back(statusMarker(text, states_.verdict()));

@@ -81,14 +81,22 @@ void CollisionMonitor::setUpThenCycle() {
   TriggerOptions trigger = parameters_.trigger;
   if (!failure.empty()) trigger = {TriggerKind::kTimer, {}, kIdlePeriod, 0.0};
   trigger_.setOptions(trigger);
-  while (trigger_.wait([this] { betweenCycles(); }) && ros::ok()) {
-    try {
-      failure.empty() ? cycle() : idle(failure);
-    } catch (const std::exception& error) {
-      NODELET_ERROR_THROTTLE(1.0, "A cycle was not checked: %s", error.what());
-      idle(error.what());
-    }
+  while (trigger_.wait([this] { attempt([this] { betweenCycles(); }); }) && ros::ok()) {
+    std::string problem = failure;
+    if (problem.empty()) problem = attempt([this] { cycle(); });
+    if (!problem.empty()) attempt([&] { idle(problem); });
   }
+}
+
+/// What escaped from the monitor's thread would end the process, with all other nodelets in it.
+std::string CollisionMonitor::attempt(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    NODELET_ERROR_THROTTLE(1.0, "A cycle was not checked: %s", error.what());
+    return error.what();
+  }
+  return {};
 }
 
 void CollisionMonitor::readWhenThere() {
@@ -189,8 +197,8 @@ void CollisionMonitor::cycle() {
   if (step == TfTracker::Step::kCycle) return publishCycle();
   listener_->report(health_watch_.health());
   if (step == TfTracker::Step::kJump) {
-    NODELET_WARN("Time has jumped back: starting anew");
-    return forget("time has jumped back");
+    NODELET_WARN("Time has jumped: starting anew");
+    return forget("time has jumped");
   }
   if (step == TfTracker::Step::kWaiting && !isSilent()) return diagnostics_->update(health_watch_.health());
   health_watch_.takeStall(*loop_);
@@ -241,7 +249,7 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
 }
 
 void CollisionMonitor::forget(const std::string& reason) {
-  if (outputs_) outputs_->drawWorldAgain();  // rviz drops what it shows when time jumps back
+  if (outputs_) outputs_->drawWorldAgain();  // rviz drops what it shows when time jumps
   health_watch_.forget();
   last_step_ = ros::WallTime::now();
   publishUnchecked(reason);

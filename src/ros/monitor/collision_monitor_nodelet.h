@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -45,6 +46,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void setUp();
   void buildFields();
   void logNowAndThen(const std::string& progress);
+  std::string attempt(const std::function<void()>& work) const;
   void betweenCycles();
   void cycle();
   bool isSilent() const;

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "ros/tf/seconds_between.h"
+
 namespace sdf_ccd {
 
 namespace {
@@ -41,7 +43,7 @@ std::string reasonOf(const CycleResult& result, const TrackedCycle& cycle) {
   if (result.not_checked > 0) reason = std::to_string(result.not_checked) + " pairs could not be checked";
   if (result.delayed > 0) {
     reason += fmt::format("{}{} pairs wait for transforms, up to {:.3f} s already", reason.empty() ? "" : ", ",
-                          result.delayed, (cycle.end - cycle.delayed_since).toSec());
+                          result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
   }
   return reason;
 }
@@ -188,7 +190,7 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   message.cycle_start = cycle.start;
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
-  message.latency = (now - cycle.end).toSec();
+  message.latency = secondsBetween(cycle.end, now);
   setErrorBound(result, message);
   message.contact_error_bound = result.contact_error;
   setDelays(cycle, message);

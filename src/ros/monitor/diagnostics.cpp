@@ -1,5 +1,7 @@
 #include "ros/monitor/diagnostics.h"
 
+#include <stdexcept>
+
 namespace sdf_ccd {
 namespace {
 
@@ -29,7 +31,11 @@ void Diagnostics::update(const MonitorHealth& health, bool at_once) {
   const bool is_real = !ros::Time::isSimTime();
   least_rate_ = is_real && health.is_timed ? health.wanted_rate : 0.0;
   largest_rate_ = is_real ? health.wanted_rate : std::numeric_limits<double>::infinity();
-  at_once ? updater_.force_update() : updater_.update();
+  try {
+    at_once ? updater_.force_update() : updater_.update();
+  } catch (const std::runtime_error&) {
+    rate_.clear();  // it subtracts times of a clock that was set farther than a ros::Duration reaches
+  }
 }
 
 void Diagnostics::tick() {

@@ -6,6 +6,7 @@
 
 #include "monitor/over_budget.h"
 #include "ros/monitor/cycle_messages.h"
+#include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 namespace {
@@ -51,7 +52,7 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   if (health_.world_version != loop.world()->version()) health_.bad_bodies = failedBodies(loop.scene());
   health_.world_version = loop.world()->version();
   health_.latency = state.latency;
-  health_.age = (sent - state.complete_until).toSec();
+  health_.age = secondsBetween(state.complete_until, sent);
   health_.run_time = state.run_time;
   health_.error = result.error;
   health_.contact_error = result.contact_error;

@@ -12,6 +12,7 @@
 #include "field/uniform/sparse_grid.h"
 #include "monitor/voxel_mask.h"
 #include "ros/monitor/low_priority.h"
+#include "ros/tf/seconds_between.h"
 #include "ros/world/world_bodies.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -76,7 +77,7 @@ void LiveMap::work(const char* what, const std::function<void()>& job) const {
 void LiveMap::watchAge() {
   const ros::Time now = ros::Time::now();
   if (now < taken_) taken_ = now;  // time has jumped
-  if (in_scene_ == InScene::kAwaited || (now - taken_).toSec() <= parameters_.max_age) return;
+  if (in_scene_ == InScene::kAwaited || secondsBetween(taken_, now) <= parameters_.max_age) return;
   const std::string why = "the last map on " + parameters_.topic + " is older than " + numberText(parameters_.max_age) +
                           " s (octomap/max_age)";
   editor_.setMap({awaitedTile(history_.fixedFrame(), why)}, {});

@@ -8,6 +8,7 @@
 
 #include "common/number_text.h"
 #include "ros/messages/conversions.h"
+#include "ros/tf/seconds_between.h"
 #include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
@@ -23,9 +24,14 @@ std::vector<double> timesOf(const std::vector<Point>& points, const ros::Duratio
   if (points.size() < 2) refuse(name + " has " + std::to_string(points.size()) + " points, two or more are needed");
   std::vector<double> times;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    times.push_back((points[i].time_from_start - start).toSec());
+    times.push_back(secondsBetween(start, points[i].time_from_start));
     if (i > 0 && times[i] <= times[i - 1]) {
       refuse(name + ": time_from_start of point " + std::to_string(i) + " does not increase");
+    }
+    if (std::abs(times[i]) > kLongestDuration) {
+      refuse(name + ": time_from_start of point " + std::to_string(i) + " is " + numberText(times[i]) +
+             " s from the first, ROS can tell no more than " + std::to_string(std::int64_t(kLongestDuration)) +
+             " s apart");
     }
   }
   return times;
@@ -282,7 +288,7 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
 }
 
 std::string oldTransformsNote(const CurrentPoses& now, const ros::Time& time, double max_age) {
-  const double age = (time - now.oldest).toSec();
+  const double age = secondsBetween(now.oldest, time);
   if (now.oldest.isZero() || age <= max_age) return {};
   return "the newest transform of " + now.oldest_frame + " is " + numberText(age) + " s old";
 }

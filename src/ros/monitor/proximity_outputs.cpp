@@ -7,6 +7,7 @@
 
 #include "monitor/velocity_scale.h"
 #include "ros/monitor/cycle_messages.h"
+#include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 
@@ -38,11 +39,11 @@ boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, Mo
   }
   const std::vector<PairDistance>& near = loop.measureDistances(wanted);
   const CycleResult& result = loop.result();
-  const bool is_known =
-      result.not_checked == 0 && result.verdict != Verdict::kUncertain && !loop.hasUnknownDistance();
+  const bool is_known = result.not_checked == 0 && result.verdict != Verdict::kUncertain && !loop.hasUnknownDistance();
   if (scalesVelocity()) {
     const ros::Time now = ros::Time::now();  // measuring takes time, too
-    const double age = (now - loop.cycle().origin).toSec(), oldest = (now - loop.cycle().complete_until).toSec();
+    const double age = secondsBetween(loop.cycle().origin, now),
+                 oldest = secondsBetween(loop.cycle().complete_until, now);
     const bool is_safe = is_known && result.verdict != Verdict::kContact;
     publishScale(is_safe ? velocityScale(near, age, oldest, *parameters_.promise) : 0.0);
   }

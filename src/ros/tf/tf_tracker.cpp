@@ -5,10 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "ros/tf/seconds_between.h"
+
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);         // as of TfHistory
+constexpr double kJumpBack = 1.0;           // as of TfHistory [s]
+constexpr double kJumpAhead = 2e9;          // beyond, times of a cycle are no ros::Duration [s]
 constexpr double kBackPerTime = 4.0;        // time checked again, over the time itself
 constexpr std::size_t kMostPoses = 300000;  // of all bodies in a cycle: about 100 MB with what is made of them
 
@@ -41,8 +44,8 @@ MotionSampling samplingOf(const TfTrackerOptions& options, std::size_t most_samp
 
 }  // namespace
 
-std::string TfTracker::seconds(const ros::Duration& duration) {
-  return fmt::format("{:.2f} s", duration.toSec());
+std::string TfTracker::seconds(double duration) {
+  return fmt::format("{:.2f} s", duration);
 }
 
 bool isTooFar(const Isometry3d& X_WB) {
@@ -97,19 +100,20 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   missing.assign(bodies_.size(), "");
   look(now, missing);
   const ros::Time end = is_first ? ros::Time() : foremostEnd(missing);
-  // The clock has gone back, or all frames have begun anew far behind.
-  if (history_.takeJump() || (!is_first && end < last_end_ && last_end_ - end > kJumpBack)) {
+  const double ahead = is_first ? 0.0 : secondsBetween(last_end_, end);
+  // The clock has gone back, or all frames have begun anew far behind; or the clock was set far ahead.
+  if (history_.takeJump() || -ahead > kJumpBack || ahead > kJumpAhead) {
     reset();
     return Step::kJump;
   }
   if (waits_since_.isZero()) waits_since_ = now;
-  const bool waited_enough = now - waits_since_ > ros::Duration(options_.max_latency);
+  const bool waited_enough = secondsBetween(waits_since_, now) > options_.max_latency;
   if (is_first ? !begin(waited_enough, missing) : end <= last_end_)
     return waited_enough ? Step::kStalled : Step::kWaiting;
   waits_since_ = now;
   if (is_first) return Step::kWaiting;
 
-  time_to_go_back_ += kBackPerTime * (end - last_end_).toSec() - goes_back_;
+  time_to_go_back_ += kBackPerTime * ahead - goes_back_;
   time_to_go_back_ = std::min(time_to_go_back_, kBackPerTime * options_.max_cycle);
   goes_back_ = 0.0;
   cycle.start = last_end_;
@@ -145,8 +149,8 @@ void TfTracker::look(const ros::Time& now, std::vector<std::string>& missing) {
     const TfSpan& span = spans_[body];
     if (!span.problem.empty()) {
       missing[body] = span.problem;
-    } else if (!span.is_static && clock > span.last && clock - span.last > ros::Duration(options_.max_latency)) {
-      missing[body] = frames_[body] + " is late by " + seconds(clock - span.last);
+    } else if (!span.is_static && secondsBetween(span.last, clock) > options_.max_latency) {
+      missing[body] = frames_[body] + " is late by " + seconds(secondsBetween(span.last, clock));
     } else if (hasChanged(body)) {
       missing[body] = span.change;
     } else if (!too_late_[body].empty()) {
@@ -177,8 +181,8 @@ void TfTracker::goBackToLate() {
       }
       if (!contradicts) continue;
       merge({late.frame, since, std::min(late.until, last_end_)}, late_);
-      const ros::Duration age = last_end_ - since;
-      if (age > ros::Duration(options_.max_cycle)) {
+      const double age = secondsBetween(since, last_end_);
+      if (age > options_.max_cycle) {
         too_late_[body] = "transforms of " + late.frame + " came late, of " + seconds(age) + " before the cycle";
       } else if (!mayGoBack(age)) {
         too_late_[body] = "transforms of " + late.frame + " come late again and again, now by " + seconds(age);
@@ -188,9 +192,9 @@ void TfTracker::goBackToLate() {
 }
 
 /// All bodies that go back in a cycle share the time that is checked again.
-bool TfTracker::mayGoBack(const ros::Duration& age) {
-  if (age.toSec() > time_to_go_back_) return false;
-  goes_back_ = std::max(goes_back_, age.toSec());
+bool TfTracker::mayGoBack(double age) {
+  if (age > time_to_go_back_) return false;
+  goes_back_ = std::max(goes_back_, age);
   return true;
 }
 

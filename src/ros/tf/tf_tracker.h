@@ -36,14 +36,14 @@ void posesAt(const TfHistory& history, const std::vector<TrackedBody>& bodies, c
 struct TrackedCycle {
   ros::Time start;
   ros::Time end;
-  ros::Time complete_until;     ///< up to here all pairs have been dealt with; `end` if none is delayed
-  ros::Time delayed_since;      ///< from here on some pair waits for its transforms; 0 if none is delayed
-  ros::Time origin;             ///< the motion's time 0: start, or earlier if pairs that were delayed are caught up on
-  CycleMotion motion;           ///< in the fixed frame
+  ros::Time complete_until;  ///< up to here all pairs have been dealt with; `end` if none is delayed
+  ros::Time delayed_since;   ///< from here on some pair waits for its transforms; 0 if none is delayed
+  ros::Time origin;          ///< the motion's time 0: start, or earlier if pairs that were delayed are caught up on
+  CycleMotion motion;        ///< in the fixed frame
   /// [s] from origin: the recorded transforms between which a body moves, and the ends of all pairs' spans.
   std::vector<double> samples;
   std::vector<double> recorded;  ///< [s] from origin: all recorded transforms, as a check at samples would take them
-  std::vector<double> gaps;      ///< per body: longest time between two transforms that its poses are interpolated of [s]
+  std::vector<double> gaps;  ///< per body: longest time between two transforms that its poses are interpolated of [s]
 
   /// Transforms that came behind newer ones, where cycles had used an interpolation already, one a frame. The pairs
   /// that this concerns are dealt with again in this cycle, from there on.
@@ -73,7 +73,7 @@ class TfTracker {
     kWaiting,  ///< no new transforms yet
     kStalled,  ///< none for max_latency
     kCycle,    ///< `cycle` is set
-    kJump,     ///< time has jumped back: forget everything
+    kJump,     ///< time has jumped, back or decades ahead: forget everything
   };
 
   /// @param now  the ROS clock, 0 if it does not run yet.
@@ -96,7 +96,7 @@ class TfTracker {
   void look(const ros::Time& now, std::vector<std::string>& missing);
   bool hasChanged(std::size_t body) const;
   void goBackToLate();
-  bool mayGoBack(const ros::Duration& age);
+  bool mayGoBack(double age);
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
   ros::Time foremostEnd(const std::vector<std::string>& missing) const;
   bool goTogether(const TrackedCycle& cycle) const;
@@ -113,7 +113,7 @@ class TfTracker {
   void posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing);
   void boundJerks(double start, double end, std::vector<double>& jerk);
   void setSpans(TrackedCycle& cycle) const;
-  static std::string seconds(const ros::Duration& duration);
+  static std::string seconds(double duration);
 
   TfHistory& history_;
   std::vector<TrackedBody> bodies_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "ros/tf/seconds_between.h"
 #include "ros/tf/tf_tracker.h"
 
 namespace sdf_ccd {
@@ -99,7 +100,7 @@ void TfTracker::findNeeded(const TimePart& part, const TrackedCycle& cycle) {
 /// Copies what the pairs need of each body's motion, and finds what is not known of it.
 void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& missing) {
   history_.copy(chains_, needed_, cycle.origin, window_);
-  const ros::Duration length = cycle.end - cycle.start;
+  const double length = secondsBetween(cycle.start, cycle.end);
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const std::string& frame = frames_[body];
     const TfSpan& span = spans_[body];
@@ -110,12 +111,13 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
       missing[body] = "the way to " + frame + " has just changed";
     } else if (is_needed && needed.from < changed_[body]) {
       missing[body] = span.change + " since then";
-    } else if (is_needed && !span.is_static && length > ros::Duration(options_.max_cycle)) {
+    } else if (is_needed && !span.is_static && length > options_.max_cycle) {
       missing[body] = "no cycle for " + seconds(length);
     } else if (is_needed && span.first > needed.from) {
-      missing[body] = frame + " is known only since " + seconds(span.first - needed.from) + " after the cycle's start";
+      missing[body] = frame + " is known only since " + seconds(secondsBetween(needed.from, span.first)) +
+                      " after the cycle's start";
     } else if (is_needed && window_.longestGap(body) > options_.max_cycle) {
-      missing[body] = "no transforms of " + frame + " for " + seconds(ros::Duration(window_.longestGap(body)));
+      missing[body] = "no transforms of " + frame + " for " + seconds(window_.longestGap(body));
     } else {
       missing[body] = window_.problem(body);
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ros/tf/seconds_between.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -38,7 +40,7 @@ void TfWindow::setStep(std::size_t index, const StepSource& source, const TimePa
     const bool is_last = i + 1 == records.size() || records[i].stamp >= part.until;
     const bool rests =
         i != first && !is_last && isSamePlace(records[i - 1], records[i]) && isSamePlace(records[i], records[i + 1]);
-    const double time = edge.is_static ? 0.0 : (records[i].stamp - origin_).toSec();
+    const double time = edge.is_static ? 0.0 : secondsBetween(origin_, records[i].stamp);
     if (rests) {
       step.resting_times.push_back(time);
     } else {
@@ -53,8 +55,8 @@ void TfWindow::setFrame(std::size_t index, const FrameSource& source, const Time
   Frame& frame = frames_[index];
   frame.source = source;
   frame.problem.clear();
-  frame.from = (part.from - origin_).toSec();
-  frame.until = (part.until - origin_).toSec();
+  frame.from = secondsBetween(origin_, part.from);
+  frame.until = secondsBetween(origin_, part.until);
 }
 
 void TfWindow::addRecordedTimes(const std::vector<std::size_t>& frames, std::vector<double>& times,

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+#include <ros/time.h>
+
+namespace sdf_ccd {
+
+constexpr double kLongestDuration = 2147483647.0;  // ROS can tell times apart that are as far from each other [s]
+
+/// to - from [s], of times or durations, however far apart. A ros::Duration holds no more than 2^31 s, and what ROS
+/// subtracts throws beyond; clocks, stamps and requests that others send may be that far apart.
+template <class Time>
+double secondsBetween(const Time& from, const Time& to) {
+  constexpr std::int64_t kPerSecond = 1000000000;
+  const std::int64_t difference = static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
+  return static_cast<double>(difference / kPerSecond) + 1e-9 * static_cast<double>(difference % kPerSecond);
+}
+
+}  // namespace sdf_ccd
