@@ -166,6 +166,58 @@ TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
   expectRefused(check("arm.bag", "no", "--joint-states /nowhere"), "holds no joint states on /nowhere");
 }
 
+/// Of the last row of cycles.csv, which tells of no cycle.
+void expectGap(const std::vector<Row>& cycles, double from, double until) {
+  Row last = cycles.back(), before = cycles.at(cycles.size() - 2);
+  EXPECT_EQ(last["verdict"], "NOT_CHECKED");
+  EXPECT_EQ(last["reason"], "no new transforms");
+  EXPECT_EQ(last["t0"], before["t1"]);
+  EXPECT_NEAR(std::stod(last["t0"]), from, 2.0 * kPeriod);
+  EXPECT_NEAR(std::stod(last["t1"]), until, 2.0 * kPeriod);
+  EXPECT_GT(std::stoi(last["not_checked"]), 0);
+  EXPECT_EQ(last["checked"] + last["skipped"], "00");
+}
+
+TEST_F(CheckBag, WhatComesAfterTheLastTransformsIsNotChecked) {
+  rosbag::Bag(path("arm.bag").string(), rosbag::bagmode::Append)
+      .write("other", ros::Time(kBegin + 4.0), tf2_msgs::TFMessage());
+  const ToolRun result = run(check("arm.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("sdf_ccd: nothing was checked from 1.395 s to "), std::string::npos) << result.error;
+  EXPECT_NE(result.out.find("\nno cycle         for 2.5"), std::string::npos) << result.out;
+  const std::vector<Row> cycles = table("made/cycles.csv");
+  expectGap(cycles, kBegin + kPeriod * (kBefore + 3 + kAfter), kBegin + 4.0);
+
+  // It is in the bag, too, and counts as no cycle.
+  EXPECT_NE(result.out.find("\ncycles           " + std::to_string(cycles.size() - 1) + ": 0 NOT_CHECKED"),
+            std::string::npos)
+      << result.out;
+  EXPECT_LE(run("plot-bag made/checked.bag --out plot").exit_code, kPartlyDone);
+  EXPECT_EQ(readText(path("plot/cycles.csv")), readText(path("made/cycles.csv")));
+}
+
+TEST_F(CheckBag, TransformsThatAreRefusedAreSaid) {
+  {
+    rosbag::Bag bag(path("ahead.bag").string(), rosbag::bagmode::Write);
+    const Pose pose = downwards();
+    for (int i = 0; i < 90; ++i) {
+      sensor_msgs::JointState state;
+      const ros::Time time(kBegin + kPeriod * i);
+      state.header.stamp = i < 45 ? time : time + ros::Duration(30.0);
+      state.name = {"yaw", "shoulder", "elbow", "wrist", "roll"};
+      state.position = {kFirstYaw, pose.shoulder, pose.elbow, pose.wrist, 0.0};
+      bag.write("joint_states", time, state);
+    }
+  }
+  const ToolRun result = run(check("ahead.bag", "made"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("sdf_ccd: warning: 225 transforms were refused, the last as "), std::string::npos)
+      << result.error;
+  EXPECT_NE(result.error.find(" is stamped 132.967 s, when it is 10"), std::string::npos) << result.error;
+  EXPECT_NE(readText(path("made/plan.txt")).find("225 transforms were refused"), std::string::npos);
+  expectGap(table("made/cycles.csv"), kBegin + 1.5, kBegin + 3.0);
+}
+
 TEST_F(CheckBag, TimeThatJumpsBackBeginsAnew) {
   writeJointStates(10.0);
   const ToolRun result = run(check("arm.bag", "made"));

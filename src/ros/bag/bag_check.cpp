@@ -5,6 +5,7 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr const char* kStalls = "no new transforms";
 constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // beyond them clocks stand still or overflow [s]
 
 }  // namespace
@@ -16,13 +17,23 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   request.max_points = parameters.max_points;
   request.refine = parameters.refine;
   TfTracker::Step last = TfTracker::Step::kWaiting;
+  ros::Time last_cycle = motion.begin();
+  // Where transforms come again, the next cycle reaches back to the last one.
+  const auto tellGap = [&](const ros::Time& now) {
+    const ros::Time from = loop.cycle().end;
+    if (!from.isZero()) observer.onGap({from, from + (now - last_cycle)}, kStalls, now);
+  };
   const auto stepAt = [&](const ros::Time& now) {
     ros::Time::setNow(now);
     const TfTracker::Step step = loop.step(now, request);
     const bool stalls = step == TfTracker::Step::kStalled && last != TfTracker::Step::kStalled;
-    if (step == TfTracker::Step::kCycle) observer.onCycle(now);
+    if (step == TfTracker::Step::kCycle) {
+      observer.onCycle(now);
+      last_cycle = now;
+    }
+    if (step == TfTracker::Step::kJump && last == TfTracker::Step::kStalled) tellGap(now);
     if (step == TfTracker::Step::kJump) observer.onUnchecked("time has jumped", now);
-    if (stalls) observer.onUnchecked("no new transforms", now);
+    if (stalls) observer.onUnchecked(kStalls, now);
     last = step;
     return step;
   };
@@ -39,7 +50,7 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
     observer.onTransforms(transforms);
   });
   runUntil(motion.end());
-  stepAt(motion.end());
+  if (stepAt(motion.end()) == TfTracker::Step::kStalled) tellGap(motion.end());
 }
 
 }  // namespace sdf_ccd

@@ -19,6 +19,10 @@ class BagObserver {
   /// Nothing is checked after the last cycle. Time has jumped, so that what was found before is about another
   /// time, or no transforms have come for max_latency; told when it begins.
   virtual void onUnchecked(const std::string& reason, const ros::Time& now) = 0;
+
+  /// No cycle has been run over a part of the bag, which is over now: transforms have ended, or were refused. By the
+  /// clock of the transforms, from the last cycle's end on.
+  virtual void onGap(const TimePart& gap, const std::string& reason, const ros::Time& now) = 0;
 };
 
 /// Runs the monitor's loop over what a bag recorded, as fast as it goes. The ROS clock is the bag's, as with

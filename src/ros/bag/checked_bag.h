@@ -15,7 +15,7 @@ namespace sdf_ccd {
 ///
 /// /tf, /tf_static  tf2_msgs/TFMessage  as they were followed
 /// Below /collision_monitor/, as the nodelet publishes them:
-///   contacts         sdf_ccd/ContactArray            every cycle, and when there begin to be none
+///   contacts         sdf_ccd/ContactArray            every cycle, when there begin to be none, and of each gap
 ///   state            sdf_ccd/MonitorState            the same
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle in which the link is in contact
 ///   markers          visualization_msgs/MarkerArray  contacts and status to look at
@@ -38,6 +38,9 @@ class CheckedBag {
 
   /// Nothing is checked after the last cycle: no markers, and messages that say so.
   void addUnchecked(const std::string& reason, const ros::Time& now);
+
+  /// toGap(), when it is over.
+  void addGap(const ContactArray& gap, const ros::Time& now) { bag_.write("/collision_monitor/contacts", now, gap); }
 
  private:
   void addLinks(const ros::Time& now);

@@ -219,6 +219,15 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
   return message;
 }
 
+ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::string& reason) {
+  ContactArray message = toUncheckedContacts(loop, reason);
+  message.cycle_start = message.complete_until = gap.from;
+  message.header.stamp = gap.until;
+  message.not_checked = static_cast<std::uint32_t>(loop.scene().pairs.size());
+  message.contacts.clear();  // they have been told at the gap's begin
+  return message;
+}
+
 MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now) {
   MonitorState message;
   message.header.stamp = now;

@@ -30,6 +30,8 @@ MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);
 
 /// The messages that nothing is checked after the loop's last cycle.
 ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason);
+/// Nor over this part of the time, all at once: after it, everything begins anew, or ends.
+ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::string& reason);
 MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now);
 
 /// Sum of the contact wrenches on a body, in its frame, about its origin [N, N·m].

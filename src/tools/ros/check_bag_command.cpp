@@ -90,6 +90,11 @@ class Recorder : public BagObserver {
     report_.add(contacts);
   }
   void onUnchecked(const std::string& reason, const ros::Time& now) override { bag_.addUnchecked(reason, now); }
+  void onGap(const TimePart& part, const std::string& reason, const ros::Time& now) override {
+    const ContactArray gap = toGap(loop_, part, reason);
+    bag_.addGap(gap, now);
+    report_.add(gap);
+  }
 
  private:
   ProgressBar bar_{"cycles"};
@@ -121,7 +126,8 @@ void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
 }
 
 /// Prints what was never checked to stderr; true if there is nothing.
-bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
+/// @param begin  of the bag.
+bool isComplete(const CycleStatistics& statistics, const Scene& scene, const ros::Time& begin) {
   bool is_complete = statistics.hasCheckedCycle();
   if (!is_complete) {
     std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
@@ -131,6 +137,10 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene) {
     std::cerr << "sdf_ccd: " << statistics.neverChecked()
               << " bodies, or pairs of others, were checked in no cycle, as " << statistics.whyNotChecked()
               << std::endl;
+    is_complete = false;
+  }
+  for (const std::string& gap : statistics.gaps(begin)) {
+    std::cerr << "sdf_ccd: nothing was checked " << gap << std::endl;
     is_complete = false;
   }
   return is_complete;
@@ -159,6 +169,9 @@ void run(const Arguments& arguments) {
   MonitorLoop loop(scene, described, parameters);
   const double took = check(motion, parameters, described, loop, files);
   std::vector<std::string> of_motion = motion.warnings();
+  if (const long refused = loop.history().refused(); refused > 0) {
+    of_motion.push_back(std::to_string(refused) + " transforms were refused, the last as " + loop.history().refusal());
+  }
   if (!loop.movingFixedFrame().empty()) of_motion.push_back(loop.movingFixedFrame());
   for (const std::string& warning : of_motion) {
     std::cerr << "sdf_ccd: warning: " << warning << std::endl;
@@ -167,7 +180,7 @@ void run(const Arguments& arguments) {
   const CycleStatistics& statistics = files.report.statistics();
   requireChecked(statistics, arguments.bag);
 
-  const bool is_complete = isComplete(statistics, *scene);
+  const bool is_complete = isComplete(statistics, *scene, motion.begin());
   const double length = (motion.end() - motion.begin()).toSec();
   std::ostringstream text;
   text << "bag              " << arguments.bag << ": " << rounded(length, 3) << " s from " << timeText(motion.begin())
@@ -212,7 +225,9 @@ void addCheckBagCommand(CLI::App& app) {
       "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
-      "code 1: some bodies or pairs were never checked, or no cycle was checked as a whole; 2: nothing was checked.");
+      "code 1: some bodies or pairs were never checked, no cycle was checked as a whole, or a part of the bag was not, "
+      "as its "
+      "transforms end before it or are refused; 2: nothing was checked.");
   command->add_option("bag", arguments->bag, "Bag to read")->required();
   command->add_option("--urdf", arguments->config.urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")
       ->required();

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::tools {
 
-/// Data of one cycle for tables and plots.
+/// Data of one cycle, or of a gap between cycles, for tables and plots.
 struct CycleRecord {
   ros::Time start, end, complete_until;
   ros::Time contradicted_since;  ///< by late transforms; 0 if nothing is
@@ -21,6 +21,9 @@ struct CycleRecord {
   std::string reason;                      ///< why the cycle as a whole is NOT_CHECKED
 
   bool hasBound() const { return checked + skipped > 0; }
+
+  /// No cycle, but a part of the time over which none was run.
+  bool isGap() const { return verdict == Verdict::kNotChecked && run_time == 0.0; }
 };
 
 CycleRecord toRecord(const ContactArray& message);

@@ -17,7 +17,7 @@ CycleReport::CycleReport(const OutputDirectory& directory)
 void CycleReport::add(const ContactArray& message) {
   if (message.cycle_start == message.header.stamp) return;  // a message without a cycle
   statistics_.add(message);
-  cycles_file_.stream() << toRow(statistics_.cycles().back());
+  cycles_file_.stream() << toRow(toRecord(message));
 }
 
 bool CycleReport::commit(const std::string& title) {

@@ -50,7 +50,9 @@ std::string kindOf(std::string reason, const std::vector<std::string>& names) {
 }  // namespace
 
 void CycleStatistics::add(const ContactArray& message) {
-  cycles_.push_back(toRecord(message));
+  const CycleRecord record = toRecord(message);
+  if (record.isGap()) return gaps_.push_back(record);
+  cycles_.push_back(record);
   late_frames_.insert(message.late_frames.begin(), message.late_frames.end());
   contacts_.add(message);
   for (const PairContact& pair : message.pairs) {
@@ -86,7 +88,7 @@ std::string CycleStatistics::whyNotChecked() const {
 
 std::string CycleStatistics::summary(const ros::Time& begin) const {
   const std::string found = contactLines(begin) + uncertainLines();
-  std::string text = verdictLine() + timeLine(begin);
+  std::string text = verdictLine() + timeLine(begin) + gapLines(begin);
   text += hasCheckedCycle() ? found + notCheckedLines() : notCheckedLines() + found;
   text += jumpLines(begin) + contradictedLine(begin);
   for (const std::string& line : runTimesAndBounds()) text += line + "\n";
@@ -113,6 +115,22 @@ std::string CycleStatistics::timeLine(const ros::Time& begin) const {
             " or more, where their transforms end";
   }
   return text + "\n";
+}
+
+std::vector<std::string> CycleStatistics::gaps(const ros::Time& begin) const {
+  std::vector<std::string> lines;
+  for (const CycleRecord& gap : gaps_) {
+    lines.push_back("from " + secondsSince(begin, gap.start) + " to " + secondsSince(begin, gap.end) + ", as " +
+                    gap.reason);
+  }
+  return lines;
+}
+
+std::string CycleStatistics::gapLines(const ros::Time& begin) const {
+  if (gaps_.empty()) return "";
+  double length = 0.0;
+  for (const CycleRecord& gap : gaps_) length += (gap.end - gap.start).toSec();
+  return list("no cycle         for " + shortly(length) + " s", gaps(begin));
 }
 
 std::string CycleStatistics::jumpLines(const ros::Time& begin) const {

@@ -16,6 +16,9 @@ class CycleStatistics {
   void add(const ContactArray& message);
 
   const std::vector<CycleRecord>& cycles() const { return cycles_; }
+
+  /// Where no cycle was run, as "from 1.4 s to 4 s, as no new transforms"; by `begin`, as summary().
+  std::vector<std::string> gaps(const ros::Time& begin) const;
   std::vector<Contact> contacts() const { return contacts_.contacts(); }
 
   /// How many bodies, and pairs of others, were NOT_CHECKED in every cycle.
@@ -56,10 +59,11 @@ class CycleStatistics {
   std::string contactLines(const ros::Time& begin) const;
   std::string uncertainLines() const;
   std::string notCheckedLines() const;
+  std::string gapLines(const ros::Time& begin) const;
   std::string jumpLines(const ros::Time& begin) const;
   std::string contradictedLine(const ros::Time& begin) const;
 
-  std::vector<CycleRecord> cycles_;
+  std::vector<CycleRecord> cycles_, gaps_;
   ContactRecords contacts_;
   std::map<std::string, Count> pairs_;   // by "body - body"
   std::map<std::string, Count> bodies_;  // that were not checked
