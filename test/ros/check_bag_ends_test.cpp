@@ -200,6 +200,32 @@ TEST_F(CheckBag, JointStatesThatAreNotFiniteAreCounted) {
   EXPECT_EQ(result.error.find("unknown"), std::string::npos) << result.error;
 }
 
+TEST_F(CheckBag, JointStatesThatLackPositionsAreCounted) {
+  {
+    rosbag::Bag bag(path("short.bag").string(), rosbag::bagmode::Write);
+    const Pose pose = downwards();
+    for (int i = 0; i < 60; ++i) {
+      sensor_msgs::JointState state;
+      state.header.stamp = ros::Time(kBegin + kPeriod * i);
+      state.name = {"yaw", "shoulder", "elbow", "wrist", "roll"};
+      state.position = {kFirstYaw, pose.shoulder, pose.elbow, pose.wrist, 0.0};
+      if (i % 2 == 1) state.position.pop_back();
+      bag.write("joint_states", state.header.stamp, state);
+      state.position.clear();  // as of who sends velocities
+      bag.write("joint_states", state.header.stamp, state);
+    }
+  }
+  const ToolRun result = run(check("short.bag", "made"));
+  EXPECT_EQ(result.exit_code, kDone);
+  EXPECT_NE(result.error.find("sdf_ccd: warning: 30 messages of joint_states do not give a position per name\n"),
+            std::string::npos)
+      << result.error;
+  // The links beyond wait, and that is why cycles are NOT_CHECKED.
+  const std::size_t reasons = result.out.find("\nNOT_CHECKED as\n  ");
+  ASSERT_NE(reasons, std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" pairs wait for transforms, up to ", reasons), std::string::npos) << result.out;
+}
+
 TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
   writeHeldContact([](double) { return true; });  // of the elbow
   const ToolRun result = run(check("held.bag", "made"));

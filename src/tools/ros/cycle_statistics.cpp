@@ -88,7 +88,7 @@ std::string CycleStatistics::whyNotChecked() const {
 
 std::string CycleStatistics::summary(const ros::Time& begin) const {
   const std::string found = contactLines(begin) + uncertainLines();
-  std::string text = verdictLine() + timeLine(begin) + gapLines(begin);
+  std::string text = verdictLine() + reasonLines() + timeLine(begin) + gapLines(begin);
   text += hasCheckedCycle() ? found + notCheckedLines() : notCheckedLines() + found;
   text += jumpLines(begin) + contradictedLine(begin);
   for (const std::string& line : runTimesAndBounds()) text += line + "\n";
@@ -103,6 +103,22 @@ std::string CycleStatistics::verdictLine() const {
     text += (v == 0 ? " " : ", ") + std::to_string(counts[v]) + " " + toString(static_cast<Verdict>(v));
   }
   return text + "\n";
+}
+
+/// Of cycles as a whole, the most frequent one first; an example of those that differ by numbers.
+std::string CycleStatistics::reasonLines() const {
+  std::map<std::string, std::pair<std::size_t, std::string>> by_kind;
+  for (const CycleRecord& cycle : cycles_) {
+    if (cycle.verdict != Verdict::kNotChecked) continue;
+    auto& [count, example] = by_kind[kindOf(cycle.reason, {})];
+    if (count++ == 0) example = cycle.reason;
+  }
+  std::vector<std::pair<std::size_t, std::string>> sorted;
+  for (const auto& [kind, reason] : by_kind) sorted.push_back(reason);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> items;
+  for (const auto& [count, reason] : sorted) items.push_back(std::to_string(count) + " cycles: " + reason);
+  return items.empty() ? "" : list("NOT_CHECKED as", items);
 }
 
 std::string CycleStatistics::timeLine(const ros::Time& begin) const {

@@ -55,6 +55,7 @@ class CycleStatistics {
 
   std::vector<Unchecked> unchecked() const;
   std::string verdictLine() const;
+  std::string reasonLines() const;
   std::string timeLine(const ros::Time& begin) const;
   std::string contactLines(const ros::Time& begin) const;
   std::string uncertainLines() const;
