@@ -13,7 +13,7 @@ import unittest
 import rosbag
 import rospy
 import rosservice
-from rosgraph_msgs.msg import Clock
+from rosgraph_msgs.msg import Clock, Log
 from tf2_msgs.msg import TFMessage
 
 from monitor_case import Recorder, ball_transforms
@@ -58,7 +58,11 @@ class Lifecycle(MasterCase):
         return [contact for message in messages for contact in message.contacts if contact.ends]
 
     def test_1_a_clock_that_does_not_run_is_said(self):
-        self.assertIsNotNone(self.states.find(lambda m: 'transforms' in m.reason))
+        log = Recorder('/rosout', Log, PATIENCE)
+        reason = 'use_sim_time is set, and no /clock comes'
+        for recorder in (self.states, self.contacts):
+            self.assertIsNotNone(recorder.find(lambda m: m.reason == reason))
+        self.assertIsNotNone(log.find(lambda m: m.msg.startswith('Not checked: ' + reason)))
         self.assertTrue(all(m.verdict == MonitorState.NOT_CHECKED for m in self.states.messages))
         self.assertIsNone(self.monitor.poll())
 

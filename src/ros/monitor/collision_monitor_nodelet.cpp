@@ -201,8 +201,10 @@ void CollisionMonitor::cycle() {
     return forget("time has jumped");
   }
   if (step == TfTracker::Step::kWaiting && !isSilent()) return diagnostics_->update(health_watch_.health());
-  health_watch_.takeStall(*loop_);
-  idle("no new transforms");
+  const bool lacks_clock = ros::Time::isSimTime() && ros::Time::now().isZero();
+  const std::string reason = lacks_clock ? "use_sim_time is set, and no /clock comes" : "no new transforms";
+  health_watch_.takeStall(*loop_, reason);
+  idle(reason);
 }
 
 /// A simulated clock that stands still does not tell that nothing comes.

@@ -273,7 +273,7 @@ std::vector<std::string> missingBodies(const MonitorLoop& loop) {
 
 std::string uncheckedCause(const MonitorLoop& loop) {
   const std::vector<std::string> missing = missingBodies(loop);
-  if (missing.empty()) return "no new transforms come";
+  if (missing.empty()) return {};
   const auto causeOf = [](const std::string& line) { return line.substr(line.rfind(": ") + 1); };
   std::map<std::string, std::size_t> bodies;  // by cause
   for (const std::string& line : missing) ++bodies[causeOf(line)];

@@ -45,7 +45,7 @@ std::string wrenchTopic(const Body& body);
 std::vector<std::string> missingBodies(const MonitorLoop& loop);
 
 /// In one line, why bodies are not checked: an example of the reason that most of them have, and how many others there
-/// are.
+/// are. Empty if the cycle could check all of them.
 std::string uncheckedCause(const MonitorLoop& loop);
 
 /// "body: reason" of those that no cycle can check.

@@ -52,8 +52,8 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::ERROR, health_.failure);
   } else if (!health_.building.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.building);
-  } else if (health_.stalled) {
-    status.summary(DiagnosticStatus::ERROR, "no new transforms: nothing is checked");
+  } else if (!health_.stall.empty()) {
+    status.summary(DiagnosticStatus::ERROR, health_.stall + ": nothing is checked");
   } else if (health_.run_time * health_.wanted_rate > 1.0) {
     status.summary(DiagnosticStatus::WARN, "a check takes longer than its period");
   } else if (health_.pairs_postponed > 0) {
@@ -78,7 +78,7 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
 }
 
 void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
-  if (health_.stalled) {
+  if (!health_.stall.empty()) {
     status.summary(DiagnosticStatus::ERROR, "none come");
   } else if (!health_.missing.empty()) {
     status.summaryf(DiagnosticStatus::ERROR, "%zu bodies not known", health_.missing.size());

@@ -16,7 +16,7 @@ namespace sdf_ccd {
 struct MonitorHealth {
   std::string failure;         ///< why the monitor cannot start; empty if it can
   std::string building;        ///< what is being built; empty if all is
-  bool stalled = false;        ///< no transforms arrive
+  std::string stall;           ///< why no cycles run: no transforms arrive; empty if they run
   double wanted_rate = 0.0;    ///< [Hz]
   bool is_timed = false;       ///< cycles begin at that rate; else no more often
   double rate = 0.0;           ///< of cycles [Hz]

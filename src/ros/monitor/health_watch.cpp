@@ -48,7 +48,7 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   const ros::WallTime now = ros::WallTime::now();
   const CycleResult& result = loop.result();
   measureRate(now);
-  health_.stalled = false;
+  health_.stall.clear();
   if (health_.world_version != loop.world()->version()) health_.bad_bodies = failedBodies(loop.scene());
   health_.world_version = loop.world()->version();
   health_.latency = state.latency;
@@ -65,8 +65,8 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   watchUnchecked(loop, !health_.missing.empty());
 }
 
-void HealthWatch::takeStall(const MonitorLoop& loop) {
-  health_.stalled = true;
+void HealthWatch::takeStall(const MonitorLoop& loop, const std::string& reason) {
+  health_.stall = reason;
   health_.rate = 0.0;
   watchUnchecked(loop, true);
 }
@@ -103,8 +103,10 @@ void HealthWatch::watchUnchecked(const MonitorLoop& loop, bool is_unchecked) {
   if ((now - unchecked_since_).toSec() < kPatience) return;
   if (!last_warning_.isZero() && (now - last_warning_).toSec() < kWarnPeriod) return;
   last_warning_ = now;
-  std::string cause = uncheckedCause(loop);
-  for (const std::string& line : health_.bad_joints) cause += "; " + line;
+  std::string cause = health_.stall;
+  const auto add = [&](const std::string& line) { cause += (cause.empty() || line.empty() ? "" : "; ") + line; };
+  add(uncheckedCause(loop));
+  for (const std::string& line : health_.bad_joints) add(line);
   ROS_WARN("Not checked: %s", cause.c_str());
 }
 

@@ -24,8 +24,8 @@ class HealthWatch {
   /// What the loop's last cycle found. @param state  of that cycle.
   void takeCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent);
 
-  /// No transforms arrive.
-  void takeStall(const MonitorLoop& loop);
+  /// No transforms arrive, or no clock by which they could be new.
+  void takeStall(const MonitorLoop& loop, const std::string& reason);
 
   /// The cycles begin anew.
   void forget();
