@@ -135,6 +135,7 @@ TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
       EXPECT_EQ(last().unchecked[0].body, "hand");
       EXPECT_EQ(last().unchecked[0].reason, "hand has become static");
       EXPECT_EQ(last().unchecked[0].pairs, 2u);
+      EXPECT_EQ(last().reason.find("3 pairs could not be checked, as hand - "), 0u) << last().reason;
       EXPECT_NEAR(last().unchecked[0].since.toSec(), 10.0 + 19 * kPeriod, 1e-6);
     }
     if (i > 25) {
@@ -247,8 +248,28 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
     end = last().header.stamp;
     ASSERT_EQ(last().unchecked.size(), 3u);
     EXPECT_EQ(last().unchecked[0].pairs, 2u);
+    EXPECT_EQ(last().reason.find("3 pairs could not be checked, as hand - "), 0u) << last().reason;
     EXPECT_NE(last().unchecked[0].reason.find("orthonormal"), std::string::npos) << last().unchecked[0].reason;
   }
+}
+
+TEST_F(MonitorLoopTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
+  const auto huge = test::build({test::body("hand", Box{Vector3d(5e299, 0.5, 0.5)}), test::body("foot", Sphere{0.1})});
+  MonitorParameters parameters;
+  parameters.monitor = test::soft();
+  loop_ = std::make_unique<MonitorLoop>(huge, test::describedWorld(), parameters);
+  for (int i = 0; i < 3; ++i) {
+    sendHand(10.0 + i * kPeriod, 0.1 * i);
+    sendFoot(10.0 + i * kPeriod);
+    step(10.0 + i * kPeriod);
+  }
+  ASSERT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+  ASSERT_EQ(last().pairs.size(), 1u);
+  ASSERT_NE(last().pairs[0].reason, "");
+  EXPECT_EQ(uncheckedPair(*loop_), "hand - foot: " + last().pairs[0].reason);
+  EXPECT_EQ(last().reason, "1 pairs could not be checked, as " + uncheckedPair(*loop_));
+  EXPECT_EQ(toMonitorState(*loop_, ros::Time(10.0)).reason, last().reason);
+  EXPECT_EQ(uncheckedCause(*loop_), "");
 }
 
 TEST_F(MonitorLoopTest, AContactHasOneIdFromItsBeginToItsEnd) {

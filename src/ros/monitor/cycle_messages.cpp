@@ -35,19 +35,6 @@ void setDelays(const TrackedCycle& cycle, Message& message) {
   }
 }
 
-/// Why a cycle as a whole is not checked; empty if it is.
-std::string reasonOf(const CycleResult& result, const TrackedCycle& cycle) {
-  if (result.verdict != Verdict::kNotChecked) return "";
-  if (result.pairs.empty()) return "no pairs: there is nothing to check";
-  std::string reason;
-  if (result.not_checked > 0) reason = std::to_string(result.not_checked) + " pairs could not be checked";
-  if (result.delayed > 0) {
-    reason += fmt::format("{}{} pairs wait for transforms, up to {:.3f} s already", reason.empty() ? "" : ", ",
-                          result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
-  }
-  return reason;
-}
-
 /// Why none of a body's pairs can be checked; empty if they can.
 const std::string& uncheckedReason(const MonitorLoop& loop, int body) {
   const std::string& failure = loop.scene().bodies[body].failure;
@@ -56,6 +43,35 @@ const std::string& uncheckedReason(const MonitorLoop& loop, int body) {
 
 bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair) {
   return !uncheckedReason(loop, pair.body_a).empty() || !uncheckedReason(loop, pair.body_b).empty();
+}
+
+/// Delayed pairs are not meant, of which it is not said yet.
+bool isUnchecked(const PairResult& pair) {
+  return pair.verdict == Verdict::kNotChecked && !pair.span.empty();
+}
+
+std::string pairReason(const MonitorLoop& loop, const PairResult& pair) {
+  const BodyList& bodies = loop.scene().bodies;
+  return bodies[pair.body_a].name + " - " + bodies[pair.body_b].name + ": " + pair.reason;
+}
+
+/// Why a cycle as a whole is not checked; empty if it is.
+std::string reasonOf(const MonitorLoop& loop) {
+  const CycleResult& result = loop.result();
+  const TrackedCycle& cycle = loop.cycle();
+  if (result.verdict != Verdict::kNotChecked) return "";
+  if (result.pairs.empty()) return "no pairs: there is nothing to check";
+  std::string reason;
+  const auto first =
+      std::find_if(result.pairs.begin(), result.pairs.end(), [](const PairResult& pair) { return isUnchecked(pair); });
+  if (first != result.pairs.end()) {
+    reason = std::to_string(result.not_checked) + " pairs could not be checked, as " + pairReason(loop, *first);
+  }
+  if (result.delayed > 0) {
+    reason += fmt::format("{}{} pairs wait for transforms, up to {:.3f} s already", reason.empty() ? "" : ", ",
+                          result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
+  }
+  return reason;
 }
 
 /// Counts a pair of the body, if that is why it is not checked.
@@ -135,7 +151,7 @@ void setContactArray(const MonitorLoop& loop, ContactArray& message) {
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
   message.verdict = static_cast<std::uint8_t>(result.verdict);
-  message.reason = reasonOf(result, cycle);
+  message.reason = reasonOf(loop);
   setErrorBound(result, message);
   setDelays(cycle, message);
   setPairs(loop, message);
@@ -186,7 +202,7 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   for (const Body& body : loop.scene().bodies) {
     if (!body.failure.empty()) message.missing.push_back(body.name + ": " + body.failure);
   }
-  message.reason = reasonOf(result, cycle);
+  message.reason = reasonOf(loop);
   message.cycle_start = cycle.start;
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
@@ -285,6 +301,13 @@ std::string uncheckedCause(const MonitorLoop& loop) {
          (others == 0   ? ""
           : others == 1 ? "; and 1 body more"
                         : "; and " + std::to_string(others) + " bodies more");
+}
+
+std::string uncheckedPair(const MonitorLoop& loop) {
+  for (const PairResult& pair : loop.result().pairs) {
+    if (isUnchecked(pair) && !isOfUncheckedBody(loop, pair)) return pairReason(loop, pair);
+  }
+  return {};
 }
 
 std::vector<std::string> failedBodies(const Scene& scene) {

@@ -48,6 +48,10 @@ std::vector<std::string> missingBodies(const MonitorLoop& loop);
 /// are. Empty if the cycle could check all of them.
 std::string uncheckedCause(const MonitorLoop& loop);
 
+/// "body - body: reason" of the first pair that the cycle could not check although it could check both bodies; empty if
+/// there is none.
+std::string uncheckedPair(const MonitorLoop& loop);
+
 /// "body: reason" of those that no cycle can check.
 std::vector<std::string> failedBodies(const Scene& scene);
 

@@ -62,13 +62,14 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   health_.short_cycles += health_.pairs_postponed > 0;
   watchLate(loop, now);
   watchFixedFrame(loop, now);
-  watchUnchecked(loop, !health_.missing.empty());
+  const std::string pair = result.not_checked > 0 ? uncheckedPair(loop) : "";
+  watchUnchecked({uncheckedCause(loop), pair});
 }
 
 void HealthWatch::takeStall(const MonitorLoop& loop, const std::string& reason) {
   health_.stall = reason;
   health_.rate = 0.0;
-  watchUnchecked(loop, true);
+  watchUnchecked({reason, uncheckedCause(loop)});
 }
 
 void HealthWatch::forget() {
@@ -93,9 +94,12 @@ void HealthWatch::watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& 
   health_.moving_frame = warning;  // from then on: also while the robot rests
 }
 
-void HealthWatch::watchUnchecked(const MonitorLoop& loop, bool is_unchecked) {
+void HealthWatch::watchUnchecked(const std::vector<std::string>& causes) {
   const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run
-  if (!is_unchecked) {
+  std::string cause;
+  const auto add = [&](const std::string& line) { cause += (cause.empty() || line.empty() ? "" : "; ") + line; };
+  for (const std::string& line : causes) add(line);
+  if (cause.empty()) {
     unchecked_since_ = ros::WallTime();
     return;
   }
@@ -103,9 +107,6 @@ void HealthWatch::watchUnchecked(const MonitorLoop& loop, bool is_unchecked) {
   if ((now - unchecked_since_).toSec() < kPatience) return;
   if (!last_warning_.isZero() && (now - last_warning_).toSec() < kWarnPeriod) return;
   last_warning_ = now;
-  std::string cause = health_.stall;
-  const auto add = [&](const std::string& line) { cause += (cause.empty() || line.empty() ? "" : "; ") + line; };
-  add(uncheckedCause(loop));
   for (const std::string& line : health_.bad_joints) add(line);
   ROS_WARN("Not checked: %s", cause.c_str());
 }
