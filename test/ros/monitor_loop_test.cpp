@@ -301,6 +301,24 @@ TEST_F(MonitorLoopTest, AContactHasOneIdFromItsBeginToItsEnd) {
   EXPECT_EQ(told.back().cycles, told.size());
 }
 
+TEST_F(MonitorLoopTest, AResetEndsALoopOfTransforms) {
+  const auto verdictFrom = [&](double begin) {
+    for (int i = 0; i < 5; ++i) {
+      sendFoot(begin + i * kPeriod);
+      sendHand(begin + i * kPeriod, 0.0);
+      step(begin + i * kPeriod);
+    }
+    return last().verdict;
+  };
+  EXPECT_EQ(verdictFrom(10.0), ContactArray::CLEAR);
+  send(stampedTransform("hand", "world", 10.2, 0.0));
+  EXPECT_EQ(verdictFrom(10.2), ContactArray::NOT_CHECKED);
+  EXPECT_NE(last().unchecked.at(0).reason.find("a loop: hand in world in hand"), std::string::npos)
+      << last().unchecked.at(0).reason;
+  loop_->reset();
+  EXPECT_EQ(verdictFrom(11.0), ContactArray::CLEAR);
+}
+
 TEST_F(MonitorLoopTest, ResetsAndJumpsEndAllContacts) {
   const auto touch = [&](double from) {
     for (int i = 0; i < 5; ++i) {

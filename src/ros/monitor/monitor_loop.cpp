@@ -158,6 +158,7 @@ const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
 }
 
 void MonitorLoop::reset() {
+  history_.forgetMoving();
   tracker_->reset();
   monitor_.reset();
   contacts_.settle();

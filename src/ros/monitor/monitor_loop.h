@@ -9,8 +9,8 @@
 
 namespace sdf_ccd {
 
-/// What a loop needs of another world, made ahead by MonitorLoop::prepare(); after MonitorLoop::adopt() what the loop no
-/// longer needs. To be destroyed by a thread that has the time for it.
+/// What a loop needs of another world, made ahead by MonitorLoop::prepare(); after MonitorLoop::adopt() what the loop
+/// no longer needs. To be destroyed by a thread that has the time for it.
 struct LoopChange {
   std::shared_ptr<const CheckedWorld> world;
   std::unique_ptr<MonitorChange> monitor;
@@ -57,7 +57,7 @@ class MonitorLoop {
   /// it: so they ride along. Empty else.
   std::string movingFixedFrame() const;
 
-  /// Forgets everything but the transforms; the next cycle begins with the next of them.
+  /// Forgets everything but static transforms; the next cycle begins with the next moving ones.
   void reset();
 
   const TrackedCycle& cycle() const { return cycle_; }

@@ -7,6 +7,25 @@ namespace sdf_ccd {
 namespace {
 
 const TimePart kNever{ros::TIME_MAX, ros::Time()};
+constexpr std::size_t kNamed = 8;  // of a loop's frames
+
+/// What is wrong with more edges above a frame than may be: "… a loop: hand in arm in base in hand".
+std::string endlessText(const TfTree& tree, const std::string& frame, const std::vector<int>& edges) {
+  const std::string text = "the transforms above " + frame + " are ";
+  std::vector<int> loop;
+  for (const int edge : edges) {
+    const auto first = std::find(loop.begin(), loop.end(), edge);
+    if (first == loop.end()) {
+      loop.push_back(edge);
+      continue;
+    }
+    loop.erase(loop.begin(), first);
+    std::string names;
+    for (std::size_t i = 0; i < std::min(kNamed, loop.size()); ++i) names += tree.name(loop[i]) + " in ";
+    return text + "a loop: " + names + (loop.size() > kNamed ? "others in " : "") + tree.name(edge);
+  }
+  return text + "more than " + std::to_string(kMostAbove);
+}
 
 }  // namespace
 
@@ -41,8 +60,7 @@ void TfChains::find(const TfTree& tree, int fixed_frame, const std::string& fram
   down_ = above_;
   if (number != TfTree::kNone) tree.upwards(number, up_);
   if (up_.size() > kMostAbove || down_.size() > kMostAbove) {
-    way.problem = "the transforms above " + frame + " or " + fixed_name + " are a loop, or more than " +
-                  std::to_string(kMostAbove);
+    way.problem = up_.size() > kMostAbove ? endlessText(tree, frame, up_) : endlessText(tree, fixed_name, down_);
     return;
   }
   const int root = number == TfTree::kNone ? TfTree::kNone : tree.root(number, up_);

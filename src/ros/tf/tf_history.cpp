@@ -56,6 +56,7 @@ void TfHistory::watchClock(const ros::Time& now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool jumps = now < before(clock_, ros::Time::isSimTime() ? kSimJumpBack : kJumpBack);
   if (jumps) clear();
+  jumped_ |= jumps;
   clock_ = jumps ? now : std::max(clock_, now);
   if (clock_ < swept_ || before(clock_, kSweepPeriod) > swept_) forgetSilentOthers();
 }
@@ -183,7 +184,11 @@ void TfHistory::clear() {
   for (int frame = 0; frame < static_cast<int>(tree_.size()); ++frame) {
     if (tree_.edge(frame).isKnown() && !tree_.edge(frame).is_static) tree_.forget(frame);
   }
-  jumped_ = true;
+}
+
+void TfHistory::forgetMoving() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  clear();
 }
 
 bool TfHistory::takeJump() {

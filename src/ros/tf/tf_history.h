@@ -50,6 +50,9 @@ class TfHistory {
   /// Transforms stamped later than it by more than is kept are refused: of now they could tell nothing.
   void watchClock(const ros::Time& now);
 
+  /// Forgets all but static transforms, which are sent only once. So also those that made a loop, whoever sent them.
+  void forgetMoving();
+
   /// True once after the clock has gone back.
   bool takeJump();
 
