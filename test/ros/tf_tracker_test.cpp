@@ -70,6 +70,24 @@ TEST_F(TfTrackerTest, PairsGoAsFarAsBothFramesAreKnownAndHoldEveryRecordedTransf
   EXPECT_EQ(next(10.1), Step::kWaiting);
 }
 
+TEST_F(TfTrackerTest, AFrameThatJumpsIsMissingForTheCycle) {
+  const auto step = [&](double stamp, double hand, double foot) {
+    send(stampedTransform("world", "hand", stamp, hand));
+    send(stampedTransform("world", "foot", stamp, foot));
+    return next(stamp);
+  };
+  step(10.0, 0.0, 0.0);
+  ASSERT_EQ(step(10.1, 90.0, 500.0), Step::kCycle);  // foot: 5000 m/s
+  EXPECT_EQ(cycle_.motion.missing[0], "");
+  EXPECT_EQ(cycle_.motion.missing[1], "foot has jumped by 500 m");
+  ASSERT_EQ(step(10.2, 181.0, 501.0), Step::kCycle);
+  EXPECT_EQ(cycle_.motion.missing[0], "");
+  EXPECT_EQ(cycle_.motion.missing[1], "");
+  ASSERT_EQ(step(10.9, 700.0, 4000000.0), Step::kCycle);
+  EXPECT_EQ(cycle_.motion.missing[0], "");  // it may be a jet
+  EXPECT_EQ(cycle_.motion.missing[1], "foot has jumped by 3999499 m");
+}
+
 TEST_F(TfTrackerTest, AFrameBeyondAllNumbersIsMissing) {
   for (const double stamp : {10.0, 10.1}) {
     send(stampedTransform("world", "hand", stamp, stamp > 10.05 ? 1e300 : 0.0));

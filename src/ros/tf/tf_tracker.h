@@ -61,6 +61,8 @@ struct TrackedCycle {
 /// frame's pairs go back to there, if that is not longer ago than max_cycle, and has not been for more than four times
 /// the time of late; else its bodies are missing since then.
 ///
+/// A frame that goes more than 100 m faster than 1000 m/s has jumped: its bodies are missing for the cycle.
+///
 /// A cycle with more transforms than some 300,000 poses of bodies is checked nowhere, so that no node can make cycles
 /// last for ever, or take all memory.
 class TfTracker {
@@ -109,6 +111,7 @@ class TfTracker {
   void findSampleTimes(const TimePart& part, TrackedCycle& cycle);
   void addPairTimes(const TimePart& part, const ros::Time& origin);
   void sample(const TimePart& part, TrackedCycle& cycle);
+  void findJumps(CycleMotion& motion) const;
   void setMissing(const std::string& why, TrackedCycle& cycle);
   void posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing);
   void boundJerks(double start, double end, std::vector<double>& jerk);

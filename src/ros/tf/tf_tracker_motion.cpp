@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "ros/tf/seconds_between.h"
 #include "ros/tf/tf_tracker.h"
 
@@ -48,6 +50,22 @@ void TfTracker::follow(TrackedCycle& cycle) {
       if (needed_[body].from < needed_[body].until)
         cycle.gaps[body] = std::max(cycle.gaps[body], window_.longestGap(body));
     sample(part, cycle);
+  }
+  findJumps(motion);
+}
+
+/// Nothing moves like that: a map's frame was set elsewhere, say. What is swept on the way was not, and to test all of
+/// it takes seconds.
+void TfTracker::findJumps(CycleMotion& motion) const {
+  constexpr double kFastest = 1000.0, kJump = 100.0;  // [m/s, m]
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const std::vector<Isometry3d>& poses = motion.X_WB[body];
+    double jumped = 0.0;
+    for (std::size_t k = 1; k < poses.size() && motion.missing[body].empty(); ++k) {
+      const double way = (poses[k].translation() - poses[k - 1].translation()).norm();
+      if (way > kFastest * (motion.times[k] - motion.times[k - 1])) jumped += way;
+    }
+    if (jumped > kJump) motion.missing[body] = fmt::format("{} has jumped by {:.0f} m", frames_[body], jumped);
   }
 }
 
