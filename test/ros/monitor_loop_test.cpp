@@ -135,7 +135,6 @@ TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
       EXPECT_EQ(last().unchecked[0].body, "hand");
       EXPECT_EQ(last().unchecked[0].reason, "hand has become static");
       EXPECT_EQ(last().unchecked[0].pairs, 2u);
-      EXPECT_EQ(last().reason.find("3 pairs could not be checked, as hand - "), 0u) << last().reason;
       EXPECT_NEAR(last().unchecked[0].since.toSec(), 10.0 + 19 * kPeriod, 1e-6);
     }
     if (i > 25) {
@@ -254,13 +253,13 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
 }
 
 TEST_F(MonitorLoopTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
-  const auto huge = test::build({test::body("hand", Box{Vector3d(5e299, 0.5, 0.5)}), test::body("foot", Sphere{0.1})});
-  MonitorParameters parameters;
-  parameters.monitor = test::soft();
-  loop_ = std::make_unique<MonitorLoop>(huge, test::describedWorld(), parameters);
+  DescribedScene described = test::describedWorld();
+  described.unreachable = {
+      {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}}};  // of each other, and yet near
+  loop_ = std::make_unique<MonitorLoop>(scene(), described, MonitorParameters());
   for (int i = 0; i < 3; ++i) {
-    sendHand(10.0 + i * kPeriod, 0.1 * i);
-    sendFoot(10.0 + i * kPeriod);
+    sendHand(10.0 + i * kPeriod, 0.0);
+    sendFoot(10.0 + i * kPeriod, 0.15);
     step(10.0 + i * kPeriod);
   }
   ASSERT_EQ(last().verdict, ContactArray::NOT_CHECKED);
