@@ -8,6 +8,7 @@
 
 #include "nearest_point.h"
 #include "sdf_ccd/common/cancel.h"
+#include "surface_piece.h"
 #include "voronoi_piece.h"
 
 namespace sdf_ccd {
@@ -18,12 +19,26 @@ class PieceWalk {
   /// @param scale   approximate distance between points [m].
   /// @param cancel  stops the walk.
   PieceWalk(const NearestPoint& nearest, double scale, const CancelPoint& cancel)
-      : nearest_(nearest), cancel_(cancel), scale2_(scale * scale), gather2_(kGather * kGather * scale2_) {}
+      : nearest_(nearest), cancel_(cancel), scale_(scale), scale2_(scale * scale), gather2_(kGather * kGather * scale2_) {}
 
   /// Calls visit(contested) for pieces that cover `whole`, each with at most kMaxCells candidates, whose normals are
   /// not against `facing`. Before that, settle(contested) may finish a piece by returning true.
   template <typename Settle, typename Visit>
   void walk(const SurfacePiece& whole, const Vector3d& facing, Settle settle, Visit visit) {
+    forEachCompactPiece(whole, scale_, [&](const SurfacePiece& piece) { walkPiece(piece, facing, settle, visit); });
+  }
+
+ private:
+  struct Entry {
+    SurfacePiece piece;
+    std::size_t begin, end;  ///< in candidates_; equal if none have been gathered yet
+  };
+
+  /// Searching once for a larger piece and distributing the points is cheaper than searching for each small one.
+  static constexpr double kGather = 5;
+
+  template <typename Settle, typename Visit>
+  void walkPiece(const SurfacePiece& whole, const Vector3d& facing, Settle& settle, Visit& visit) {
     stack_.assign(1, {whole, 0, 0});
     while (!stack_.empty()) {
       cancel_.check();
@@ -55,15 +70,6 @@ class PieceWalk {
       visit(contested);
     }
   }
-
- private:
-  struct Entry {
-    SurfacePiece piece;
-    std::size_t begin, end;  ///< in candidates_; equal if none have been gathered yet
-  };
-
-  /// Searching once for a larger piece and distributing the points is cheaper than searching for each small one.
-  static constexpr double kGather = 5;
 
   /// All points that may be nearest to some location of the piece. A location's distance from the point that is nearest
   /// to the centre is at most that of some corner, so its nearest point is no farther from it.
@@ -122,7 +128,7 @@ class PieceWalk {
 
   const NearestPoint& nearest_;
   const CancelPoint cancel_;
-  double scale2_;
+  double scale_, scale2_;
   double gather2_;  ///< pieces with a longer edge, squared, are halved before points are looked for
   std::vector<Entry> stack_;
   std::vector<Candidate> candidates_;

@@ -10,6 +10,7 @@
 #include "geometry/solid_boundary.h"
 #include "measure_shell.h"
 #include "surface_filler.h"
+#include "surface_piece.h"
 
 namespace sdf_ccd {
 namespace {
@@ -47,13 +48,43 @@ double length(const std::vector<SurfaceEdge>& edges) {
   return sum;
 }
 
+/// Points that slivers need though they have no area, or as many as their slices take time for; 0 where faces take more.
+double sliverPoints(const TriangleMesh& mesh, double spacing) {
+  constexpr double kSlicesInTimeOfAPoint = 16.0;
+  constexpr double kPointsPerSpacing = 0.62;  // along strips narrower than that, measured on folded sheets and rods
+  double slices = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const double count = SurfacePiece::of(mesh, static_cast<int>(i)).slices(spacing);
+    if (count > 1.0) slices += count;
+  }
+  if (slices <= facePoints(surfaceArea(mesh), spacing)) return 0.0;
+  std::vector<SurfaceEdge> edges = edgesOfFlatPieces(mesh, spacing);
+  const auto is_short = [&](const SurfaceEdge& edge) { return (edge.to - edge.from).norm() < spacing; };
+  edges.erase(std::remove_if(edges.begin(), edges.end(), is_short), edges.end());
+  return std::max(kPointsPerSpacing * length(edges) / spacing, slices / kSlicesInTimeOfAPoint);
+}
+
+/// On all of a surface.
+double surfacePoints(const TriangleMesh& mesh, double spacing) {
+  return std::max(facePoints(surfaceArea(mesh), spacing), sliverPoints(mesh, spacing));
+}
+
+/// What is to be sampled, for requireRoom().
+struct Extent {
+  double area = 0.0;            ///< [m²]
+  double surface_points = 0.0;  ///< expected on it
+  double edges = 0.0;           ///< [m]
+  double edge_radius = 0.0;     ///< [m]
+};
+
 /// Refuses what is expected to end in a refusal: that can take a minute of sampling to turn out.
-void requireRoom(double area, double edges, double edge_radius, const ShellOptions& options) {
-  const double expected = facePoints(area, options.spacing) + (edges > 0.0 ? edgePoints(edges, edge_radius) : 0.0);
-  if (expected <= static_cast<double>(options.max_points)) return;
+void requireRoom(const Extent& extent, const ShellOptions& options) {
+  const double on_edges = extent.edges > 0.0 ? edgePoints(extent.edges, extent.edge_radius) : 0.0;
+  if (extent.surface_points + on_edges <= static_cast<double>(options.max_points)) return;
   std::ostringstream message;
-  message << "a point every " << options.spacing << " m on " << area << " m^2";
-  if (edges > 0.0) message << " and every " << 2.0 * edge_radius << " m along " << edges << " m of edges";
+  message << "a point every " << options.spacing << " m on " << extent.area << " m^2";
+  if (extent.surface_points > facePoints(extent.area, options.spacing)) message << " of slivers";
+  if (on_edges > 0.0) message << " and every " << 2.0 * extent.edge_radius << " m along " << extent.edges << " m of edges";
   message << " needs more than " << options.max_points << " points";
   throw std::length_error(message.str());
 }
@@ -94,7 +125,7 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested
     edges.clear();
     edge_length = 0.0;
   }
-  requireRoom(area, edge_length, sampling.radius, options);
+  requireRoom({area, surfacePoints(surface, options.spacing), edge_length, sampling.radius}, options);
   SurfaceFiller filler(surface, options);
   filler.addVertices();
   filler.fillEdges(edges, sampling.radius);
@@ -119,7 +150,7 @@ PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
   const TriangleMesh surface = welded(mesh);
   const EdgeSampling sampling(options);
   const std::vector<SurfaceEdge> edges = edgesOfFlatPieces(surface, sampling.flatness);
-  requireRoom(0.0, length(edges), sampling.radius, options);
+  requireRoom({0.0, 0.0, length(edges), sampling.radius}, options);
   SurfaceFiller filler(surface, options);
   filler.addVertices();
   filler.fillEdges(edges, sampling.radius);
@@ -134,11 +165,11 @@ PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
 double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options) {
   validate(options);
   const TriangleMesh surface = welded(mesh);
-  const double area = surfaceArea(surface), faces = facePoints(area, options.spacing);
+  const double faces = surfacePoints(surface, options.spacing);
   if (!hasEdges(options)) return faces;
   const EdgeSampling sampling(options);
   const double on_edges = edgePoints(length(edgesOfFlatPieces(surface, sampling.flatness)), sampling.radius);
-  return std::min(faces + on_edges, facePoints(area, sampling.covering));
+  return std::min(faces + on_edges, surfacePoints(surface, sampling.covering));
 }
 
 }  // namespace sdf_ccd

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "common/number_text.h"
-#include "surface_piece.h"
 
 namespace sdf_ccd {
 namespace {
@@ -169,34 +168,37 @@ void SurfaceFiller::throwDarts() {
 }
 
 void SurfaceFiller::fillGaps() {
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    forEachCompactPiece(SurfacePiece::of(mesh_, static_cast<int>(i)), options_.spacing,
+                        [&](const SurfacePiece& piece) { fillGaps(piece, triangle_normals_[i]); });
+  }
+}
+
+void SurfaceFiller::fillGaps(const SurfacePiece& whole, const Vector3d& normal) {
   const double spacing2 = options_.spacing * options_.spacing;
   // Pieces this small that no single point covers lie on the rim of several balls; their own point ends it.
   constexpr double kSmallest2 = 0.05 * 0.05;
-  std::vector<SurfacePiece> stack;
-  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-    const Vector3d& normal = triangle_normals_[i];
-    stack.push_back(SurfacePiece::of(mesh_, static_cast<int>(i)));
-    while (!stack.empty()) {
-      cancel_.check();
-      const SurfacePiece piece = stack.back();
-      stack.pop_back();
-      const double length2 = piece.longestEdge().second;
-      const Vector3d center = piece.centroid();
-      if (length2 <= 4 * spacing2) {
-        const bool done = grid_.anyNear(center, [&](std::int32_t q) {
-          return piece.farthest2(shell_.points[q]) <= spacing2 && shell_.normals[q].cast<double>().dot(normal) >= 0;
-        });
-        if (done) continue;
-        if (length2 <= kSmallest2 * spacing2 || !isCovered(center, normal)) {
-          add(center, normal.isZero() ? Vector3d::UnitZ() : normal);
-          stack.push_back(piece);
-          continue;
-        }
+  pieces_.assign(1, whole);
+  while (!pieces_.empty()) {
+    cancel_.check();
+    const SurfacePiece piece = pieces_.back();
+    pieces_.pop_back();
+    const double length2 = piece.longestEdge().second;
+    const Vector3d center = piece.centroid();
+    if (length2 <= 4 * spacing2) {
+      const bool done = grid_.anyNear(center, [&](std::int32_t q) {
+        return piece.farthest2(shell_.points[q]) <= spacing2 && shell_.normals[q].cast<double>().dot(normal) >= 0;
+      });
+      if (done) continue;
+      if (length2 <= kSmallest2 * spacing2 || !isCovered(center, normal)) {
+        add(center, normal.isZero() ? Vector3d::UnitZ() : normal);
+        pieces_.push_back(piece);
+        continue;
       }
-      const auto [first, second] = piece.halves();
-      stack.push_back(first);
-      stack.push_back(second);
     }
+    const auto [first, second] = piece.halves();
+    pieces_.push_back(first);
+    pieces_.push_back(second);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "flat_pieces.h"
 #include "point_grid.h"
@@ -8,6 +9,7 @@
 #include "sdf_ccd/geometry/triangle_mesh.h"
 #include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
+#include "surface_piece.h"
 
 namespace sdf_ccd {
 
@@ -33,6 +35,7 @@ class SurfaceFiller {
   [[noreturn]] void refuse() const;
   void add(const Vector3d& p, const Vector3d& normal);
   bool isCovered(const Vector3d& p, const Vector3d& normal) const;
+  void fillGaps(const SurfacePiece& whole, const Vector3d& normal);
 
   const CancelPoint cancel_;
   const TriangleMesh& mesh_;
@@ -40,6 +43,7 @@ class SurfaceFiller {
   std::vector<Vector3d> triangle_normals_;  // unit, or zero
   PointGrid grid_;
   PointShell shell_;
+  std::vector<SurfacePiece> pieces_;  // of a triangle, still to be filled
 };
 
 }  // namespace sdf_ccd

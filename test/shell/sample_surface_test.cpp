@@ -55,6 +55,14 @@ std::vector<std::pair<const char*, TriangleMesh>> meshes() {
           {"needle", needle}};
 }
 
+/// A folded sheet of four triangles, far longer than wide.
+TriangleMesh sliver(double length) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {length, 0, 0}, {length, 1e-4, 0}, {0, 1e-4, 1e-4}};
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  return mesh;
+}
+
 TEST(SampleSurface, CoveringRadiusIsABoundFromBothSides) {
   for (const auto& [name, mesh] : meshes()) {
     for (const double spacing : {0.2, 0.05}) {
@@ -253,6 +261,35 @@ TEST(SampleSurface, WhatWouldTakeTooManyPointsIsRefusedBeforeItIsSampled) {
   }
 }
 
+TEST(SampleSurface, SliversTakeTimeByTheirLength) {
+  ShellOptions options;
+  options.spacing = 1e-3;
+  const auto seconds = [&](double length) {
+    const double start = threadSeconds();
+    const PointShell shell = sampleSurface(sliver(length), options);
+    EXPECT_LE(shell.covering_radius, options.spacing);
+    EXPECT_NEAR(sum(shell.areas), surfaceArea(sliver(length)), kRounding * surfaceArea(sliver(length)));
+    return threadSeconds() - start;
+  };
+  EXPECT_LT(seconds(8.0), 4 * 32 * seconds(0.25));
+}
+
+TEST(SampleSurface, SliversThatNeedTooManyPointsAreRefusedBeforehand) {
+  ShellOptions options;
+  options.spacing = 1e-3;
+  options.max_points = 100'000;
+  EXPECT_NO_THROW(sampleSurface(sliver(10.0), options));
+  const double start = threadSeconds();
+  EXPECT_THROW(sampleSurface(sliver(1e6), options), std::length_error);
+  // A fan: few points reach all of it, but there are many slices of triangles to look at.
+  TriangleMesh fan;
+  fan.vertices.emplace_back(0, 0, 0);
+  for (int i = 0; i <= 10'000; ++i) fan.vertices.emplace_back(1, 1e-6 * i, 0);
+  for (int i = 1; i <= 10'000; ++i) fan.triangles.emplace_back(0, i, i + 1);
+  EXPECT_THROW(sampleSurface(fan, options), std::length_error);
+  EXPECT_LT(threadSeconds() - start, 1.0);
+}
+
 TEST(SampleSurface, DegenerateTrianglesDoNoHarm) {
   TriangleMesh mesh = test::boxMesh({0.5, 0.5, 0.5});
   mesh.vertices.emplace_back(0.5, 0.0, 0.5);
@@ -265,7 +302,10 @@ TEST(SampleSurface, DegenerateTrianglesDoNoHarm) {
 }
 
 TEST(SampleSurface, ExpectedPointsAreAboutRight) {
-  for (const auto& [name, mesh] : meshes()) {
+  std::vector<std::pair<const char*, TriangleMesh>> closed = meshes();
+  closed.emplace_back("sliver", sliver(10.0));
+  closed.emplace_back("rod", test::boxMesh({5.0, 1e-4, 1e-4}));
+  for (const auto& [name, mesh] : closed) {
     if (mesh.triangles.size() == 1) continue;
     for (const double gap : {0.0, 0.004}) {
       ShellOptions options;

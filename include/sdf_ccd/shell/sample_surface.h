@@ -41,8 +41,9 @@ PointShell sampleSurface(const Solid& solid, const ShellOptions& options);
 /// @throws as sampleSurface(); std::invalid_argument also if the edge gap is 0.
 PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options);
 
-/// About how many points sampleSurface() would take, from the areas and edges alone; few vertices are assumed. It refuses
-/// beforehand what is expected to take more than options.max_points.
+/// About how many points sampleSurface() would take, from the areas and edges alone; few vertices are assumed. Of many
+/// slivers within the spacing of each other it is as many points as take their time. sampleSurface() refuses beforehand
+/// what is expected to take more than options.max_points.
 double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options);
 
 /// Point shell of a primitive: points exactly on its surface, with its exact normals away from edges. Areas sum to
