@@ -269,6 +269,24 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   EXPECT_THROW(description(), std::length_error);
 }
 
+TEST_F(ChangingSceneTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved) {
+  for (const char* name : {" a", "a ", " "}) {
+    EXPECT_EQ(refusal(box(name)), "object '" + std::string(name) + "': a name may not begin or end with a blank");
+    SceneChange attach = box(name);
+    attach.type = SceneChange::ATTACH;
+    attach.link = "tool";
+    EXPECT_NE(refusal(attach), "") << name;
+  }
+  EXPECT_EQ(refusal(box("a b")), "");
+  // A world's file may have named it so; a reader would take it for another object.
+  BodyDescription trailing = body("a b");
+  trailing.name = "a ";
+  scene_->set(trailing);
+  ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
+  EXPECT_NE(test::failureOf<std::invalid_argument>([&] { scene_->text(sources, sources.warnings); }).find("'a '"),
+            std::string::npos);
+}
+
 TEST_F(ChangingSceneTest, NamesOfALiveMapsTilesAreItsOwn) {
   apply(box("octomap/0_0_0"));  // there is no such map
   parameters_.live_map.topic = "/octomap";

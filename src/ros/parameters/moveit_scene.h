@@ -14,7 +14,11 @@ namespace sdf_ccd {
 /// @throws std::runtime_error with the line and the reason.
 std::vector<WorldObject> parseMoveitScene(const std::string& text);
 
+/// Whether a name is read as it was written: readers take the line without the blanks around it.
+bool isSavedName(const std::string& name);
+
 /// That text of bodies in one frame, as it is now; numbers so that they are read again as they were.
+/// @throws std::invalid_argument for a name that would be read as another.
 std::string moveitScene(const std::vector<BodyDescription>& bodies);
 
 }  // namespace sdf_ccd

@@ -1,5 +1,8 @@
+#include <stdexcept>
+
 #include <fmt/format.h>
 
+#include "common/shown_text.h"
 #include "ros/parameters/moveit_scene.h"
 
 namespace sdf_ccd {
@@ -35,9 +38,16 @@ std::string meshLines(const TriangleMesh& mesh) {
 
 }  // namespace
 
+bool isSavedName(const std::string& name) {
+  return !name.empty() && name.front() != ' ' && name.back() != ' ' && name == shownText(name, name.size());
+}
+
 std::string moveitScene(const std::vector<BodyDescription>& bodies) {
   std::string text = "sdf_ccd\n";
   for (const BodyDescription& body : bodies) {
+    if (!isSavedName(body.name))
+      throw std::invalid_argument("object '" + shownText(body.name) +
+                                  "' cannot be saved: of its name blanks at the ends and control characters are lost");
     text += "* " + body.name + "\n" + poseLines(body.X_frame_B) + std::to_string(body.geometry.size()) + "\n";
     for (const GeometryDescription& geometry : body.geometry) {
       const auto* primitive = std::get_if<Primitive>(&geometry.shape);
