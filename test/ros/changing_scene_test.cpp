@@ -287,6 +287,19 @@ TEST_F(ChangingSceneTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved) {
             std::string::npos);
 }
 
+TEST_F(ChangingSceneTest, NamesHoldNoWildcards) {
+  for (const char* name : {"*", "bo?", "a*"}) {
+    EXPECT_NE(refusal(box(name)).find("may not hold * or ?"), std::string::npos) << name;
+    SceneChange attach = box(name);
+    attach.type = SceneChange::ATTACH;
+    attach.link = "tool";
+    EXPECT_NE(refusal(attach).find("may not hold * or ?"), std::string::npos) << name;
+  }
+  apply({box(), change(SceneChange::REMOVE, "bo?")});
+  EXPECT_EQ(scene_->objects(), (std::vector<std::string>{"table"}));
+  apply(rule(SceneChange::ALLOW, "*", "table"));
+}
+
 TEST_F(ChangingSceneTest, NamesOfALiveMapsTilesAreItsOwn) {
   apply(box("octomap/0_0_0"));  // there is no such map
   parameters_.live_map.topic = "/octomap";
