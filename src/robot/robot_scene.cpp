@@ -1,5 +1,6 @@
 #include "sdf_ccd/robot/robot_scene.h"
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -7,6 +8,7 @@
 #include "geometry_extent.h"
 #include "link_geometry.h"
 #include "model/name_pair.h"
+#include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/robot/unreachable_pairs.h"
 #include "srdf_pairs.h"
 
@@ -78,6 +80,16 @@ bool outOfReach(const RobotModel& robot, const BodyDescription& object, const Is
   return distanceBelow(object.geometry, p_B) > from_root.farthest + ball.radius;
 }
 
+/// All pairs are looked at, along the joints between them.
+void requireFewPairs(const RobotModel& robot, std::size_t links) {
+  constexpr std::size_t kMostPairs = 300000;
+  const std::size_t pairs = links * (links - std::min<std::size_t>(links, 1)) / 2;
+  if (pairs <= kMostPairs) return;
+  throw std::length_error("robot " + robot.urdf().getName() + " has " + std::to_string(links) +
+                          " links with collision elements, which are " + std::to_string(pairs) + " pairs; at most " +
+                          std::to_string(kMostPairs) + " can be checked");
+}
+
 }  // namespace
 
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
@@ -114,12 +126,14 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
   for (const std::string& link : unknownLinks(srdf, robot.links()))
     warnings.push_back("the SRDF names link " + link + ", the URDF has none");
 
+  requireFewPairs(robot, scene.bodies.size());
   std::vector<std::optional<ExtentBall>> balls;
   for (const BodyDescription& body : scene.bodies) {
     balls.push_back(body.failure.empty() ? std::make_optional(extentBall(body.geometry)) : std::nullopt);
   }
   const PairFilter filter(robot, srdf, options);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    checkCancelled();
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
       const std::string reason = filter.reason(scene.bodies[i], balls[i], scene.bodies[j], balls[j]);
       if (reason.empty()) continue;

@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "oracle/failure.h"
 #include "oracle/files.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/monitor/scene.h"
@@ -227,6 +228,23 @@ TEST(RobotScene, SrdfMayNamePatterns) {
   EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "d"), "checked") << "there are no sets of characters";
   srdf.enabled = {{"?", "c"}};
   EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "c"), "checked");
+}
+
+TEST(RobotScene, ThousandsOfLinksAreRefused) {
+  std::string urdf = "<robot name='centipede'>";
+  for (int i = 0; i < 1000; ++i) {
+    const std::string name = "l" + std::to_string(i);
+    urdf += "<link name='" + name + "'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>";
+    if (i > 0)
+      urdf += "<joint name='j" + name + "' type='continuous'><parent link='l0'/><child link='" + name +
+              "'/><axis xyz='0 0 1'/></joint>";
+  }
+  const RobotModel robot(urdf + "</robot>");
+  std::vector<std::string> warnings;
+  const std::string why = test::failureOf<std::length_error>([&] { describeRobot(robot, {}, loadOwn, {}, warnings); });
+  EXPECT_EQ(why,
+            "robot centipede has 1000 links with collision elements, which are 499500 pairs; at most 300000 can be "
+            "checked");
 }
 
 TEST(RobotScene, LinksOutOfReachAreNoPair) {

@@ -67,6 +67,7 @@ struct RobotSceneOptions {
 /// assumptions of the latter must be monitored: unreachablePairs().
 /// @param warnings  further notes for the user, one per line: files found with another spelling, an SRDF with another
 /// robot's name or with links that the robot does not have; RobotModel::warnings(). Failures are not repeated here.
+/// @throws std::length_error if the links are more than 300,000 pairs; Cancelled.
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                                const RobotSceneOptions& options, std::vector<std::string>& warnings);
 
