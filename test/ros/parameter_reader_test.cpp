@@ -56,6 +56,19 @@ TEST(ParameterReader, ErrorsNameParameterAndValue) {
   EXPECT_EQ(errorOf([&] { reader.fail("name", "a text"); }), "parameter /monitor/name is missing, expected a text");
 }
 
+TEST(ParameterReader, ValuesAreShownAsYamlHasThem) {
+  XmlRpc::XmlRpcValue tree;
+  tree["points"] = 1e9;
+  tree["flag"] = true;
+  tree["list"][0] = 1;
+  tree["list"][1]["key"] = std::string("text");
+  ParameterReader reader(tree, "~");
+  EXPECT_EQ(errorOf([&] { reader.integer("points", 0, 0); }),
+            "parameter ~/points is 1e+09, expected an integer not below 0");
+  EXPECT_EQ(errorOf([&] { reader.positive("flag", 1.0); }), "parameter ~/flag is true, expected a finite number");
+  EXPECT_EQ(errorOf([&] { reader.text("list", ""); }), "parameter ~/list is [1, {key: text}], expected a text");
+}
+
 TEST(ParameterReader, NamesAreShortAndMessagesToo) {
   XmlRpc::XmlRpcValue tree;
   tree["fair"] = std::string(256, 'x');

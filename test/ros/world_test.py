@@ -109,6 +109,14 @@ class WorldTest(unittest.TestCase):
         self.assertEqual(answer.scene_version, before.scene_version)
         self.assertEqual(answer.objects, ['kept'])
 
+    def test_what_cannot_be_made_is_named(self):
+        point = Mesh(vertices=[Point(0, 0, 0)] * 3, triangles=[MeshTriangle(vertex_indices=(0, 1, 2))])
+        bad = SceneChange(type=SceneChange.ADD, object='bad', meshes=[point])
+        answer = self.update(changes=[box('new', pose(1.0)), bad, box('newer', pose(1.0))])
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.failed_change, 1, answer.message)
+        self.assertIn('bad', answer.message)
+
     def test_a_mesh_in_the_request(self):
         corners = [(x, y, z) for x in (-.1, .1) for y in (-.1, .1) for z in (-.1, .1)]
         quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))

@@ -187,7 +187,7 @@ TEST(YamlParameters, ErrorsNameFileLineAndParameter) {
   EXPECT_NE(errorOf("- 1\n").find("_test.yaml: line 1: expected parameters"), std::string::npos);
   EXPECT_NE(errorOf("rate: [30\n").find("_test.yaml: yaml-cpp: error at line"), std::string::npos);
   EXPECT_EQ(errorOf("octomap: {xyz: [deg(90), 0, 0]}"),
-            "parameter ~/octomap/xyz is {deg(90),0,0}, expected three finite numbers");
+            "parameter ~/octomap/xyz is [deg(90), 0, 0], expected three finite numbers");
   EXPECT_THROW(loadYamlParameters("/nowhere/monitor.yaml"), std::runtime_error);
 }
 

@@ -23,6 +23,12 @@ constexpr int kMostCallers = 3;  // one at work, others that wait
 constexpr auto kLook = std::chrono::microseconds(200);
 constexpr auto kPatience = std::chrono::milliseconds(500);  // until a cycle has taken a version over
 
+int lastChangeOf(const std::string& object, const UpdateScene::Request& request) {
+  for (auto change = request.changes.rbegin(); change != request.changes.rend(); ++change)
+    if (change->object == object) return static_cast<int>(request.changes.rend() - change) - 1;
+  return -1;
+}
+
 }  // namespace
 
 /// One caller's, as long as it lives.
@@ -103,14 +109,16 @@ bool SceneEditor::handOver(const std::shared_ptr<const CheckedWorld>& world) {
   return is_adopted;
 }
 
-std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene) {
+/// @param making  the body that is being made: if this throws, the one that cannot be.
+std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene, std::string& making) {
   std::shared_ptr<const CheckedWorld> world;
   const CancelPoint cancel;
   arena_.execute([&] {
     const CancelScope scope(cancel);  // it may be another thread
     SceneDescription description = scene.description(limits_);
     std::vector<UnreachablePair> unreachable = scene.unreachable(description);
-    world = std::make_shared<const CheckedWorld>(editor_->next(std::move(description)), std::move(unreachable));
+    world = std::make_shared<const CheckedWorld>(
+        editor_->next(std::move(description), [&](const std::string& body) { making = body; }), std::move(unreachable));
   });
   return world;
 }
@@ -142,7 +150,13 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   }
   response.failed_change = -1;
   std::shared_ptr<const CheckedWorld> world = last_;
-  if (!request.changes.empty()) world = make(scene);
+  std::string making;
+  try {
+    if (!request.changes.empty()) world = make(scene, making);
+  } catch (const std::invalid_argument&) {
+    response.failed_change = lastChangeOf(making, request);
+    throw;
+  }
   if (!request.save_file.empty()) save(request.save_file, scene, sources);
   response.seconds = secondsSince(start);
   response.adopted = true;
@@ -182,7 +196,8 @@ std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, const std:
   for (const MadeField& made : fields) editor_->provide(made.mesh, made.field);
   ChangingScene scene = scene_;
   scene.setTiles(std::move(tiles));
-  const std::shared_ptr<const CheckedWorld> world = make(scene);
+  std::string making;
+  const std::shared_ptr<const CheckedWorld> world = make(scene, making);
   goOnWith(std::move(scene), world);
   return world->version();
 }

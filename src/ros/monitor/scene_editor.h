@@ -69,7 +69,7 @@ class SceneEditor {
  private:
   class Turn;
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
-  std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene);
+  std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene, std::string& making);
   bool handOver(const std::shared_ptr<const CheckedWorld>& world);
   bool goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world);
   void setLast(std::shared_ptr<const CheckedWorld> world);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/nearest_name.h"
+#include "common/number_text.h"
 #include "common/shown_text.h"
 
 namespace sdf_ccd {
@@ -13,6 +14,31 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 constexpr std::size_t kMaxName = 256;  // bytes
+
+/// As YAML has it.
+std::string written(XmlRpcValue value) {
+  const auto joined = [](auto& members, const auto& textOf) {
+    std::string text;
+    for (auto& member : members) text += (text.empty() ? "" : ", ") + textOf(member);
+    return text;
+  };
+  std::vector<XmlRpcValue> items;
+  std::ostringstream plain;
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "true" : "false";
+    case XmlRpcValue::TypeDouble:
+      return numberText(static_cast<double>(value));
+    case XmlRpcValue::TypeArray:
+      for (int i = 0; i < value.size(); ++i) items.push_back(value[i]);
+      return "[" + joined(items, [](XmlRpcValue& item) { return written(item); }) + "]";
+    case XmlRpcValue::TypeStruct:
+      return "{" + joined(value, [](auto& member) { return member.first + ": " + written(member.second); }) + "}";
+    default:
+      plain << value;
+      return plain.str();
+  }
+}
 
 /// Sets the number that the value holds. YAML takes 1.0e8 (without a sign in the exponent) for a text; here it is a
 /// number all the same.
@@ -63,10 +89,7 @@ void ParameterReader::fail(const std::string& key, const std::string& expected) 
   std::ostringstream text;
   text << "parameter " << name_ << "/" << key;
   if (isSet(key)) {
-    XmlRpcValue value = tree_[key];
-    std::ostringstream written;
-    written << value;
-    text << " is " << shownText(written.str());
+    text << " is " << shownText(written(tree_[key]));
   } else {
     text << " is missing";
   }
