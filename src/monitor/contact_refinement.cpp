@@ -81,6 +81,8 @@ void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfa
     intervals.erase(std::remove_if(intervals.begin(), intervals.end(), isBefore), intervals.end());
     if (intervals.empty()) intervals.push_back({touch.enter, touch.enter});
     intervals.front().enter = std::max(intervals.front().enter, touch.enter);
+    const auto isTooEarly = [&](const ContactPoint& point) { return point.exit < touch.enter; };
+    result.points.erase(std::remove_if(result.points.begin(), result.points.end(), isTooEarly), result.points.end());
     result.deepest.time = std::max(result.deepest.time, intervals.front().enter);
   }
   if (!(touch.exit < intervals.front().enter)) return;
@@ -118,7 +120,7 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
   }
   point.depth = search.deepest().depth;
   point.depth_error = search.error() + error;
-  if (search.found()) setTimes(result.intervals, point);
+  setTimes(result.intervals, point);
   if (point.depth > error) result.verdict = Verdict::kContact;
   result.deepest = point;
 }

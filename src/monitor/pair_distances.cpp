@@ -115,12 +115,14 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
   found.time = motion.times[result.span.last];
   const bool touches = touchesAtEnd(result, found.time);
   const bool is_exact = scene_->bodies[result.body_a].triangles && scene_->bodies[result.body_b].triangles;
-  // What touched may be gone a little later; of triangles it is known.
   const bool is_within = (is_exact || !touches) && findNearest(i, X_WA, X_WB, range, found);
-  if (touches && !(is_within && found.distance > 0.0)) {
-    if (!is_within)
-      found.error = result.contact_error.total() + travelSince(result.intervals.back().exit, motion, result);
+  // What touched may be gone a little later; of triangles it is known. Farther than that they are of a body inside.
+  const double gone =
+      touches ? result.contact_error.total() + travelSince(result.intervals.back().exit, motion, result) : 0.0;
+  if (touches && !(is_within && found.distance > 0.0 && found.distance - found.error <= gone)) {
+    if (!is_within || found.distance > 0.0) found.error = gone;
     found.distance = 0.0;
+    found.slab.reset();
     found.p_A_W = found.p_B_W = result.deepest.p_W;
     found.normal_W = result.deepest.normal_W;
     pair.is_known = false;

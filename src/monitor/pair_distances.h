@@ -19,8 +19,9 @@ struct ClosingGap {
 
 /// What a cycle's motion does not tell itself.
 struct CycleRecord {
-  std::chrono::nanoseconds origin{0};         ///< its time 0, since the clock's epoch
-  const std::vector<double>* gaps = nullptr;  ///< per body: longest time between two recorded poses; null: none [s]
+  std::chrono::nanoseconds origin{0};  ///< its time 0, since the clock's epoch
+  /// Per body: longest time between two recorded poses, summed over all that these are made of; null: none [s].
+  const std::vector<double>* gaps = nullptr;
 };
 
 /// How far two bodies are apart at one time: the end of what is known of them in the cycle.

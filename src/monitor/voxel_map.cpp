@@ -113,10 +113,11 @@ void VoxelGrid::addLargeFree(const Vector3i& low, int side) {
   if (side != 1 << level || side < kTile || ((low.array() / side) * side != low.array()).any())
     throw std::invalid_argument("free space of " + std::to_string(side) + " voxels that is no leaf of an octree");
   large_free_.insert(cubeAt(low, level));
+  lowest_large_ = std::min(lowest_large_, level);
 }
 
 std::optional<VoxelGrid::Key> VoxelGrid::largeFreeAt(const Vector3i& voxel) const {
-  for (int level = 0; level < kLevels; ++level)
+  for (int level = lowest_large_; level < kLevels; ++level)
     if (large_free_.count(cubeAt(voxel, level)) > 0) return cubeAt(voxel, level);
   return std::nullopt;
 }
@@ -126,6 +127,7 @@ VoxelGrid::Bits VoxelGrid::known(const Vector3i& tile) const {
   const auto found = tiles_.find(keyOf(tile));
   Bits bits = found == tiles_.end() ? Bits() : found->second.known;
   if (large_free_.empty()) return bits;
+  checkCancelled();
   // Such a leaf is larger than a tile, so it holds a corner of each that it meets.
   std::array<std::optional<Key>, 8> corners;
   for (int i = 0; i < 8; ++i)

@@ -193,6 +193,21 @@ TEST_F(PairDistancesTest, WhatHasJustLeftDoesNotTouch) {
   EXPECT_EQ(found[0].any.width, 0.0);
 }
 
+TEST(PairDistancesOf, WhatIsInsideIsAtNoDistance) {
+  const auto scene = test::build({test::body("box", test::meshShape(test::boxMesh({0.1, 0.1, 0.1}))),
+                                  test::body("peg", test::meshShape(test::boxMesh({0.02, 0.02, 0.02})))});
+  Monitor monitor(scene, {});
+  PairDistances distances(scene);
+  const CycleMotion motion =
+      test::cycle(0.1, {test::still(Isometry3d::Identity()), test::still(test::translation({0.05, 0, 0}))});
+  const CycleResult& result = monitor.run(motion, {true, 1});
+  ASSERT_EQ(result.pairs[0].verdict, Verdict::kContact);
+  const auto& found = distances.update(motion, result, 0.2, {});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].distance, 0.0);
+  EXPECT_FALSE(found[0].slab);
+}
+
 TEST(PairDistancesOf, AnObjectWithAPlaneAndMoreItsPlaneIsHeldByNoBall) {
   BodyDescription ground = test::body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true);
   ground.geometry.push_back({Primitive(Box{Vector3d(0.1, 0.1, 0.1)}), test::translation({0, 0, 0.1}), "box", false});

@@ -70,6 +70,29 @@ TEST_F(TfTrackerTest, PairsGoAsFarAsBothFramesAreKnownAndHoldEveryRecordedTransf
   EXPECT_EQ(next(10.1), Step::kWaiting);
 }
 
+TEST_F(TfTrackerTest, GapsAddUpWhereStampsDiffer) {
+  const auto send = [&](const char* parent, const char* child, double stamp) {
+    TfTrackerTest::send(stampedTransform(parent, child, stamp, stamp));
+  };
+  for (const double stamp : {10.0, 10.1}) {
+    send("world", "base", stamp);
+    send("base", "hand", stamp);
+    send("world", "foot", stamp);
+    next(stamp);
+  }
+  ASSERT_EQ(cycle_.gaps.size(), 3u);
+  EXPECT_NEAR(cycle_.gaps[0], 0.1, 1e-9);
+  EXPECT_NEAR(cycle_.gaps[1], 0.1, 1e-9);
+  EXPECT_EQ(cycle_.gaps[2], 0.0);
+  send("world", "base", 10.2);
+  send("base", "hand", 10.15);
+  send("base", "hand", 10.25);
+  send("world", "foot", 10.2);
+  ASSERT_EQ(next(10.25), Step::kCycle);
+  EXPECT_NEAR(cycle_.gaps[0], 0.2, 1e-9);
+  EXPECT_NEAR(cycle_.gaps[1], 0.1, 1e-9);
+}
+
 TEST_F(TfTrackerTest, AFrameThatJumpsIsMissingForTheCycle) {
   const auto step = [&](double stamp, double hand, double foot) {
     send(stampedTransform("world", "hand", stamp, hand));

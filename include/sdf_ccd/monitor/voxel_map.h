@@ -79,6 +79,7 @@ class VoxelGrid {
   std::size_t occupied_ = 0;
   std::unordered_map<Key, Tile> tiles_;
   std::unordered_set<Key> large_free_;  // leaves of more tiles than may be, by level and place
+  int lowest_large_ = 16;               // level of the smallest of these
   Key last_ = ~Key{0};
   Tile* last_tile_ = nullptr;
 };

@@ -17,11 +17,11 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   request.max_points = parameters.max_points;
   request.refine = parameters.refine;
   TfTracker::Step last = TfTracker::Step::kWaiting;
-  ros::Time last_cycle = motion.begin();
+  ros::Time last_cycle;  // 0: none since time has jumped
   // Where transforms come again, the next cycle reaches back to the last one.
   const auto tellGap = [&](const ros::Time& now) {
     const ros::Time from = loop.cycle().end;
-    if (!from.isZero()) observer.onGap({from, from + (now - last_cycle)}, kStalls, now);
+    if (!last_cycle.isZero()) observer.onGap({from, from + (now - last_cycle)}, kStalls, now);
   };
   const auto stepAt = [&](const ros::Time& now) {
     ros::Time::setNow(now);
@@ -32,7 +32,10 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
       last_cycle = now;
     }
     if (step == TfTracker::Step::kJump && last == TfTracker::Step::kStalled) tellGap(now);
-    if (step == TfTracker::Step::kJump) observer.onUnchecked("time has jumped", now);
+    if (step == TfTracker::Step::kJump) {
+      observer.onUnchecked("time has jumped", now);
+      last_cycle = ros::Time();
+    }
     if (stalls) observer.onUnchecked(kStalls, now);
     last = step;
     return step;

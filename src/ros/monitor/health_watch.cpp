@@ -62,14 +62,14 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   health_.short_cycles += health_.pairs_postponed > 0;
   watchLate(loop, now);
   watchFixedFrame(loop, now);
-  const std::string pair = result.not_checked > 0 ? uncheckedPair(loop) : "";
-  watchUnchecked({uncheckedCause(loop), pair});
+  const std::string body = health_.missing.empty() ? "" : uncheckedCause(loop);
+  watchUnchecked(body, result.not_checked > 0 ? uncheckedPair(loop) : "");
 }
 
 void HealthWatch::takeStall(const MonitorLoop& loop, const std::string& reason) {
   health_.stall = reason;
   health_.rate = 0.0;
-  watchUnchecked({reason, uncheckedCause(loop)});
+  watchUnchecked(reason, uncheckedCause(loop));
 }
 
 void HealthWatch::forget() {
@@ -94,12 +94,9 @@ void HealthWatch::watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& 
   health_.moving_frame = warning;  // from then on: also while the robot rests
 }
 
-void HealthWatch::watchUnchecked(const std::vector<std::string>& causes) {
+void HealthWatch::watchUnchecked(const std::string& cause, const std::string& besides) {
   const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run
-  std::string cause;
-  const auto add = [&](const std::string& line) { cause += (cause.empty() || line.empty() ? "" : "; ") + line; };
-  for (const std::string& line : causes) add(line);
-  if (cause.empty()) {
+  if (cause.empty() && besides.empty()) {
     unchecked_since_ = ros::WallTime();
     return;
   }
@@ -107,8 +104,11 @@ void HealthWatch::watchUnchecked(const std::vector<std::string>& causes) {
   if ((now - unchecked_since_).toSec() < kPatience) return;
   if (!last_warning_.isZero() && (now - last_warning_).toSec() < kWarnPeriod) return;
   last_warning_ = now;
+  std::string all = cause;
+  const auto add = [&](const std::string& line) { all += (all.empty() || line.empty() ? "" : "; ") + line; };
+  add(besides);
   for (const std::string& line : health_.bad_joints) add(line);
-  ROS_WARN("Not checked: %s", cause.c_str());
+  ROS_WARN("Not checked: %s", all.c_str());
 }
 
 /// What late transforms have contradicted in the last seconds.

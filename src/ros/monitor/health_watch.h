@@ -34,7 +34,7 @@ class HealthWatch {
   void warn(const std::string& warning);
   void measureRate(const ros::WallTime& now);
   void watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& now);
-  void watchUnchecked(const std::vector<std::string>& causes);
+  void watchUnchecked(const std::string& cause, const std::string& besides);
   void watchLate(const MonitorLoop& loop, const ros::WallTime& now);
 
   MonitorHealth health_;

@@ -109,7 +109,8 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   VoxelGrid grid(message.resolution, options);
   grid.addOctree(message.data.data(), message.data.size(), message.id, message.binary != 0);
   const std::shared_ptr<const CheckedWorld> world = editor_.world();
-  const std::vector<VoxelMask> masks = masksOf(*world, message, kPatience, unknown_);
+  std::size_t unknown = 0;
+  const std::vector<VoxelMask> masks = masksOf(*world, message, kPatience, unknown);
   const double read = secondsSince(start);
   const auto isBehind = [this] {
     if (in_scene_ == InScene::kTiles) in_scene_ = InScene::kOther;
@@ -143,6 +144,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
     version = editor_.setMap(std::move(tiles), fields);
     in_scene_ = InScene::kTiles;
   }
+  unknown_ = unknown;
   ROS_INFO_THROTTLE(
       10.0,
       "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "

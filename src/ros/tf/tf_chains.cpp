@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "ros/tf/seconds_between.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -154,7 +156,7 @@ void TfChains::copy(const TfTree& tree, const std::vector<TimePart>& parts, cons
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     const int step = ways_[i].step;
     const Account known = step < 0 ? Account() : account(tree, step, parts[i]);
-    window.setFrame(i, {step, known.version, known.longest_gap}, parts[i]);
+    window.setFrame(i, {step, known.version, known.longest_gap, known.gaps}, parts[i]);
     if (!ways_[i].problem.empty()) {
       window.setProblem(i, ways_[i].problem);
     } else if (known.problem) {
@@ -177,13 +179,21 @@ const TfChains::Account& TfChains::account(const TfTree& tree, int step, const T
   for (std::size_t i = records.lastUpTo(part.from); i < records.size(); ++i) {
     if (records[i].problem) own.problem = records[i].problem;
     if (edge.is_static || records[i].stamp >= part.until || i + 1 == records.size()) break;
-    own.longest_gap = std::max(own.longest_gap, (records[i + 1].stamp - records[i].stamp).toSec());
+    own.longest_gap = std::max(own.longest_gap, secondsBetween(records[i].stamp, records[i + 1].stamp));
+    if (own.moved.first.isZero()) own.moved.first = records[i].stamp;
+    own.moved.last = records[i + 1].stamp;
   }
+  own.gaps = own.moved.longest_gap = own.longest_gap;
   own.problem_edge = number;
   if (steps_[step].before < 0) return own;
   const Account& before = account(tree, steps_[step].before, part);
   own.version = std::max(own.version, before.version);
   own.longest_gap = std::max(own.longest_gap, before.longest_gap);
+  const bool moves = own.moved.longest_gap > 0.0;
+  const bool is_stamped_alike = moves && own.moved.first == before.moved.first && own.moved.last == before.moved.last &&
+                                own.moved.longest_gap == before.moved.longest_gap;
+  own.gaps = before.gaps + (is_stamped_alike ? 0.0 : own.gaps);
+  if (!moves) own.moved = before.moved;
   if (before.problem) {
     own.problem_edge = before.problem_edge;
     own.problem = before.problem;

@@ -55,10 +55,16 @@ class TfChains {
     long version = 0;
     int changed = TfTree::kNone;
   };
+  struct RecordedPart {  // what of an edge is interpolated over a part of the time
+    ros::Time first, last;
+    double longest_gap = 0.0;
+  };
   struct Account {  // of the way up to a step, over a part of the time
     TimePart part;
     long version = 0;
     double longest_gap = 0.0;
+    double gaps = 0.0;   // of all edges, but those stamped as the one before them
+    RecordedPart moved;  // of the last edge that moves
     int problem_edge = TfTree::kNone;
     const char* problem = nullptr;
   };

@@ -43,7 +43,7 @@ struct TrackedCycle {
   /// [s] from origin: the recorded transforms between which a body moves, and the ends of all pairs' spans.
   std::vector<double> samples;
   std::vector<double> recorded;  ///< [s] from origin: all recorded transforms, as a check at samples would take them
-  std::vector<double> gaps;  ///< per body: longest time between two transforms that its poses are interpolated of [s]
+  std::vector<double> gaps;  ///< per body: see TfWindow::gaps() [s]
 
   /// Transforms that came behind newer ones, where cycles had used an interpolation already, one a frame. The pairs
   /// that this concerns are dealt with again in this cycle, from there on.

@@ -48,7 +48,7 @@ void TfTracker::follow(TrackedCycle& cycle) {
     copyMotion(cycle, motion.missing);
     for (std::size_t body = 0; body < bodies_.size(); ++body)
       if (needed_[body].from < needed_[body].until)
-        cycle.gaps[body] = std::max(cycle.gaps[body], window_.longestGap(body));
+        cycle.gaps[body] = std::max(cycle.gaps[body], window_.gaps(body));
     sample(part, cycle);
   }
   findJumps(motion);

@@ -32,6 +32,9 @@ class TfWindow {
   /// Longest time between two transforms of one edge on the frame's way that overlap its part [s].
   double longestGap(std::size_t frame) const { return frames_[frame].source.longest_gap; }
 
+  /// The sum of these, of all transforms on the frame's way whose stamps differ [s].
+  double gaps(std::size_t frame) const { return frames_[frame].source.gaps; }
+
   /// Adds the times at which an edge on the way of one of the frames has a recorded transform [s].
   /// @param times     those within the frames' parts that differ from one of their neighbours: between all others it rests.
   /// @param recorded  all of them, at the parts' ends too; of some edges twice.
@@ -59,6 +62,7 @@ class TfWindow {
     int step = -1;
     long version = 0;
     double longest_gap = 0.0;
+    double gaps = 0.0;
   };
   struct Step {
     int before = -1;
