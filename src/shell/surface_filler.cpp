@@ -128,16 +128,16 @@ void SurfaceFiller::fillEdges(const std::vector<SurfaceEdge>& edges, double edge
     CoveredParts covered(edge, radius);
     const double steps = std::floor(covered.length() / radius);
     if (steps > static_cast<double>(options_.max_points)) refuse();
-    for (double k = 0.0; k <= steps; ++k) {
-      near.anyNear(covered.at(std::min((k + 0.5) * radius, covered.length())), [&](std::int32_t i) {
+    for (std::int64_t k = 0; k <= static_cast<std::int64_t>(steps); ++k) {
+      near.anyNear(covered.at(std::min((double(k) + 0.5) * radius, covered.length())), [&](std::int32_t i) {
         covered.add(shell_.points[i]);
         return false;
       });
     }
     covered.forEachGap([&](double begin, double end) {
-      const double count = std::ceil((end - begin) / (2.0 * radius));
-      for (double k = 0.0; k < std::max(1.0, count); ++k) {
-        add(covered.at(begin + (end - begin) * (k + 0.5) / std::max(1.0, count)), edge.normal);
+      const double count = std::max(1.0, std::ceil((end - begin) / (2.0 * radius)));
+      for (std::int64_t k = 0; k < static_cast<std::int64_t>(count); ++k) {
+        add(covered.at(begin + (end - begin) * (double(k) + 0.5) / count), edge.normal);
         near.insert(shell_.points.back());
       }
     });
@@ -152,9 +152,9 @@ void SurfaceFiller::throwDarts() {
     area_below.push_back(area);
   }
   // A full Poisson-disk sampling has about 0.7 points per spacing²; with ten darts for each, few gaps are left.
-  const double darts = 7 * area / (options_.spacing * options_.spacing);
+  const auto darts = static_cast<std::int64_t>(std::ceil(7 * area / (options_.spacing * options_.spacing)));
   std::mt19937_64 random(options_.seed);
-  for (double dart = 0; dart < darts; ++dart) {
+  for (std::int64_t dart = 0; dart < darts; ++dart) {
     cancel_.check();
     const double choice = uniform(random) * area, u = std::sqrt(uniform(random)), v = uniform(random);
     const auto chosen = std::upper_bound(area_below.begin(), area_below.end(), choice);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "sdf_ccd/geometry/triangle_mesh.h"
@@ -45,8 +46,8 @@ struct SurfacePiece {
     return std::max({(corners[0] - q).squaredNorm(), (corners[1] - q).squaredNorm(), (corners[2] - q).squaredNorm()});
   }
 
-  /// How many slices across the piece are about as long as wide, or `least` [m] long if that is more; 1 for a piece that
-  /// is not far longer than both.
+  /// How many slices across the piece are about as long as wide, or `least` [m] long if that is more; 1 for a piece
+  /// that is not far longer than both.
   double slices(double least) const {
     constexpr double kFarLonger = 8;
     const double longest = std::sqrt(longestEdge().second);
@@ -61,8 +62,8 @@ template <typename Visit>
 void forEachSlice(const SurfacePiece& triangle, double count, Visit visit) {
   const auto& [tip, left_end, right_end] = triangle.corners;
   Vector3d left = tip, right = tip;
-  for (double k = 1; k <= count; ++k) {
-    const double share = k / count;
+  for (std::int64_t k = 1; k <= static_cast<std::int64_t>(count); ++k) {
+    const double share = double(k) / count;
     const Vector3d next_left = tip + share * (left_end - tip), next_right = tip + share * (right_end - tip);
     visit(SurfacePiece{{left, next_left, next_right}});
     if (k > 1) visit(SurfacePiece{{left, next_right, right}});
@@ -71,8 +72,8 @@ void forEachSlice(const SurfacePiece& triangle, double count, Visit visit) {
   }
 }
 
-/// Calls visit(piece) for pieces that cover a triangle: the triangle itself, or its slices. Halves of a sliver lie beside
-/// each other as well as behind each other, so that for pieces of 1/n of its length n^1.6 of them are needed.
+/// Calls visit(piece) for pieces that cover a triangle: the triangle itself, or its slices. Halves of a sliver lie
+/// beside each other as well as behind each other, so that for pieces of 1/n of its length n^1.6 of them are needed.
 template <typename Visit>
 void forEachCompactPiece(const SurfacePiece& triangle, double least, Visit visit) {
   const double slices = triangle.slices(least);

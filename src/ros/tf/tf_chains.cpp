@@ -23,7 +23,7 @@ std::string endlessText(const TfTree& tree, const std::string& frame, const std:
     }
     loop.erase(loop.begin(), first);
     std::string names;
-    for (std::size_t i = 0; i < std::min(kNamed, loop.size()); ++i) names += tree.name(loop[i]) + " in ";
+    for (std::size_t i = 0; i < std::min(kNamed, loop.size()); ++i) names.append(tree.name(loop[i])).append(" in ");
     return text + "a loop: " + names + (loop.size() > kNamed ? "others in " : "") + tree.name(edge);
   }
   return text + "more than " + std::to_string(kMostAbove);

@@ -63,8 +63,8 @@ class TfChains {
     TimePart part;
     long version = 0;
     double longest_gap = 0.0;
-    double gaps = 0.0;   // of all edges, but those stamped as the one before them
-    RecordedPart moved;  // of the last edge that moves
+    double gaps = 0.0;     // of all edges, but those stamped as the one before them
+    RecordedPart moved{};  // of the last edge that moves
     int problem_edge = TfTree::kNone;
     const char* problem = nullptr;
   };
