@@ -6,7 +6,7 @@ namespace sdf_ccd {
 enum class Verdict {
   kClear,       ///< nowhere nearer than the error bound
   kNotChecked,  ///< could not be checked, and why
-  kUncertain,   ///< within the error bound
+  kUncertain,   ///< neither is proved: apart by more than the error bound, or in contact
   kContact,     ///< somewhere deeper than the error bound
 };
 
