@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -24,7 +26,8 @@ std::string endlessText(const TfTree& tree, const std::string& frame, const std:
     loop.erase(loop.begin(), first);
     std::string names;
     for (std::size_t i = 0; i < std::min(kNamed, loop.size()); ++i) names.append(tree.name(loop[i])).append(" in ");
-    return text + "a loop: " + names + (loop.size() > kNamed ? "others in " : "") + tree.name(edge);
+    if (loop.size() > kNamed) names += "others in ";
+    return fmt::format("{}a loop: {}{}", text, names, tree.name(edge));
   }
   return text + "more than " + std::to_string(kMostAbove);
 }
