@@ -17,7 +17,6 @@ namespace {
 /// What the distance of triangles may be off by, over the size of the bodies: see surfaceDistance().
 constexpr double kTriangleError = 1e-7;
 
-constexpr double kUnknown = -1.0;   // within no range
 constexpr double kSameTime = 1e-8;  // that stamps are rounded to, some times [s]
 
 bool isOneHalfSpace(const Body& body) {
@@ -41,12 +40,14 @@ double closingAlong(const Vector3d& n_F, const Isometry3d& X_from, const Isometr
 }  // namespace
 
 PairDistances::PairDistances(std::shared_ptr<const Scene> scene)
-    : scene_(std::move(scene)), pairs_(scene_->pairs.size()), known_within_(scene_->pairs.size(), kUnknown) {}
+    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {}
 
 void PairDistances::forget() {
   if (is_empty_) return;
-  for (Pair& pair : pairs_) pair.is_known = pair.is_near = false;
-  std::fill(known_within_.begin(), known_within_.end(), kUnknown);
+  for (Pair& pair : pairs_) {
+    pair.is_known = pair.is_near = false;
+    pair.known_within = kNowhere;
+  }
   near_.clear();
   is_empty_ = true;
 }
@@ -64,15 +65,15 @@ void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_no
     pairs_[now].last = near;
   }
   for (std::size_t pair = 0; pair < pairs_now.size(); ++pair)
-    if (pairs_now[pair] >= 0) known_within_[pairs_now[pair]] = before.known_within_[pair];
-  record_.origin = before.record_.origin;
+    if (pairs_now[pair] >= 0) pairs_[pairs_now[pair]].known_within = before.pairs_[pair].known_within;
+  origin_ = before.origin_;
   is_empty_ = before.is_empty_;
 }
 
 const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion, const CycleResult& result,
                                                        double range, const CycleRecord& record) {
-  const double later = std::chrono::duration<double>(record.origin - record_.origin).count();
-  record_ = record;
+  const double later = std::chrono::duration<double>(record.origin - origin_).count();
+  origin_ = record.origin;
   has_unknown_ = is_empty_ = false;
   near_.clear();
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -80,13 +81,13 @@ const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion
     Pair& known = pairs_[i];
     if (pair.span.empty()) {
       if (known.is_near) known.last.time -= later;  // told from this cycle's start on
-      has_unknown_ |= !known.is_near && known_within_[i] < range;
+      has_unknown_ |= !known.is_near && known.known_within < range;
     } else if (pair.verdict == Verdict::kNotChecked) {
       known.is_near = known.is_known = false;
-      known_within_[i] = kUnknown;
+      known.known_within = kNowhere;
     } else {
-      measure(i, motion, pair, range);
-      known_within_[i] = range;
+      measure(i, motion, pair, range, record);
+      known.known_within = range;
     }
     if (known.is_near) near_.push_back(known.last);
   }
@@ -101,7 +102,8 @@ bool PairDistances::isFar(std::size_t i, const PairResult& result, const Isometr
   return pair.at_least - maxDisplacement(pair.X_FP, X_FP, scene_->bodies[result.body_b].ball) > range;
 }
 
-void PairDistances::measure(std::size_t i, const CycleMotion& motion, const PairResult& result, double range) {
+void PairDistances::measure(std::size_t i, const CycleMotion& motion, const PairResult& result, double range,
+                            const CycleRecord& record) {
   Pair& pair = pairs_[i];
   const Isometry3d &X_WA = motion.X_WB[result.body_a][result.span.last],
                    &X_WB = motion.X_WB[result.body_b][result.span.last];
@@ -138,7 +140,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
     }
   }
   found.any.width = std::max(0.0, found.distance - found.error);
-  setSpeeds(motion, result.span, found);
+  setSpeeds(motion, result.span, record, found);
   pair.last = found;
   pair.is_near = true;
 }
@@ -230,7 +232,8 @@ double PairDistances::travelSince(double time, const CycleMotion& motion, const 
 }
 
 /// Mean speeds over the last step.
-void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& span, PairDistance& found) const {
+void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& span, const CycleRecord& record,
+                              PairDistance& found) const {
   const auto& X_WA = motion.X_WB[found.body_a];
   const auto& X_WB = motion.X_WB[found.body_b];
   const double over = motion.times[span.last] - motion.times[span.last - 1];
@@ -245,8 +248,8 @@ void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& spa
   // Poses between two recorded ones are interpolated, so that is a mean over all of the time between these: of each
   // body over its own, and if these are not the step itself, their errors add up.
   found.any.over = over;
-  if (record_.gaps) {
-    const double a = (*record_.gaps)[found.body_a], b = (*record_.gaps)[found.body_b];
+  if (record.gaps) {
+    const double a = (*record.gaps)[found.body_a], b = (*record.gaps)[found.body_b];
     if (std::max(a, b) > over + kSameTime) found.any.over = std::max(over, a + b);
   }
   if (!found.slab) return;

@@ -70,7 +70,10 @@ class PairDistances {
   void take(PairDistances& before, const std::vector<int>& pairs_now);
 
  private:
+  static constexpr double kNowhere = -1.0;  // below any range
+
   struct Pair {
+    double known_within = kNowhere;  // range of the last measurement [m]
     bool is_known = false;
     double at_least = 0.0;  // the distance at X_FP [m]
     Isometry3d X_FP = Isometry3d::Identity();
@@ -80,7 +83,8 @@ class PairDistances {
   };
 
   bool isFar(std::size_t pair, const PairResult& result, const Isometry3d& X_FP, double range);
-  void measure(std::size_t pair, const CycleMotion& motion, const PairResult& result, double range);
+  void measure(std::size_t pair, const CycleMotion& motion, const PairResult& result, double range,
+               const CycleRecord& record);
   bool findNearest(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range, PairDistance& found);
   bool nearestOfSurfaces(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                          PairDistance& found);
@@ -95,13 +99,13 @@ class PairDistances {
   };
   Step stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const;
   double travelSince(double time, const CycleMotion& motion, const PairResult& result) const;
-  void setSpeeds(const CycleMotion& motion, const WaypointSpan& span, PairDistance& found) const;
+  void setSpeeds(const CycleMotion& motion, const WaypointSpan& span, const CycleRecord& record,
+                 PairDistance& found) const;
 
   std::shared_ptr<const Scene> scene_;
   std::vector<Pair> pairs_;
-  std::vector<double> known_within_;  // per pair: range of its last measurement [m]; below zero if nothing is known
   std::vector<PairDistance> near_;
-  CycleRecord record_;  // of the last cycle; its gaps hold during update()
+  std::chrono::nanoseconds origin_{0};  // of the last cycle
   bool has_unknown_ = false;
   bool is_empty_ = true;  // nothing is known
   SeparationMemory memory_;
