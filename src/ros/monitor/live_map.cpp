@@ -87,9 +87,7 @@ void LiveMap::watchAge() {
 
 void LiveMap::takeAgain() {
   if (!last_ || in_scene_ == InScene::kAwaited) return;
-  std::size_t unknown = 0;
-  masksOf(*editor_.world(), *last_, ros::WallDuration(), unknown);
-  if (unknown >= unknown_) return;
+  if (robotAt(*editor_.world(), *last_, ros::WallDuration()).unknown() >= unknown_) return;
   take(*last_);
   if (unknown_ == 0) last_.reset();
 }
@@ -109,8 +107,8 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   VoxelGrid grid(message.resolution, options);
   grid.addOctree(message.data.data(), message.data.size(), message.id, message.binary != 0);
   const std::shared_ptr<const CheckedWorld> world = editor_.world();
-  std::size_t unknown = 0;
-  const std::vector<VoxelMask> masks = masksOf(*world, message, kPatience, unknown);
+  const RobotPoses poses = robotAt(*world, message, kPatience);
+  const std::vector<VoxelMask> masks = masksOf(*world, poses);
   const double read = secondsSince(start);
   const auto isBehind = [this] {
     if (in_scene_ == InScene::kTiles) in_scene_ = InScene::kOther;
@@ -144,7 +142,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
     version = editor_.setMap(std::move(tiles), fields);
     in_scene_ = InScene::kTiles;
   }
-  unknown_ = unknown;
+  unknown_ = poses.unknown();
   ROS_INFO_THROTTLE(
       10.0,
       "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
@@ -153,25 +151,20 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
       1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
 }
 
-/// Of the robot and what is attached to it, as tf has them at the map's stamp; what it has not, where that is now.
-/// @param unknown  gets how many it has neither then nor now.
-std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const octomap_msgs::Octomap& message,
-                                        const ros::WallDuration& patience, std::size_t& unknown) const {
-  const std::string frame = frameOf(message);
-  const ros::Time& stamp = message.header.stamp;
-  std::vector<TrackedBody> tracked = {{frame, Isometry3d::Identity(), {}}};
-  std::vector<std::size_t> robot;  // bodies, each tracked behind the map's frame
+/// As tf has it at the map's stamp; what it has not, where that is now.
+LiveMap::RobotPoses LiveMap::robotAt(const CheckedWorld& world, const octomap_msgs::Octomap& message,
+                                     const ros::WallDuration& patience) const {
+  RobotPoses poses;
+  std::vector<TrackedBody> tracked = {{frameOf(message), Isometry3d::Identity(), {}}};
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (world.scene().bodies[b].is_world) continue;
-    robot.push_back(b);
+    poses.bodies.push_back(b);
     tracked.push_back(world.bodies[b]);
   }
-  std::vector<Isometry3d> X_W;
-  std::vector<std::string> missing;
   const auto areKnown = [&] {
-    missing.clear();
-    posesAt(history_, tracked, stamp, X_W, missing);
-    return std::all_of(missing.begin(), missing.end(), [](const std::string& why) { return why.empty(); });
+    poses.missing.clear();
+    posesAt(history_, tracked, message.header.stamp, poses.X_W, poses.missing);
+    return poses.unknown() == 0;
   };
   const ros::WallTime end = ros::WallTime::now() + patience;
   while (!areKnown() && ros::WallTime::now() < end) {
@@ -182,22 +175,31 @@ std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const octomap
   std::vector<std::string> missing_now;
   posesAt(history_, tracked, ros::Time(), X_W_now, missing_now);
   for (std::size_t i = 0; i < tracked.size(); ++i) {
-    if (missing[i].empty()) continue;
-    X_W[i] = X_W_now[i];
-    missing[i] = missing_now[i];
+    if (poses.missing[i].empty()) continue;
+    poses.X_W[i] = X_W_now[i];
+    poses.missing[i] = missing_now[i];
   }
-  const auto isMissing = [](const std::string& why) { return !why.empty(); };
-  unknown = missing[0].empty() ? std::count_if(missing.begin(), missing.end(), isMissing) : missing.size();
-  if (!missing[0].empty()) {
-    ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", missing[0].c_str());
+  return poses;
+}
+
+/// How many; all if the map's own place is.
+std::size_t LiveMap::RobotPoses::unknown() const {
+  if (!missing.front().empty()) return missing.size();
+  return std::count_if(missing.begin(), missing.end(), [](const std::string& why) { return !why.empty(); });
+}
+
+/// What the robot fills, as far as that is known.
+std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const RobotPoses& poses) {
+  if (!poses.missing.front().empty()) {
+    ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", poses.missing.front().c_str());
     return {};
   }
   std::vector<VoxelMask> masks;
-  for (std::size_t i = 0; i < robot.size(); ++i) {
-    const Body& body = world.scene().bodies[robot[i]];
-    const BodyDescription& description = world.description().bodies[robot[i]];
-    if (!missing[i + 1].empty() || !body.failure.empty() || description.geometry.empty()) continue;
-    if (auto mask = maskOf(body, description, X_W[i + 1].inverse() * X_W[0])) {
+  for (std::size_t i = 0; i < poses.bodies.size(); ++i) {
+    const Body& body = world.scene().bodies[poses.bodies[i]];
+    const BodyDescription& description = world.description().bodies[poses.bodies[i]];
+    if (!poses.missing[i + 1].empty() || !body.failure.empty() || description.geometry.empty()) continue;
+    if (auto mask = maskOf(body, description, poses.X_W[i + 1].inverse() * poses.X_W[0])) {
       masks.push_back(std::move(*mask));
     } else {
       ROS_WARN_ONCE("Voxels that %s fills count, as it has no field: no other link is checked against it",

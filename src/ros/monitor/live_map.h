@@ -41,8 +41,18 @@ class LiveMap {
   void takeAgain();
   void take(const octomap_msgs::Octomap& message);
   std::string frameOf(const octomap_msgs::Octomap& message) const;
-  std::vector<VoxelMask> masksOf(const CheckedWorld& world, const octomap_msgs::Octomap& message,
-                                 const ros::WallDuration& patience, std::size_t& unknown) const;
+
+  /// Where the robot is, and what is attached to it.
+  struct RobotPoses {
+    std::vector<std::size_t> bodies;   // of the world
+    std::vector<Isometry3d> X_W;       // of the map, and behind it of these bodies
+    std::vector<std::string> missing;  // why they are not known; empty if they are
+
+    std::size_t unknown() const;
+  };
+  RobotPoses robotAt(const CheckedWorld& world, const octomap_msgs::Octomap& message,
+                     const ros::WallDuration& patience) const;
+  static std::vector<VoxelMask> masksOf(const CheckedWorld& world, const RobotPoses& poses);
 
   LiveMapParameters parameters_;
   SceneEditor& editor_;
