@@ -9,81 +9,20 @@
 
 #include "monitor/scene_case.h"
 #include "oracle/busy_machine.h"
-#include "ros/described_world.h"
+#include "ros/loop_case.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {
 namespace {
 
-using test::message;
-using test::stampedTransform;
-using Step = TfTracker::Step;
-
-constexpr double kPeriod = 0.033;                  // [s]
-constexpr double kRadius = 0.05, kPlate = 0.5;     // of hand and foot, x of the plate [m]
-constexpr double kPlateHalf = 0.005, kHigh = 2.0;  // the foot's x, away from all [m]
-
-std::shared_ptr<const Scene> scene() {
-  static const auto built = test::build({test::body("hand", Sphere{kRadius}), test::body("foot", Sphere{kRadius}),
-                                         [] {
-                                           BodyDescription plate =
-                                               test::body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true);
-                                           plate.geometry[0].X_BG.translation().x() = kPlate;
-                                           return plate;
-                                         }()},
-                                        test::fine(0.005));
-  return built;
-}
+using namespace test;
 
 /// Whether a message says that there was no contact at a time.
 bool saysClearAt(const ContactArray& contacts, double time) {
   return contacts.verdict == ContactArray::CLEAR && contacts.cycle_start.toSec() <= time &&
          time <= contacts.complete_until.toSec();
 }
-
-class MonitorLoopTest : public ::testing::Test {
- protected:
-  MonitorLoopTest() { begin(); }
-
-  void begin(double max_latency = 0.5, double max_cycle = 1.0) {
-    MonitorParameters parameters;
-    parameters.monitor = test::soft();
-    parameters.tf.max_latency = max_latency;
-    parameters.tf.max_cycle = max_cycle;
-    loop_ = std::make_unique<MonitorLoop>(scene(), test::describedWorld(), parameters);
-    said_.clear();
-  }
-
-  void send(const geometry_msgs::TransformStamped& sent, bool is_static = false) {
-    loop_->history().add(message({sent}), is_static);
-  }
-  void sendHand(double stamp, double x, bool is_static = false) {
-    send(stampedTransform("world", "hand", stamp, x), is_static);
-  }
-  void sendFoot(double stamp, double x = kHigh) { send(stampedTransform("world", "foot", stamp, x)); }
-
-  Step step(double now) {
-    const Step step = loop_->step(ros::Time(now), {});
-    if (step == Step::kCycle) said_.push_back(toContactArray(*loop_));
-    return step;
-  }
-
-  const ContactArray& last() const { return said_.back(); }
-  int verdicts(std::uint8_t verdict) const {
-    return static_cast<int>(
-        std::count_if(said_.begin(), said_.end(), [&](const ContactArray& said) { return said.verdict == verdict; }));
-  }
-  const PairContact* pairOf(const ContactArray& said, const std::string& a, const std::string& b) const {
-    for (const PairContact& pair : said.pairs) {
-      if (pair.body_a == a && pair.body_b == b) return &pair;
-    }
-    return nullptr;
-  }
-
-  std::unique_ptr<MonitorLoop> loop_;
-  std::vector<ContactArray> said_;
-};
 
 TEST_F(MonitorLoopTest, TheCauseOfWhatIsNotCheckedIsNamed) {
   step(100.0);
@@ -227,11 +166,11 @@ TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
 }
 
 TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
-  Scene broken = *scene();
+  Scene broken = *handFootAndPlate();
   broken.bodies.edit(0).X_frame_B.linear() *= 1.1;  // no rotation
   MonitorParameters parameters;
-  parameters.monitor = test::soft();
-  loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), test::describedWorld(), parameters);
+  parameters.monitor = soft();
+  loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), describedWorld(), parameters);
   ros::Time end;
   for (int i = 0; i < 10; ++i) {
     const double now = 10.0 + i * kPeriod;
@@ -253,10 +192,10 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
 }
 
 TEST_F(MonitorLoopTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
-  DescribedScene described = test::describedWorld();
+  DescribedScene described = describedWorld();
   described.unreachable = {
       {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}}};  // of each other, and yet near
-  loop_ = std::make_unique<MonitorLoop>(scene(), described, MonitorParameters());
+  loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), described, MonitorParameters());
   for (int i = 0; i < 3; ++i) {
     sendHand(10.0 + i * kPeriod, 0.0);
     sendFoot(10.0 + i * kPeriod, 0.15);
@@ -385,66 +324,6 @@ TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
   EXPECT_LT(most_times, 20u);
 }
 
-/// The same world, which changes.
-class ChangingLoopTest : public MonitorLoopTest {
- protected:
-  ChangingLoopTest() : editor_(test::fine(0.005)) {
-    description_.bodies = {test::body("hand", Sphere{kRadius}), test::body("foot", Sphere{kRadius}),
-                           test::body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true)};
-    plate().X_frame_B.translation().x() = kPlate;
-    const ScenePlan plan = planScene(description_);
-    MonitorParameters parameters;
-    parameters.monitor = test::soft();
-    loop_ = std::make_unique<MonitorLoop>(
-        checked(editor_.begin(description_, plan, buildScene(description_, plan, test::fine(0.005)))),
-        test::describedWorld(), parameters);
-  }
-
-  BodyDescription& plate() { return description_.bodies[2]; }
-
-  /// The cycles go on with the description as it is now.
-  void change() { loop_->adopt(*loop_->prepare(checked(editor_.next(description_)))); }
-
-  static std::shared_ptr<const CheckedWorld> checked(const std::shared_ptr<const WorldSnapshot>& snapshot) {
-    return std::make_shared<const CheckedWorld>(snapshot, std::vector<UnreachablePair>());
-  }
-
-  SceneDescription description_;
-  WorldEditor editor_;
-};
-
-TEST_F(ChangingLoopTest, WhatChangesAllTheTimeIsCheckedAgainstAFrameThatLagsBehind) {
-  for (int i = 0; i < 60; ++i) {
-    const double now = 10.0 + i * kPeriod;
-    sendFoot(now);
-    sendHand(now - 4 * kPeriod, 0.02 * i);  // through the plate, which is placed anew in half of that time
-    step(now);
-    if (i % 2 != 0) continue;
-    plate().X_frame_B.translation().y() = i % 4 == 0 ? 0.0 : 0.01;
-    change();
-  }
-  EXPECT_GT(verdicts(ContactArray::CONTACT), 3);
-  EXPECT_EQ(last().verdict, ContactArray::CLEAR) << last().reason;
-}
-
-TEST_F(ChangingLoopTest, AContactWithWhatGoesIsSaidToEnd) {
-  const auto touch = [&](int i) {
-    sendFoot(10.0 + i * kPeriod);
-    sendHand(10.0 + i * kPeriod, kPlate - kRadius);
-    step(10.0 + i * kPeriod);
-  };
-  for (int i = 0; i < 4; ++i) touch(i);
-  ASSERT_EQ(last().contacts.size(), 1u);
-  description_.bodies.pop_back();
-  change();
-  ASSERT_EQ(step(10.0 + 3 * kPeriod), Step::kWaiting);
-  touch(4);
-  ASSERT_EQ(last().contacts.size(), 1u);
-  EXPECT_TRUE(last().contacts[0].ends && last().contacts[0].is_lost);
-  touch(5);
-  EXPECT_TRUE(last().contacts.empty());
-}
-
 TEST_F(MonitorLoopTest, SpeedsOfWhatIsInterpolatedAreBoundedByTheTimeBetweenItsTransforms) {
   constexpr double kAcceleration = 1.0, kGap = 0.1;  // the hand's [m/s², s]
   int measured = 0;
@@ -485,13 +364,13 @@ TEST(MonitorLoop, TwoArmsThatMeetBetweenTheirTransformsAreNotClear) {
   // Two arms of 0.8 m on one base turn at 2 rad/s each; only in the middle between two transforms their tips meet.
   constexpr double kArm = 0.8, kTip = 0.02, kDepth = 0.003, kRate = 2.0, kStep = 0.1;
   const auto tip = [](const std::string& name) {
-    BodyDescription body = test::body(name, Sphere{kTip});
-    body.geometry[0].X_BG.translation().x() = kArm;
-    return body;
+    BodyDescription arm = body(name, Sphere{kTip});
+    arm.geometry[0].X_BG.translation().x() = kArm;
+    return arm;
   };
   MonitorParameters parameters;
-  parameters.monitor = test::soft();
-  MonitorLoop loop(test::build({tip("left"), tip("right")}, test::fine(0.001)), test::describedWorld(), parameters);
+  parameters.monitor = soft();
+  MonitorLoop loop(build({tip("left"), tip("right")}, fine(0.001)), describedWorld(), parameters);
   loop.history().add(message({stampedTransform("world", "right_base", 0.0, 2.0 * (kArm + kTip) - kDepth)}), true);
   int cycles = 0;
   for (int i = 0; i < 2; ++i) {
@@ -535,7 +414,7 @@ TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
     }
     const auto start = std::chrono::steady_clock::now();
     step(now);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, test::slowness() * std::chrono::seconds(1)) << i;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, slowness() * std::chrono::seconds(1)) << i;
   }
   EXPECT_GT(said_.size(), 80u);
   said_.clear();
