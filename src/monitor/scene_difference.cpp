@@ -34,13 +34,11 @@ SceneDifference::SceneDifference(const Scene& before, const Scene& now) {
     if (a >= 0 && b >= 0) pairs.emplace(keyOf(a, b), static_cast<int>(p));
   }
   pairs_now_.assign(before.pairs.size(), -1);
-  pairs_before_.assign(now.pairs.size(), -1);
   for (std::size_t p = 0; p < before.pairs.size(); ++p) {
     const PlannedPair& pair = before.pairs[p];
     const auto found = pairs.find(keyOf(pair.body_a, pair.body_b));
-    if (found == pairs.end() || !sameTests(pair, now.pairs[static_cast<std::size_t>(found->second)])) continue;
-    pairs_now_[p] = found->second;
-    pairs_before_[static_cast<std::size_t>(found->second)] = static_cast<int>(p);
+    if (found != pairs.end() && sameTests(pair, now.pairs[static_cast<std::size_t>(found->second)]))
+      pairs_now_[p] = found->second;
   }
 }
 

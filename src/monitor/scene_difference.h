@@ -20,14 +20,11 @@ class SceneDifference {
   /// Per pair before: its index now; -1 if it is gone, or has changed.
   const std::vector<int>& pairsNow() const { return pairs_now_; }
 
-  /// Per pair now: its index before; -1 if it is new, or has changed.
-  const std::vector<int>& pairsBefore() const { return pairs_before_; }
-
   /// Bodies that stay, in rows of both scenes.
   std::vector<BodyRun> bodyRuns() const;
 
  private:
-  std::vector<int> bodies_before_, pairs_now_, pairs_before_;
+  std::vector<int> bodies_before_, pairs_now_;
 };
 
 /// Names of the bodies of each pair, A's first.

@@ -20,6 +20,7 @@ namespace {
 constexpr int kTile = VoxelGrid::kTile;
 constexpr int kCells = 1 << 16;      // voxels along a side of the whole tree
 constexpr int kOrigin = kCells / 2;  // the voxel that begins at the map's origin
+constexpr int kLevels = 17;          // of the tree, from one voxel to all of it
 static_assert(VoxelBlock::kSide == kTile + 2, "a tile and one voxel around it");
 
 std::size_t indexOf(int x, int y, int z) {
@@ -37,6 +38,12 @@ std::string nameOf(const std::string& map, const Vector3i& tile) {
 /// Lowest corner of a voxel [m].
 Vector3d cornerOf(const Vector3i& voxel, double size) {
   return size * (voxel.array() - kOrigin).cast<double>().matrix();
+}
+
+/// The cube of a level of the octree that holds a voxel.
+std::uint64_t cubeAt(const Vector3i& voxel, int level) {
+  const auto place = [&](int axis) { return static_cast<std::uint64_t>(voxel[axis] >> level); };
+  return static_cast<std::uint64_t>(level) << 48 | place(2) << 32 | place(1) << 16 | place(0);
 }
 
 }  // namespace
@@ -94,18 +101,6 @@ void VoxelGrid::add(const Vector3i& low, int side, bool is_occupied) {
             }
       }
 }
-
-namespace {
-
-constexpr int kLevels = 17;
-
-/// The cube of a level of the octree that holds a voxel.
-std::uint64_t cubeAt(const Vector3i& voxel, int level) {
-  const auto place = [&](int axis) { return static_cast<std::uint64_t>(voxel[axis] >> level); };
-  return static_cast<std::uint64_t>(level) << 48 | place(2) << 32 | place(1) << 16 | place(0);
-}
-
-}  // namespace
 
 void VoxelGrid::addLargeFree(const Vector3i& low, int side) {
   int level = 0;

@@ -48,8 +48,10 @@ double length(const std::vector<SurfaceEdge>& edges) {
   return sum;
 }
 
-/// Points that slivers need though they have no area, or as many as their slices take time for; 0 where faces take more.
-double sliverPoints(const TriangleMesh& mesh, double spacing) {
+/// Points that slivers need though they have no area, or as many as their slices take time for; 0 where faces take
+/// more.
+/// @param on_faces  points that those take.
+double sliverPoints(const TriangleMesh& mesh, double spacing, double on_faces) {
   constexpr double kSlicesInTimeOfAPoint = 16.0;
   constexpr double kPointsPerSpacing = 0.62;  // along strips narrower than that, measured on folded sheets and rods
   double slices = 0.0;
@@ -57,7 +59,7 @@ double sliverPoints(const TriangleMesh& mesh, double spacing) {
     const double count = SurfacePiece::of(mesh, static_cast<int>(i)).slices(spacing);
     if (count > 1.0) slices += count;
   }
-  if (slices <= facePoints(surfaceArea(mesh), spacing)) return 0.0;
+  if (slices <= on_faces) return 0.0;
   std::vector<SurfaceEdge> edges = edgesOfFlatPieces(mesh, spacing);
   const auto is_short = [&](const SurfaceEdge& edge) { return (edge.to - edge.from).norm() < spacing; };
   edges.erase(std::remove_if(edges.begin(), edges.end(), is_short), edges.end());
@@ -66,7 +68,8 @@ double sliverPoints(const TriangleMesh& mesh, double spacing) {
 
 /// On all of a surface.
 double surfacePoints(const TriangleMesh& mesh, double spacing) {
-  return std::max(facePoints(surfaceArea(mesh), spacing), sliverPoints(mesh, spacing));
+  const double on_faces = facePoints(surfaceArea(mesh), spacing);
+  return std::max(on_faces, sliverPoints(mesh, spacing, on_faces));
 }
 
 /// What is to be sampled, for requireRoom().
@@ -84,7 +87,8 @@ void requireRoom(const Extent& extent, const ShellOptions& options) {
   std::ostringstream message;
   message << "a point every " << options.spacing << " m on " << extent.area << " m^2";
   if (extent.surface_points > facePoints(extent.area, options.spacing)) message << " of slivers";
-  if (on_edges > 0.0) message << " and every " << 2.0 * extent.edge_radius << " m along " << extent.edges << " m of edges";
+  if (on_edges > 0.0)
+    message << " and every " << 2.0 * extent.edge_radius << " m along " << extent.edges << " m of edges";
   message << " needs more than " << options.max_points << " points";
   throw std::length_error(message.str());
 }

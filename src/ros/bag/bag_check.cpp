@@ -31,8 +31,8 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
       observer.onCycle(now);
       last_cycle = now;
     }
-    if (step == TfTracker::Step::kJump && last == TfTracker::Step::kStalled) tellGap(now);
     if (step == TfTracker::Step::kJump) {
+      if (last == TfTracker::Step::kStalled) tellGap(now);
       observer.onUnchecked("time has jumped", now);
       last_cycle = ros::Time();
     }

@@ -62,8 +62,7 @@ std::string reasonOf(const MonitorLoop& loop) {
   if (result.verdict != Verdict::kNotChecked) return "";
   if (result.pairs.empty()) return "no pairs: there is nothing to check";
   std::string reason;
-  const auto first =
-      std::find_if(result.pairs.begin(), result.pairs.end(), [](const PairResult& pair) { return isUnchecked(pair); });
+  const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
   if (first != result.pairs.end()) {
     reason = std::to_string(result.not_checked) + " pairs could not be checked, as " + pairReason(loop, *first);
   }

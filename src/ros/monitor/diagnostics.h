@@ -50,8 +50,8 @@ class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name);
 
-  /// Publishes if a second has passed, or `at_once`: as after the clock has jumped. Times
-  /// of a clock that is set by more than 2^31 s throw in diagnostic_updater: then the rate is measured anew.
+  /// Publishes if a second has passed, or `at_once`: as after the clock has jumped. Times of a clock that is set by more
+  /// than 2^31 s throw in diagnostic_updater: then the rate is measured anew.
   void update(const MonitorHealth& health, bool at_once = false);
 
   /// A cycle begins, whether or not there is anything to check.
