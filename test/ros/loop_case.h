@@ -15,6 +15,8 @@
 
 namespace sdf_ccd::test {
 
+using Step = TfTracker::Step;
+
 constexpr double kPeriod = 0.033;                  // [s]
 constexpr double kRadius = 0.05, kPlate = 0.5;     // of hand and foot, x of the plate [m]
 constexpr double kPlateHalf = 0.005, kHigh = 2.0;  // the foot's x, away from all [m]
@@ -33,8 +35,6 @@ inline std::shared_ptr<const Scene> handFootAndPlate() {
 /// A loop that transforms are sent to, and what it says.
 class MonitorLoopTest : public ::testing::Test {
  protected:
-  using Step = TfTracker::Step;
-
   MonitorLoopTest() { begin(); }
 
   void begin(double max_latency = 0.5, double max_cycle = 1.0) {
