@@ -6,6 +6,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "body/geometry_keys.h"
+#include "common/number_text.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
 #include "sdf_ccd/common/cancel.h"
@@ -28,6 +29,7 @@ CollisionMonitor::~CollisionMonitor() {
   stop_ = true;
   trigger_.stop();
   if (thread_.joinable()) thread_.join();
+  watchdog_.reset();
   if (ros::ok()) {
     if (loop_) loop_->reset();
     publishUnchecked("the monitor has ended");
@@ -125,6 +127,8 @@ void CollisionMonitor::setUp() {
   proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, world_publisher_, *loop_, described_,
                                        parameters_.markers, *proximity_);
+  watchdog_ = std::make_unique<CycleWatchdog>(CycleWatchdog::Seconds(parameters_.tf.max_latency),
+                                              [this](CycleWatchdog::Seconds elapsed) { reportLongCycle(elapsed); });
   listener_ = std::make_unique<TransformListener>(getNodeHandle(), *described_.robot, loop_->history(), trigger_);
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(first_world_, described_, parameters_, loop_->history());
@@ -184,6 +188,7 @@ void CollisionMonitor::betweenCycles() {
 }
 
 void CollisionMonitor::cycle() {
+  const CycleWatchdog::Cycle watched(*watchdog_);
   diagnostics_->tick();
   if (services_->takeReset()) {
     loop_->reset();
@@ -212,6 +217,16 @@ bool CollisionMonitor::isSilent() const {
   return (ros::WallTime::now() - last_step_).toSec() > parameters_.tf.max_latency;
 }
 
+/// On the watchdog's thread, while the cycles' one works.
+void CollisionMonitor::reportLongCycle(CycleWatchdog::Seconds elapsed) const {
+  const std::string reason = "a cycle has been running for " + numberText(elapsed.count()) + " s";
+  NODELET_WARN_THROTTLE(1.0, "Not checked: %s", reason.c_str());
+  const auto state =
+      boost::make_shared<MonitorState>(toUncheckedState(described_.fixed_frame, reason, ros::Time::now()));
+  proximity_->publishStop(*state);
+  state_publisher_.publish(state);
+}
+
 void CollisionMonitor::publishCycle() {
   last_step_ = ros::WallTime::now();
   last_idle_ = ros::WallTime();
@@ -221,6 +236,7 @@ void CollisionMonitor::publishCycle() {
   outputs_->publish(state, proximity_->measure(*loop_, *state));
   listener_->report(health_watch_.health());
   health_watch_.takeCycle(*loop_, *state, sent);
+  health_watch_.takeTrigger(trigger_.awaitedFrame());
   diagnostics_->update(health_watch_.health());
 }
 

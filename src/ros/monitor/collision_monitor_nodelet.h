@@ -8,6 +8,7 @@
 
 #include <nodelet/nodelet.h>
 
+#include "ros/monitor/cycle_watchdog.h"
 #include "ros/monitor/health_watch.h"
 #include "ros/monitor/live_map.h"
 #include "ros/monitor/monitor_services.h"
@@ -27,8 +28,8 @@ namespace sdf_ccd {
 /// Subscribes as TransformListener and LiveMap do, and serves what MonitorServices and Reconfiguration do.
 ///
 /// Publishes, below the node's name, besides what Outputs, PlanPublisher and Diagnostics do:
-///   state    sdf_ccd/MonitorState            every cycle, and, as NOT_CHECKED, once a second while there is none
-///                                            and on unloading; latched
+///   state    sdf_ccd/MonitorState            every cycle, and, as NOT_CHECKED, once a second while there is none,
+///                                            while one takes longer than max_latency, and on unloading; latched
 ///   planned  visualization_msgs/MarkerArray  the last motion that query_motion was asked about
 ///
 /// Building and cycles have a thread of their own, and so has what publishes and draws them, what receives transforms,
@@ -50,6 +51,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void betweenCycles();
   void cycle();
   bool isSilent() const;
+  void reportLongCycle(CycleWatchdog::Seconds elapsed) const;
   void publishCycle();
   void publishPlan(const CheckedWorld& world) { plan_->publish(world, described_.fixed_frame); }
   void publishWorld();
@@ -65,6 +67,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::unique_ptr<MonitorLoop> loop_;
   std::unique_ptr<ProximityOutputs> proximity_;
   std::unique_ptr<Outputs> outputs_;
+  std::unique_ptr<CycleWatchdog> watchdog_;
   std::unique_ptr<TransformListener> listener_;
   std::unique_ptr<Queries> queries_;
   std::unique_ptr<SceneEditor> scene_editor_;

@@ -61,7 +61,12 @@ void ProximityOutputs::publishUnchecked(MonitorState& state) {
   if (scalesVelocity()) publishScale(0.0);
 }
 
-void ProximityOutputs::publishScale(double scale) {
+void ProximityOutputs::publishStop(MonitorState& state) const {
+  state.proximity = static_cast<std::uint8_t>(ProximityWatch().update(0.0, parameters_.thresholds));
+  if (scalesVelocity()) publishScale(0.0);
+}
+
+void ProximityOutputs::publishScale(double scale) const {
   std_msgs::Float64 message;
   message.data = scale;
   velocity_scale_.publish(message);

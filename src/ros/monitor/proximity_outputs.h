@@ -16,8 +16,8 @@ namespace sdf_ccd {
 ///
 /// Publishes, below the node's name:
 ///   distances       sdf_ccd/DistanceArray  every cycle, if report_distance is set
-///   velocity_scale  std_msgs/Float64       every cycle, and as 0 while there is none, if velocity_scale/max_speed is
-///   set
+///   velocity_scale  std_msgs/Float64       every cycle, and as 0 while there is none or one takes longer than
+///                                          max_latency, if velocity_scale/max_speed is set
 /// What has no subscriber, or no threshold, is not measured.
 class ProximityOutputs {
  public:
@@ -38,11 +38,14 @@ class ProximityOutputs {
   /// Nothing is checked: whoever obeys the scale stops.
   void publishUnchecked(MonitorState& state);
 
+  /// The same while another thread measures.
+  void publishStop(MonitorState& state) const;
+
  private:
   double range() const;
   bool listsDistances() const { return parameters_.report_distance > 0.0 && distances_.getNumSubscribers() > 0; }
   bool scalesVelocity() const { return parameters_.promise && velocity_scale_.getNumSubscribers() > 0; }
-  void publishScale(double scale);
+  void publishScale(double scale) const;
 
   ProximityParameters parameters_;
   ros::Publisher distances_, velocity_scale_;
