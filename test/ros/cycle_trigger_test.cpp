@@ -126,6 +126,28 @@ TEST(CycleTrigger, NewsBeginCyclesEachItsOwn) {
   EXPECT_EQ(cyclesWhile({TriggerKind::kFrames, {"a", "b"}, 1e-3, kLong}, 6, frames), 2);
 }
 
+TEST(CycleTrigger, AFrameOfTheGroupThatNeverComesIsNamed) {
+  CycleTrigger trigger;
+  EXPECT_EQ(trigger.awaitedFrame(), "");
+  TriggerOptions options{TriggerKind::kFrames, {"a", "b"}, 1e-3, 1e-3};
+  trigger.setOptions(options);
+  EXPECT_EQ(trigger.awaitedFrame(), "a");
+  trigger.onFrame("a");
+  trigger.onFrame("other");
+  ASSERT_TRUE(trigger.wait() && trigger.wait());  // the first of a cycle that has begun without it counts, too
+  EXPECT_EQ(trigger.awaitedFrame(), "b");
+  options.period = 2e-3;
+  trigger.setOptions(options);
+  trigger.onFrame("b");
+  EXPECT_EQ(trigger.awaitedFrame(), "");
+  options.frames = {"c"};
+  trigger.setOptions(options);
+  EXPECT_EQ(trigger.awaitedFrame(), "c");
+  options.kind = TriggerKind::kTimer;
+  trigger.setOptions(options);
+  EXPECT_EQ(trigger.awaitedFrame(), "");
+}
+
 TEST(CycleTrigger, NewsAreNotFasterThanTheRateAndSilenceNotForEver) {
   const auto storm = [](CycleTrigger& trigger, int) {
     for (int i = 0; i < 50; ++i) trigger.onTransforms();

@@ -36,6 +36,7 @@ struct MonitorHealth {
   int pairs_postponed = 0;              ///< in the last cycle, as max_cycle_time was up
   long short_cycles = 0;                ///< with such pairs
   std::string moving_frame;             ///< MonitorLoop::movingFixedFrame()
+  std::string awaited_frame;            ///< which frame of the trigger has never come; empty if none
   std::string contradicted;             ///< by late transforms, a short time ago; empty if nothing was
   long out_of_order = 0;                ///< transforms that came behind newer ones
   long refused = 0;                     ///< transforms that say nothing

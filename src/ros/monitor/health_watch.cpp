@@ -66,6 +66,22 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   watchUnchecked(body, result.not_checked > 0 ? uncheckedPair(loop) : "");
 }
 
+void HealthWatch::takeTrigger(const std::string& awaited_frame) {
+  const ros::WallTime now = ros::WallTime::now();
+  if (awaited_frame.empty()) {
+    awaited_since_ = ros::WallTime();
+    health_.awaited_frame.clear();
+    return;
+  }
+  if (awaited_since_.isZero()) awaited_since_ = now;
+  if ((now - awaited_since_).toSec() < kPatience) return;
+  const std::string warning =
+      "trigger_frames: no transform of " + awaited_frame + " has come, so cycles begin without it";
+  if (warning == health_.awaited_frame) return;
+  health_.awaited_frame = warning;
+  ROS_WARN("%s", warning.c_str());
+}
+
 void HealthWatch::takeStall(const MonitorLoop& loop, const std::string& reason) {
   health_.stall = reason;
   health_.rate = 0.0;

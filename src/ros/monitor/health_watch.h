@@ -24,6 +24,9 @@ class HealthWatch {
   /// What the loop's last cycle found. @param state  of that cycle.
   void takeCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent);
 
+  /// Cycles run that begin without a frame that they are to wait for, CycleTrigger::awaitedFrame(), or empty.
+  void takeTrigger(const std::string& awaited_frame);
+
   /// No transforms arrive, or no clock by which they could be new.
   void takeStall(const MonitorLoop& loop, const std::string& reason);
 
@@ -41,6 +44,7 @@ class HealthWatch {
   ros::WallTime last_cycle_;                      // when it was published; 0 before the first one
   ros::WallTime last_late_;                       // when transforms contradicted a cycle
   ros::WallTime last_frame_check_;                // whether the fixed frame moves
+  ros::WallTime awaited_since_;                   // a frame of the trigger; 0: none
   ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
 };
 

@@ -33,6 +33,7 @@ nanoseconds CycleTrigger::period() const {
 void CycleTrigger::setOptions(const TriggerOptions& options) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (options.frames != options_.frames) has_ever_come_.assign(options.frames.size(), 0);
     options_ = options;
     if (due_.count() > 0) due_ = std::min(due_, now() + period());
     takeNews();
@@ -43,6 +44,13 @@ void CycleTrigger::setOptions(const TriggerOptions& options) {
 bool CycleTrigger::wantsFrames() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return options_.kind == TriggerKind::kFrames;
+}
+
+std::string CycleTrigger::awaitedFrame() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (options_.kind != TriggerKind::kFrames) return {};
+  const auto awaited = std::find(has_ever_come_.begin(), has_ever_come_.end(), 0);
+  return awaited == has_ever_come_.end() ? "" : options_.frames[awaited - has_ever_come_.begin()];
 }
 
 void CycleTrigger::takeNews() {
@@ -63,11 +71,13 @@ void CycleTrigger::bring(TriggerKind kind) {
 void CycleTrigger::onFrame(const std::string& child) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (options_.kind != TriggerKind::kFrames || news_) return;
+    if (options_.kind != TriggerKind::kFrames) return;
     const auto found = std::find(options_.frames.begin(), options_.frames.end(), child);
     if (found == options_.frames.end()) return;
-    char& has_come = has_come_[static_cast<std::size_t>(found - options_.frames.begin())];
-    if (has_come) return;
+    const auto frame = static_cast<std::size_t>(found - options_.frames.begin());
+    has_ever_come_[frame] = 1;
+    char& has_come = has_come_[frame];
+    if (news_ || has_come) return;
     has_come = 1;
     if (--to_come_ > 0) return;
     news_ = true;

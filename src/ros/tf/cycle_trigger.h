@@ -49,6 +49,10 @@ class CycleTrigger {
   /// Whether it needs the names of frames.
   bool wantsFrames() const;
 
+  /// The first frame of the group of which no transform has come so far: cycles then begin after `patience` only. Empty
+  /// if all have come, or none is waited for.
+  std::string awaitedFrame() const;
+
   /// Until the next cycle is due. @return false, and at once, after stop().
   /// @param woken  called, by the thread that waits, for each wake() or several.
   bool wait(const std::function<void()>& woken = {});
@@ -74,6 +78,7 @@ class CycleTrigger {
   TriggerOptions options_;
   std::vector<char> has_come_;  // per frame of the group, since the last cycle
   std::size_t to_come_ = 0;
+  std::vector<char> has_ever_come_;  // the same, since the options were set
   bool news_ = false;
   bool stop_ = false;
   bool woken_ = false;
