@@ -334,6 +334,15 @@ TEST_F(ChangingSceneTest, ReadsNoFilesButThoseBelowTheRoots) {
   EXPECT_EQ(refusal(good), "");
 }
 
+TEST_F(ChangingSceneTest, ARootMayComeLater) {
+  const std::filesystem::path later = folder_ / "later";
+  const RequestFiles files({later.string()}, [](const std::string&) { return Resource(); });
+  const std::string file = (later / "a.off").string();
+  EXPECT_THROW(files.path(file), std::runtime_error);
+  std::filesystem::create_directory(later);
+  EXPECT_EQ(files.path(file), std::filesystem::canonical(later).string() + "/a.off");
+}
+
 TEST_F(ChangingSceneTest, WhatIsWrittenIsReadAgain) {
   SceneChange all = box("all");
   all.primitives.resize(3);

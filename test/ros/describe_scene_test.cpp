@@ -58,6 +58,24 @@ TEST(DescribeScene, NamesOfALiveMapsTilesAreItsOwn) {
   EXPECT_EQ(failureOf(parameters), "");
 }
 
+TEST(DescribeScene, ObjectsHaveNoNamesThatPatternsOrFilesMistake) {
+  MonitorParameters parameters = cart();
+  for (const char* name : {"tab*", "table?", " table", "table "}) {
+    parameters.world[0].name = name;
+    const std::string failure = test::failureOf<std::invalid_argument>(
+        [&] { describeScene(parameters, [](const std::string&) { return Resource(); }); });
+    EXPECT_NE(failure.find("a name may not"), std::string::npos) << name << ": " << failure;
+  }
+}
+
+TEST(DescribeScene, AResourceRootThatIsNotThereIsWarnedOf) {
+  MonitorParameters parameters = cart();
+  parameters.resource_roots = {"/tmp", "/tmp/no such folder"};
+  const auto warnings = describeScene(parameters, [](const std::string&) { return Resource(); }).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("/tmp/no such folder"), std::string::npos) << warnings[0];
+}
+
 TEST(DescribeScene, AStopDistanceWithinTheMapsPaddingIsWarnedOf) {
   const auto warnings = [](const MonitorParameters& parameters) {
     return describeScene(parameters, [](const std::string&) { return Resource(); }).warnings;

@@ -176,6 +176,8 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.world = readWorld(reader);
   parameters.world_file = reader.text("world_file", "");
   parameters.resource_roots = reader.texts("resource_roots");
+  for (const std::string& root : parameters.resource_roots)
+    if (root.empty() || root[0] != '/') reader.fail("resource_roots", "absolute paths of folders");
   parameters.octomap = readOctomap(reader.group("octomap"), parameters.live_map);
   parameters.scene = readScene(reader);
   if (reader.flag("cache", true)) {

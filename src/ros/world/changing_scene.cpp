@@ -146,8 +146,7 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
 
 /// For an object to have.
 void ChangingScene::requireFree(const std::string& name) const {
-  if (!isSavedName(name)) refuse("object '" + name + "': a name may not begin or end with a blank");
-  if (isPattern(name)) refuse("object " + name + ": a name may not hold * or ?, which REMOVE takes for other names");
+  if (const std::string why = whyNoName(name); !why.empty()) refuse(why);
   if (fixed_->link_names.count(name) > 0) refuse(name + " is a link of the robot");
   requireNoTile(name, fixed_->tiles_begin);
 }

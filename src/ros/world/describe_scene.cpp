@@ -1,5 +1,6 @@
 #include "ros/world/describe_scene.h"
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "common/number_text.h"
@@ -58,10 +59,17 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     const std::vector<WorldObject> from_file = loadWorldFile(parameters.world_file);
     world.insert(world.end(), from_file.begin(), from_file.end());
   }
-  for (const WorldObject& object : world)
+  for (const WorldObject& object : world) {
+    if (const std::string why = whyNoName(object.name); !why.empty()) throw std::invalid_argument(why);
     described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));
+  }
   if (!parameters.octomap.file.empty()) {
     described.scene.bodies.push_back(toBody("octomap", parameters.octomap, frameOf(parameters.octomap.frame)));
+  }
+  for (const std::string& root : parameters.resource_roots) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(root, error))
+      described.warnings.push_back("resource_roots: there is no folder " + root + ", so no request may name its files");
   }
   if (!parameters.live_map.topic.empty()) described.tiles_begin = std::string(LiveMapParameters::kName) + "/";
   for (const BodyDescription& body : described.scene.bodies) requireNoTile(body.name, described.tiles_begin);

@@ -25,21 +25,19 @@ bool isBelow(const fs::path& path, const fs::path& root) {
 
 }  // namespace
 
-RequestFiles::RequestFiles(const std::vector<std::string>& roots, ResourceLoader loader) : loader_(std::move(loader)) {
-  for (const std::string& root : roots) {
-    std::error_code error;
-    const fs::path canonical = fs::canonical(root, error);
-    if (!error) roots_.push_back(canonical.string());  // what is not there holds no file
-  }
-}
+RequestFiles::RequestFiles(std::vector<std::string> roots, ResourceLoader loader)
+    : roots_(std::move(roots)), loader_(std::move(loader)) {}
 
 std::string RequestFiles::path(const std::string& file) const {
   const fs::path named = startsWith(file, kFile) ? file.substr(std::string(kFile).size()) : file;
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(named, error);
-  const bool allowed = !error && named.is_absolute() && std::any_of(roots_.begin(), roots_.end(), [&](const auto& root) {
-    return isBelow(canonical, root);
-  });
+  const auto holds = [&](const std::string& root) {
+    std::error_code missing;
+    const fs::path folder = fs::canonical(root, missing);
+    return !missing && isBelow(canonical, folder);
+  };
+  const bool allowed = !error && named.is_absolute() && std::any_of(roots_.begin(), roots_.end(), holds);
   if (!allowed)
     throw std::runtime_error(shownText(file) + ": is not an absolute path below one of the parameter resource_roots");
   return canonical.string();

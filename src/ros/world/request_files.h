@@ -10,9 +10,9 @@ namespace sdf_ccd {
 /// What files a request over the network may name: those below some folders, whatever links lead there.
 class RequestFiles {
  public:
-  /// @param roots   folders; none: no file may be named.
+  /// @param roots   folders, which need not exist yet; none: no file may be named.
   /// @param loader  of package://, http:// and https://, which are not held against the roots.
-  RequestFiles(const std::vector<std::string>& roots, ResourceLoader loader);
+  RequestFiles(std::vector<std::string> roots, ResourceLoader loader);
 
   /// The file's path. @throws std::runtime_error if it is below no root.
   std::string path(const std::string& file) const;
@@ -21,7 +21,7 @@ class RequestFiles {
   Resource resource(const std::string& uri) const;
 
  private:
-  std::vector<std::string> roots_;  // without links
+  std::vector<std::string> roots_;
   ResourceLoader loader_;
 };
 

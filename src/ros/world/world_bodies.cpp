@@ -3,6 +3,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "model/pair_rules.h"
+#include "ros/parameters/moveit_scene.h"
 #include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
@@ -40,6 +42,12 @@ GeometryDescription toGeometry(const WorldShape& made, const ResourceLoader& loa
 }
 
 }  // namespace
+
+std::string whyNoName(const std::string& name) {
+  if (!isSavedName(name)) return "object '" + name + "': a name may not begin or end with a blank";
+  if (isPattern(name)) return "object " + name + ": a name may not hold * or ?, which stand for other names in patterns";
+  return {};
+}
 
 BodyDescription toBody(const WorldObject& object, const std::string& frame, const ResourceLoader& loader,
                        std::vector<std::string>& warnings) {

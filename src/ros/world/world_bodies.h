@@ -8,6 +8,9 @@
 
 namespace sdf_ccd {
 
+/// Why no object may have this name; empty if one may.
+std::string whyNoName(const std::string& name);
+
 /// An object's body in a tf frame. If it cannot be made, BodyDescription::failure says why.
 /// @param warnings  get what else is to be known.
 BodyDescription toBody(const WorldObject& object, const std::string& frame, const ResourceLoader& loader,
