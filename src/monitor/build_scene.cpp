@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <unordered_map>
@@ -54,6 +55,23 @@ void makeTriangles(const SceneDescription& description, const std::vector<Planne
     checkCancelled();
     if (wanted[i] != 0) bodies[i].triangles = trianglesOf(description.bodies[i], pool);
   }
+}
+
+/// Warnings that several reports share, as of a cache that cannot be used, are the scene's: once, not body by body.
+void shareWarnings(Scene& scene) {
+  std::map<std::string, std::set<std::string>> bodies_of;  // by warning
+  for (const BodyReport& report : scene.reports)
+    for (const std::string& warning : report.warnings) bodies_of[warning].insert(report.name);
+  for (BodyReport& report : scene.reports) {
+    std::set<std::string> own;
+    const auto is_told = [&](const std::string& warning) {
+      return bodies_of[warning].size() > 1 || !own.insert(warning).second;
+    };
+    report.warnings.erase(std::remove_if(report.warnings.begin(), report.warnings.end(), is_told),
+                          report.warnings.end());
+  }
+  for (const auto& [warning, bodies] : bodies_of)
+    if (bodies.size() > 1) scene.warnings.push_back(warning + " (" + std::to_string(bodies.size()) + " bodies)");
 }
 
 void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
@@ -114,6 +132,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     }
   }
   makeTriangles(description, scene.pairs, *pool, bodies);
+  shareWarnings(scene);
   scene.bodies = BodyList(std::move(bodies));
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
   countPairs(scene);

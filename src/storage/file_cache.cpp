@@ -106,6 +106,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
       requireOwnDirectory(directory_);
       // Files appear whole, so reading needs no lock: the directory may be one that this process cannot write to.
       if (found.exists && load(path, actions, outcome)) return outcome;
+      if (::access(directory_.c_str(), W_OK) != 0) throw std::runtime_error(directory_ + ": " + std::strerror(errno));
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
       outcome.warning = std::string("cache not used: ") + error.what();

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 
 #include "field/uniform/sparse_grid.h"
 #include "monitor/scene_case.h"
+#include "oracle/files.h"
 
 namespace sdf_ccd {
 namespace {
@@ -141,6 +143,19 @@ TEST(BuildScene, SecondStartTakesTheCache) {
   EXPECT_EQ(second->reports[0].field, "cached");
   EXPECT_TRUE(second->reports[0].warnings.empty());
   std::filesystem::remove_all(directory);
+}
+
+TEST(BuildScene, ACacheThatCannotBeUsedIsWarnedOfOnce) {
+  const test::TemporaryDirectory directory;
+  ASSERT_EQ(::chmod(directory.string().c_str(), 0777), 0);
+  BodyOptions options = fine();
+  options.cache_directory = directory.string();
+  const auto scene =
+      build({body("a", meshShape(icosphere(0.1, 1))), body("b", meshShape(icosphere(0.2, 1)))}, options);
+  for (const BodyReport& report : scene->reports) EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+  ASSERT_EQ(scene->warnings.size(), 1u);
+  EXPECT_EQ(scene->warnings[0],
+            "cache not used: " + directory.string() + ": others may write to it (2 bodies)");
 }
 
 TEST(BuildScene, ReportsProgressUpToTheEnd) {

@@ -19,7 +19,7 @@ struct Scene {
   std::vector<LeftOut> left_out;
   std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid
   std::vector<BodyReport> reports;
-  std::vector<std::string> warnings;  ///< what to know of its pairs
+  std::vector<std::string> warnings;  ///< about its pairs, and those that several bodies share
   ErrorBound bound;                   ///< of verdicts, the largest of all pairs; chord: what the options allow for
   ErrorBound contact_bound;           ///< the same of contacts' times and depths, which fields and shells tell
   double motion_margin = 0.0, motion_error = 0.0;  ///< as in BodyOptions [m]

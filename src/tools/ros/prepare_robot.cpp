@@ -31,9 +31,12 @@ Kept keptIn(const std::string& directory) {
 }
 
 void requireKept(const Scene& scene) {
-  for (const BodyReport& report : scene.reports)
-    for (const std::string& warning : report.warnings)
+  const auto require = [](const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
       if (warning.find("cache not used") == 0 || warning.find("not kept") == 0) throw std::runtime_error(warning);
+  };
+  for (const BodyReport& report : scene.reports) require(report.warnings);
+  require(scene.warnings);
 }
 
 }  // namespace
