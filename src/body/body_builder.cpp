@@ -18,7 +18,6 @@
 #include "body/geometry_keys.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
-#include "common/weak_store.h"
 #include "field/opening_caps.h"
 #include "shell/contact_gap.h"
 #include "shell/witness_points.h"
@@ -105,9 +104,11 @@ class BodyBuilder {
         primitives.emplace_back(primitive);
         shells.push_back({geometry.X_BG, makeShell(primitive, needs), &primitives.back()});
       } else {
-        note(pool_.makeShell(*meshes_[i], hasSiblings()).outcome);
+        const ShellUse use{hasSiblings(), needs.decides};
+        note(pool_.makeShell(*meshes_[i], use).outcome);
         const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
-        shells.push_back({geometry.X_BG, *meshes_[i]->shells[hasSiblings()], known ? &*meshes_[i]->field : nullptr});
+        shells.push_back(
+            {geometry.X_BG, *meshes_[i]->shells[use.has_siblings][use.decides], known ? &*meshes_[i]->field : nullptr});
       }
     }
     return unionShell(shells);
@@ -131,7 +132,8 @@ class BodyBuilder {
 
  private:
   PointShell makeShell(const Primitive& primitive, const BodyNeeds& needs) {
-    ShellOptions options = shellOptionsFor(options_, surfaceArea(primitive), !needs.decides);
+    const Growth growth = needs.decides ? Growth::kNone : Growth::kFull;
+    ShellOptions options = shellOptionsFor(options_, surfaceArea(primitive), growth);
     options.has_siblings = hasSiblings();
     std::string warning;
     const auto make = [&](double tried) {
@@ -264,7 +266,8 @@ void appendTo(std::string& key, const std::optional<T>& number) {
 }
 
 /// Geometry and options of a body, with the names of meshes, which warnings contain.
-std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options) {
+std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                       GeometryKeys& keys) {
   const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache,
                exact_depths, is_shared, max_error, is_shared_out] = options;
   static_cast<void>(cache);
@@ -272,7 +275,7 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
   const auto& [spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points] = shell_options;
   const auto& [field, shell, edges_only, decides, witnesses] = needs;
-  std::string key = GeometryKeys().keyOf(description);
+  std::string key = keys.keyOf(description);
   const auto add = [&](const auto&... values) { (appendTo(key, values), ...); };
   add(cells, cell_size, field_error, band, max_bytes);
   add(spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points);
@@ -286,16 +289,15 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
 
 BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                     MeshPool& pool, const Progress& progress) {
-  if (!options.is_shared || !description.failure.empty() || !needs.any())
-    return buildOwnBody(description, needs, options, pool, progress);
-  static WeakStore<BuiltBody> of_process;
-  const std::string key = contentKey(description, needs, options);
-  std::shared_ptr<const BuiltBody> known = of_process.find(key);
+  if (!description.failure.empty() || !needs.any()) return buildOwnBody(description, needs, options, pool, progress);
+  WeakStore<BuiltBody>& shared = pool.content().bodies;
+  const std::string key = contentKey(description, needs, options, pool.keys());
+  std::shared_ptr<const BuiltBody> known = shared.find(key);
   const bool was_known = known != nullptr;
   if (!was_known) {
     BuiltBody built = buildOwnBody(description, needs, options, pool, progress);
     if (!built.body.failure.empty()) return built;
-    known = of_process.keep(key, std::make_shared<const BuiltBody>(std::move(built)));
+    known = shared.keep(key, std::make_shared<const BuiltBody>(std::move(built)));
   }
   BuiltBody mine = *known;
   mine.body.content = known;

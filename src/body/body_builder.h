@@ -14,7 +14,7 @@ struct BodyNeeds {
   bool field = true;
   bool shell = true;
   bool edges_only = false;  ///< the body is one box, and no pair needs more of its shell
-  bool decides = true;      ///< some verdict depends on the shell: large primitives must have all points
+  bool decides = true;      ///< some verdict depends on the shell: large elements must have all points
   bool witnesses = false;
 
   bool any() const { return field || shell || witnesses; }

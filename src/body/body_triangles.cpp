@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "body/geometry_keys.h"
-#include "common/weak_store.h"
 #include "geometry/mesh_edges.h"
 
 namespace sdf_ccd {
@@ -111,13 +109,22 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
 
 }  // namespace
 
+bool mayHaveTriangles(const BodyDescription& description) {
+  std::size_t count = 0;
+  for (const GeometryDescription& geometry : description.geometry) {
+    if (geometry.watertight_voxels || isHalfSpace(geometry)) return false;
+    if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape))
+      count += *mesh ? (*mesh)->triangles.size() : 0;
+  }
+  return count <= kMostTriangles;
+}
+
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
-  if (!pool.isShared()) return ownTrianglesOf(description, pool);
-  static WeakStore<BodyTriangles> of_process;
-  const std::string key = GeometryKeys().keyOf(description) + (pool.exactDepths() ? "exact" : "");
-  if (auto known = of_process.find(key)) return known;
+  WeakStore<BodyTriangles>& shared = pool.content().triangles;
+  const std::string key = pool.keys().keyOf(description) + (pool.exactDepths() ? "exact" : "");
+  if (auto known = shared.find(key)) return known;
   auto made = ownTrianglesOf(description, pool);
-  return made ? of_process.keep(key, std::move(made)) : nullptr;
+  return made ? shared.keep(key, std::move(made)) : nullptr;
 }
 
 }  // namespace sdf_ccd

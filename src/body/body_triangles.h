@@ -29,6 +29,9 @@ struct BodyTriangles {
   const BoxTree& closedTree() const { return closed ? *closed : tree; }
 };
 
+/// Whether trianglesOf() gives any: not if the body has half-spaces or voxels, or more than half a million triangles.
+bool mayHaveTriangles(const BodyDescription& description);
+
 /// Null if triangles are not the whole body (half-spaces and voxels), or are too many, more than half a
 /// million.
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool);

@@ -2,24 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sdf_ccd {
 namespace {
 
-constexpr double kFinest = 1e-3;  // resolution by an element's size [m]
-
-double across(double area, double count, double coarsest) {
-  return std::min(coarsest, std::max(kFinest, std::sqrt(area) / count));
+double across(double area, double count, double usual, Growth growth) {
+  constexpr double kFinest = 1e-3, kSlowly = 0.25;
+  const double resolution = std::max(kFinest, std::sqrt(area) / count);
+  if (resolution <= usual || growth == Growth::kFull) return resolution;
+  return growth == Growth::kNone ? usual : usual * std::pow(resolution / usual, kSlowly);
 }
 
 }  // namespace
 
-ShellOptions shellOptionsFor(const BodyOptions& options, double area, bool is_large) {
-  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+ShellOptions shellOptionsFor(const BodyOptions& options, double area, Growth growth) {
   ShellOptions shell = options.shell;
   if (!(options.points_across > 0.0)) return shell;
-  shell.spacing = across(area, options.points_across, is_large ? kNoLimit : shell.spacing);
+  shell.spacing = across(area, options.points_across, shell.spacing, growth);
   shell.vertex_spacing *= shell.spacing / options.shell.spacing;
   return shell;
 }
@@ -27,7 +26,7 @@ ShellOptions shellOptionsFor(const BodyOptions& options, double area, bool is_la
 FieldOptions fieldOptionsFor(const BodyOptions& options, double area) {
   FieldOptions field = options.field;
   if (options.cells_across > 0.0 && field.cell_size)
-    field.cell_size = across(area, options.cells_across, *field.cell_size);
+    field.cell_size = across(area, options.cells_across, *field.cell_size, Growth::kSlow);
   return field;
 }
 

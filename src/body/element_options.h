@@ -6,10 +6,16 @@
 
 namespace sdf_ccd {
 
-/// The options of the shell and field of one element with this surface area [m²]: BodyOptions::shell and field, or
-/// finer ones if they follow the element's size.
-/// @param is_large  whether points of a large element may be farther apart than shell.spacing.
-ShellOptions shellOptionsFor(const BodyOptions& options, double area, bool is_large = false);
+/// How a resolution that follows an element's size grows on, beyond that of the options.
+enum class Growth {
+  kNone,  ///< not at all: verdicts depend on it
+  kSlow,  ///< by the fourth root: what touches a large element is larger, but not in proportion
+  kFull,  ///< in proportion: of a primitive, whose field is exact
+};
+
+/// The options of the shell and field of one element with this surface area [m²]: BodyOptions::shell and field, or,
+/// if they follow the element's size, finer or coarser ones.
+ShellOptions shellOptionsFor(const BodyOptions& options, double area, Growth growth);
 FieldOptions fieldOptionsFor(const BodyOptions& options, double area);
 
 /// The spacing that determines the number of a shell's points: that of edges, if these are sampled separately [m].

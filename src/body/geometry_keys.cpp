@@ -35,25 +35,30 @@ const std::string& GeometryKeys::hashOf(const std::shared_ptr<const TriangleMesh
   return known.hash;
 }
 
-std::string GeometryKeys::keyOf(const BodyDescription& body) {
+std::string GeometryKeys::keyOf(const GeometryDescription& geometry) {
   if (hashes_.size() > kHashes) {
     for (auto known = hashes_.begin(); known != hashes_.end();)
       known = known->second.mesh.expired() ? hashes_.erase(known) : std::next(known);
   }
+  std::string key(1, static_cast<char>('0' + geometry.shape.index()));
+  if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
+    key += static_cast<char>('0' + primitive->index());
+    std::visit(AppendSizes{key}, *primitive);
+  } else {
+    const auto& mesh = std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
+    key += mesh ? hashOf(mesh) : "none";
+  }
+  key += geometry.watertight_voxels ? 'v' : '-';
+  key += geometry.cell_size ? 'c' : '-';
+  if (geometry.cell_size) append(&*geometry.cell_size, 1, key);
+  return key;
+}
+
+std::string GeometryKeys::keyOf(const BodyDescription& body) {
   std::string key;
   for (const GeometryDescription& geometry : body.geometry) {
-    key += static_cast<char>('0' + geometry.shape.index());
-    if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
-      key += static_cast<char>('0' + primitive->index());
-      std::visit(AppendSizes{key}, *primitive);
-    } else {
-      const auto& mesh = std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
-      key += mesh ? hashOf(mesh) : "none";
-    }
+    key += keyOf(geometry);
     append(geometry.X_BG.data(), 16, key);
-    key += geometry.watertight_voxels ? 'v' : '-';
-    key += geometry.cell_size ? 'c' : '-';
-    if (geometry.cell_size) append(&*geometry.cell_size, 1, key);
   }
   return key;
 }

@@ -9,11 +9,14 @@
 
 namespace sdf_ccd {
 
-/// Keys of bodies' geometry: equal for equal content, whatever the pose. Meshes are hashed once, as long as they are
-/// referenced elsewhere.
+/// Keys of geometry: equal for equal content. Meshes are hashed once, as long as they are referenced elsewhere.
 class GeometryKeys {
  public:
+  /// Of a body in its own frame.
   std::string keyOf(const BodyDescription& body);
+
+  /// Of one geometry, wherever it is in its body.
+  std::string keyOf(const GeometryDescription& geometry);
 
  private:
   struct Known {

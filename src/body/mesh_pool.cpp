@@ -9,7 +9,6 @@
 #include "field/field_cache.h"
 #include "field/uniform/sparse_grid.h"
 #include "shell/shell_cache.h"
-#include "storage/content_hash.h"
 
 namespace sdf_ccd {
 namespace {
@@ -18,12 +17,16 @@ constexpr int kWidestBand = 32;  // cells
 
 }  // namespace
 
+SharedContent& MeshPool::content() {
+  static SharedContent of_process;
+  return options_.is_shared ? of_process : content_;
+}
+
 PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   const TriangleMesh& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
   const bool voxels = geometry.watertight_voxels;
-  const std::string hash =
-      contentHash(mesh, {double(voxels), double(geometry.cell_size.has_value()), geometry.cell_size.value_or(0.0)});
-  const auto known = meshes_.find(hash);
+  const std::string key = keys_.keyOf(geometry);
+  const auto known = meshes_.find(key);
   if (known != meshes_.end()) return known->second;
   PooledMesh pooled;
   pooled.voxels = voxels;
@@ -37,11 +40,14 @@ PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
     pooled.mesh = std::move(oriented.mesh);
     pooled.quality = oriented.quality;
   }
-  return meshes_.emplace(hash, std::move(pooled)).first->second;
+  return meshes_.emplace(key, std::move(pooled)).first->second;
 }
 
-ShellOptions MeshPool::shellOptions(const PooledMesh& mesh) const {
-  return shellOptionsFor(options_, surfaceArea(mesh.mesh));
+ShellOptions MeshPool::shellOptions(const PooledMesh& mesh, const ShellUse& use) const {
+  const Growth growth = use.decides ? Growth::kNone : Growth::kSlow;
+  ShellOptions options = shellOptionsFor(options_, surfaceArea(mesh.mesh), growth);
+  options.has_siblings = use.has_siblings;
+  return options;
 }
 
 FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
@@ -56,7 +62,7 @@ FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
   if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
   if (options.cell_size) cell = *options.cell_size;
   if (options.max_error) cell = *options.max_error / kHalfSqrt3;
-  const ShellOptions shell = shellOptions(mesh);
+  const ShellOptions shell = shellOptions(mesh, {false, false});
   const double gap = !mesh.voxels && shell.edge_gap > 0.0 ? std::min(shell.edge_gap, shell.spacing) : shell.spacing;
   const double margin = 1.1 * (gap + kHalfSqrt3 * cell + options_.motion_margin);
   options.band = std::max(options.band, std::min(margin, kWidestBand * cell));
@@ -83,10 +89,10 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   return {true, made.outcome};
 }
 
-MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
-  if (mesh.shells[has_siblings]) return {};
-  ShellOptions options = shellOptions(mesh);
-  options.has_siblings = has_siblings;
+MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, const ShellUse& use) {
+  std::optional<PointShell>& shell = mesh.shells[use.has_siblings][use.decides];
+  if (shell) return {};
+  ShellOptions options = shellOptions(mesh, use);
   std::string warning;
   const auto make = [&](double tried) {
     setFineness(tried, options);
@@ -94,7 +100,7 @@ MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
   };
   CachedShell made = makeCoarser(finenessOf(options), mayBeCoarser(options_), make, warning);
   if (!warning.empty()) made.outcome.warning = warning;
-  mesh.shells[has_siblings] = std::move(made.shell);
+  shell = std::move(made.shell);
   return {true, made.outcome};
 }
 

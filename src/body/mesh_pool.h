@@ -4,6 +4,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "body/geometry_keys.h"
+#include "body/shared_content.h"
 #include "geometry/closed_solid.h"
 #include "sdf_ccd/body/body_options.h"
 #include "sdf_ccd/field/distance_field.h"
@@ -20,11 +22,18 @@ struct PooledMesh {
   std::optional<double> cell_size;  ///< of its field [m]; none: that of the scene's options
   MeshQuality quality;              ///< empty for voxels
   std::optional<DistanceField> field;
-  MadeSolid made;                       ///< the solid, and the solid closed by caps
-  std::optional<PointShell> shells[2];  ///< as the only part of a body, and with siblings
+  MadeSolid made;                          ///< the solid, and the solid closed by caps
+  std::optional<PointShell> shells[2][2];  ///< by ShellUse: has_siblings, decides
 };
 
-/// Builds fields and shells of meshes, each once for all bodies that share the mesh (fingers, a second arm).
+/// What a mesh's shell is for.
+struct ShellUse {
+  bool has_siblings = false;  ///< the mesh is not the only part of its body
+  bool decides = true;        ///< verdicts depend on the shell: see BodyNeeds
+};
+
+/// Builds fields and shells of meshes, each once for all bodies that share the mesh (fingers, a second arm). Bodies
+/// that are equal as a whole share everything, within a pool or, with BodyOptions::is_shared, within the process.
 class MeshPool {
  public:
   explicit MeshPool(const BodyOptions& options) : options_(options), cache_(options.cache_directory) {}
@@ -34,7 +43,9 @@ class MeshPool {
 
   /// See BodyOptions.
   bool exactDepths() const { return options_.exact_depths; }
-  bool isShared() const { return options_.is_shared; }
+
+  SharedContent& content();
+  GeometryKeys& keys() { return keys_; }
 
   struct Made {
     bool now = false;  ///< false: it existed already, for another body
@@ -42,17 +53,19 @@ class MeshPool {
   };
   /// The options of the field of a mesh. @throws std::invalid_argument for options that no field can have.
   FieldOptions fieldOptions(const PooledMesh& mesh) const;
-  ShellOptions shellOptions(const PooledMesh& mesh) const;
+  ShellOptions shellOptions(const PooledMesh& mesh, const ShellUse& use) const;
 
   /// If the options require more than a field or shell may cost, and allow a coarser one, a coarser one is built; the
   /// outcome's warning says so.
   Made makeField(PooledMesh& mesh, const Progress& progress);
-  Made makeShell(PooledMesh& mesh, bool has_siblings);
+  Made makeShell(PooledMesh& mesh, const ShellUse& use);
 
  private:
   const BodyOptions options_;
   FileCache cache_;
-  std::unordered_map<std::string, PooledMesh> meshes_;  // by the content's hash
+  GeometryKeys keys_;
+  SharedContent content_;
+  std::unordered_map<std::string, PooledMesh> meshes_;  // by the geometry's key
 };
 
 }  // namespace sdf_ccd

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "body/body_builder.h"
+#include "body/body_triangles.h"
 #include "body/element_options.h"
 #include "body/mesh_pool.h"
 #include "field/field_cache.h"
@@ -50,6 +51,8 @@ class CostEstimate {
     BodyCost cost;
     cost.name = body.name;
     cost.in_cache = true;
+    const bool is_first = seen_bodies_.insert(pool_->keys().keyOf(body) + (needs.decides ? "decides" : "")).second;
+    if (!is_first) return cost;  // shared, see buildBody()
     for (const GeometryDescription& geometry : body.geometry) {
       const auto* primitive = std::get_if<Primitive>(&geometry.shape);
       if (primitive) {
@@ -59,7 +62,8 @@ class CostEstimate {
       PooledMesh& mesh = pool_->find(geometry);
       const bool is_new = seen_.insert(&mesh).second;
       if (needs.field && is_new) addField(mesh, cost);
-      if (needs.shell) cost.addShell(expectedPoints(mesh.mesh, pool_->shellOptions(mesh)));
+      const ShellUse use{body.geometry.size() > 1, needs.decides};
+      if (needs.shell) cost.addShell(expectedPoints(mesh.mesh, pool_->shellOptions(mesh, use)));
     }
     cost.in_cache = cost.in_cache && cost.field_bytes > 0.0;
     return cost;
@@ -78,7 +82,10 @@ class CostEstimate {
     // What is too large ends when it is, and a coarser one is made.
     const auto most = static_cast<double>(field.max_bytes);
     double one_thread = 0.0;
-    while (options_.is_shared_out && field.max_error && expected.bytes > most && expected.bytes < kHopeless * most) {
+    constexpr int kMostCoarser = 40;
+    for (int i = 0; i < kMostCoarser && options_.is_shared_out && field.max_error && expected.bytes > most &&
+                    expected.bytes < kHopeless * most;
+         ++i) {
       one_thread += expected.seconds * most / expected.bytes;
       *field.max_error *= 2.0;
       expected = expectedCost(source, field);
@@ -92,7 +99,8 @@ class CostEstimate {
   void addShell(const Primitive& primitive, const BodyNeeds& needs, BodyCost& cost) {
     const double size = boundingBox(primitive).sizes().norm();
     const bool is_box = std::holds_alternative<Box>(primitive);
-    ShellOptions shell = shellOptionsFor(options_, surfaceArea(primitive), !needs.decides);
+    const Growth growth = needs.decides ? Growth::kNone : Growth::kFull;
+    ShellOptions shell = shellOptionsFor(options_, surfaceArea(primitive), growth);
     const double finest = finenessOf(shell);
     const double coarser = is_box ? 1.0 : std::max(1.0, kFinestOfSize * size / finest);
     const bool has_rims = std::holds_alternative<Cylinder>(primitive) && shell.edge_gap > 0.0;
@@ -105,6 +113,7 @@ class CostEstimate {
   const BodyOptions& options_;
   std::shared_ptr<MeshPool> pool_;
   std::set<const PooledMesh*> seen_;
+  std::set<std::string> seen_bodies_;  // keys of their content
 };
 
 std::string about(double bytes, double seconds) {
@@ -138,7 +147,7 @@ void SceneCost::add(const BodyCost& body) {
 std::vector<char> shellsThatDecide(const SceneDescription& description, const ScenePlan& plan) {
   std::vector<char> decides(description.bodies.size(), 0);
   std::vector<char> has_triangles;
-  for (const BodyDescription& body : description.bodies) has_triangles.push_back(whyNoShell(body).empty());
+  for (const BodyDescription& body : description.bodies) has_triangles.push_back(mayHaveTriangles(body));
   for (const PlannedPair& pair : plan.pairs) {
     if (!has_triangles[pair.body_a]) decides[pair.body_b] = 1;
     if (!has_triangles[pair.body_b]) decides[pair.body_a] = 1;

@@ -11,24 +11,40 @@ constexpr double kFinger = 0.0041;  // surface of 5 x 2 x 1.5 cm [m^2]
 
 TEST(ElementOptions, PointsAndCellsFollowTheSizeWithinLimits) {
   const BodyOptions options = optionsForContacts();
-  EXPECT_NEAR(shellOptionsFor(options, kFinger).spacing, 0.0025, 1e-4);
+  EXPECT_NEAR(shellOptionsFor(options, kFinger, Growth::kNone).spacing, 0.0025, 1e-4);
   double last = 0.0;
   for (double area = 1e-6; area < 100.0; area *= 1.5) {
-    const ShellOptions shell = shellOptionsFor(options, area);
-    const FieldOptions field = fieldOptionsFor(options, area);
+    const ShellOptions shell = shellOptionsFor(options, area, Growth::kNone);
     EXPECT_GE(shell.spacing, std::max(last, 1e-3));
     EXPECT_LE(shell.spacing, options.shell.spacing);
     EXPECT_NEAR(shell.vertex_spacing, 0.4 * shell.spacing, 1e-12);
-    if (shell.spacing > 1.3e-3) EXPECT_NEAR(*field.cell_size, 1.2 * shell.spacing, 1e-12);
     last = shell.spacing;
+    const ShellOptions slow = shellOptionsFor(options, area, Growth::kSlow),
+                       full = shellOptionsFor(options, area, Growth::kFull);
+    EXPECT_LE(shell.spacing, slow.spacing);
+    EXPECT_LE(slow.spacing, full.spacing);
+    EXPECT_NEAR(slow.vertex_spacing, 0.4 * slow.spacing, 1e-12);
+    if (shell.spacing < options.shell.spacing) EXPECT_EQ(full.spacing, shell.spacing);
+    if (slow.spacing > 1.3e-3) EXPECT_NEAR(*fieldOptionsFor(options, area).cell_size, 1.2 * slow.spacing, 1e-12);
   }
   EXPECT_EQ(last, options.shell.spacing);
+}
+
+TEST(ElementOptions, LargeElementsGrowByTheFourthRoot) {
+  const BodyOptions options = optionsForContacts();
+  constexpr double kSide = 25.0 * 0.005;  // of the largest element of the usual spacing [m]
+  for (const double times : {1.0, 16.0, 81.0}) {
+    const double area = times * times * kSide * kSide;
+    EXPECT_NEAR(shellOptionsFor(options, area, Growth::kSlow).spacing, 0.005 * std::pow(times, 0.25), 1e-9);
+    EXPECT_NEAR(shellOptionsFor(options, area, Growth::kFull).spacing, 0.005 * times, 1e-9);
+  }
 }
 
 TEST(ElementOptions, WhatIsGivenHoldsEverywhere) {
   const BodyOptions options = optionsForContacts(0.003);
   for (const double area : {1e-6, kFinger, 10.0}) {
-    EXPECT_EQ(shellOptionsFor(options, area).spacing, 0.003);
+    for (const Growth growth : {Growth::kNone, Growth::kSlow, Growth::kFull})
+      EXPECT_EQ(shellOptionsFor(options, area, growth).spacing, 0.003);
     EXPECT_EQ(*fieldOptionsFor(options, area).cell_size, 1.2 * 0.003);
   }
   EXPECT_FALSE(mayBeCoarser(options));

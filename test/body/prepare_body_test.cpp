@@ -164,6 +164,29 @@ TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
   EXPECT_NE(build("left").report.field, "shared") << "nobody holds it any more";
 }
 
+/// The two arms of a robot.
+TEST(SharedBodies, OfOneSceneAreHeldOnceInAnyCase) {
+  const BodyOptions options = optionsForContacts(0.01);
+  MeshPool pool(options);
+  const auto build = [&](const std::string& name, double x) {
+    BodyDescription description;
+    description.name = description.frame = name;
+    description.geometry.push_back(
+        {std::make_shared<const TriangleMesh>(test::boxMesh({0.05, 0.05, 0.05})), at(x, 0, 0.1), "box"});
+    BuiltBody built = buildBody(description, {}, options, pool, {});
+    built.body.triangles = trianglesOf(description, pool);
+    return built;
+  };
+  const BuiltBody left = build("left", 0.0), right = build("right", 0.0), other = build("other", 0.1);
+  EXPECT_EQ(&*left.body.shell, &*right.body.shell);
+  EXPECT_EQ(left.body.triangles, right.body.triangles);
+  EXPECT_GT(left.report.shell_bytes, 0u);
+  EXPECT_EQ(right.report.shell_bytes, 0u);
+  EXPECT_NE(&*left.body.shell, &*other.body.shell) << "placed elsewhere in its link";
+  EXPECT_EQ(other.report.field, "shared") << "the mesh's field is the same";
+  EXPECT_GT(other.report.shell_bytes, 0u);
+}
+
 /// Two bodies that differ in one thing, one after the other.
 TEST(SharedBodies, AreOfTheSameContentAndOptions) {
   BodyOptions options;

@@ -50,7 +50,7 @@ struct Body {
   std::shared_ptr<const TriangleTree> doubtful;
   bool inside_is_doubtful = false;      ///< of such a body: its fields may also take cavities for solid
   BoundingBall ball;                    ///< contains the body's surface, frame B; see kHalfSpaceRadius
-  std::shared_ptr<const void> content;  ///< keeps data alive that other bodies share (BodyOptions::is_shared)
+  std::shared_ptr<const void> content;  ///< keeps data alive that other bodies share
 
   /// The field of a body with one element, whose frame is the body frame.
   /// @throws std::logic_error if it is not.

@@ -23,7 +23,8 @@ struct BodyOptions {
   ShellOptions shell;
 
   /// Number of shell points and field cells along the square root of an element's surface area. Spacing and cells are
-  /// at least a millimetre, at most shell.spacing and field.cell_size. 0: always shell.spacing and field.cell_size.
+  /// at least a millimetre; beyond shell.spacing and field.cell_size they grow by the fourth root of the size only, and
+  /// not at all where verdicts depend on the shell. 0: always shell.spacing and field.cell_size.
   double points_across = 0.0, cells_across = 0.0;
 
   double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
@@ -34,8 +35,8 @@ struct BodyOptions {
   /// takes several times the memory of the mesh.
   bool exact_depths = false;
 
-  /// Whether data of equal content, made with equal options, is shared with other bodies of this process: several
-  /// monitors in one nodelet manager then hold it once.
+  /// Whether data of equal content, made with equal options, is shared with all bodies of this process, and not only
+  /// with those of the same scene: several monitors in one nodelet manager then hold it once.
   bool is_shared = false;
 
   std::optional<double> max_error;  ///< required bound of every verdict [m]; the plan says whether it is met
