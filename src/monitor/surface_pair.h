@@ -74,6 +74,8 @@ class SurfacePair {
  private:
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;
+  void lookCloser(const BoxTree& f, const BoxTree& p, std::size_t step, SeparationOptions options,
+                  SeparationWitness& witness, SeparationMemory& memory, Separation& found) const;
   ContactPoint contactAt(const Separation& found, std::size_t step) const;
 
   const Body *field_, *shell_;  // F, which the other moves against, and P

@@ -111,6 +111,36 @@ TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
   }
 }
 
+/// A ball passes another one, and a cube tumbles over a slab, by a few micrometres.
+TEST(SurfacePair, WhatGrazesByFarLessThanMaxErrorIsDecided) {
+  constexpr double kRadius = 0.05, kHalf = 0.1, kTop = 0.01;
+  const auto balls =
+      build({body("ball", Primitive(Sphere{kRadius})), body("other", Primitive(Sphere{kRadius}))}, coarse());
+  const auto cube =
+      build({body("slab", Primitive(Box{{0.5, 0.5, kTop}})), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+            coarse());
+  Monitor of_balls(balls, soft()), of_cube(cube, soft());
+  Random random(4);
+  const auto verdict = [](Monitor& monitor, const Isometry3d& from, const Isometry3d& to) {
+    monitor.reset();
+    return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {from, to}}), {}).pairs[0].verdict;
+  };
+  for (int i = 0; i < 200; ++i) {
+    const double gap = (i % 2 == 0 ? 1.0 : -1.0) * uniform(random, 3e-6, 1e-5), along = uniform(random, 0.005, 0.05);
+    const Verdict expected = gap > 0.0 ? Verdict::kClear : Verdict::kContact;
+    const Vector3d beside(0.0, 2.0 * kRadius + gap, 0.0), way(along, 0.0, 0.0);
+    const double start = uniform(random, 0.1, 0.9);
+    EXPECT_EQ(verdict(of_balls, translation(beside - start * way), translation(beside + (1.0 - start) * way)), expected)
+        << "balls, " << gap << ", " << along;
+    const Isometry3d over = translation({0.1, -0.05, kTop + kHalf * std::sqrt(2.0) + gap});
+    const double from = kPi / 4 - start * along;
+    EXPECT_EQ(
+        verdict(of_cube, over * pose({0, 0, 0}, from, {0, 1, 0}), over * pose({0, 0, 0}, from + along, {0, 1, 0})),
+        expected)
+        << "cube, " << gap << ", " << along;
+  }
+}
+
 /// What closes a mesh that is not quite closed is known to the triangles, however coarse the fields are.
 TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
   constexpr double kGap = 5e-5, kCrack = 1e-6, kHalf = 0.1;
