@@ -1,5 +1,7 @@
 #include "gnuplot.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -10,11 +12,17 @@ bool haveGnuplot() {
   return std::system("gnuplot --version > /dev/null 2>&1") == 0;
 }
 
+/// From a file: a pipe to a gnuplot that ends early would end this process too (SIGPIPE).
 void runGnuplot(const std::string& script) {
-  FILE* pipe = ::popen("gnuplot", "w");
-  if (!pipe) throw std::runtime_error("gnuplot cannot be run");
-  const bool is_written = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (::pclose(pipe) != 0 || !is_written) throw std::runtime_error("gnuplot failed");
+  char path[] = "/tmp/sdf_ccd_plot_XXXXXX";
+  const int descriptor = ::mkstemp(path);
+  if (descriptor < 0) throw std::runtime_error("gnuplot's script cannot be written");
+  FILE* file = ::fdopen(descriptor, "w");
+  bool is_good = std::fwrite(script.data(), 1, script.size(), file) == script.size();
+  is_good &= std::fclose(file) == 0;
+  is_good = is_good && std::system((std::string("gnuplot ") + path).c_str()) == 0;
+  ::unlink(path);
+  if (!is_good) throw std::runtime_error("gnuplot failed");
 }
 
 std::string quoted(const std::string& text) {

@@ -71,6 +71,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   }
   temporary_ = makeTemporary(path, target);
   stream_.open(temporary_->path(), std::ios::binary);
+  if (!stream_) fail(path, std::strerror(errno));
 }
 
 OutputFile::~OutputFile() = default;

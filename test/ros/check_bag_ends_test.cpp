@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "ros/check_bag_case.h"
+#include "sdf_ccd/ContactArray.h"
 
 namespace sdf_ccd {
 namespace {
@@ -52,6 +53,22 @@ TEST_F(CheckBag, BadBagsAreRefused) {
     write("bad.urdf", text);
     expectRefused("check-bag arm.bag --urdf bad.urdf --out no", "bad.urdf: the URDF cannot be parsed: ");
   }
+}
+
+TEST_F(CheckBag, AMessageThatHoldsNoVerdictIsRefused) {
+  ContactArray message;
+  message.cycle_start = ros::Time(kBegin);
+  message.header.stamp = ros::Time(kBegin + 1.0);
+  const auto write = [&](const char* name) {
+    rosbag::Bag(path(name).string(), rosbag::bagmode::Write).write("/contacts", ros::Time(kBegin + 1.0), message);
+  };
+  message.verdict = 7;
+  write("seven.bag");
+  expectRefused("plot-bag seven.bag --out no", "a message about contacts is damaged: verdict 7");
+  message.verdict = ContactArray::CLEAR;
+  message.error_bound = std::nan("");
+  write("nan.bag");
+  expectRefused("plot-bag nan.bag --out no", "error bound nan");
 }
 
 TEST_F(CheckBag, ABagThatLastsLongerThanADurationIsNamed) {

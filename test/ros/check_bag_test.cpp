@@ -257,6 +257,23 @@ TEST_F(CheckBag, AJointThatIsSilentInContactIsNeverClear) {
   EXPECT_GT(delayed, 10);
 }
 
+TEST_F(CheckBag, PairsWhoseBodiesAreNeverKnownAtOnceAreNotComplete) {
+  // The elbow, and with it the hand, says nothing from 3 s on; an object comes after that. All else is checked.
+  writeHeldContact([](double time) { return time >= 3.0; });
+  {
+    rosbag::Bag bag(path("held.bag").string(), rosbag::bagmode::Append);
+    for (double time = kBegin + 5.0; time < kBegin + 8.0; time += kPeriod)
+      bag.write("/tf", ros::Time(time), message({stampedTransform("base", "late", time, 5.0)}));
+  }
+  const std::string world = readText(SDF_CCD_SOURCE_DIR "/config/demo/world.yaml");
+  write("late.yaml", world +
+                         "  - {name: late, frame: late, type: sphere, radius: 0.05}\n"
+                         "cache: false\nfield: {cell_size: 0.006}\nshell: {spacing: 0.003}\n");
+  const ToolRun result = run(check("held.bag", "made", "--config late.yaml"));
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("their bodies were never known at the same time"), std::string::npos) << result.error;
+}
+
 TEST_F(CheckBag, SilenceOfAllIsSaidInTheBagAndNoCycle) {
   writeHeldContact([](double) { return false; }, 4.0, 6.0);
   const ToolRun result = run(check("held.bag", "made"));

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -88,6 +89,10 @@ class Recorder : public BagObserver {
     const ContactArray contacts = toContactArray(loop_);
     bag_.addCycle(contacts, now);
     report_.add(contacts);
+    const std::vector<PairResult>& pairs = loop_.result().pairs;
+    was_checked_.resize(pairs.size(), false);
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      if (pairs[p].verdict != Verdict::kNotChecked) was_checked_[p] = true;
   }
   void onUnchecked(const std::string& reason, const ros::Time& now) override { bag_.addUnchecked(reason, now); }
   void onGap(const TimePart& part, const std::string& reason, const ros::Time& now) override {
@@ -95,6 +100,9 @@ class Recorder : public BagObserver {
     bag_.addGap(gap, now);
     report_.add(gap);
   }
+
+  /// Per pair of the scene: whether some cycle checked it. Empty if there was no cycle.
+  const std::vector<bool>& wasChecked() const { return was_checked_; }
 
  private:
   ProgressBar bar_{"cycles"};
@@ -104,17 +112,22 @@ class Recorder : public BagObserver {
   CheckedBag& bag_;
   const Interrupt& interrupt_;
   CycleReport& report_;
+  std::vector<bool> was_checked_;
 };
 
-/// Returns the run time [s].
-double check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
-             MonitorLoop& loop, CheckFiles& files) {
+struct Checked {
+  double seconds = 0.0;           ///< run time
+  std::vector<bool> was_checked;  ///< Recorder::wasChecked()
+};
+
+Checked check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
+              MonitorLoop& loop, CheckFiles& files) {
   const auto start = std::chrono::steady_clock::now();
   CheckedBag bag(files.bag, loop, described.scene, parameters.markers);
   bag.addScene(described.scene, motion.begin());
   Recorder recorder(motion, loop, bag, files);
   checkBag(motion, parameters, loop, recorder);
-  return secondsSince(start);
+  return {secondsSince(start), recorder.wasChecked()};
 }
 
 void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
@@ -125,20 +138,39 @@ void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
           bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
 }
 
+/// Prints pairs of bodies that were each checked, but never both in the same cycle; true if there is none.
+bool areBodiesCheckedTogether(const Scene& scene, const std::vector<bool>& was_checked,
+                              const std::set<std::string>& never_checked) {
+  std::size_t count = 0;
+  std::string example;
+  for (std::size_t p = 0; p < was_checked.size(); ++p) {
+    const std::string &a = scene.bodies[scene.pairs[p].body_a].name, &b = scene.bodies[scene.pairs[p].body_b].name;
+    if (was_checked[p] || never_checked.count(a) > 0 || never_checked.count(b) > 0) continue;
+    if (never_checked.count(a + " - " + b) > 0) continue;
+    if (count++ == 0) example = a + " - " + b;
+  }
+  if (count == 0) return true;
+  std::cerr << "sdf_ccd: " << count << " pairs were checked in no cycle, as " << example
+            << ": their bodies were never known at the same time" << std::endl;
+  return false;
+}
+
 /// Prints what was never checked to stderr; true if there is nothing.
 /// @param begin  of the bag.
-bool isComplete(const CycleStatistics& statistics, const Scene& scene, const ros::Time& begin) {
+bool isComplete(const CycleStatistics& statistics, const Scene& scene, const std::vector<bool>& was_checked,
+                const ros::Time& begin) {
   bool is_complete = statistics.hasCheckedCycle();
   if (!is_complete) {
     std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
   }
   is_complete &= areAllMade(scene);
-  if (statistics.neverChecked() > 0) {
-    std::cerr << "sdf_ccd: " << statistics.neverChecked()
-              << " bodies, or pairs of others, were checked in no cycle, as " << statistics.whyNotChecked()
-              << std::endl;
+  const std::set<std::string> never = statistics.neverChecked();
+  if (!never.empty()) {
+    std::cerr << "sdf_ccd: " << never.size() << " bodies, or pairs of others, were checked in no cycle, as "
+              << statistics.whyNotChecked() << std::endl;
     is_complete = false;
   }
+  is_complete &= areBodiesCheckedTogether(scene, was_checked, never);
   for (const std::string& gap : statistics.gaps(begin)) {
     std::cerr << "sdf_ccd: nothing was checked " << gap << std::endl;
     is_complete = false;
@@ -167,7 +199,7 @@ void run(const Arguments& arguments) {
     warnings.push_back(over);
   }
   MonitorLoop loop(scene, described, parameters);
-  const double took = check(motion, parameters, described, loop, files);
+  const Checked checked = check(motion, parameters, described, loop, files);
   std::vector<std::string> of_motion = motion.warnings();
   if (const long refused = loop.history().refused(); refused > 0) {
     of_motion.push_back(std::to_string(refused) + " transforms were refused, the last as " + loop.history().refusal());
@@ -180,15 +212,15 @@ void run(const Arguments& arguments) {
   const CycleStatistics& statistics = files.report.statistics();
   requireChecked(statistics, arguments.bag);
 
-  const bool is_complete = isComplete(statistics, *scene, motion.begin());
+  const bool is_complete = isComplete(statistics, *scene, checked.was_checked, motion.begin());
   const double length = (motion.end() - motion.begin()).toSec();
   std::ostringstream text;
   text << "bag              " << arguments.bag << ": " << rounded(length, 3) << " s from " << timeText(motion.begin())
        << ", followed by " << motion.source() << "\n"
        << "robot            " << described.robot->urdf().getName() << ": " << scene->bodies.size()
        << " bodies with the world's, " << scene->pairs.size() << " pairs, fixed frame " << described.fixed_frame << "\n"
-       << statistics.summary(motion.begin()) << "speed            " << rounded(length, 1) << " s in " << shortly(took)
-       << " s: " << shortly(length / took) << " times real time\n";
+       << statistics.summary(motion.begin()) << "speed            " << rounded(length, 1) << " s in "
+       << shortly(checked.seconds) << " s: " << shortly(length / checked.seconds) << " times real time\n";
   std::cout << text.str() << std::flush;
   files.summary.stream() << expected << text.str();
   files.plan.stream() << planText(*scene, warnings);

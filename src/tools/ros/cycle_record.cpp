@@ -1,10 +1,18 @@
 #include "cycle_record.h"
 
+#include <cmath>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 namespace sdf_ccd::tools {
 
 CycleRecord toRecord(const ContactArray& message) {
+  if (message.verdict > ContactArray::CONTACT || !std::isfinite(message.error_bound) ||
+      !std::isfinite(message.run_time)) {
+    throw std::runtime_error(fmt::format("a message about contacts is damaged: verdict {}, error bound {}, run time {}",
+                                         message.verdict, message.error_bound, message.run_time));
+  }
   CycleRecord record;
   record.start = message.cycle_start;
   record.end = message.header.stamp;

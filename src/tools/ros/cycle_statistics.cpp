@@ -71,9 +71,12 @@ void CycleStatistics::Count::addUnchecked(const std::string& why, const std::vec
   kind = kindOf(why, names);
 }
 
-std::size_t CycleStatistics::neverChecked() const {
-  const auto isNever = [&](const auto& named) { return named.second.not_checked == cycles_.size(); };
-  return std::count_if(pairs_.begin(), pairs_.end(), isNever) + std::count_if(bodies_.begin(), bodies_.end(), isNever);
+std::set<std::string> CycleStatistics::neverChecked() const {
+  std::set<std::string> never;
+  for (const auto* counts : {&pairs_, &bodies_})
+    for (const auto& [name, count] : *counts)
+      if (count.not_checked == cycles_.size()) never.insert(name);
+  return never;
 }
 
 bool CycleStatistics::hasCheckedCycle() const {

@@ -21,8 +21,9 @@ class CycleStatistics {
   std::vector<std::string> gaps(const ros::Time& begin) const;
   std::vector<Contact> contacts() const { return contacts_.contacts(); }
 
-  /// How many bodies, and pairs of others, were NOT_CHECKED in every cycle.
-  std::size_t neverChecked() const;
+  /// Bodies, and pairs of others ("body - body"), that were NOT_CHECKED in every cycle. Messages leave out pairs of
+  /// bodies that are not checked, so a pair whose bodies are only known at different times is not among them.
+  std::set<std::string> neverChecked() const;
 
   /// Whether some cycle was checked completely, with a verdict other than NOT_CHECKED.
   bool hasCheckedCycle() const;
