@@ -40,10 +40,11 @@ std::string takeLogicalLine(std::string_view& text, std::size_t& line) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++line;
     if (!part.empty() && part.back() == '\r') part.remove_suffix(1);
+    part = part.substr(0, part.find('#'));
     const bool goes_on = !part.empty() && part.back() == '\\' && !text.empty();
     if (goes_on) part.remove_suffix(1);
     whole += part;
-    if (!goes_on) return whole.substr(0, whole.find('#'));
+    if (!goes_on) return whole;
     whole += ' ';
   }
 }

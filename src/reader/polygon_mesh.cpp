@@ -14,7 +14,7 @@ void append(const std::int64_t* corners, std::size_t count, TriangleMesh& mesh) 
   std::vector<Vector3d> positions;
   for (std::size_t i = 0; i < count; ++i) {
     if (corners[i] < 0 || corners[i] >= static_cast<std::int64_t>(mesh.vertices.size())) {
-      throw std::runtime_error("a face names vertex " + std::to_string(corners[i]) + " of " +
+      throw std::runtime_error("a face refers to a vertex that does not exist: the file has " +
                                std::to_string(mesh.vertices.size()));
     }
     positions.push_back(mesh.vertices[static_cast<std::size_t>(corners[i])]);

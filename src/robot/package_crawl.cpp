@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -6,6 +7,7 @@
 #include <mutex>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include <tinyxml2.h>
 
@@ -16,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxDepth = 1000;  // as in rospack; stops loops of symbolic links
+constexpr std::size_t kMaxDepth = 1000;  // as in rospack
 
 bool has(const fs::path& directory, const char* name) {
   std::error_code error;
@@ -38,7 +40,9 @@ std::string packageName(const fs::path& directory) {
 }
 
 /// Adds the packages below `directory`. Those that are found first win, as in rospack.
-void crawl(const fs::path& directory, int depth, std::map<std::string, std::string>& packages) {
+/// @param above  the directories above, without links: a link to one of these is a loop, of which several would take
+///               exponential time.
+void crawl(const fs::path& directory, std::vector<fs::path>& above, std::map<std::string, std::string>& packages) {
   for (const char* mark : {"CATKIN_IGNORE", "AMENT_IGNORE", "COLCON_IGNORE"}) {
     if (has(directory, mark)) return;
   }
@@ -47,12 +51,16 @@ void crawl(const fs::path& directory, int depth, std::map<std::string, std::stri
     if (!name.empty()) packages.emplace(name, directory.string());
     return;
   }
-  if (has(directory, "rospack_nosubdirs") || depth == kMaxDepth) return;
+  if (has(directory, "rospack_nosubdirs") || above.size() == kMaxDepth) return;
   std::error_code error;
+  const fs::path canonical = fs::canonical(directory, error);
+  if (error || std::find(above.begin(), above.end(), canonical) != above.end()) return;
+  above.push_back(canonical);
   for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
     std::error_code ignored;
-    if (it->path().filename().string()[0] != '.' && it->is_directory(ignored)) crawl(it->path(), depth + 1, packages);
+    if (it->path().filename().string()[0] != '.' && it->is_directory(ignored)) crawl(it->path(), above, packages);
   }
+  above.pop_back();
 }
 
 std::map<std::string, std::string> crawlEnvironment() {
@@ -62,7 +70,9 @@ std::map<std::string, std::string> crawlEnvironment() {
   for (std::string path; std::getline(paths, path, ':');) {
     std::error_code error;
     if (!path.empty() && fs::is_directory(path, error)) {
-      crawl(fs::path(path + "/").parent_path(), 0, packages);  // without a slash at the end: manifest.xml needs a name
+      std::vector<fs::path> above;
+      crawl(fs::path(path + "/").parent_path(), above,
+            packages);  // without a slash at the end: manifest.xml needs a name
     }
   }
   return packages;

@@ -4,6 +4,7 @@
 
 #include <tinyxml2.h>
 
+#include "common/text_limits.h"
 #include "parse_urdf.h"
 
 namespace sdf_ccd {
@@ -28,7 +29,8 @@ std::string parserErrors(const XMLElement& link) {
 
 std::map<std::string, std::string> unreadLinks(const urdf::ModelInterface& model, const std::string& xml) {
   tinyxml2::XMLDocument document;
-  if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
+  const std::string text = soundText(xml);  // as the model was read from
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error("the URDF cannot be parsed: line " + std::to_string(document.ErrorLineNum()) + ": " +
                              document.ErrorName());
   }

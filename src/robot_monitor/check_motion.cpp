@@ -81,6 +81,7 @@ class MotionLooker {
   }
 
   MotionVerdict look(const PlannedMotion& motion) {
+    if (motion.waypoints.size() < 2) throw std::invalid_argument("check motions: a motion of less than two waypoints");
     monitor_.reset();  // so that results do not depend on the previous motion
     MotionVerdict found;
     found.verdict = monitor_.scene().pairs.empty() ? Verdict::kNotChecked : Verdict::kClear;

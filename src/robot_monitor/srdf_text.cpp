@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include "common/number_text.h"
+#include "common/text_limits.h"
 #include "robot_monitor/learn_pairs.h"
 
 namespace sdf_ccd {
@@ -58,7 +59,8 @@ std::string srdfWith(const LearnedPairs& pairs, const RobotModel& robot, const s
     document.InsertEndChild(root);
   } else {
     parseSrdf(given);  // throws with the reason
-    document.Parse(given.data(), given.size());
+    const std::string text = soundText(given);
+    document.Parse(text.data(), text.size());
   }
   tinyxml2::XMLElement* root = document.RootElement();
   root->InsertEndChild(document.NewComment(asComment(commentText(pairs)).c_str()));

@@ -39,7 +39,7 @@ TEST(MeshFormats, PolygonsOfAnyNumberOfCorners) {
 TEST(MeshFormats, ObjWithAllThatItAllows) {
   const std::string vertices =
       "# box\r\nmtllib /dev/zero\r\nv -1 -1 -1\r\nv 1 -1 -1 1.0\r\nv 2 2 -2 2\r\nv -1 1 -1 0.1 0.2 0.3\r\n";
-  const std::string more = "o top\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nvn 0 0 1\nvt 0 0\n";
+  const std::string more = "o top\n# C:\\models\\\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nvn 0 0 1\nvt 0 0\n";
   const std::string faces =
       "f 4/1/1 3/1 2//1 1\nf -4 -3 \\\n -2 -1\nf 1 2 6 5 # front\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\np 1\n";
   EXPECT_NEAR(signedVolume(parseMeshHere(vertices + more + faces, "obj")), 8.0, 1e-9);

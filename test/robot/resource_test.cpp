@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -36,9 +37,7 @@ class ResourceFiles : public ::testing::Test {
     ::setenv("ROS_PACKAGE_PATH", path.c_str(), 1);
     find_ = packagesFromEnvironment();
   }
-  void TearDown() override {
-    ::unsetenv("ROS_PACKAGE_PATH");
-  }
+  void TearDown() override { ::unsetenv("ROS_PACKAGE_PATH"); }
 
   void write(const std::string& name, const std::string& text) {
     fs::create_directories((directory_ / name).parent_path());
@@ -63,6 +62,15 @@ TEST_F(ResourceFiles, PackageIsNamedByItsFileNotItsFolder) {
 
 TEST_F(ResourceFiles, CrawlStopsWhereRospackStops) {
   for (const char* name : {"nested", "ignored", "other_build", "hidden", "broken"}) EXPECT_EQ(find_(name), "") << name;
+}
+
+TEST_F(ResourceFiles, LoopsOfLinksAreNotFollowed) {
+  for (const char* name : {"a/b/up", "a/b/again", "a/b/too"})
+    fs::create_directory_symlink(directory_ / "a", directory_ / name);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(packagesFromEnvironment()("nested"), "");
+  EXPECT_EQ(packagesFromEnvironment()("arm_description"), (directory_ / "a/b/c_folder").string());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 TEST_F(ResourceFiles, NoPackagePathFindsNothing) {

@@ -147,6 +147,14 @@ TEST(RobotScene, ElementsThatTheParserDropsCostTheirLinkAlone) {
   EXPECT_NE(failures["heavy"].find("much"), std::string::npos);
 }
 
+TEST(RobotScene, LinksWhoseNamesAreNotTextLoseNoElementUnnoticed) {
+  const Described described =
+      describe("<robot name='r'>" + link("base", box("1 1 1")) + link("bras_\xe9", box("0.1 0.1 0.1") + box("1 1")) +
+               joint("base", "bras_\xe9", "floating", "0 0 0") + "</robot>");
+  ASSERT_EQ(described.scene.bodies.size(), 2u);
+  EXPECT_NE(described.scene.bodies[1].failure.find("1 of 2 collision elements cannot be read"), std::string::npos);
+}
+
 TEST(RobotScene, BadMeshCostsItsLinkAlone) {
   const Described described = describe(
       "<robot name='r'>" + link("good", mesh("good.off")) + link("forearm", mesh("good.off") + mesh("missing.stl")) +

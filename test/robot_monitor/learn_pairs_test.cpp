@@ -157,6 +157,10 @@ TEST(LearnPairs, TheFileKeepsWhatWasGivenAndIsHonest) {
   EXPECT_EQ(own.disabled.size(), pairs.disabled.size());
   EXPECT_TRUE(learnPairs(robot, parseSrdf(text), noResource, options).disabled.empty());
   EXPECT_THROW(srdfWith(pairs, robot, "<robot"), std::runtime_error);
+  // What is not text is taken for question marks, as when it was read.
+  std::string damaged = given;
+  damaged[damaged.find("mine")] = '\0';
+  EXPECT_EQ(parseSrdf(srdfWith(pairs, robot, damaged)).disabled.size(), srdf.disabled.size());
 }
 
 TEST(LearnPairs, AMeshThatIsMissingCostsItsPairsAlone) {
