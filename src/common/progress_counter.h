@@ -17,7 +17,8 @@ class ProgressCounter {
     cancel_.check();
     const std::size_t done = ++done_;
     if (!progress_) return;
-    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock && done == total_) lock.lock();  // the end is always reported
     if (lock && done > reported_) progress_(double(reported_ = done) / double(total_));
   }
 

@@ -1,7 +1,9 @@
 #include "field/field_cache.h"
 
+#include <cstdio>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
 
 #include "field/source_field.h"
 #include "sdf_ccd/field/distance_field.h"
@@ -49,7 +51,10 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
     if (!source.voxels()) doubt = warning(source.solid().report());
   };
   const auto save = [&](const std::string& path) {
-    if (!doubt.empty()) std::ofstream(path + kDoubt) << doubt << std::endl;
+    // Before the field, which is never read without it.
+    std::remove((path + kDoubt).c_str());
+    if (!doubt.empty() && !(std::ofstream(path + kDoubt) << doubt << std::endl))
+      throw std::runtime_error(path + kDoubt + ": cannot be written");
     saveField(*field, path, name);
   };
   CacheOutcome outcome = cache.get(name, {load, make, save});

@@ -285,10 +285,10 @@ FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options) {
         map.blockAt(order[tested]), [](const Vector3i&) { return true; }, found, samples);
     bricks += found.size();
   }
-  const double share = double(blocks) / double(tested);
+  const double share = double(blocks) / double(tested), taken = threadSeconds() - start;
   FieldCost cost;
   cost.bytes = double(map.shape().coarseBytes()) + share * double(bricks) * kBrickBytes;
-  cost.seconds = map.cornerSeconds() + share * (threadSeconds() - start);
+  cost.seconds = map.cornerSeconds() + share * taken;
   cost.bytes_error = cost.seconds_error = tested < blocks ? 1.0 / std::sqrt(double(tested)) : 0.0;
   return cost;
 }

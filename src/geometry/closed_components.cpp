@@ -7,6 +7,7 @@
 
 #include "common/parallel_for.h"
 #include "geometry/triangle_tree.h"
+#include "sdf_ccd/common/cancel.h"
 #include "self_crossing.h"
 #include "triangle_cut.h"
 
@@ -275,6 +276,7 @@ class Inspection {
     const std::set<std::int32_t> holders = candidates(cavity);
     bool flush = false, free = false;
     for (const std::int32_t triangle : patches_[cavity].triangles) {
+      checkCancelled();
       const Corners c = cornersOf(mesh_, triangle);
       const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
       const bool here = std::any_of(holders.begin(), holders.end(), [&](std::int32_t holder) {
@@ -309,6 +311,7 @@ class Inspection {
     std::set<std::int32_t> found;
     std::vector<int> near;
     for (const std::int32_t triangle : triangles) {
+      checkCancelled();
       const Corners c = cornersOf(mesh_, triangle);
       const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
       const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});

@@ -9,6 +9,7 @@
 #include "geometry/triangle_tree.h"
 #include "loop_cap.h"
 #include "rim.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -60,6 +61,7 @@ class SideCheck {
     std::vector<Vector3i> missing;
     int inside = 0, wrong = 0;
     forEachCell([&](const Vector3i& c) {
+      checkCancelled();
       // Next to a surface the sides are that surface's matter.
       if (closed.closestPoint(center(c), 0.1 * cell_).triangle >= 0) return;
       const double alone = std::abs(winding_[index(c)]);
@@ -217,6 +219,7 @@ Openings findOpenings(const TriangleMesh& mesh) {
   openings.caps = withoutUnusedVertices(openings.caps);
   ReachBound reach(check.tree(), kCrack * diagonal);
   for (const Vector3i& t : openings.caps.triangles) {
+    checkCancelled();
     const std::vector<Vector3d>& v = openings.caps.vertices;
     openings.reach.push_back(reach.of(v[t[0]], v[t[1]], v[t[2]]));
   }

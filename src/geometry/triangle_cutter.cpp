@@ -194,7 +194,10 @@ class TriangleCutter::Task {
     return found;
   }
 
-  std::vector<SurfacePart> divide(const FlatPiece& piece, std::vector<int> near) {
+  /// @param depth  of the recursion: a piece that is cut so often is left unknown, as the stack is bounded.
+  std::vector<SurfacePart> divide(const FlatPiece& piece, std::vector<int> near, int depth = 0) {
+    constexpr int kMaxDepth = 1000;
+    if (depth == kMaxDepth) return {{piece, Sides::kUnknown}};
     cost_.steps += near.size() + 1;
     costs_too_much_ = costs_too_much_ || cost_.steps > most_.steps || cost_.visits > most_.visits;
     if (costs_too_much_) return {};
@@ -221,8 +224,8 @@ class TriangleCutter::Task {
     if (!longest.again) near.erase(std::find(near.begin(), near.end(), cutting));
     const auto halves = piece.cut(longest.line, 0.01 * cutter_.tolerance_.border);
     if (halves[0].corners().empty() || halves[1].corners().empty()) return {{piece, Sides::kUnknown}};
-    std::vector<SurfacePart> parts = divide(halves[0], near);
-    std::vector<SurfacePart> others = divide(halves[1], std::move(near));
+    std::vector<SurfacePart> parts = divide(halves[0], near, depth + 1);
+    std::vector<SurfacePart> others = divide(halves[1], std::move(near), depth + 1);
     if (parts.size() == 1 && others.size() == 1 && parts[0].sides == others[0].sides) {
       return {{piece, parts[0].sides}};
     }

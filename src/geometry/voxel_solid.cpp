@@ -49,7 +49,10 @@ std::shared_ptr<const VoxelSolid> VoxelSolid::of(const TriangleMesh& mesh, std::
   if (mesh.triangles.empty()) return nullptr;
   const Lattice lattice(mesh);
   const Eigen::Array3d count = lattice.count();
-  if (!(lattice.size() > 0.0) || !(count.minCoeff() >= 1.0) || !(count.prod() <= double(max_voxels))) return nullptr;
+  // Rows along x take whole words. A single row of that many would not be counted by integers.
+  const double voxels = 64.0 * std::ceil(count.x() / 64.0) * count.y() * count.z();
+  if (!(lattice.size() > 0.0) || !(count.minCoeff() >= 1.0) || !(voxels <= double(max_voxels))) return nullptr;
+  if (count.maxCoeff() > double(std::numeric_limits<int>::max())) return nullptr;
 
   std::shared_ptr<VoxelSolid> solid(new VoxelSolid);
   solid->size_ = lattice.size();

@@ -64,11 +64,12 @@ std::optional<double> insideAfter(const Path& path, double t, double end) {
 }  // namespace
 
 std::optional<ImpactWindow> impactWindow(const DistanceField& field, const Segment& segment) {
-  const double error = std::min(field.errorBound(), field.band());
+  const double error = field.errorBound();
   const auto first = [&](double sigma) {
     const Intervals found = segmentIntervals(field, segment, {sigma, SegmentMode::kFirst});
     return found.empty() ? std::optional<double>() : found.front().enter;
   };
+  if (error > field.band()) return ImpactWindow{0.0, first(0.0), {}};  // no isosurface that far out is known
   const std::optional<double> near = first(error);
   if (!near) return std::nullopt;
   const Path path(field, segment);

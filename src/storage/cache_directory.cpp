@@ -31,10 +31,14 @@ bool isOfCache(const std::string& file) {
   return false;
 }
 
-/// As writeCheckedFile() names them: six characters more.
+/// As TemporaryFile names them: one ending more, of six characters or a process and a number.
 bool isTemporary(const std::string& file) {
-  constexpr std::size_t kMore = 7;
-  return file.size() > kMore && file[file.size() - kMore] == '.' && isOfCache(file.substr(0, file.size() - kMore));
+  const std::size_t dot = file.rfind('.');
+  if (dot == std::string::npos || isOfCache(file) || !isOfCache(file.substr(0, dot))) return false;
+  const std::string ending = file.substr(dot + 1);
+  const bool is_numbered =
+      ending.find('-') != std::string::npos && ending.find_first_not_of("0123456789-") == std::string::npos;
+  return ending.size() == 6 || is_numbered;
 }
 
 struct Entry {
@@ -47,7 +51,9 @@ struct Entry {
 
 void requireOwnDirectory(const std::string& directory) {
   std::error_code error;
-  const fs::path parent = fs::path(directory).parent_path();
+  fs::path named(directory);
+  if (!named.has_filename()) named = named.parent_path();  // a slash at its end
+  const fs::path parent = named.parent_path();
   if (!parent.empty()) fs::create_directories(parent, error);
   if (!error && ::mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST) error = {errno, std::generic_category()};
   struct stat status {};
@@ -88,7 +94,8 @@ void trimCache(const std::string& directory, const std::string& name, std::size_
     const std::uintmax_t size = fs::file_size(it->path(), gone);
     if (gone) continue;
     bytes += size;
-    const bool is_kept = file.compare(0, name.size(), name) == 0;
+    // A field's warning goes with the field.
+    const bool is_kept = file.compare(0, name.size(), name) == 0 || it->path().extension() == ".doubt";
     if (!is_kept && size > 0) entries.push_back({it->path(), used, size});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.used < b.used; });

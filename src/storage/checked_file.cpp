@@ -173,6 +173,8 @@ void requireHeader(const std::string& path, Header header, const FileKind& kind,
   if (header.version != kind.version) {
     fail(path, "version " + std::to_string(header.version) + ", this program reads " + std::to_string(kind.version));
   }
+  if (header.file_bytes < bytes)
+    fail(path, "damaged: " + std::to_string(bytes - header.file_bytes) + " bytes too many");
   if (header.file_bytes != bytes) {
     fail(path, "truncated: " + std::to_string(bytes) + " of " + std::to_string(header.file_bytes) + " bytes");
   }

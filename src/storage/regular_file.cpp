@@ -13,7 +13,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 24;
+constexpr std::size_t kChunk = std::size_t{1} << 24,
+                      kUnknown = std::size_t{1} << 12;  // of what is known to come, or not
 
 void requireRegular(const struct stat& status) {
   if (S_ISDIR(status.st_mode)) throw std::runtime_error("is a directory");
@@ -37,12 +38,12 @@ std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
   if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > max_bytes) failTooLarge(max_bytes);
 
   std::string bytes;
-  bytes.reserve(static_cast<std::size_t>(status.st_size));
+  bytes.reserve(static_cast<std::size_t>(status.st_size) + kUnknown);
   for (std::size_t have = 0;;) {
     checkCancelled();
     // The size is only a hint: the file may grow or shrink meanwhile, and those of /proc say 0.
     const std::size_t known = static_cast<std::size_t>(status.st_size);
-    bytes.resize(std::min(have + kChunk, std::max(known, have) + 1));
+    bytes.resize(have < known ? std::min(have + kChunk, known + 1) : have + kUnknown);
     const ssize_t count = ::read(file.number(), &bytes[have], bytes.size() - have);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw std::runtime_error("cannot be read");

@@ -50,6 +50,8 @@ class VoxelGrid {
 
   /// @param size  of a voxel [m]. @throws std::invalid_argument if it is not positive and finite.
   VoxelGrid(double size, const VoxelMapOptions& options);
+  VoxelGrid(VoxelGrid&&) = default;
+  VoxelGrid& operator=(VoxelGrid&&) = default;
 
   /// From a serialised OctoMap: octomap_msgs/Octomap's `data`, `id` and `binary`.
   /// @throws std::runtime_error with the reason: of another type than OcTree and ColorOcTree, damaged, too large.

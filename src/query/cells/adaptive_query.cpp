@@ -30,7 +30,7 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
     if (stopsAtEnter(options.mode) && !intervals.empty()) break;
     // Complete once another span follows it.
     const bool first_only = options.mode == SegmentMode::kFirstInterval;
-    if (first_only && !intervals.empty() && intervals.back().exit < walk.t()) break;
+    if (first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
   }
 }
 
