@@ -194,7 +194,8 @@ void ContactTracker::takeStay(const ObservedCycle& cycle, const Stay& stay) {
   const PairResult& pair = cycle.result.pairs[stay.pair];
   const Interval& interval = pair.intervals[stay.interval];
   const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
-  Slot& slot = slotFor(static_cast<std::size_t>(stay.group), start, end);
+  const auto group = static_cast<std::size_t>(stay.group);
+  Slot& slot = slotFor(group, start, end);
   TrackedContact& contact = slot.said;
   contact.begin = std::min(contact.begin, start);
   contact.end = std::max(contact.end, end);
@@ -213,6 +214,8 @@ void ContactTracker::takeStay(const ObservedCycle& cycle, const Stay& stay) {
   const ContactPoint* deepest = deepestWithin(pair, interval);
   if (deepest && (!slot.has_deepest || deepest->depth > contact.deepest.depth)) {
     contact.deepest = *deepest;
+    // Of a contact that goes on over a swap the bodies may be in the other order now.
+    if (contact.body_a != groups_.keys[group].first.substr(1)) contact.deepest.normal_W = -deepest->normal_W;
     contact.deepest_origin = cycle.origin;
     slot.has_deepest = true;
   }

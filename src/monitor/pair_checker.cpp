@@ -266,7 +266,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
 void PairChecker::doubt(PairResult& result) {
   if (result.verdict == Verdict::kNotChecked || isCertain(result)) return;
   result.verdict = Verdict::kUncertain;
-  result.clearance = PairResult().clearance;
+  result.clearance = -1.0;
   forgetClearance();
 }
 

@@ -48,6 +48,7 @@ double velocityScale(const std::vector<PairDistance>& pairs, double age, double 
     if (of_pair > promise.max_age) return 0.0;
     double of_gap = allowedClosing(pair.any, of_pair, promise);
     if (pair.slab) of_gap = std::max(of_gap, allowedClosing(*pair.slab, of_pair, promise));
+    if (!(of_gap >= 0.0)) return 0.0;  // NaN
     allowed = std::min(allowed, of_gap);
   }
   return allowed / promise.max_speed;

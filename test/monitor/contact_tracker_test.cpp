@@ -95,6 +95,7 @@ class TrackerTest : public ::testing::Test {
         point.exit = touch.exit;
         point.depth = touch.depth;
         point.depth_error = touch.depth_error;
+        point.normal_W = Vector3d::UnitZ();
         pair.points.push_back(point);
         if (point.depth >= pair.deepest.depth) pair.deepest = point;
       }
@@ -289,6 +290,17 @@ TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
   for (const TrackedContact& contact : said()) EXPECT_EQ(contact.ends && contact.is_lost, contact.id != 1);
   cycle({kThrough});
   EXPECT_EQ(only().id, 1u);
+}
+
+TEST_F(TrackerTest, ANormalPointsFromTheFirstBodyAlsoWhereAnotherWorldHasThemTheOtherWayRound) {
+  world({{"hand", "table"}});
+  cycle({kThrough});
+  const Vector3d before = only().deepest.normal_W;
+  world({{"table", "hand"}});
+  cycle({{Verdict::kContact, {{0.0, kLength, 0.02}}}});  // deeper, with the normal from A to B
+  EXPECT_EQ(only().body_a, "hand");
+  EXPECT_EQ(only().deepest.depth, 0.02);
+  EXPECT_EQ(only().deepest.normal_W, -before);
 }
 
 /// What the tracker must say, from all intervals at once: stays of each pair, joined where breaks are short.
