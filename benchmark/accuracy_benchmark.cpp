@@ -1,5 +1,5 @@
-/// First hits of random segments on the interpolated field against exact hits on the mesh (Embree, robust), over the
-/// cell size. Prints rows of results.csv.
+/// Error of the first hits of random segments on the interpolated field, against exact hits on the mesh (Embree,
+/// robust), over the cell size. Prints rows of results.csv.
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ void study(const std::string& name, const TriangleMesh& mesh, const StudyOptions
     int only_mesh = 0, only_field = 0;
     for (std::size_t i = 0; i < study_options.segments; ++i) {
       Segment s{test::uniformIn(random, box), test::uniformIn(random, box)};
-      // Both rays and fields answer for segments that start outside; inside, the field's interval starts at once.
+      // Only segments that start outside can be compared: inside, the field's interval begins at 0.
       if (field.sample(s.start).value <= field.errorBound()) continue;
       const double exact = rays.firstHit(s);
       const Intervals found = segmentIntervals(field, s, {0.0, SegmentMode::kFirst});
@@ -44,7 +44,7 @@ void study(const std::string& name, const TriangleMesh& mesh, const StudyOptions
       only_field += exact < 0.0 && !found.empty();
       if (exact < 0.0 || found.empty()) continue;
       errors.push_back(std::abs(found[0].enter - exact) * (s.end - s.start).norm());
-      // The same without the angle of incidence: how far the exact hit is from the field's isosurface.
+      // The error without the effect of the angle of incidence: distance of the exact hit from the field's isosurface.
       distances.push_back(std::abs(field.sample(s.start + exact * (s.end - s.start)).value));
     }
     if (errors.empty()) throw std::runtime_error(name + ": no segment hits both the mesh and its field");

@@ -1,4 +1,5 @@
-// Error against run time as a knob of the running monitor: cycles with budgets, and what verdicts they leave open.
+// Error against run time of a running monitor whose cycles have time budgets: error bounds, and verdicts left
+// UNCERTAIN.
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
@@ -21,17 +22,17 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 constexpr double kPeriod = 1e-3;                                        // [s]
-constexpr double kBudgets[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 0};  // [us]; the last one is none
+constexpr double kBudgets[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 0};  // [us]; 0: no budget
 
-/// The poses at the ends of all cycles, the first one's start in front.
+/// Poses at the start of the first cycle and at the end of every cycle; per time, per body.
 using Waypoints = std::vector<std::vector<Isometry3d>>;
 
-/// What cycles say with a budget, over all of them.
+/// Results of all cycles with one budget.
 struct Said {
-  std::vector<double> bounds;  // per cycle: of the worst pair, whatever is known of it [m]
+  std::vector<double> bounds;  // per cycle: largest error bound of all pairs [m]
   double postponed = 0, open = 0, pair_cycles = 0;
-  long false_clear = 0, false_contact = 0;  // against the same cycle without a budget
-  int longest_wait = 0;                     // cycles in a row that a pair was postponed
+  long false_clear = 0, false_contact = 0;  // compared with the same cycle without a budget
+  int longest_wait = 0;                     // largest number of consecutive cycles in which a pair was postponed
 };
 
 CycleMotion motionAt(const Waypoints& waypoints, std::size_t cycle) {
@@ -68,7 +69,7 @@ Said listen(Monitor& limited, Monitor& unlimited, const Waypoints& waypoints, co
   return said;
 }
 
-/// @param described  whose bodies the waypoints are of.
+/// @param described  scene to whose bodies the waypoints belong.
 void study(const SceneDescription& described, const Waypoints& waypoints, const std::string& name,
            const StudyOptions& options) {
   MonitorOptions monitor_options;
@@ -83,7 +84,7 @@ void study(const SceneDescription& described, const Waypoints& waypoints, const 
     request.max_points = 0;
     request.skipped_pairs = false;
     request.max_time = 1e-6 * budget;
-    // Budgets end cycles by the clock, so that each run is another one: all of their times count.
+    // Budgets end cycles by the clock, so every run differs: the times of all runs are kept, not their medians.
     CycleTimes times(cycles * std::size_t(options.measure.runs), 1);
     for (int run = 0; run < options.measure.runs; ++run) {
       limited.reset();
@@ -112,7 +113,7 @@ void study(const SceneDescription& described, const Waypoints& waypoints, const 
   }
 }
 
-/// A robot that moves up and down its joints.
+/// A robot whose joints swing as in RobotMotion.
 void studySeeded(const Robot& robot, Proximity proximity, const std::string& name, const StudyOptions& options) {
   const BoxWorld world = makeBoxWorld(robot, proximity, kPeriod * options.cycles, kSeed);
   Waypoints waypoints;
@@ -121,9 +122,9 @@ void studySeeded(const Robot& robot, Proximity proximity, const std::string& nam
 }
 
 #ifdef SDF_CCD_WITH_ROS
-/// A robot that moves as it did in a bag.
+/// A robot that moves as recorded in a bag.
 void studyRecorded(const Robot& robot, Proximity proximity, const std::string& name, const StudyOptions& options) {
-  constexpr std::size_t kLookedAt = 20;  // cycles from one pose to the next that boxes are placed by
+  constexpr std::size_t kLookedAt = 20;  // boxes are placed by the robot's poses at every 20th cycle
   Waypoints waypoints = recordedPoses(options.bag, robot, kPeriod, std::size_t(options.cycles) + 1);
   Waypoints some;
   for (std::size_t k = 0; k < waypoints.size(); k += kLookedAt) some.push_back(waypoints[k]);

@@ -3,7 +3,7 @@ from results import number
 
 
 def budgets(results):
-    """What cycles of a budget take, and what they leave open."""
+    """Cycle times, error bounds and open verdicts per budget."""
     rows = []
     for case in results.cases('anytime'):
         def get(*metrics):

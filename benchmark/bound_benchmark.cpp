@@ -1,4 +1,5 @@
-/// Whether reported error bounds hold, and how tight they are, against exact meshes. Prints rows of results.csv.
+/// Compares reported error bounds with true errors against exact meshes: whether they hold, and how tight they are.
+/// Prints rows of results.csv.
 
 #include <algorithm>
 #include <cmath>
@@ -22,18 +23,18 @@ namespace {
 using precision::ExactSurface;
 using precision::Random;
 
-constexpr double kRoot = 1e-9;           ///< of the path: tolerance of segmentIntervals()
-constexpr std::size_t kCompared = 2000;  ///< places and segments that CGAL is asked too
+constexpr double kRoot = 1e-9;           ///< tolerance of segmentIntervals() [path lengths]
+constexpr std::size_t kCompared = 2000;  ///< points and segments that are compared with CGAL
 
 using Tallies = std::map<std::string, BoundTally>;
 
-/// One field against its mesh.
+/// Compares one field with its mesh.
 class FieldStudy {
  public:
   FieldStudy(const DistanceField& field, const ExactSurface& mesh)
       : field_(field), mesh_(mesh), rounding_(1e-12 * boundingBox(mesh.mesh()).sizes().maxCoeff()) {}
 
-  /// Distance and bounds at places.
+  /// Distances and their bounds at points.
   void askPlaces(const std::vector<ExactPlace>& places) {
     for (const ExactPlace& place : places) {
       const FieldSample sample = field_.sample(place.p);
@@ -44,7 +45,7 @@ class FieldStudy {
     }
   }
 
-  /// Segments that start outside.
+  /// Intervals and times of impact of segments that start outside.
   void askSegments(const std::vector<Segment>& segments) {
     for (const Segment& segment : segments) {
       const double length = (segment.end - segment.start).norm();
@@ -64,7 +65,7 @@ class FieldStudy {
     }
   }
 
-  /// Depths of points that move along segments.
+  /// Depths of points moving along segments.
   void askDepths(const std::vector<Segment>& segments) {
     const std::vector<SiblingField> no_siblings;
     for (const Segment& segment : segments) {
@@ -96,7 +97,8 @@ class FieldStudy {
  private:
   BoundTally& tally(const std::string& query) { return tallies_.try_emplace(query, rounding_).first->second; }
 
-  /// A place that the field takes for the surface: to the roots' tolerance, and across a jump between two leaves.
+  /// Adds an end of an interval, a point that should lie on the surface. |φ| there is not exactly zero: up to the
+  /// tolerance of the root, and more at a jump between two leaves.
   void addHit(const std::string& query, const Segment& segment, double t) {
     const Vector3d p = segment.start + t * (segment.end - segment.start);
     const FieldSample sample = field_.sample(p);
@@ -111,7 +113,7 @@ class FieldStudy {
     if (!exact) return times.check(!window || !window->latest);
     if (!window || window->earliest > *exact + slack) return times.check(false);
     if (window->latest && *window->latest < *exact - slack) return times.check(false);
-    if (!window->time || !window->latest) return times.check(true);  // grazing: no bound on when
+    if (!window->time || !window->latest) return times.check(true);  // the segment grazes: the time has no bound
     const double bound = std::max(*window->time - window->earliest, *window->latest - *window->time);
     times.add(length * std::abs(*window->time - *exact), length * (bound + slack));
   }
@@ -127,7 +129,7 @@ class FieldStudy {
   Tallies tallies_;
 };
 
-/// Side of the cells that hold samples; of an adaptive field, the median of those at random places of the surface [m].
+/// Cell size [m]; in an adaptive field, the median over random points of the surface.
 double cellAtSurface(const DistanceField& field, const ExactSurface& mesh) {
   if (const SparseGrid* grid = field.grid()) return grid->shape().cell;
   const AdaptiveGrid& grid = *field.adaptive();

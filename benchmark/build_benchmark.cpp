@@ -18,7 +18,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr std::size_t kPoints = 20'000;  ///< that errors are taken at, near and away each
+constexpr std::size_t kPoints = 20'000;  ///< near the surface, and as many away from it, at which errors are measured
 
 /// Points with their exact distances.
 struct ExactPoints {
@@ -32,7 +32,7 @@ struct ExactPoints {
   }
 };
 
-/// Within `reach` of the surface.
+/// Points within `reach` [m] of the surface.
 ExactPoints pointsNear(const NamedMesh& named, const TriangleTree& tree, double reach) {
   test::Random random(1);
   ExactPoints exact;
@@ -44,7 +44,7 @@ ExactPoints pointsNear(const NamedMesh& named, const TriangleTree& tree, double 
   return exact;
 }
 
-/// Farther from the surface than `reach`, in the study's box.
+/// Points in the study's box that are farther from the surface than `reach` [m].
 ExactPoints pointsAway(const NamedMesh& named, const TriangleTree& tree, double reach) {
   test::Random random(2);
   ExactPoints exact;
@@ -71,7 +71,7 @@ void printErrors(Row row, const ExactPoints& exact, const BuiltField& field, dou
   }
 }
 
-/// As many runs as a minute allows, at most options.runs: fields of seconds are built a few times only.
+/// Number of builds that fit into 20 s, from 1 to options.measure.runs: large fields are built only a few times.
 int runsFor(double seconds, const StudyOptions& options) {
   return std::clamp(int(20.0 / seconds), 1, options.measure.runs);
 }
@@ -116,7 +116,7 @@ void study(const NamedMesh& named, const StudyField& wanted, const StudyOptions&
   timed(loads, "load_seconds", true);
   for (const std::string& path : paths) std::remove(path.c_str());
 
-  // Half of the narrowest band: there every corner of a point's cell is a sample of the distance.
+  // Within half of the narrowest band, every corner of a point's cell holds a sampled distance in all fields.
   double band = side;
   for (const auto& field : fields) band = std::min(band, field->band);
   const TriangleTree tree(named.mesh);

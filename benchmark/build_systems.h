@@ -9,16 +9,16 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A distance field that some system has built.
+/// A distance field built by one of the systems.
 struct BuiltField {
   std::size_t bytes;
   std::function<double(const Vector3d&)> distance;  ///< interpolated [m]
-  double band;                                      ///< |φ| up to which the samples are distances [m]
-  bool beyond_band;                                 ///< true if it also says something farther away
+  double band;                                      ///< the samples are exact distances up to this |φ| [m]
+  bool beyond_band;                                 ///< whether it also returns distances beyond the band
   std::function<void(const std::string& path)> save;
 };
 
-/// A way to build fields, to save them, and to load one and ask it once.
+/// A system that builds and saves fields, and loads one and queries it once.
 struct FieldBuilder {
   std::string name;
   std::function<bool(const StudyField&)> builds;
@@ -26,7 +26,7 @@ struct FieldBuilder {
   std::function<void(const std::string& path, const Vector3d& p)> load;
 };
 
-/// Every builder is one file that adds itself here before main().
+/// All builders. Each is in a file of its own that registers it here before main().
 inline std::vector<FieldBuilder>& fieldBuilders() {
   static std::vector<FieldBuilder> builders;
   return builders;

@@ -1,5 +1,5 @@
-/// Time per step of a simulation: a body dropped on a fixed copy of itself, its shell taken point by point and through
-/// the tree of spheres (paper, Table 4). Prints rows of results.csv.
+/// Time per step of a simulation of a body dropped on a fixed copy of itself, with its shell traversed linearly and
+/// through the sphere tree (paper, Table 4). Prints rows of results.csv.
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +13,18 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr double kSide = 0.2;         // of every body's box [m]
+constexpr double kSide = 0.2;         // longest side of every body's box [m]
 constexpr double kStep = 1e-3;        // [s]
-constexpr double kTimeLimit = 120.0;  // of both simulations together [s]
+constexpr double kTimeLimit = 120.0;  // for both simulations together [s]
 
 struct Drop {
   std::string name;
   TriangleMesh mesh;
-  std::size_t points;  ///< wanted; 0: the vertices
-  int steps;           ///< the paper's
+  std::size_t points;  ///< wanted number; 0: the mesh's vertices
+  int steps;           ///< as in the paper
 };
 
-/// About its centre of mass, kSide large.
+/// The mesh scaled to kSide, with its centre of mass at the origin.
 TriangleMesh placed(const TriangleMesh& mesh) {
   const double scale = kSide / boundingBox(mesh).sizes().maxCoeff();
   const TriangleMesh small = scaled(mesh, Vector3d::Constant(scale));
@@ -48,7 +48,7 @@ CollisionShape shapeOf(const Drop& drop, const TriangleMesh& mesh) {
   return makeShape(mesh, field, shell);
 }
 
-/// One sphere around all points: every point is tested.
+/// The shape with a single sphere around all points, so that every point is tested.
 CollisionShape withoutTree(CollisionShape shape) {
   SphereTree::Node root = shape.tree.nodes.front();
   root.first_child = -1;
@@ -71,7 +71,7 @@ Simulation simulation(const TriangleMesh& mesh, std::shared_ptr<const CollisionS
   return {std::move(world), std::move(states), Scheme::kContinuous, kStep};
 }
 
-/// The work of both traversals step by step in turn; both see the same contacts.
+/// Runs both simulations step by step in turn. @throws std::runtime_error if their numbers of contacts differ.
 void run(const Drop& drop, int most) {
   const TriangleMesh mesh = placed(drop.mesh);
   const auto tree = std::make_shared<const CollisionShape>(shapeOf(drop, mesh));

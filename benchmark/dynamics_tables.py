@@ -6,7 +6,7 @@ OUTCOMES = {0: 'stable', 1: 'stopped', 2: 'bad'}
 
 
 def chart(results):
-    """Largest stable step over the damping ratio, beside the closed forms."""
+    """Largest stable step over the damping ratio, with the closed forms."""
     rows = []
     for case in results.cases('stability'):
         if not case.startswith('zeta='):
@@ -22,7 +22,7 @@ def chart(results):
 
 
 def rebounds(results):
-    """Speed after an impact over speed before, without damping: mean, highest."""
+    """Speed after an impact divided by speed before, without damping: mean, maximum."""
     rows = []
     for case in results.cases('stability'):
         if case.startswith('impact s='):

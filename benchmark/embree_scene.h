@@ -11,7 +11,7 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A mesh in Embree, with the robust flag: no ray slips through between two triangles.
+/// A mesh in Embree, with the robust flag, so that no ray passes between two adjacent triangles.
 class EmbreeScene {
  public:
   explicit EmbreeScene(const TriangleMesh& mesh) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
@@ -40,10 +40,10 @@ class EmbreeScene {
 
   RTCScene get() const { return scene_; }
 
-  /// Vertices, triangles and hierarchy.
+  /// Memory of vertices, triangles and hierarchy.
   std::size_t bytes() const { return std::size_t(bytes_.load()); }
 
-  /// Whole segment as a ray, t from 0 to 1.
+  /// The segment as a ray, t from 0 to 1.
   static RTCRayHit ray(const Segment& s) {
     RTCRayHit ray{};
     const Vector3d d = s.end - s.start;
@@ -68,7 +68,8 @@ class EmbreeScene {
     return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1.0 : double(ray.ray.tfar);
   }
 
-  /// Of the closed mesh at the segment's start, whose end is outside: triangles passed through, out less in.
+  /// Winding number of the closed mesh at the segment's start: crossings out of the mesh minus crossings into it. The
+  /// segment's end must be outside.
   int windingNumber(const Segment& s) const {
     RTCRayHit ray = EmbreeScene::ray(s);
     RTCIntersectContext context;

@@ -1,6 +1,6 @@
-/// Stiff and extreme scenes. Under the implicit integrator each must stay stable within its limits of energy and depth,
-/// or stop with an error that names the body, the step and the reason; the paper's schemes run beside it. Prints rows
-/// of results.csv.
+/// Stiff and extreme scenes. With the implicit integrator each must stay stable within its limits of energy and depth,
+/// or stop with an error that names the body, the step and the reason; the paper's schemes run for comparison. Prints
+/// rows of results.csv.
 
 #include <chrono>
 #include <cmath>
@@ -33,7 +33,7 @@ struct Scene {
   double depth_limit = 0.05;  // [m]
 };
 
-/// A row: what is made, and what is expected of it.
+/// A scene and its expected outcome.
 struct Case {
   std::string name;
   Outcome expected;
@@ -46,7 +46,7 @@ std::string number(double value) {
   return text;
 }
 
-/// An error is clear if it says what is wrong with which body at which step, or which option is not valid.
+/// Whether an error message names the body, the step and the reason, or an invalid option.
 bool isClear(const std::string& message) {
   const bool of_body = message.find("body `") == 0 && message.find("`, step ") != std::string::npos;
   const bool of_option =
@@ -64,14 +64,14 @@ void run(const Case& tried, Scheme scheme) {
   try {
     const Scene scene = tried.make();
     Simulation simulation(scene.world, scene.states, scheme, scene.step);
-    // Energies are compared with what there was to begin with, and with what gravity does over the run.
+    // Scale of the energy: the initial energy plus the work of gravity over the run.
     double masses = 0.0;
     for (const RigidBody& body : scene.world.bodies) masses += body.fixed ? 0.0 : body.mass;
     const StepRecord first = simulation.last();
     const double fall = scene.world.gravity.norm() * scene.step * scene.steps;
     const double scale = first.kinetic + first.elastic + 0.5 * masses * fall * fall + 1e-300;
     bool finite = true;
-    // Once the energy has doubled the answer is known.
+    // A run whose energy has doubled has failed.
     for (int i = 0; i < scene.steps && elapsed() < kTimeLimit && gain < 1.0; ++i) {
       const StepRecord& record = simulation.advance();
       gain = std::max(gain, (record.energy() - first.energy()) / scale);
@@ -106,7 +106,7 @@ void run(const Case& tried, Scheme scheme) {
   if (!why.empty()) std::fprintf(stderr, "extreme: %s, %s: %s\n", tried.name.c_str(), toString(scheme), why.c_str());
 }
 
-/// A box of `size` [m] that tumbles onto the ground from its own size above it.
+/// A box of `size` [m] that falls, tumbling, onto the ground from 1.5 `size` above it.
 Scene tumble(double size = 0.1) {
   Scene scene;
   scene.world.contact.damping = 1e4;
@@ -143,7 +143,7 @@ std::vector<Case> physicalCases() {
                        scene.world.contact.stiffness_per = StiffnessPer::kPoint;
                        scene.world.contact.stiffness = k;
                        scene.world.contact.damping = 0.0;
-                       if (k < 1e4) scene.depth_limit = 5.0;  // too soft to carry it
+                       if (k < 1e4) scene.depth_limit = 5.0;  // too soft to carry the box
                        return scene;
                      }});
   }
@@ -177,7 +177,7 @@ std::vector<Case> physicalCases() {
     cases.push_back({"speed=" + number(speed), kStable, [speed] {
                        Scene scene = tumble();
                        scene.states[1].velocity.z() = -speed;
-                       scene.depth_limit = std::max(0.05, 1e-3 * speed);  // what it moves in a step
+                       scene.depth_limit = std::max(0.05, 1e-3 * speed);  // its travel in one step
                        return scene;
                      }});
   }
@@ -287,7 +287,7 @@ std::vector<Case> degenerateCases() {
                        scene.step = bad;
                        return scene;
                      }});
-    // Without stiffness nothing holds it: that is what was asked for.
+    // With zero stiffness the body falls through the ground, as requested.
     cases.push_back({"stiffness=" + number(bad), bad == 0.0 ? kStable : kStopped, [bad] {
                        Scene scene = tumble();
                        scene.world.contact.stiffness = bad;

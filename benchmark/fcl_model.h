@@ -11,7 +11,7 @@ namespace sdf_ccd::benchmark {
 
 using FclModel = fcl::BVHModel<fcl::OBBRSSd>;
 
-/// A mesh's triangles in FCL's hierarchy of boxes, in doubles.
+/// A mesh as an FCL bounding volume hierarchy, in double precision.
 inline std::unique_ptr<FclModel> fclModel(const TriangleMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
   for (const Vector3i& t : mesh.triangles) triangles.emplace_back(t.x(), t.y(), t.z());

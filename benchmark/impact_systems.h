@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::benchmark {
 
-/// Every way of finding when moving bodies first touch is one file that adds itself here before main().
+/// Factories of systems that find times of impact. Each is in a file of its own that registers it here before main().
 using ImpactFactory =
     std::function<std::vector<precision::ImpactSystem>(const TriangleMesh& field, const TriangleMesh& shell)>;
 

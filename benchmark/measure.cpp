@@ -10,7 +10,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// Keeps each repetition's time per unit, prints nothing.
+/// Stores the time per unit of every repetition; prints nothing.
 class Collector : public ::benchmark::BenchmarkReporter {
  public:
   explicit Collector(const MeasureOptions& options, std::size_t tasks) : options_(options), seconds_(tasks) {}

@@ -8,7 +8,7 @@
 
 namespace sdf_ccd::benchmark {
 
-/// Something to time: does its i-th piece of work and returns how many units (segments, pairs) that was.
+/// A task to time: does its i-th piece of work and returns the number of units (segments, pairs) done.
 struct Task {
   std::string system;
   std::function<std::size_t(std::size_t i)> work;
@@ -16,20 +16,20 @@ struct Task {
 
 struct MeasureOptions {
   int runs = 7;
-  double seconds = 0.03;    ///< at least this long per run
-  bool wall_clock = false;  ///< for work on all threads; else one thread and its own time
+  double seconds = 0.03;    ///< minimum duration of a run
+  bool wall_clock = false;  ///< wall time, on all threads; else CPU time, on one thread
 };
 
-/// Seconds per unit of each task over its runs.
+/// Seconds per unit of a task, over its runs.
 struct Spread {
   double median, min, max;
 };
 
-/// Times all tasks through Google Benchmark: the runs of all of them in turn, in random order, so that a change of the
-/// machine's clock or load meets them alike.
+/// Times all tasks with Google Benchmark. The runs of all tasks are interleaved in random order, so that changes of the
+/// computer's clock frequency or load affect them alike.
 std::vector<Spread> measure(const std::vector<Task>& tasks, const MeasureOptions& options);
 
-/// Prints the median as `metric`, with the smallest and largest as `metric`_min and `metric`_max.
+/// Prints the median as `metric`, the minimum and maximum as `metric`_min and `metric`_max.
 inline void print(Row row, const Spread& spread, double scale) {
   const std::string metric = row.metric;
   const auto one = [&](const char* ending, double value) {

@@ -1,5 +1,5 @@
-// What is found in meshes as people draw them, what building their fields is expected to cost and costs, and which
-// crossings these report that the meshes do not have. Prints rows of results.csv.
+// Defects of meshes found in practice, expected and measured cost of building their fields, and false crossings that
+// these fields report. Prints rows of results.csv.
 #include <ctime>
 #include <memory>
 #include <stdexcept>
@@ -16,12 +16,13 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// Of all threads, which other work on the machine disturbs less than the wall's clock.
+/// CPU time of all threads of this process, which other load disturbs less than wall-clock time.
 double processorSeconds() {
   return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Intervals that a field reports on segments across its box, and those whose middle is not inside the mesh.
+/// Numbers of intervals that a field reports on segments across its box, and of those whose midpoint is not inside the
+/// mesh.
 struct Crossings {
   std::size_t reported = 0, untrue = 0;
 };
@@ -29,7 +30,7 @@ struct Crossings {
 Crossings countCrossings(const DistanceField& field, const EmbreeScene& mesh, const AlignedBox3d& box) {
   constexpr int kSegments = 20'000;
   test::Random random(20140924);
-  // From outside to outside.
+  // All segments start and end outside.
   const double radius = 0.75 * box.diagonal().norm();
   Crossings crossings;
   for (int i = 0; i < kSegments; ++i) {

@@ -10,7 +10,7 @@ COSTS = [('turning, CPU s', 'orient_seconds', '%.2g', 1), ('solid, CPU s', 'soli
 
 
 def meshes(results):
-    """What meshes as people draw them hold."""
+    """Defects of meshes found in practice, and the cost of their fields."""
     rows = []
     for case in results.cases('meshes'):
         def get(metric):
@@ -28,7 +28,7 @@ QUANTITIES = [('MB', 'expected_mb_', 'megabytes_'), ('CPU s', 'expected_cpu_s_',
 
 
 def expected(results):
-    """What fields were expected to take beside what they took, over all meshes; how long that was looked for."""
+    """Expected and measured cost of fields over all meshes, and the time that the estimate took."""
     cases = results.cases('meshes')
     metrics = dict.fromkeys(metric for study, _, _, metric in results.values if study == 'meshes')
     rows = []

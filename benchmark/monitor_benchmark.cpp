@@ -1,4 +1,5 @@
-// A whole cycle of the monitor, from poses to its result, beside other libraries on the same poses and pairs.
+// Time of a whole cycle of the monitor, from poses to its result, compared with other libraries on the same poses and
+// pairs.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,11 +25,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSecondsPerRun = 2.0;  // of a system: slower ones are measured on every so many cycles
-constexpr int kTruthPoses = 10;         // within a cycle
+constexpr double kSecondsPerRun = 2.0;  // of a system; slower ones run only every n-th cycle
+constexpr int kTruthPoses = 10;         // at which FCL checks a verdict within a cycle
 constexpr std::uint64_t kSeed = 1;
 
-/// The poses at the ends of all cycles, the first one's start in front.
+/// Poses at the start of the first cycle and at the end of every cycle.
 struct Waypoints {
   double period;  // [s]
   std::vector<std::vector<Isometry3d>> X_WB;
@@ -51,8 +52,7 @@ CycleRequest withContacts(bool wrenches, Refinement refine) {
   return request;
 }
 
-/// What is said about how far the deepest depths may be off, over all contacts of all cycles: no place is deeper by
-/// more.
+/// Prints the reported error bounds of the deepest points' depths, over all contacts of all cycles.
 void printDepthErrors(SdfCcdMonitor& system, const Waypoints& waypoints, const std::string& name) {
   system.reset();
   std::vector<double> errors;
@@ -73,7 +73,7 @@ void printDepthErrors(SdfCcdMonitor& system, const Waypoints& waypoints, const s
   row("depth_error_p99", 0.99);
 }
 
-/// What verdicts say over all cycles, and where FCL contradicts them.
+/// Counts of verdicts over all cycles, and of those that FCL contradicts.
 struct Verdicts {
   double bound = 0.0;  // largest [m]
   long pair_cycles = 0, uncertain = 0, contact = 0, false_clear = 0, checked = 0;
@@ -115,7 +115,7 @@ Verdicts verdictsOf(SdfCcdMonitor& ours, const SceneDescription& scene, const Wa
   return verdicts;
 }
 
-/// So many cycles apart that one run of the system over all of them is not too long.
+/// Stride over the cycles for which a run of the system takes about kSecondsPerRun.
 std::size_t strideFor(MonitorSystem& system, const Waypoints& waypoints) {
   constexpr std::size_t kProbes = 20;
   const auto start = Clock::now();
@@ -127,14 +127,14 @@ std::size_t strideFor(MonitorSystem& system, const Waypoints& waypoints) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(seconds / kSecondsPerRun));
 }
 
-/// A scene that is built once, for motions at several rates.
+/// A scene, built once for motions at several rates.
 struct Built {
   std::string name;
   const Robot* robot;
   BoxWorld world;
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
-  std::shared_ptr<const Scene> exact_scene;  // to measure depths on
+  std::shared_ptr<const Scene> exact_scene;  // with exact_depths set
 };
 
 Built build(const Robot& robot, Proximity proximity, const std::string& name, double max_error, double seconds) {
@@ -160,7 +160,7 @@ Built build(const Robot& robot, Proximity proximity, const std::string& name, do
 }
 
 #ifdef SDF_CCD_WITH_ROS
-/// Whole cycles from tf to the message, and what of them is not the monitor's.
+/// Times of whole cycles from tf to the message, and of their parts outside the monitor.
 void studyTransforms(const Built& built, double period, std::size_t cycles, const std::string& name, int runs) {
   TfCycles system(*built.robot, built.world, built.scene, built.options, period);
   CycleTimes whole(cycles, 1), beside(cycles, 1);
@@ -201,7 +201,7 @@ void study(const Built& built, double rate, const std::string& name, const Study
 
   std::vector<CycleTimes> times;
   for (std::size_t k = 0; k < systems.size(); ++k)
-    times.emplace_back(waypoints.cycles(), 1);  // skips go from cycle to cycle: all of them
+    times.emplace_back(waypoints.cycles(), 1);  // the monitor skips pairs by earlier cycles, so it must run all of them
   for (const auto& peer : peers) times.emplace_back(waypoints.cycles(), strideFor(*peer, waypoints));
   for (int run = 0; run < options.measure.runs; ++run) {
     for (std::size_t k = 0; k < systems.size(); ++k) {

@@ -5,7 +5,7 @@ SYSTEMS = ['sdf_ccd', 'sdf_ccd_wrench', 'sdf_ccd_deepest', 'fcl', 'fcl_distance'
 
 
 def cycles(results):
-    """Times of whole cycles, of the systems that were run."""
+    """Times of whole cycles of the systems that were run."""
     def times(case, system):
         values = [results.get('monitor', case, system, 'us_' + name) for name in ('median', 'p99', 'p999')]
         return '-' if None in values else ' / '.join(map(number, values))
@@ -15,7 +15,7 @@ def cycles(results):
 
 
 def verdicts(results):
-    """What our cycles say, and what they rest on."""
+    """Verdicts of our cycles, and the cost of preparing the scene."""
     rows = []
     for case in results.cases('monitor'):
         def get(metric):
@@ -29,7 +29,7 @@ def verdicts(results):
 
 
 def transforms(results):
-    """What a cycle takes from tf to the message, and what of that is not the monitor's."""
+    """Time of a cycle from tf to the message, and the part of it outside the monitor."""
     rows = []
     for case in results.cases('monitor'):
         values = [results.get('monitor', case, 'sdf_ccd_tf', prefix + name)

@@ -11,12 +11,12 @@
 
 namespace sdf_ccd::benchmark {
 
-/// Fixed sets of random motions of a shell about a field.
+/// Fixed sets of random motions of a shell near a field.
 ///
 /// random: both poses anywhere in a box three times as large as the field's (paper, Table 3). The other motions are
-/// those of a control cycle, 1 % of the field's side and half a degree: small: from at most half of that before the
-/// contact into it; deep: the bodies' centres within a tenth of the side; clear: their balls apart; links: anywhere in
-/// a box as large as the field's about its middle.
+/// those of a control cycle, 1 % of the field's side and half a degree. small: into contact, starting at most half of
+/// that before it. deep: the bodies' centres are within a tenth of the side. clear: their bounding balls are apart.
+/// links: anywhere in a box as large as the field's, about its centre.
 class MotionCases {
  public:
   explicit MotionCases(const ShellSubject& subject)
@@ -53,7 +53,7 @@ class MotionCases {
     return moved(pose(R, offset(random, name == "deep" ? 0.1 : 0.5)), travel, random);
   }
 
-  /// Uniform over all orientations (Shoemake 1992).
+  /// A rotation, uniform over all orientations (Shoemake 1992).
   static Matrix3d rotation(test::Random& random) {
     const double u = test::uniform(random, 0.0, 1.0);
     const double a = test::uniform(random, 0.0, 2.0 * test::kPi), b = test::uniform(random, 0.0, 2.0 * test::kPi);
@@ -65,7 +65,7 @@ class MotionCases {
     return half_box * side_ * test::uniformIn(random, {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)});
   }
 
-  /// The shell's middle at `offset` from the field's.
+  /// Pose with the shell's centre at `offset` from the field's.
   Isometry3d pose(const Matrix3d& R, const Vector3d& offset) const {
     Isometry3d X_FP = Isometry3d::Identity();
     X_FP.linear() = R;
@@ -81,7 +81,7 @@ class MotionCases {
     return {start, turn * start};
   }
 
-  /// Distance of the middles along u at which the shell coming from afar meets the field's surface.
+  /// Distance of the centres along u at which a shell that approaches from far away first touches the field's surface.
   double touching(const Matrix3d& R, const Vector3d& u) const {
     const double step = 0.05 * side_;
     double distance = 1.5 * (side_ + shell_side_);

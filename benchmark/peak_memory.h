@@ -7,8 +7,8 @@
 
 namespace sdf_ccd::benchmark {
 
-/// Memory that a piece of work needs at its worst beyond what the process held before, from Linux's high-water mark
-/// [bytes]; pages that the allocator keeps from earlier work are not counted. 0 where /proc does not tell.
+/// Peak memory of a piece of work beyond that of the process before, from Linux's high-water mark [bytes]. Pages that
+/// the allocator keeps from earlier work are not counted. 0 if /proc does not report it.
 inline std::size_t peakMemory(const std::function<void()>& work) {
   const auto kilobytes = [](const std::string& key) {
     std::ifstream status("/proc/self/status");
@@ -17,7 +17,7 @@ inline std::size_t peakMemory(const std::function<void()>& work) {
     }
     return 0UL;
   };
-  std::ofstream("/proc/self/clear_refs") << "5" << std::flush;  // starts the high-water mark anew
+  std::ofstream("/proc/self/clear_refs") << "5" << std::flush;  // resets the high-water mark
   const std::size_t before = kilobytes("VmRSS:");
   work();
   const std::size_t after = kilobytes("VmHWM:");

@@ -1,4 +1,5 @@
-// Edges of a planner's graph: certified over all of the motion, beside other libraries that look at so many poses.
+// Edges of a planner's graph: certified along the whole motion, compared with other libraries that test a number of
+// poses.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,8 +21,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLength = 0.5;          // of an edge, in joint space [rad]
-constexpr double kMostMisses = 1e-4;     // of the edges: a system that misses fewer is not made finer
-constexpr int kFinest = 512;             // poses an edge, which tell the truth
+constexpr double kMostMisses = 1e-4;     // of the edges; a system that misses fewer is not refined further
+constexpr int kFinest = 512;             // poses per edge, for the reference
 constexpr double kSecondsPerRun = 20.0;  // a system expected to take longer is left out
 constexpr std::uint64_t kSeed = 1;
 
@@ -40,7 +41,7 @@ JointPositions between(const Edge& edge, double share) {
   return positions;
 }
 
-/// Edges of equal length in random directions, whose ends are in no contact.
+/// Edges of equal length in random directions, whose ends are free of contact.
 std::vector<Edge> randomEdges(const Robot& robot, const SceneDescription& scene, const std::vector<PlannedPair>& pairs,
                               std::size_t count) {
   FclScene fcl(scene.bodies);
@@ -72,7 +73,7 @@ std::vector<Edge> randomEdges(const Robot& robot, const SceneDescription& scene,
   return edges;
 }
 
-/// The first pose of each edge, and those at the ends of so many equal parts.
+/// Poses at the ends of equal parts of an edge; per pose, per body.
 using Poses = std::vector<std::vector<Isometry3d>>;
 
 Poses posesAlong(const Robot& robot, const SceneDescription& scene, const Edge& edge, int parts) {
@@ -82,7 +83,7 @@ Poses posesAlong(const Robot& robot, const SceneDescription& scene, const Edge& 
   return poses;
 }
 
-/// Whether a system finds a contact in one of the parts.
+/// Whether a system finds a contact in any of the parts.
 bool touches(MonitorSystem& system, const Poses& poses) {
   for (std::size_t k = 0; k + 1 < poses.size(); ++k)
     if (system.check(poses[k], poses[k + 1]) > 0) return true;
@@ -150,7 +151,7 @@ class Study {
     row("sdf_ccd_threads", "us_edge", 1e6 * median(threaded) / double(edges_.size()), "us", options_.measure.runs);
   }
 
-  /// An edge touches if that is certified, or FCL finds it at one of very many poses.
+  /// Computes the reference: an edge has contact if that is certified, or if FCL finds it at one of kFinest poses.
   void findTruth() {
     FclScene fcl(world_.scene.bodies);
     truth_.assign(edges_.size(), false);
@@ -179,7 +180,7 @@ class Study {
     row("sdf_ccd", "bound", 1e3 * bound, "mm");
   }
 
-  /// In ever more parts, until it misses almost none.
+  /// Doubles the number of parts until the system misses almost no edge.
   void measurePeer(MonitorSystem& system) const {
     for (int parts = 1; parts <= kFinest; parts *= 2) {
       double seconds = 0.0;

@@ -2,7 +2,7 @@
 
 
 def edges(results):
-    """A system's time an edge, and the touching edges that it takes for free."""
+    """Time per edge of each system, and the edges with contact that it misses."""
     rows = []
     for case in results.cases('planning'):
         for system in results.systems('planning', case):

@@ -3,8 +3,8 @@
 
 usage: plots.py RESULTS.csv DIRECTORY
 
-Writes those of segment_cells.svg, segment_meshes.svg, shell.svg, scaling_points.svg, bound_uncertain.svg,
-bound_uncertain_cells.svg and stability.svg that the results have data for.
+Writes segment_cells.svg, segment_meshes.svg, shell.svg, scaling_points.svg, bound_uncertain.svg,
+bound_uncertain_cells.svg, anytime.svg and stability.svg, each only if the results hold its data.
 """
 import os
 import re
@@ -26,7 +26,7 @@ set key outside right
 
 
 def draw(file, title, axes, lines, log='xy'):
-    """One plot of lines {name: [(x, low, median, high), …]}, with the spread as bars. log: the logarithmic axes."""
+    """Draws a plot of lines {name: [(x, low, median, high), …]}, with the spread as bars. log: the logarithmic axes."""
     lines = {name: sorted(points) for name, points in lines.items() if points}
     if not lines:
         return
@@ -40,13 +40,13 @@ def draw(file, title, axes, lines, log='xy'):
 
 
 def point(results, key, metric, x):
-    """With its spread, where that was measured."""
+    """A list of one point (x, low, median, high), with its spread if that was measured; empty without data."""
     low, median, high = (results.get(*key, metric + ending) for ending in ('_min', '', '_max'))
     return [] if median is None else [(x, median if low is None else low, median, median if high is None else high)]
 
 
 def lines(results, study, pattern, metric):
-    """Per system, a point for each case that matches; the pattern's group is x."""
+    """For each system, a point per case that matches the pattern, whose group is x."""
     found = {}
     for case in results.cases(study):
         match = re.fullmatch(pattern, case)

@@ -17,7 +17,7 @@ def bound(results):
 
 
 def verdicts(results):
-    """What the monitor said of moving pairs, over its error bound."""
+    """Verdicts of the monitor for moving pairs, over its error bound."""
     rows = []
     for case in results.cases('bound'):
         if '/verdict/' not in case:
@@ -33,7 +33,7 @@ def verdicts(results):
 
 
 def reference(results):
-    """The reference beside CGAL."""
+    """The reference compared with CGAL."""
     rows = []
     for case in results.cases('bound'):
         if case.endswith('/reference'):
@@ -43,7 +43,7 @@ def reference(results):
 
 
 def truth(results):
-    """What adversaries made of the verdicts, per family."""
+    """Wrong verdicts and other counts, per family of adversarial motions."""
     rows = []
     for case in results.cases('truth'):
         if case == 'oracle':

@@ -1,9 +1,9 @@
-"""Reads results.csv of the studies (study,case,system,metric,value,unit,runs), and writes its numbers."""
+"""Reads results.csv of the studies (study,case,system,metric,value,unit,runs), and formats its numbers."""
 import csv
 
 
 def number(value, unit=''):
-    """Three digits, or a dash for what was not measured."""
+    """Formats with three digits; a dash for None."""
     if value is None:
         return '-'
     text = '%.3g' % value

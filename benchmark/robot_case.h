@@ -10,30 +10,30 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A robot of a study, and the scene of its links.
+/// A robot and the scene of its links.
 struct Robot {
   std::string name;
   RobotModel model;
   SceneDescription scene;
 };
 
-/// NAME=URDF or NAME=URDF,SRDF; meshes of packages are looked up in ROS_PACKAGE_PATH.
+/// Loads a robot. @param argument  NAME=URDF or NAME=URDF,SRDF; packages are looked up in ROS_PACKAGE_PATH.
 /// @throws std::invalid_argument for an argument of another form, std::runtime_error for a bad file.
 Robot loadRobot(const std::string& argument);
 
-/// Whether the joint has a position of its own that is a number: revolute, continuous or prismatic, and no mimic.
+/// Whether the joint has one position that can be set: revolute, continuous or prismatic, and not a mimic joint.
 bool isDriven(const urdf::Joint& joint);
 
-/// The positions that a joint is moved within [rad or m].
+/// Range of a joint's positions [rad or m]; ±3.14 for a joint without limits.
 struct JointRange {
   double low, high;
 };
 JointRange rangeOf(const urdf::Joint& joint);
 
-/// Positions of all driven joints within their ranges.
+/// Random positions of all driven joints, uniform within their ranges.
 JointPositions randomPositions(const RobotModel& robot, std::mt19937_64& random);
 
-/// Bodies as the monitor prepares them if nothing is configured. @param monitor  that they are for.
+/// Body options as the monitor has them by default. @param monitor  options of the monitor that will use the bodies.
 BodyOptions preparedAsMonitored(const MonitorOptions& monitor);
 
 }  // namespace sdf_ccd::benchmark

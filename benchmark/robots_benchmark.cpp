@@ -1,5 +1,5 @@
-// What a robot's max_error costs in memory, start-up and cycle time, and what verdicts it leaves open; what
-// contact/accuracy costs, and what forces it gives.
+// Memory, start-up time, cycle time and undecided verdicts over a robot's max_error; cost and force errors over
+// contact/accuracy.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A cycle from one pose of the robot towards another, as far as it turns by 0.02 rad or moves by 2 cm.
+/// A cycle from one pose of the robot towards another, in which each joint moves by at most 0.02 rad or 2 cm.
 CycleMotion shortCycle(const Robot& robot, const Scene& scene, const JointPositions& from, const JointPositions& to) {
   constexpr double kStep = 0.02;
   JointPositions next = from;
@@ -41,7 +41,7 @@ struct Checked {
   double build_seconds = 0.0, bytes = 0.0, bound = 0.0;  // the largest bound [m]
   std::vector<double> milliseconds;                      // per cycle
   std::vector<Verdict> verdicts;                         // per cycle and pair
-  std::vector<Vector3d> forces_W;                        // on body A, likewise [N]
+  std::vector<Vector3d> forces_W;                        // on body A, per cycle and pair [N]
 
   double medianCycle() {
     const auto middle = milliseconds.begin() + static_cast<std::ptrdiff_t>(milliseconds.size() / 2);
@@ -50,7 +50,7 @@ struct Checked {
   }
 };
 
-/// Prepares a robot, and checks the same short cycles each time.
+/// Prepares a robot and checks random short cycles, the same ones in every call.
 Checked check(const Robot& robot, const BodyOptions& prepared, const MonitorOptions& monitor_options, int cycles) {
   Checked checked;
   const ScenePlan plan = planScene(robot.scene, planOptions(prepared));
@@ -108,7 +108,7 @@ void studyMaxError(const Robot& robot, double max_error, const StudyOptions& opt
   row("contact", share(Verdict::kContact), "%");
 }
 
-/// How far forces are off from those of a finer scene, relative, and how many verdicts are others.
+/// Relative errors of forces against those of a finer scene, and number of verdicts that differ.
 void studyAccuracy(const Robot& robot, const StudyOptions& options) {
   constexpr double kFinest = 0.00125;  // the reference [m]
   const MonitorOptions monitor_options;

@@ -3,7 +3,7 @@ from results import number
 
 
 def robots(results):
-    """What a bound costs."""
+    """Cost of an error bound."""
     rows = []
     for case in results.cases('robots'):
         def get(metric):
@@ -20,7 +20,7 @@ def robots(results):
 
 
 def robots_accuracy(results):
-    """What forces cost."""
+    """Cost and errors of forces."""
     rows = []
     for case in results.cases('robots'):
         def get(metric):

@@ -1,4 +1,5 @@
-/// How queries scale: with threads, with the points of a shell, with the cells of a field. Prints rows of results.csv.
+/// How queries scale with threads, with the points of a shell and with the cells of a field. Prints rows of
+/// results.csv.
 
 #include <algorithm>
 #include <functional>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr int kThreads = 2;
 
-/// A shell of independent points, with its tree. Normals and areas are not asked for.
+/// A shell of independent random points, with its sphere tree. Normals and areas are zero: the queries do not use them.
 struct PlainShell {
   PlainShell(const TriangleMesh& mesh, std::size_t points) {
     test::Random random(1);
@@ -48,7 +49,8 @@ SegmentSystems fieldSystems(const FieldSubject& subject) {
   return systems;
 }
 
-/// Calls work(k) for k = 0 … threads − 1, each on its own thread, which a call that is parallel in itself cannot leave.
+/// Calls work(k) for k = 0 … threads − 1, each on its own thread; parallel algorithms within a call stay on its
+/// thread.
 void onThreads(int threads, const std::function<void(int)>& work) {
   const auto confined = [&](int k) { tbb::task_arena(1).execute([&] { work(k); }); };
   std::vector<std::thread> others;
@@ -84,7 +86,7 @@ void studyPoints(const NamedMesh& named, const DistanceField& field, const Study
   }
 }
 
-/// Fields of more and more cells.
+/// Fields over the number of cells.
 void studyCells(const NamedMesh& named, const StudyOptions& options) {
   const std::vector<Segment> segments = segmentCases(named.mesh, options.segments).front().segments;
   for (const StudyField& wanted : studyFields(named, options)) {
@@ -104,13 +106,13 @@ void studyCells(const NamedMesh& named, const StudyOptions& options) {
   }
 }
 
-/// The same work on one thread and shared by two, in turn, by the wall clock.
+/// The same work on one thread and on two, in turn, by wall-clock time.
 void studyThreads(const NamedMesh& named, const DistanceField& field, const StudyOptions& options) {
   const std::vector<Segment> segments = segmentCases(named.mesh, options.segments).front().segments;
   const PlainShell plain(named.mesh, 20'000);
   const ShellSubject subject{named.mesh, field, named.mesh, plain.shell, plain.tree};
   const std::vector<PosePair> pairs = MotionCases(subject).pairs("random", std::size_t(options.pairs));
-  std::vector<SegmentSystems> systems;  // of each thread
+  std::vector<SegmentSystems> systems;  // per thread
   ShellSystems trees;
   for (int k = 0; k < kThreads; ++k) {
     systems.push_back(fieldSystems({named.mesh, field, 0, false}));
@@ -127,7 +129,7 @@ void studyThreads(const NamedMesh& named, const DistanceField& field, const Stud
       segment_tasks.push_back(
           {systems[0][which]->name(), [&, threads, which](std::size_t) {
              SegmentSystem& first = *systems[0][which];
-             if (first.batched()) {  // and parallel in itself
+             if (first.batched()) {  // such a system uses several threads itself
                tbb::task_arena(threads).execute([&] { first.run(segments.data(), segments.size(), {}); });
                return segments.size();
              }

@@ -1,5 +1,5 @@
-/// Time per segment query of this package, the paper's method, and what else answers such queries (paper, Table 2).
-/// Prints rows of results.csv.
+/// Time per segment query of this package, the paper's method and other libraries (paper, Table 2). Prints rows of
+/// results.csv.
 
 #include <cmath>
 
@@ -12,9 +12,9 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr std::size_t kCounted = 20'000;  ///< segments whose answers are counted, the same for every system
+constexpr std::size_t kCounted = 20'000;  ///< segments whose results are counted, the same for every system
 
-/// One at a time, so that slow systems need not run through all segments.
+/// Segments per call of a system that is not batched, so that slow systems need not run all segments.
 constexpr std::size_t kPiece = 2048;
 
 const char* toString(Find find) {
@@ -61,7 +61,7 @@ void studyField(const std::string& name, const FieldSubject& subject, const Segm
       compare(row + toString(find), systems, c.segments, {find, 0.0}, options);
     }
     if (c.name != "A") continue;
-    // Half the band: an isosurface as the spheres of a shell's tree ask for.
+    // Half the band: an isovalue as in the queries of a shell's spheres.
     compare(row + "first_sigma", systems, c.segments, {Find::kFirst, 0.5 * subject.field.band()}, options);
     compare(row + "all_sigma", systems, c.segments, {Find::kAll, 0.5 * subject.field.band()}, options);
   }
@@ -82,8 +82,8 @@ void study(const NamedMesh& named, const StudyOptions& options) {
   }
 }
 
-/// Counts on a ball, where every system must find the same, so that none is fast by being wrong.
-/// @throws std::runtime_error naming the system that does not.
+/// Checks that every system finds the same number of crossings of a ball, so that none is fast because it is wrong.
+/// @throws std::runtime_error naming a system that differs.
 void checkSystems() {
   const TriangleMesh ball = test::icosphere(0.5, 5);
   FieldOptions field_options;
@@ -103,7 +103,7 @@ void checkSystems() {
   for (const auto& system : systems) {
     if (!system->answers({Find::kAll, 0.0})) continue;
     const long found = count(system->name(), Find::kAll);
-    // Grazing segments: the ball's facets and cells differ, and the paper's sign test loses some.
+    // Grazing segments may differ: facets and cells differ, and the paper's sign test loses some crossings.
     if (std::abs(double(found - crossings)) > 2e-3 * double(crossings)) {
       throw std::runtime_error(system->name() + " finds " + std::to_string(found) + " crossings of a ball, sdf_ccd " +
                                std::to_string(crossings));

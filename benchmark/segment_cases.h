@@ -23,9 +23,9 @@ inline AlignedBox3d studyBox(const TriangleMesh& mesh) {
 }
 
 /// Fixed sets of random segments.
-/// A: both ends uniform in the cube (paper, Table 2). B1: start uniform, length 1 % of the cube's diagonal, as between
-/// two cycles of a robot. B2: the same, start within 2 % of the diagonal from the surface. B2_outside: those of B2
-/// that start outside.
+/// A: both ends uniform in the cube (paper, Table 2). B1: start uniform, length 1 % of the cube's diagonal, as in a
+/// robot's control cycle. B2: as B1, starting within 2 % of the diagonal from the surface. B2_outside: those of B2 that
+/// start outside.
 inline std::vector<SegmentCase> segmentCases(const TriangleMesh& mesh, std::size_t count) {
   const AlignedBox3d box = studyBox(mesh);
   const double diagonal = box.sizes().norm(), length = 0.01 * diagonal, reach = 0.02 * diagonal;

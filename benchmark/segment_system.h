@@ -14,34 +14,34 @@ namespace sdf_ccd::benchmark {
 
 enum class Find { kFirst, kAll, kAny };
 
-/// What is asked of a segment.
+/// A query of a segment.
 struct Question {
   Find find = Find::kFirst;
   double sigma = 0.0;  ///< isovalue [m]
 };
 
-/// A library, or a way to use it, that finds where segments cross a surface; ready to be asked.
+/// A library, or one of its interfaces, that finds where segments cross a surface; built for one mesh.
 class SegmentSystem {
  public:
   virtual ~SegmentSystem() = default;
   virtual std::string name() const = 0;
   virtual bool answers(const Question& question) const { return question.sigma == 0.0; }
 
-  /// Of what it built over the mesh [bytes]; 0 where it does not say.
+  /// Memory of its data structures [bytes]; 0 if unknown.
   virtual std::size_t bytes() const = 0;
 
-  /// True for a system that takes many segments in one call and is best given all at once.
+  /// Whether the system works best on all segments in one call.
   virtual bool batched() const { return false; }
 
-  /// Answers all segments, one thread.
-  /// @return kAll: crossings of the surface within the segments; else: segments with a contact. A field counts a
-  ///         segment that starts inside as in contact, a mesh only sees one that crosses.
+  /// Queries all segments, on one thread.
+  /// @return kAll: number of crossings of the surface; else: number of segments with a contact. For fields, a segment
+  ///         that starts inside has a contact; for meshes, only one that crosses the surface.
   virtual long run(const Segment* segments, std::size_t count, const Question& question) = 0;
 
-  /// True for a system that also says when: see firstTimes().
+  /// Whether the system implements firstTimes().
   virtual bool tellsTimes() const { return false; }
 
-  /// Parameters in [0, 1] of first hits of the surface, one thread; negative where there is none.
+  /// Computes the parameters in [0, 1] of the first hits, on one thread; negative for segments without one.
   virtual void firstTimes(const std::vector<Segment>& segments, std::vector<double>& times) {
     times.assign(segments.size(), -1.0);
   }
@@ -49,16 +49,16 @@ class SegmentSystem {
 
 using SegmentSystems = std::vector<std::unique_ptr<SegmentSystem>>;
 
-/// A field as a subject of the study.
+/// A mesh and its field, for which systems are built.
 struct FieldSubject {
   const TriangleMesh& mesh;
   const DistanceField& field;
   int cells;   ///< along the longest side; 0 for a field built to a maximum error
-  bool paper;  ///< true if the paper's dense grids are wanted
+  bool paper;  ///< whether to build the paper's dense grids
 };
 
-/// Every system is one file that adds itself here before main(): those that need only the mesh, and those that need
-/// a field or a resolution. Either may add nothing.
+/// Factories of systems that need only the mesh, and of systems that need a field or a resolution. Each is in a file of
+/// its own that registers it here before main(). A factory may add no system.
 using MeshFactory = std::function<void(const TriangleMesh&, SegmentSystems&)>;
 using FieldFactory = std::function<void(const FieldSubject&, SegmentSystems&)>;
 

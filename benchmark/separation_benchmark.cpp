@@ -1,5 +1,5 @@
-/// How long it takes to tell two surfaces of triangles apart over a cycle, beside FCL at the cycle's end, and two
-/// triangles, beside FCL's. Prints rows of results.csv.
+/// Time to bound the separation of two triangle surfaces over a cycle, compared with FCL at the cycle's end, and the
+/// distance of two triangles, compared with FCL's. Prints rows of results.csv.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -19,16 +19,16 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr double kTravel = 0.003, kTurn = 0.003;  // in a cycle: of the mesh's longest side, and [rad]
+constexpr double kTravel = 0.003, kTurn = 0.003;  // per cycle, in longest sides of the mesh and [rad]
 
 struct Placement {
   std::string name;
-  double gap;  // of the mesh's longest side; below zero: so far into each other, along the way there
+  double gap;  // in longest sides of the mesh; negative: moved on into each other by this
 };
 const std::vector<Placement> kPlacements = {
     {"apart_30%", 0.3}, {"apart_1%", 0.01}, {"apart_0.1%", 0.001}, {"crossing", -0.02}};
 
-/// Two copies of a mesh, A at rest.
+/// Two copies A and B of a mesh; A rests.
 class Surfaces {
  public:
   explicit Surfaces(const TriangleMesh& mesh)
@@ -43,7 +43,7 @@ class Surfaces {
     return fcl::distance(model.get(), Isometry3d::Identity(), model.get(), X_AB, fcl::DistanceRequestd(), result);
   }
 
-  /// Turned anyhow, and slid along a line from afar until the gap is left.
+  /// A pose of B with a random orientation, moved along a line from far away until only the gap is left.
   Isometry3d place(double gap, test::Random& random) const {
     const Vector3d from = test::direction(random);
     Isometry3d X_AB = test::pose(random, 3.0, 0.0);
@@ -62,7 +62,7 @@ class Surfaces {
   double side;  // [m]
 };
 
-/// A cycle of B, and what is known of the one before.
+/// A cycle of B, and the witness kept from the previous query of it.
 struct Cycle {
   Cycle(const Surfaces& surfaces, const Placement& placement, test::Random& random)
       : X_WA(Isometry3d::Identity(), Isometry3d::Identity()), X_WB(motionOf(surfaces, placement, random)) {
@@ -154,7 +154,7 @@ void studyTriangles(const StudyOptions& options) {
       return groups.size() * TrianglePairs::kSize;
     };
   };
-  double sum = 0.0;  // so that nothing is left out
+  double sum = 0.0;  // keeps the compiler from removing the calls
   const std::vector<Task> tasks = {
       {"planes", each([&](TrianglePairs& group) { planeGaps(poses, Vector3d::UnitX(), group); })},
       {"closest", each([&](TrianglePairs& group) { closestGaps(poses, group); })},

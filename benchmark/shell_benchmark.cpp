@@ -1,5 +1,5 @@
-/// Time per moving point shell: all points, the tree of spheres, and FCL on the meshes (paper, Tables 3 and 4). Prints
-/// rows of results.csv.
+/// Time per moving point shell: linear traversal, the sphere tree, and FCL on the meshes (paper, Tables 3 and 4).
+/// Prints rows of results.csv.
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +12,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// The vertices are the shell, as many as there are.
+/// Value of ShellPlan::points for a shell of the mesh's vertices.
 constexpr std::size_t kVertices = 0;
 
 struct ShellPlan {
@@ -37,7 +37,7 @@ PointShell sampled(const TriangleMesh& mesh, std::size_t points) {
   return shell;
 }
 
-/// Pairs that the system can do in about `seconds`, by its time for the first few.
+/// Number of pairs that the system can query in about `seconds`, extrapolated from the first few.
 std::size_t affordable(ShellSystem& system, const std::vector<PosePair>& pairs, double seconds) {
   const auto start = std::chrono::steady_clock::now();
   double spent = 0.0;
@@ -49,8 +49,8 @@ std::size_t affordable(ShellSystem& system, const std::vector<PosePair>& pairs, 
   return std::clamp<std::size_t>(std::size_t(seconds / spent * double(done)), 1, pairs.size());
 }
 
-/// Linear and tree on the same pairs, as many as linear can do, other libraries on the first of them; the tree on all
-/// pairs too.
+/// Times linear traversal and tree on the same pairs, as many as the linear one can do in the time, other libraries on
+/// the first of those, and the tree on all pairs too. @throws std::runtime_error if tree and linear traversal differ.
 void compare(const std::string& row, const ShellSystems& systems, const std::vector<PosePair>& pairs,
              const StudyOptions& options) {
   const double seconds = 10.0 * options.measure.seconds;

@@ -10,8 +10,8 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A moving body's poses in the field's frame, before and after a motion. Points run straight between them (paper
-/// Eq. 1).
+/// Poses of a moving body in the field's frame at the start and the end of a motion. Points move on straight lines
+/// between them (paper Eq. 1).
 struct PosePair {
   Isometry3d X_FP_start, X_FP_end;
 };
@@ -30,7 +30,7 @@ struct ShellAnswer {
   long contacts = 0;  ///< intervals of shell points; 0 from a system without points
 };
 
-/// A way to find the contacts of a moving body.
+/// A system that finds the contacts of a moving body.
 class ShellSystem {
  public:
   virtual ~ShellSystem() = default;
@@ -41,7 +41,7 @@ class ShellSystem {
 using ShellSystems = std::vector<std::unique_ptr<ShellSystem>>;
 using ShellFactory = std::function<void(const ShellSubject&, ShellSystems&)>;
 
-/// Every system is one file that adds itself here before main().
+/// Factories of systems. Each is in a file of its own that registers it here before main().
 inline std::vector<ShellFactory>& shellFactories() {
   static std::vector<ShellFactory> factories;
   return factories;

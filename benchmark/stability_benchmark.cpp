@@ -1,6 +1,5 @@
-/// Stability of the integrators: the largest stable step of a persistent contact over the damping ratio beside its
-/// closed form, what an impact gives back, and the three statements of Xu & Barbič's Figure 6. Prints rows of
-/// results.csv.
+/// Stability of the integrators: the largest stable step of a persistent contact over the damping ratio with its closed
+/// form, the restitution of impacts, and the three statements of Xu & Barbič's Figure 6. Prints rows of results.csv.
 
 #include <cmath>
 #include <optional>
@@ -43,9 +42,9 @@ void chart(int ratios, int steps) {
   }
 }
 
-/// What impacts of a point at 1 m/s do under one scheme, over places within a step, evenly spread, where they begin.
+/// Results of impacts of a point at 1 m/s under one scheme, for kPhases equally spaced phases of the impact in a step.
 struct Impacts {
-  double mean_rebound = 0.0;     // speed after the impact [m/s]: 1 is exact without damping
+  double mean_rebound = 0.0;     // speed after the impact [m/s]; exactly 1 without damping
   double highest_rebound = 0.0;  // [m/s]
   double deepest = 0.0;          // [m]
 };
@@ -78,7 +77,7 @@ void restitution(double s) {
   }
 }
 
-/// Largest step, in fiftieths, up to which no impact gives back more than it took or goes deeper than `depth`.
+/// Largest step [s], on a ladder of factors 1.02, up to which no impact rebounds faster or goes deeper than `depth`.
 double largestImpactStep(Scheme scheme, double zeta, double depth = 1e9) {
   double s = 0.02;
   while (s < 100.0) {
@@ -89,7 +88,7 @@ double largestImpactStep(Scheme scheme, double zeta, double depth = 1e9) {
   return s / kOmega;
 }
 
-/// Figure 6 for impacts of a point.
+/// The three statements of Figure 6 for impacts of a point.
 void pointFigure6(double zeta) {
   const std::string row = "figure6_point zeta=" + number(zeta);
   const double continuous = largestImpactStep(Scheme::kContinuous, zeta);
@@ -97,7 +96,7 @@ void pointFigure6(double zeta) {
   add(row, "continuous", "s_max", continuous * kOmega, "1", kPhases);
   add(row, "discrete", "s_max", discrete * kOmega, "1", kPhases);
   add(row, "continuous/discrete", "step_ratio", continuous / discrete, "1", kPhases);
-  // Whatever the stiffness the limit is on ωΔt.
+  // The limit is one of ωΔt, whatever the stiffness.
   const double softened = kOmega * discrete / continuous;
   const double depth = impacts(Scheme::kContinuous, zeta, kOmega, continuous).deepest;
   add(row, "discrete/continuous", "depth_ratio", impacts(Scheme::kDiscrete, zeta, softened, continuous).deepest / depth,
@@ -120,16 +119,16 @@ class Drop {
     setStiffness(1e5, zeta);
   }
 
-  /// The damping ratio is that of the body on ten such points (half of each counts in either role).
+  /// Sets the damping for the damping ratio of the body resting on ten such points (each has half its weight per role).
   void setStiffness(double stiffness, double zeta) {
     world_.contact.stiffness = stiffness;
     world_.contact.damping = 2.0 * zeta * std::sqrt(stiffness * blob_.mass / 5.0);
   }
   double stiffness() const { return world_.contact.stiffness; }
 
-  /// Deepest point, if the run is stable: at no step is the energy above what it was at the start by more than the
-  /// drop's, m g h, nor does the run end in an error. (A sampled point may be deeper than it will stay, so that less
-  /// would count penetration as explosion.)
+  /// Depth of the deepest point, if the run is stable: it ends without an error, and the energy never exceeds the
+  /// initial one by more than the energy m g h of the drop. (With a smaller tolerance, deep penetrations would count as
+  /// unstable.)
   std::optional<double> deepest(Scheme scheme, double step, double duration) const {
     const double fall = 0.1;
     try {
@@ -148,8 +147,7 @@ class Drop {
     }
   }
 
-  /// Largest step of a ladder, each a twentieth above the last, up to which all are stable and, if `depth` is given,
-  /// no deeper than that.
+  /// Largest step [s], on a ladder of factors 1.05, up to which all runs are stable and no deeper than `depth` [m].
   double largestStep(Scheme scheme, double duration, double depth = 1e9) const {
     double step = 1e-4;
     for (;;) {
@@ -164,7 +162,7 @@ class Drop {
   RigidWorld world_;
 };
 
-/// The three statements, for impacts (until a little after the first) or until rest.
+/// The three statements of Figure 6 for the drop, until a little after the first impact or until rest.
 void figure6(const std::string& name, double zeta, double duration) {
   Drop drop(zeta);
   const std::string row = "figure6_" + name + " zeta=" + number(zeta);
@@ -174,7 +172,7 @@ void figure6(const std::string& name, double zeta, double duration) {
   add(row, "discrete", "step_max", discrete, "s");
   add(row, "continuous/discrete", "step_ratio", continuous / discrete, "1");
 
-  // Softened at the continuous scheme's step, until every stiffness below is stable too.
+  // At the continuous scheme's step: the largest stiffness up to which all smaller ones are stable too.
   const double depth = *drop.deepest(Scheme::kContinuous, continuous, duration);
   const double stiffness = drop.stiffness();
   double softened = 0.0, depth_softened = 0.0;
@@ -191,7 +189,7 @@ void figure6(const std::string& name, double zeta, double duration) {
     add(row, "discrete/continuous", "depth_ratio", depth_softened / depth, "1");
   }
 
-  // As deep as the discrete scheme at its largest step, or less.
+  // The continuous scheme's largest step that is no deeper than the discrete scheme at its own.
   const double depth_to_match = *drop.deepest(Scheme::kDiscrete, discrete, duration);
   const double matched = drop.largestStep(Scheme::kContinuous, duration, 1.001 * depth_to_match);
   add(row, "continuous", "step_max_matched", matched, "s");

@@ -11,7 +11,7 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A field that a study asks for: `<mesh>/<cells>` or `<mesh>/<error>`.
+/// A field of a study, named `<mesh>/<cells>` or `<mesh>/<error>`.
 struct StudyField {
   std::string name;
   int cells;  ///< 0 for a field built to a maximum error
@@ -32,7 +32,7 @@ inline std::vector<StudyField> studyFields(const NamedMesh& named, const StudyOp
   return fields;
 }
 
-/// Builds the field and hands it on; one that would be too large is named on stderr and left out.
+/// Builds the field and passes it to `use`. A field that would be too large is skipped, with a line on stderr.
 inline void withField(const NamedMesh& named, const StudyField& wanted,
                       const std::function<void(const DistanceField&)>& use) {
   try {

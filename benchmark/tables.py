@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the tables of benchmark/README.md from results.csv, with the figures of Xu & Barbič 2014 beside ours.
+"""Makes the tables of benchmark/README.md from results.csv, with the figures of Xu & Barbič 2014 for comparison.
 
 usage: tables.py RESULTS.csv [--readme README.md]
 
-Prints all tables; with --readme it replaces those between `<!-- table NAME -->` and `<!-- end -->` in that file and
-leaves alone tables that the results say nothing about.
+Prints all tables; with --readme it replaces those between `<!-- table NAME -->` and `<!-- end -->` in that file. Tables
+without results are left unchanged.
 """
 import argparse
 import re
@@ -33,7 +33,7 @@ PAPER_SEGMENT = {128: (12.7, 12.0), 256: (38.8, 13.1), 512: (97.2, 15.4), 1024: 
 PAPER_RANDOM = {'shell800': (1000, 1.8, 0.7), 'shell2k': (1000, 3.4, 0.3), 'shell437k': (1000, 761.2, 9.9)}
 PAPER_SIMULATION = {'bunny777': (2600, 8.0, 2.5), 'blob777': (2600, 8.0, 2.5), 'bowl2072': (2000, 20.3, 4.5),
                     'dragon437k': (1160, 671.6, 2.6)}
-# What the fields are to reach: times faster than Embree for A first, A all, B1 and B2 from outside; MB.
+# Targets of the fields: speed-up over Embree for A first, A all, B1, and B2 from outside; MB.
 TARGETS = {'bunny3k/1e-3': (2.5, 2.1, 3.3, 4.0, 2.0), 'bunny3k/1e-4': (1.7, 1.4, 2.9, 3.0, 8.0),
            'bunny75k/1e-3': (3.3, 2.8, 4.5, 6.0, 2.0), 'bunny75k/1e-4': (2.3, 1.9, 3.8, 4.0, 5.0),
            'dragon871k/1e-4': (4.0, 3.0, None, None, None)}
@@ -53,7 +53,7 @@ def table(header, rows):
 
 
 def fields(results, study, depth):
-    """`<mesh>/<field>` of all cases."""
+    """The `<mesh>/<field>` of all cases of at least this depth."""
     return list(dict.fromkeys('/'.join(case.split('/')[:2]) for case in results.cases(study)
                               if len(case.split('/')) >= depth))
 
@@ -73,7 +73,7 @@ def paper_segments(results):
 
 
 def against_embree(results):
-    """Ours, the better of single and batched, against the better Embree call on the same mesh."""
+    """The faster of our single and batched queries against the faster Embree call on the same mesh."""
     columns = ('A/first', 'A/all', 'B1/first', 'B2_outside/first')
     rows = []
     for field in fields(results, 'segment', 4):

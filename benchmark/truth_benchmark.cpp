@@ -1,5 +1,5 @@
-/// Whether any adversary makes a verdict untrue: families of motions whose truth is known. Prints rows of results.csv;
-/// what failed goes to stderr.
+/// Checks verdicts on families of adversarial motions whose truth is known. Prints rows of results.csv, and failures to
+/// stderr.
 
 #include <algorithm>
 #include <cstdio>
@@ -21,7 +21,7 @@ using test::Family;
 using test::Tally;
 
 constexpr long kPerSeed = 50'000;
-constexpr long kPerStream = 100;  ///< motions for one cycle of the family `ros`
+constexpr long kPerStream = 100;  ///< one cycle of the family `ros` is run for so many motions of the others
 
 struct Share {
   Family family;
@@ -57,7 +57,7 @@ void printRows(const std::string& name, const Tally& tally) {
 }
 
 #ifdef SDF_CCD_WITH_CGAL
-/// What the truth rests on, beside CGAL.
+/// Compares the oracle's triangle distances with CGAL's.
 void printOracle(long pairs) {
   const OracleError error = compareWithCgal(1, pairs);
   const auto row = [&](const char* metric, double value, const char* unit) {

@@ -1,4 +1,4 @@
-// Tunnelling: a hand that passes through what is thin, at several rates, beside checks at samples.
+// Tunnelling: a hand passes through thin obstacles, checked at several rates and compared with checks at samples.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,17 +18,17 @@ namespace sdf_ccd::benchmark {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr double kThickness = 1e-3;                                  // of what the hand passes through [m]
+constexpr double kThickness = 1e-3;                                  // of the obstacles [m]
 constexpr double kDuration = 0.25;                                   // of a motion [s]
 constexpr double kSlowest = 1.0, kFastest = 2.0;                     // [m/s]
-constexpr double kTurn = 2.0;                                        // [rad/s], at most
-constexpr double kRates[] = {1000.0, 100.0, 30.0, 1.0 / kDuration};  // [Hz]; the last one sees its ends alone
+constexpr double kTurn = 2.0;                                        // maximum [rad/s]
+constexpr double kRates[] = {1000.0, 100.0, 30.0, 1.0 / kDuration};  // [Hz]; the last one has one cycle per motion
 
-/// Something thin that stands, and where a point of the hand goes through it.
+/// A thin obstacle at rest, and how a point of the hand passes through it.
 struct Obstacle {
   std::string name;
   Box box;
-  std::function<Vector3d(test::Random&)> inside, direction;  ///< of the point [m], and its way (unit)
+  std::function<Vector3d(test::Random&)> inside, direction;  ///< position of the point [m] and its unit direction
 };
 
 std::vector<Obstacle> obstacles() {
@@ -44,7 +44,7 @@ std::vector<Obstacle> obstacles() {
     p.x() = plate.x() - test::uniform(random, 2e-4, 2e-3);
     return p;
   };
-  // Along the edge, up to two degrees off the plate's plane: the hand meets nothing but the edge.
+  // Along the edge, up to two degrees off the plate's plane: the hand touches only the edge.
   const auto along = [](test::Random& random) -> Vector3d {
     return Vector3d(test::uniform(random, -0.3, 0.3), 1.0, test::uniform(random, -0.03, 0.03)).normalized();
   };
@@ -53,7 +53,7 @@ std::vector<Obstacle> obstacles() {
           {"tab", {tab}, within(tab), test::direction}};
 }
 
-/// The robot's hand as a body that moves by itself.
+/// The robot's hand as a free body.
 BodyDescription handOf(const Robot& robot) {
   for (BodyDescription body : robot.scene.bodies) {
     const std::size_t at = body.name.rfind("hand");
@@ -64,7 +64,7 @@ BodyDescription handOf(const Robot& robot) {
   throw std::runtime_error(robot.name + ": no link whose name ends in \"hand\" has a collision geometry");
 }
 
-/// Triangles' centres, in the body's frame.
+/// Centroids of the triangles, in the body's frame.
 std::vector<Vector3d> pointsOn(const BodyDescription& body) {
   std::vector<Vector3d> points;
   for (const GeometryDescription& geometry : body.geometry) {
@@ -79,11 +79,11 @@ std::vector<Vector3d> pointsOn(const BodyDescription& body) {
   return points;
 }
 
-/// A constant twist that takes a point of the hand through the obstacle at some time: they meet then, whoever checks
-/// it.
+/// A motion of the hand with a constant twist in which a point of it is inside the obstacle at `time`, so that there is
+/// a contact.
 struct Passage {
   Vector3d p_B, p_W, velocity, omega;  ///< [m], [m], [m/s], [rad/s]
-  Matrix3d R_WB;                       ///< at that time
+  Matrix3d R_WB;                       ///< at `time`
   double time;                         ///< [s]
 
   Isometry3d at(double t) const {
@@ -101,17 +101,17 @@ Passage randomPassage(const Obstacle& obstacle, const std::vector<Vector3d>& poi
   passage.p_B = points[random() % points.size()];
   passage.p_W = obstacle.inside(random);
   passage.velocity = test::uniform(random, kSlowest, kFastest) * obstacle.direction(random);
-  // About the way alone, so that it is one screw: the monitor's path between two samples is the same.
+  // Rotates about the direction of travel only: the motion is one screw, as the monitor interpolates between samples.
   passage.omega = test::uniform(random, -kTurn, kTurn) * passage.velocity.normalized();
   passage.R_WB = test::pose(random, 3.14, 0.0).linear();
   passage.time = test::uniform(random, 0.4, 0.6) * kDuration;
   return passage;
 }
 
-/// What a system makes of the passages.
+/// Results of a system for all passages.
 struct Tally {
   int missed = 0;
-  double seconds = 0.0;  // of all cycles
+  double seconds = 0.0;  // in all cycles
   long cycles = 0;
 };
 
@@ -152,7 +152,7 @@ class Study {
                 uncertain));
       benchmark::print({"tunnelling", rated, "sdf_ccd", "uncertain", double(uncertain), "passages"});
       for (const auto& peer : peers) {
-        if (peer->name() == "fcl_distance") continue;  // as fcl
+        if (peer->name() == "fcl_distance") continue;  // like fcl
         int none = 0;
         print(rated, peer->name(),
               runAll(
@@ -166,7 +166,7 @@ class Study {
   }
 
  private:
-  /// @param check  a cycle's verdict. @param uncertain  passages of which the worst verdict is UNCERTAIN.
+  /// @param check  returns a cycle's verdict. @param uncertain  number of passages whose worst verdict is UNCERTAIN.
   template <class Check>
   Tally runAll(double rate, const Check& check, int& uncertain) const {
     Tally tally;

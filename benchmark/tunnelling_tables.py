@@ -5,7 +5,7 @@ SYSTEMS = ['sdf_ccd', 'fcl', 'bullet_cast']
 
 
 def passages(results):
-    """Who misses how many passages, and what a cycle takes."""
+    """Missed passages and time per cycle of each system."""
     rows = []
     for case in results.cases('tunnelling'):
         def get(system, metric):

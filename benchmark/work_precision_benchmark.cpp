@@ -1,4 +1,4 @@
-/// Error against run time: the studies of `sdf_ccd work-precision` with other libraries beside. Prints rows of
+/// Error against run time: the studies of `sdf_ccd work-precision`, with other libraries for comparison. Prints rows of
 /// results.csv and draws the studies' plots.
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr double kSide = 0.2;  ///< the longest, of every mesh [m]
+constexpr double kSide = 0.2;  ///< longest side of every mesh [m]
 
 using precision::Measurement;
 using precision::StudyResult;
@@ -48,7 +48,7 @@ std::vector<precision::HitSystem> meshHits(const TriangleMesh& mesh) {
 
 std::vector<precision::HitSystem> gridHits(const TriangleMesh& mesh, int cells) {
   SegmentSystems systems;
-  const DistanceField none{Primitive(Sphere{1.0})};  // these systems make grids of their own
+  const DistanceField none{Primitive(Sphere{1.0})};  // unused: these systems make their own grids
   for (const FieldFactory& factory : fieldFactories()) factory({mesh, none, cells, false}, systems);
   return hitSystems(std::move(systems), [&](const std::string& name) { return gridLabel(name, mesh, cells); });
 }
@@ -90,7 +90,7 @@ void draw(const StudyResult& result, const std::string& mesh, const std::string&
   precision::runGnuplot(precision::plotScript(result, directory + "/" + mesh + "_" + result.study + ".svg"));
 }
 
-/// Fields of both kinds in one plot; a system without a setting is in both studies.
+/// Joins the studies of both kinds of fields into one plot. A system without settings is in both, and added only once.
 void addTo(StudyResult& fields, const StudyResult& result) {
   const bool first = fields.rows.empty();
   for (const Measurement& row : result.rows) {
@@ -100,7 +100,7 @@ void addTo(StudyResult& fields, const StudyResult& result) {
 
 void study(const NamedMesh& named, const StudyOptions& options) {
   precision::StudyInput input;
-  // Of a robot link's size, so that the figures of different meshes can be compared.
+  // Scaled to the size of a robot link, so that the results of different meshes can be compared.
   input.mesh = scaled(named.mesh, Vector3d::Constant(kSide / boundingBox(named.mesh).sizes().maxCoeff()));
   input.queries = int(options.segments);
   input.quick = options.quick;

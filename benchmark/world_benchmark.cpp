@@ -1,6 +1,6 @@
-// What it costs to change the world of a monitor that runs at a kilohertz: the time from a change to the first cycle
-// that is checked with it, and what cycles take before and meanwhile; and a soak of changes at random, each version
-// checked against a monitor made anew.
+// Cost of changing the world of a monitor that runs at 1 kHz: the time from a change to the first cycle checked with
+// it, and the times of cycles before and meanwhile. Also a soak test of random changes, in which every version is
+// compared with a new monitor.
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ double quantile(std::vector<double> values, double share) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(share * double(values.size())))];
 }
 
-/// By the clock, and of this process on all cores, cycles included.
+/// Wall-clock time, and CPU time of this process on all cores, cycles included.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -40,7 +40,7 @@ class Stopwatch {
   std::clock_t processor_start_ = std::clock();
 };
 
-/// Of this process [MB].
+/// Resident memory of this process [MB].
 double residentMemory() {
   std::ifstream file("/proc/self/statm");
   double total = 0.0, resident = 0.0;
@@ -57,7 +57,7 @@ BodyDescription bodyOf(const std::string& name, const Primitive& primitive, bool
   return body;
 }
 
-/// An arm of boxes in a row, that swings.
+/// A swinging arm of boxes in a row.
 std::vector<BodyDescription> links() {
   std::vector<BodyDescription> links;
   for (int i = 0; i < kLinks; ++i)
@@ -72,10 +72,10 @@ Isometry3d placeOf(const BodyDescription& body, double time) {
   return Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * Eigen::Translation3d(0.12 * (link + 1), 0.0, 0.5);
 }
 
-/// Boxes in the room around the arm, none of them nearer than 0.2 m to where it comes.
+/// The i-th box in the room around the arm, at least 0.2 m from the arm's swept volume.
 BodyDescription object(int i, std::mt19937& random) {
   std::uniform_real_distribution<double> angle(1.2, 5.1), reach(0.4, 4.0), height(0.0, 2.0);
-  const int kind = i % 8;  // goods on shelves are of some kinds
+  const int kind = i % 8;  // boxes of eight sizes, like goods on shelves
   const Vector3d size(0.02 + 0.005 * kind, 0.05, 0.08 - 0.005 * kind);
   BodyDescription body = bodyOf("object" + std::to_string(i), Box{size}, true);
   const double a = angle(random), r = reach(random);
@@ -83,7 +83,7 @@ BodyDescription object(int i, std::mt19937& random) {
   return body;
 }
 
-/// Of so many triangles, about: a wavy ball.
+/// A wavy ball of about so many triangles.
 std::shared_ptr<const TriangleMesh> largeMesh(int triangles) {
   TriangleMesh mesh;
   const int rings = std::max(4, static_cast<int>(std::sqrt(triangles / 4.0))), sides = 2 * rings;
@@ -109,7 +109,7 @@ std::shared_ptr<const TriangleMesh> largeMesh(int triangles) {
   return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 
-/// The walls and furniture of a room of 8 × 8 × 3 m in voxels of 50 mm; the arm stands in its middle.
+/// The walls and furniture of a room of 8 × 8 × 3 m in voxels of 50 mm; the arm stands in its centre.
 class Room {
  public:
   static constexpr double kSize = 0.05;
@@ -129,7 +129,7 @@ class Room {
     }
   }
 
-  /// With a column of so many voxels more, at another place each time.
+  /// A scan of the room with a column of `changed` more voxels, which is elsewhere in every scan.
   VoxelGrid scan(int changed, int time, const VoxelMapOptions& options) const {
     VoxelGrid grid(kSize, options);
     const Vector3i middle = Vector3i::Constant(1 << 15);
@@ -192,7 +192,7 @@ class Study {
     return monitor.takeTimes();
   }
 
-  /// So many objects come at once into a world of as many, and go.
+  /// Adds `count` objects at once to a world of as many, and removes them.
   void addObjects(int count) {
     const std::string name = "objects_" + std::to_string(count);
     if (!isWanted(options_.cases, name)) return;
@@ -211,7 +211,7 @@ class Study {
     measureChanges(name, without, [&](int i) {
       SceneDescription with = without;
       BodyDescription body = bodyOf("mesh" + std::to_string(i), Sphere{1.0}, true);
-      body.geometry[0].shape = largeMesh(100000 + 4000 * i);  // another one each time, of no cache
+      body.geometry[0].shape = largeMesh(100000 + 4000 * i);  // a different mesh each time, so that no cache holds it
       body.X_frame_B.translation() = Vector3d(-1.0, 0.0, 0.5);
       with.bodies.push_back(body);
       return with;
@@ -235,7 +235,7 @@ class Study {
     report(name, seconds, monitor, before);
   }
 
-  /// From a grid of voxels (as it is when a message has been read) to the cycle that is checked with it, at 10 Hz.
+  /// Time from a voxel grid (as decoded from a message) to the first cycle that is checked with it, at 10 Hz.
   void changeMap(int changed) {
     const std::string name = "map_" + std::to_string(changed);
     if (!isWanted(options_.cases, name)) return;
@@ -275,7 +275,7 @@ class Study {
     report(name, seconds, monitor, before);
   }
 
-  /// Changes at random, one after the other; every version's first cycle against a monitor made anew.
+  /// Random changes one after the other; the first cycle of every version is compared with that of a new monitor.
   void soak() {
     if (!isWanted(options_.cases, "soak")) return;
     std::mt19937 random(7);
@@ -294,7 +294,7 @@ class Study {
       if (what == 0) bodies.push_back(object(i, random));
       const std::size_t any = kLinks + random() % std::max<std::size_t>(1, bodies.size() - kLinks);
       if (what == 1) bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(any));
-      if (what == 2 || (what == 0 && random() % 3 == 0)) {  // into the arm's way, or elsewhere
+      if (what == 2 || (what == 0 && random() % 3 == 0)) {  // into the arm's path, or elsewhere
         std::uniform_real_distribution<double> place(-1.5, 1.5);
         bodies[std::min(any, bodies.size() - 1)].X_frame_B.translation() = Vector3d(place(random), place(random), 0.5);
       }

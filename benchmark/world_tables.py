@@ -3,7 +3,7 @@ from results import number
 
 
 def changes(results):
-    """What it costs to change the world of a monitor that runs at a kilohertz."""
+    """Cost of changing the world of a monitor that runs at 1 kHz."""
     rows = []
     for case in results.cases('world'):
         def get(metric):
@@ -17,7 +17,7 @@ def changes(results):
 
 
 def soak(results):
-    """Changes at random, every version against a monitor made anew."""
+    """Random changes, every version compared with a new monitor."""
     metrics = ('versions', 'contacts', 'contacts_missed', 'verdicts_that_differ', 'rss_first_half', 'rss')
     values = [results.get('world', 'soak', 'sdf_ccd', metric) for metric in metrics]
     rows = [] if None in values else [[number(value) for value in values]]

@@ -1,4 +1,4 @@
-// A box that falls on the ground and comes to rest there.
+// Simulates a box that falls on the ground and comes to rest.
 #include <cmath>
 #include <cstdio>
 #include <memory>

@@ -1,4 +1,4 @@
-// What the README shows: a part, read from a file, that moves past and through a table.
+// The README's example: a part, read from a mesh file, moves past a table and then through it.
 #include <cstdio>
 #include <fstream>
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-/// A cube of 4 cm.
+/// Writes a cube with sides of 4 cm as OFF.
 void writePart(const char* file) {
   std::ofstream(file) << "OFF\n8 12 0\n"
                          "-.02 -.02 -.02\n.02 -.02 -.02\n.02 .02 -.02\n-.02 .02 -.02\n"

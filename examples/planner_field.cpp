@@ -1,4 +1,4 @@
-// A field in a planner's inner loop: of many straight moves of a tool's tip, those that stay out of an obstacle.
+// A field in a planner's inner loop: finds which of many straight moves of a tool's tip do not touch an obstacle.
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -10,7 +10,7 @@ int main() {
   constexpr double kRadius = 0.2, kTip = 0.01;  // [m]
   FieldOptions wanted;
   wanted.max_error = 5e-4;   // [m]
-  wanted.band = 2.0 * kTip;  // isosurfaces are asked for only within the band
+  wanted.band = 2.0 * kTip;  // isovalues of queries must lie within the band
   const DistanceField field = buildField(tessellate(Sphere{kRadius}, 1e-4), wanted);
 
   std::mt19937_64 random(1);
@@ -19,7 +19,7 @@ int main() {
   std::vector<Segment> moves(10'000);
   for (Segment& move : moves) move = {draw(), draw()};
 
-  // The tip is a ball of this radius: where its middle is no nearer than that, it is free.
+  // The tip is a ball of radius kTip: it does not touch the obstacle where its centre is farther away than kTip.
   SegmentOptions options;
   options.sigma = kTip + field.errorBound();
   options.mode = SegmentMode::kAny;
@@ -27,14 +27,14 @@ int main() {
   for (const Segment& move : moves) {
     const bool is_free = segmentIntervals(field, move, options).empty();
     free += is_free;
-    // Of a sphere the truth is known.
+    // The exact distance to a sphere is known.
     const Vector3d way = move.end - move.start;
     const double t = std::min(1.0, std::max(0.0, -move.start.dot(way) / way.squaredNorm()));
     if (is_free && (move.start + t * way).norm() < kRadius - 1e-4 + kTip) ++wrong;
   }
   std::printf("%zu of %zu moves are free\n", free, moves.size());
 
-  // What a planner descends along.
+  // Distance and gradient, for planners that optimise a cost of obstacles.
   const FieldValue near = field.interpolate({0.0, 0.0, 0.25});
   std::printf("0.05 m away: %.4f m, towards (%.2f %.2f %.2f)\n", near.value, near.gradient.x(), near.gradient.y(),
               near.gradient.z());

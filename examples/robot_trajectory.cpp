@@ -1,4 +1,4 @@
-// Whether a robot's trajectory meets its world, or the robot itself, anywhere between its waypoints.
+// Checks a robot's trajectory for contact with the world and with itself, also between its waypoints.
 #include <cstdio>
 #include <memory>
 

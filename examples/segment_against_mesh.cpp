@@ -1,4 +1,4 @@
-// When a moving point is inside a mesh: a field of the mesh, and a segment against its surface.
+// Builds the field of a mesh and finds when a moving point is inside the mesh.
 #include <cmath>
 #include <cstdio>
 
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   std::printf("%zu cells, %.2f MB, error at most %.3g m\n", field.cells(), 1e-6 * double(field.bytes()),
               field.errorBound());
 
-  // Through the middle of the mesh, from half its size outside to as far on the other side.
+  // A segment through the centre of the mesh; it starts and ends half the mesh's size outside.
   const AlignedBox3d box = field.surfaceBox();
   const Vector3d way(box.sizes().x(), 0.0, 0.0);
   const Intervals inside = segmentIntervals(field, {box.center() - way, box.center() + way});
@@ -27,6 +27,6 @@ int main(int argc, char** argv) {
 
   if (argc > 1) return 0;
   const bool is_right = inside.size() == 1 && std::abs(inside[0].enter - 0.25) < 1e-3 &&
-                        std::abs(inside[0].exit - 0.75) < 1e-3;  // of a sphere, by symmetry
+                        std::abs(inside[0].exit - 0.75) < 1e-3;  // for a sphere, by symmetry
   return is_right ? 0 : 1;
 }

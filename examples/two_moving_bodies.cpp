@@ -1,4 +1,4 @@
-// Whether two bodies touch while both of them move, although they are apart at the start and at the end.
+// Two bodies that both move and are apart at the start and at the end: finds that they touch in between.
 #include <cstdio>
 
 #include <sdf_ccd/sdf_ccd.h>
@@ -14,7 +14,7 @@ Isometry3d at(double x, double y) {
 }  // namespace
 
 int main() {
-  // A plate of 1 mm and a rod, whose poses are known before and after they have passed each other.
+  // A plate 1 mm thick and a rod. Their poses are given before and after they pass through each other.
   const Accuracy accuracy{1e-3, {}};
   Monitor monitor(
       {prepareBody("plate", Box{{0.2, 0.0005, 0.2}}, accuracy), prepareBody("rod", Box{{0.01, 0.05, 0.01}}, accuracy)});

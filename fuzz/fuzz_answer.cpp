@@ -1,4 +1,4 @@
-// What comes back from the process that reads meshes, in pieces as a pipe gives it.
+// Fuzzes the answer of the process that reads meshes; it arrives in pieces, as through a pipe.
 #include <algorithm>
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-// The sections of a field file, of the kind that the target is built for, then queries about the field.
+// Fuzzes the sections of a field file (uniform or adaptive, a macro says which), then queries the field.
 #include <cmath>
 
 #include "mended.h"
@@ -8,7 +8,7 @@
 namespace sdf_ccd::fuzz {
 namespace {
 
-/// In the field's box, at its faces and corners, and around it.
+/// The i-th test point: in the box, on its faces, edges and corners, and outside.
 Vector3d placeIn(const AlignedBox3d& box, unsigned i) {
   constexpr double kShares[] = {0.5, 0.0, 1.0, 0.3, 0.77, -0.4, 1.4};
   const Vector3d share(kShares[i % 7], kShares[i / 7 % 7], kShares[i / 3 % 7]);

@@ -11,19 +11,19 @@
 #include <fstream>
 #include <string>
 
-/// What libFuzzer, or replay_main.cpp, calls with each input.
+/// libFuzzer, or replay_main.cpp, calls this with each input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace sdf_ccd::fuzz {
 
-/// A finding: what must hold whatever the input.
+/// Aborts, which is a finding, if a condition that must hold for every input does not.
 inline void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "fuzz: does not hold: %s\n", what);
   std::abort();
 }
 
-/// Does something with a hostile input: it is done, or refused with a reason.
+/// Runs an action on untrusted input. It must succeed, or throw a std::exception with a message.
 template <class Action>
 void attempt(const Action& action) {
   try {
@@ -37,7 +37,7 @@ inline std::string toText(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A file for what reads none but files, in memory where the computer has such a place. Removed at the end.
+/// A file for readers that accept only files; in /dev/shm if it exists. The destructor removes it.
 class InputFile {
  public:
   explicit InputFile(const std::string& ending)
@@ -57,7 +57,7 @@ class InputFile {
   std::string path_;
 };
 
-/// Takes numbers from an input, for what is no file. After its end all are zero.
+/// Takes numbers from an input, for targets that read no file. After the input's end all numbers are zero.
 class Numbers {
  public:
   Numbers(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
@@ -66,7 +66,7 @@ class Numbers {
   std::uint8_t byte() { return at_ < end_ ? *at_++ : 0; }
   std::size_t below(std::size_t count) { return byte() % count; }
 
-  /// Mostly small ones, as what is far out is refused soon; any bits now and then.
+  /// Mostly numbers of magnitude up to 4, as large ones are refused early; sometimes a double of any bits.
   double real() {
     const std::uint8_t kind = byte();
     if (kind < 230) return (byte() - 128) / 32.0;

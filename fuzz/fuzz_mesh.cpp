@@ -1,4 +1,4 @@
-// A mesh file, in the format that the target is built for.
+// Fuzzes a mesh file of the format that the target is built for.
 #include "fuzz_input.h"
 #include "reader/parse_mesh.h"
 

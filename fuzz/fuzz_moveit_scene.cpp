@@ -1,4 +1,4 @@
-// MoveIt's text of a planning scene.
+// Fuzzes MoveIt's text format of a planning scene.
 #include "fuzz_input.h"
 #include "ros/parameters/moveit_scene.h"
 

@@ -1,4 +1,4 @@
-// An OctoMap file, with a limit of memory that keeps a run short.
+// Fuzzes an OctoMap file, with a memory limit that keeps runs short.
 #include "fuzz_input.h"
 #include "reader/parse_octomap.h"
 

@@ -1,4 +1,4 @@
-// The monitor's parameters, as check-bag reads them from a file.
+// Fuzzes the monitor's parameters, as check-bag reads them from a YAML file.
 #include "fuzz_input.h"
 #include "ros/parameters/parameters.h"
 #include "ros/parameters/yaml_parameters.h"

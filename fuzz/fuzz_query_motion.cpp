@@ -1,4 +1,4 @@
-// Requests to query_motion.
+// Fuzzes requests to query_motion.
 #include <cmath>
 
 #include "small_monitor.h"
@@ -11,7 +11,7 @@ QueryMotion::Request requestOf(Numbers& numbers) {
   const std::size_t what = numbers.byte();
   request.allow_beyond_limits = (what & 1) != 0;
   ros::Duration time;
-  // Mostly later by up to 4 s; now and then anything that fits in a message.
+  // Mostly up to 4 s after the previous time; sometimes any value that a message can hold.
   const auto nextTime = [&] {
     time += ros::Duration(numbers.below(4), 1000000 * numbers.byte());
     return numbers.below(32) > 0

@@ -1,4 +1,4 @@
-// Requests to query_points.
+// Fuzzes requests to query_points.
 #include <cmath>
 
 #include "small_monitor.h"

@@ -1,4 +1,4 @@
-// A table of segments, as the tool's query reads it.
+// Fuzzes a CSV file of segments, as `sdf_ccd query` reads it.
 #include "fuzz_input.h"
 #include "tools/segment_csv.h"
 

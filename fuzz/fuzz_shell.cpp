@@ -1,4 +1,4 @@
-// The sections of a shell file, then the tree over its points.
+// Fuzzes the sections of a shell file, then builds the sphere tree of its points.
 #include <cmath>
 
 #include "mended.h"

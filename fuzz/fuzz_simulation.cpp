@@ -1,4 +1,4 @@
-// A scene to simulate. Large numbers are left out: they are work, not damage, and a run takes long.
+// Fuzzes the YAML file of a simulation. Numbers of more than two digits are skipped: they only make a run take long.
 #include <algorithm>
 
 #include "fuzz_input.h"

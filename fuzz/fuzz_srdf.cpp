@@ -1,4 +1,4 @@
-// A robot's semantic description.
+// Fuzzes an SRDF.
 #include "fuzz_input.h"
 #include "sdf_ccd/robot/robot_scene.h"
 

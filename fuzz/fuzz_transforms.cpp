@@ -1,4 +1,4 @@
-// Transforms and the clock, as they come, and what the monitor makes of them.
+// Fuzzes incoming transforms and the clock, and runs the monitor's cycles on them.
 #include <cmath>
 
 #include "ros/monitor/cycle_messages.h"
@@ -7,7 +7,7 @@
 namespace sdf_ccd::fuzz {
 namespace {
 
-/// Anything that a message's stamp can be.
+/// A stamp within 2 s of `now`; sometimes any time that a message can hold.
 ros::Time stampOf(Numbers& numbers, double now) {
   if (numbers.below(64) == 0) return ros::Time(numbers.byte() * 0x01010101U, 0);
   return ros::Time(std::max(0.0, now + (numbers.byte() - 128) / 64.0));

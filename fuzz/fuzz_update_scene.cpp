@@ -1,4 +1,4 @@
-// Changes of the world, as update_scene is asked for them, the worlds that they make, and cycles in these.
+// Fuzzes requests to update_scene, builds the resulting worlds, and runs cycles in them.
 #include <limits>
 
 #include "ros/world/changing_scene.h"

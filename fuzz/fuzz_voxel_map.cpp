@@ -1,4 +1,4 @@
-// A map of voxels as a message brings it, and the tiles that are made of it.
+// Fuzzes a voxel map as a message holds it, and builds its tiles.
 #include <algorithm>
 
 #include "fuzz_input.h"
@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const bool is_binary = head.below(2) == 0, has_colour = head.below(2) == 0;
   VoxelMapOptions options;
   options.unknown = static_cast<UnknownSpace>(head.below(3));
-  options.max_voxels = 20000;  // a short run each
+  options.max_voxels = 20000;  // keeps runs short
   options.max_tiles = 4;
   options.band = 0.05;
   const std::size_t skipped = std::min(size, kHead);

@@ -1,4 +1,4 @@
-// Writes the first inputs of each fuzz target into a folder: small files of our own, each of its kind.
+// Writes the initial corpus of each fuzz target into a folder: small valid inputs, and those that once broke a reader.
 // usage: fuzz_seeds FOLDER SOURCE_FOLDER
 
 #include <filesystem>
@@ -79,7 +79,7 @@ class Seeds {
     tree.writeBinary(binary);
     add("octomap", "full", full.str());
     add("octomap", "binary", binary.str());
-    // The message is the file without its head, which ends behind "data".
+    // The message holds the file without its header, which ends with the line "data".
     const auto voxelMap = [&](const std::string& file, char kind) {
       const std::string data = "data\n";
       add("voxel_map", std::string(1, 'a' + kind), std::string{kind, 1, kind, 0} + file.substr(file.find(data) + data.size()));
@@ -150,7 +150,8 @@ class Seeds {
     }
   }
 
-  /// What broke readers before goes to all of the same kind; but for the bomb, whose refusal takes long.
+  /// Copies the inputs that once broke a reader to all targets of their kind, except the node bomb, which is slow to
+  /// refuse.
   void writeHostile() {
     for (const auto& entry : fs::directory_iterator(source_ / "test/data/hostile")) {
       const std::string ending = entry.path().extension();

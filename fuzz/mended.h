@@ -9,11 +9,11 @@
 
 namespace sdf_ccd::fuzz {
 
-// Of the present files; where they have grown, make_seeds says so.
+// Versions of the present file formats; make_seeds fails if they are out of date.
 constexpr std::uint32_t kFieldVersion = 7, kShellVersion = 5;
 
-/// Writes an input as a checked file whose checksum fits, so that what is behind it is read. The input is the
-/// concatenation of sections, each after its size (four bytes); what is missing at the end is left out.
+/// Writes an input as a checked file with a valid checksum, so that the reader goes on to the content. The input is the
+/// concatenation of sections, each after its size (four bytes); sections missing at its end are left out.
 inline void writeMended(const std::uint8_t* data, std::size_t size, const InputFile& file, const char* kind,
                         std::uint32_t version) {
   constexpr std::size_t kMaxSections = 32;
@@ -30,7 +30,7 @@ inline void writeMended(const std::uint8_t* data, std::size_t size, const InputF
   writeCheckedFile(file.path(), {kind, version}, sections);
 }
 
-/// The input that writeMended() makes a file of.
+/// The inverse of writeMended(): the input of a file.
 inline std::string inputOf(const std::string& path, const char* kind, std::uint32_t version) {
   const auto file = CheckedFile::open(path, {kind, version});
   std::string input;

@@ -1,5 +1,5 @@
-// Gives files, and those of folders, to a fuzz target, one after the other: where there is no libFuzzer, and in the
-// tests. usage: fuzz_TARGET FILE_OR_FOLDER ...
+// Runs a fuzz target on files and on all files of folders, for the tests and for compilers without libFuzzer.
+// usage: fuzz_TARGET FILE_OR_FOLDER ...
 
 #include <cstdio>
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 int replay(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  std::fprintf(stderr, "%s\n", path.c_str());  // the last one is that of a crash
+  std::fprintf(stderr, "%s\n", path.c_str());  // so that the last line names the input of a crash
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   return 1;
 }

@@ -13,7 +13,7 @@
 
 namespace sdf_ccd::fuzz {
 
-/// A robot of three kinds of joints among two obstacles, and all that answers for it.
+/// The monitor of a robot with a revolute, a prismatic and a floating joint between two obstacles, with its queries.
 class SmallMonitor {
  public:
   SmallMonitor() : parameters_(parseParameters({}, "~")) {
@@ -33,7 +33,7 @@ class SmallMonitor {
     begin();
   }
 
-  /// Forgets all transforms but those of a robot at rest.
+  /// Starts again with the transforms of a robot at rest.
   void begin() {
     queries_.reset();
     loop_ = std::make_unique<MonitorLoop>(scene_, described_, parameters_);
@@ -44,7 +44,7 @@ class SmallMonitor {
     queries_ = std::make_unique<Queries>(loop_->world(), described_, parameters_, loop_->history());
   }
 
-  /// Whose next world is the second.
+  /// An editor that holds the first world; its next one is the second.
   std::unique_ptr<WorldEditor> editor() const {
     auto editor = std::make_unique<WorldEditor>(parameters_.scene);
     const ScenePlan plan = planScene(described_.scene, planOptions(parameters_.scene));
@@ -78,7 +78,7 @@ class SmallMonitor {
   std::unique_ptr<Queries> queries_;
 };
 
-/// One of the names that mean something, or others.
+/// A name of a link, joint, object or frame, or an unknown one.
 inline std::string nameOf(Numbers& numbers) {
   static const std::vector<std::string> kNames = {"base", "arm",   "hand", "ball",  "swing", "slide", "free",
                                                   "",     "world", "/arm", "front", "none",  "a/b"};

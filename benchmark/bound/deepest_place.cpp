@@ -6,7 +6,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// A place of the segment, its depth [m], and its nearest triangle.
+/// A point of the segment, its depth [m], and its nearest triangle.
 struct Place {
   double t;
   Vector3d p;
@@ -14,7 +14,7 @@ struct Place {
   int triangle;
 };
 
-/// Two places, the most that a place between them can be deep [m], and where.
+/// A piece of the segment, an upper bound of the depth in it [m], and the parameter at which to divide it.
 struct Piece {
   Place from, to;
   double most;
@@ -46,7 +46,7 @@ class Search {
   }
 
  private:
-  /// Of a place's nearest triangle from p [m].
+  /// Distance [m] of p from the nearest triangle of another point.
   double distance(const Place& place, const Vector3d& p) const {
     const TriangleMesh& mesh = mesh_.mesh();
     const Vector3i& corners = mesh.triangles[place.triangle];
@@ -58,8 +58,8 @@ class Search {
   const Segment& segment_;
 };
 
-/// The deepest place found [m]: none is deeper than that or `floor` by more than the tolerance, unless that exceeds
-/// `most`.
+/// Largest depth found [m], by branch and bound. No point is deeper than this or `floor` by more than the tolerance,
+/// unless the result exceeds `most`, at which the search stops.
 double deepest(const Search& places, double floor, double tolerance, double most) {
   std::vector<Piece> pieces{places.between(places.ask(0.0), places.ask(1.0))};
   double found = std::max(pieces[0].from.depth, pieces[0].to.depth);

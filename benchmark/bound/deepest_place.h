@@ -4,23 +4,23 @@
 
 namespace sdf_ccd::benchmark {
 
-/// When to stop looking for the deepest place.
+/// When to stop the search for the deepest point.
 struct DepthSearch {
   double inside;   ///< tolerance of depths [m]
-  double outside;  ///< the same where the path stays outside: there places are many
-  double most;     ///< once something is deeper how deep does not matter [m]
+  double outside;  ///< the same if the path stays outside, where many points are almost as near
+  double most;     ///< the search stops once a point is deeper than this [m]
 };
 
 struct DeepestPlace {
   double depth;      ///< [m], positive inside
-  double tolerance;  ///< nothing is deeper by more [m]
+  double tolerance;  ///< no point is deeper by more [m]
 };
 
-/// How deep a segment gets.
+/// Depth of the deepest point of a segment, by branch and bound.
 ///
-/// Between two places depths change by no more than the way, and are no more than the distance from either place's
-/// nearest triangle: that is convex along the segment, so it is below its chord. What cannot be deeper is not looked
-/// into.
+/// Two bounds hold between two points. The depth changes by no more than the distance along the segment. It does not
+/// exceed the distance to either point's nearest triangle, which is convex along the segment, so below its chord.
+/// Pieces that cannot hold a deeper point are discarded.
 DeepestPlace deepestOn(const precision::ExactSurface& mesh, const Segment& segment, const DepthSearch& search);
 
 }  // namespace sdf_ccd::benchmark

@@ -13,7 +13,7 @@ double sideOf(const ExactSurface& mesh) {
   return boundingBox(mesh.mesh()).sizes().maxCoeff();
 }
 
-/// A place on an edge; of every fourth one its end.
+/// A random point on a triangle's edge; in one of four cases a vertex.
 Vector3d onEdge(const TriangleMesh& mesh, Random& random) {
   const Vector3i& t = mesh.triangles[random() % mesh.triangles.size()];
   const int k = int(random() % 3);
@@ -21,12 +21,12 @@ Vector3d onEdge(const TriangleMesh& mesh, Random& random) {
   return random() % 4 == 0 ? a : Vector3d(a + uniform(random, 0.0, 1.0) * (b - a));
 }
 
-/// A length from 1e-9 to 0.1 of the side, evenly over the powers of ten.
+/// A length from 1e-9 to 0.1 of the side, log-uniform.
 double anyLength(double side, Random& random) {
   return side * std::pow(10.0, uniform(random, -9.0, -1.0));
 }
 
-/// From a place of the surface inwards, as far as that place is the nearest one.
+/// The point farthest inwards along the normal from which `on_surface` is still the nearest point of the surface.
 Vector3d medialPlace(const ExactSurface& mesh, int triangle, const Vector3d& on_surface) {
   const Vector3d inward = -areaNormal(mesh.mesh(), triangle).normalized();
   double near = 0.0, far = sideOf(mesh);
@@ -38,7 +38,7 @@ Vector3d medialPlace(const ExactSurface& mesh, int triangle, const Vector3d& on_
   return on_surface + near * inward;
 }
 
-/// Multiples of this, from the grid's origin, are where cells meet [m].
+/// Faces between cells lie at multiples of this from the grid's origin [m].
 double cellOf(const DistanceField& field) {
   return field.adaptive() ? field.adaptive()->shape().unit() : field.grid()->shape().cell;
 }
@@ -47,7 +47,7 @@ Vector3d originOf(const DistanceField& field) {
   return field.adaptive() ? field.adaptive()->shape().origin : field.grid()->shape().origin;
 }
 
-/// p with one coordinate moved to the nearest face between cells (of an adaptive field: of the leaf that holds p).
+/// p with one coordinate moved to the nearest face between cells; in an adaptive field, to the lower face of its leaf.
 Vector3d onFace(const DistanceField& field, const Vector3d& p, int axis) {
   const double cell = cellOf(field);
   const Vector3d origin = originOf(field);

@@ -22,7 +22,7 @@ Kernel::Point_3 point(const Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// Distance from the start to the nearer end of what a segment shares with a triangle.
+/// Distance from the start to the nearer end of the intersection of a segment and a triangle.
 double distanceTo(const Kernel::Point_3& start, const Hit& hit) {
   const auto to = [&](const Kernel::Point_3& p) { return std::sqrt(CGAL::squared_distance(start, p)); };
   if (const auto* p = boost::get<Kernel::Point_3>(&hit.first)) return to(*p);

@@ -6,14 +6,14 @@
 
 namespace sdf_ccd::benchmark {
 
-/// How far the reference is from CGAL's [m].
+/// Differences between the reference and CGAL [m].
 struct ReferenceDifference {
-  double distance = 0.0;  ///< largest, without signs
-  double hit = 0.0;       ///< largest, between first hits along a segment
-  long lost = 0;          ///< segments that only one of them finds a hit of
+  double distance = 0.0;  ///< largest difference of unsigned distances
+  double hit = 0.0;       ///< largest difference of first hits, along the segment
+  long lost = 0;          ///< segments for which only one of them finds a hit
 };
 
-/// Asks CGAL (exact predicates, constructions in doubles) the same as the reference.
+/// Runs the queries of the reference with CGAL too (exact predicates, constructions in doubles).
 ReferenceDifference compareWithCgal(const precision::ExactSurface& mesh, const std::vector<ExactPlace>& places,
                                     const std::vector<Segment>& segments);
 

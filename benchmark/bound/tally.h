@@ -9,10 +9,10 @@
 
 namespace sdf_ccd::benchmark {
 
-/// True errors beside the bounds that were reported for them.
+/// Compares true errors with the reported error bounds.
 class BoundTally {
  public:
-  /// @param rounding  what the reference itself may be wrong by [m]; smaller errors count as that much.
+  /// @param rounding  error of the reference itself [m]; smaller errors are counted as this one.
   explicit BoundTally(double rounding = 0.0) : rounding_(rounding) {}
 
   void add(double error, double bound) {
@@ -21,7 +21,7 @@ class BoundTally {
     check(error - rounding_ <= bound);
   }
 
-  /// A statement that is true or not, without an error to compare.
+  /// Counts a query whose result holds or not, without an error to compare.
   void check(bool holds) {
     ++queries_;
     violations_ += !holds;
@@ -38,7 +38,8 @@ class BoundTally {
   long violations() const { return violations_; }
   long queries() const { return queries_; }
 
-  /// Rows of results.csv. Errors in box sides; `median_ratio` is bound / true error, `largest_share` error / bound.
+  /// Prints rows of results.csv. Errors are in box sides; `median_ratio` is bound / true error, `largest_share` the
+  /// largest error / bound.
   void printRows(const std::string& name, double side) const {
     const auto row = [&](const char* metric, double value, const char* unit) {
       print({"bound", name, "sdf_ccd", metric, value, unit, int(queries_)});

@@ -12,9 +12,9 @@ namespace {
 
 using namespace precision;
 
-constexpr int kSamples = 33;             ///< of a motion
-constexpr double kFinestSpacing = 5e-3;  ///< of the side: finer shells take minutes
-constexpr int kSurfacePlaces = 2000;     ///< that a clearance is held against
+constexpr int kSamples = 33;             ///< sampled poses of a motion
+constexpr double kFinestSpacing = 5e-3;  ///< [box sides]; finer shells take minutes
+constexpr int kSurfacePlaces = 2000;     ///< points that a clearance is compared with, of either kind
 
 Isometry3d moved(const Isometry3d& X, const Vector3d& middle, const Vector3d& travel, double turn, Random& random) {
   Isometry3d step = Isometry3d::Identity();
@@ -52,7 +52,7 @@ VerdictStudy::VerdictStudy(const ExactSurface& mesh, int motions)
       return start;
     };
     const Vector3d u = direction(random);
-    // From afar to where they touch.
+    // Bisects the distance along u at which they touch, starting far away.
     double apart = 2.0 * side_, step = 0.05 * side_;
     while (step > 1e-7 * side_) {
       if (apart > step && !touch(at(center + (apart - step) * u))) {
@@ -64,22 +64,22 @@ VerdictStudy::VerdictStudy(const ExactSurface& mesh, int motions)
     Isometry3d end;
     const Vector3d aside = u.cross(direction(random)).normalized();
     switch (i % 4) {
-      case 0: {  // towards, along and away, beginning near
+      case 0: {  // in a random direction, starting near contact
         const Vector3d middle = center + (apart + uniform(random, -0.01, 0.03) * side_) * u;
         end = moved(at(middle), middle, 0.02 * side_ * direction(random), 0.03, random);
         break;
       }
-      case 1: {  // past each other, from a millionth of the side apart on
+      case 1: {  // sideways past each other, from a millionth of the side apart on
         const Vector3d middle = center + (apart + side_ * std::pow(10.0, uniform(random, -6.0, -1.5))) * u;
         end = moved(at(middle), middle, 0.02 * side_ * aside, 0.0, random);
         break;
       }
-      case 2: {  // a wide turn
+      case 2: {  // a rotation by 1 rad
         const Vector3d middle = center + (apart + uniform(random, 0.0, 0.1) * side_) * u;
         end = moved(at(middle), middle, 0.1 * side_ * aside, 1.0, random);
         break;
       }
-      default: {  // anywhere, also deep
+      default: {  // starting anywhere, also deep inside
         const Vector3d middle = center + uniform(random, 0.0, 1.2 * apart) * u;
         end = moved(at(middle), middle, 0.05 * side_ * direction(random), 0.1, random);
       }
@@ -91,7 +91,7 @@ VerdictStudy::VerdictStudy(const ExactSurface& mesh, int motions)
   }
 }
 
-/// Of the surfaces.
+/// Whether the surfaces intersect.
 bool VerdictStudy::touch(const Isometry3d& X_WB) const {
   fcl::CollisionRequestd request;
   fcl::CollisionResultd result;
@@ -99,7 +99,7 @@ bool VerdictStudy::touch(const Isometry3d& X_WB) const {
   return result.isCollision();
 }
 
-/// Also where one solid is wholly inside the other.
+/// Whether the solids intersect, also if one is wholly inside the other.
 bool VerdictStudy::sharesPlace(const Isometry3d& X_WB) const {
   const Vector3d& p = mesh_.mesh().vertices[mesh_.mesh().triangles[0][0]];
   return touch(X_WB) || mesh_.surface().inside(X_WB * p) || mesh_.surface().inside(X_WB.inverse() * p);
@@ -148,12 +148,12 @@ void VerdictStudy::compare(const ExactMotion& motion, const PairResult& result, 
     tally.verdicts.check(sharesPlace(screw.pose(result.deepest.time)));
   }
   if (result.intervals.empty()) return;
-  // The deepest point is on one surface and `depth` inside the other.
+  // The deepest point lies on one surface and `depth` deep inside the other.
   const Isometry3d X_BW = screw.pose(result.deepest.time).inverse();
   const double in_a = mesh_.distance(result.deepest.p_W), in_b = mesh_.distance(X_BW * result.deepest.p_W);
   const double depth = result.deepest.depth;
   const double error = std::min(std::abs(in_a + depth) + std::abs(in_b), std::abs(in_b + depth) + std::abs(in_a));
-  // The place is off by the chord error too.
+  // The chord error displaces the point too.
   tally.depth.add(error, result.deepest.depth_error + result.error.root + 2.0 * result.error.chord);
 }
 

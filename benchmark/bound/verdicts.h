@@ -9,31 +9,31 @@
 #include "precision/random_inputs.h"
 #include "sdf_ccd/monitor/monitor.h"
 
-/// What a monitor says of two bodies that move, against what their meshes do.
+/// Verdicts of a monitor for two moving bodies, compared with their exact meshes.
 namespace sdf_ccd::benchmark {
 
-/// A copy of the mesh that moves about one that rests at the origin, as within a cycle.
+/// Motion of a copy of the mesh within a cycle; another copy rests at the origin.
 struct ExactMotion {
   Isometry3d X_WB_start, X_WB_end;
-  std::vector<bool> touches;  ///< per sample of the motion, both ends included: the solids share a place
+  std::vector<bool> touches;  ///< per sampled pose, both ends included: whether the solids intersect
 };
 
-/// How the monitor's answers fared.
+/// Results of the comparison.
 struct VerdictTally {
   explicit VerdictTally(double rounding) : depth(rounding) {}
 
-  BoundTally verdicts;   ///< CLEAR or CONTACT that the meshes contradict
-  BoundTally clearance;  ///< a clearance that the meshes' distance falls below
-  BoundTally depth;      ///< depth of the deepest point against the mesh at its place and time
+  BoundTally verdicts;   ///< CLEAR and CONTACT against the meshes
+  BoundTally clearance;  ///< reported clearance against the meshes' distance
+  BoundTally depth;      ///< depth of the deepest point against the meshes, at its location and time
   long clear = 0, contact = 0, uncertain = 0;
-  double largest_bound = 0.0;  ///< of the verdicts [m]
+  double largest_bound = 0.0;  ///< largest error bound of the verdicts [m]
 };
 
 class VerdictStudy {
  public:
   VerdictStudy(const precision::ExactSurface& mesh, int motions);
 
-  /// Runs the monitor over all motions, with fields of these options.
+  /// Checks all motions with the monitor, with fields of these options.
   VerdictTally run(const FieldOptions& field) const;
 
  private:
@@ -44,7 +44,7 @@ class VerdictStudy {
   const precision::ExactSurface& mesh_;
   std::unique_ptr<FclModel> model_;
   double side_;
-  std::vector<Vector3d> surface_;  ///< places on it
+  std::vector<Vector3d> surface_;  ///< points on it
   std::vector<ExactMotion> motions_;
 };
 

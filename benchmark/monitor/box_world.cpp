@@ -13,9 +13,9 @@ namespace sdf_ccd::benchmark {
 namespace {
 
 constexpr int kBoxes = 20;
-constexpr int kMotions = 20;          // to choose from
-constexpr double kTimeStep = 0.02;    // between the times at which the robot is looked at [s]
-constexpr double kCoarseStep = 0.25;  // the same while a motion is chosen [s]
+constexpr int kMotions = 20;          // candidates to choose from
+constexpr double kTimeStep = 0.02;    // between the robot's sampled poses [s]
+constexpr double kCoarseStep = 0.25;  // the same while choosing a motion [s]
 
 using Poses = std::vector<std::vector<Isometry3d>>;  // per time, per body
 
@@ -25,7 +25,7 @@ Poses posesOf(const RobotMotion& motion, const std::vector<BodyDescription>& bod
   return poses;
 }
 
-/// The planned pairs that touch at one of the times.
+/// The planned pairs that touch in at least one of the poses.
 std::vector<PlannedPair> touching(FclScene& fcl, std::vector<PlannedPair> pairs, const Poses& poses) {
   std::vector<PlannedPair> found;
   for (const std::vector<Isometry3d>& X_WB : poses) {
@@ -54,7 +54,7 @@ RobotMotion calmestMotion(const Robot& robot, FclScene& fcl, double seconds, std
   return RobotMotion(robot, best);
 }
 
-/// Slides boxes towards a robot that moves.
+/// Places boxes at given distances from a moving robot.
 class Placer {
  public:
   Placer(const Robot& robot, const Poses& poses, FclScene& fcl) : robot_(robot), poses_(poses), fcl_(fcl) {
@@ -65,7 +65,8 @@ class Placer {
     if (moved_.empty()) throw std::runtime_error(robot.name + ": nothing that moves has a collision geometry");
   }
 
-  /// A box whose least distance to what moves of the robot is `wanted` [m], or that is as deep in its way.
+  /// A box whose minimum distance from the robot's moving bodies is `wanted` [m]; if that is negative, the box is moved
+  /// that much farther into them.
   BodyDescription place(int number, double wanted, test::Random& random) {
     const auto uniform = [&](double low, double high) { return test::uniform(random, low, high); };
     BodyDescription box;
@@ -84,7 +85,7 @@ class Placer {
     Isometry3d X_WB = test::pose(random, 3.0, 0.0);
     X_WB.translation() = fcl_.ball(aim).center_W + 2.0 * from;
     const double gap = std::max(wanted, 1e-4);
-    for (double free = 1.0; free > 1e-4;) {  // it cannot meet anything sooner
+    for (double free = 1.0; free > 1e-4;) {  // conservative advancement
       free = leastDistance(index, X_WB) - gap;
       X_WB.translation() -= std::max(free, 0.0) * from;
     }
@@ -94,7 +95,7 @@ class Placer {
   }
 
  private:
-  /// Over all times, of what moves to a box there; 1 m if it is no less.
+  /// Minimum distance [m] over all poses between the robot's moving bodies and a box at X_WB; at most 1 m.
   double leastDistance(int box, const Isometry3d& X_WB) {
     fcl_.move(box, X_WB);
     const FclScene::Ball own = fcl_.ball(box);
@@ -113,7 +114,7 @@ class Placer {
   const Robot& robot_;
   const Poses& poses_;
   FclScene& fcl_;
-  std::vector<int> moved_;  // what is not joined to the root rigidly
+  std::vector<int> moved_;  // bodies that are not rigidly joined to the root
 };
 
 double wantedDistance(Proximity proximity, int box, test::Random& random) {

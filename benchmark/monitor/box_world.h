@@ -7,24 +7,24 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A robot that moves among boxes.
+/// A robot moving among boxes.
 struct BoxWorld {
   SceneDescription scene;  ///< the robot's bodies, then the boxes
   RobotMotion motion;
 };
 
-/// How near boxes come to the robot over all of its motion, by FCL at many times of it.
+/// Minimum distance of the boxes from the robot over its motion, measured with FCL at many poses.
 enum class Proximity {
   kClear,    ///< 3 to 20 cm
-  kNear,     ///< half of them 1 to 10 mm, the others as if clear
-  kContact,  ///< every fifth 2 to 20 mm deep, the others as if clear
+  kNear,     ///< every second box 1 to 10 mm, the others as for kClear
+  kContact,  ///< every fifth box 2 to 20 mm deep, the others as for kClear
 };
 
-/// Twenty boxes about a robot that moves for `seconds`. Pairs of its own bodies that touch on the way are disabled. Of
-/// several motions, the one with the fewest of those.
+/// Twenty boxes around a robot that moves for `seconds`. Of several motions, the one with the fewest self-collisions is
+/// chosen; the pairs of the robot's bodies that touch in it are allowed to collide and not checked.
 BoxWorld makeBoxWorld(const Robot& robot, Proximity proximity, double seconds, std::uint64_t seed);
 
-/// The same of a robot that was there at some times: its bodies, then the boxes.
+/// The same for given poses of the robot. Returns the robot's bodies, then the boxes.
 /// @param poses  per time, per body of the robot's scene, in the root's frame.
 SceneDescription boxesAbout(const Robot& robot, const std::vector<std::vector<Isometry3d>>& poses, Proximity proximity,
                             std::uint64_t seed);

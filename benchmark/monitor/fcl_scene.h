@@ -9,8 +9,8 @@
 
 namespace sdf_ccd::benchmark {
 
-/// The bodies of a scene in FCL: meshes, and boxes as meshes of twelve triangles, in hierarchies of boxes; spheres and
-/// cylinders as such. It sees surfaces of meshes only.
+/// The bodies of a scene in FCL: meshes, and boxes as meshes of twelve triangles, as bounding volume hierarchies;
+/// spheres and cylinders as primitives. FCL tests only the surfaces of meshes, not their inside.
 class FclScene {
  public:
   explicit FclScene(const std::vector<BodyDescription>& bodies);
@@ -18,16 +18,16 @@ class FclScene {
   /// Adds a body. @return its index.
   int add(const BodyDescription& body);
 
-  /// Moves a body. @param X_WB  its own frame B.
+  /// Moves a body. @param X_WB  pose of its frame B.
   void move(int body, const Isometry3d& X_WB);
 
-  /// Whether two bodies touch where they are.
+  /// Whether two bodies touch at their present poses.
   bool collide(int a, int b) const;
 
-  /// Their distance [m], or something no less than `nearer_than` if it is not nearer; 0 or less if they touch.
+  /// Distance of two bodies [m], `nearer_than` if they are not nearer than that; 0 or less if they touch.
   double distance(int a, int b, double nearer_than) const;
 
-  /// A ball around a body where it is.
+  /// A bounding ball of a body at its present pose.
   struct Ball {
     Vector3d center_W;
     double radius;

@@ -10,21 +10,22 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A way to check all pairs of a scene, cycle after cycle.
+/// A system that checks all pairs of a scene, cycle after cycle.
 class MonitorSystem {
  public:
   virtual ~MonitorSystem() = default;
 
   virtual std::string name() const = 0;
 
-  /// Checks a cycle from poses of all bodies to poses of all bodies.
-  /// @return how many pairs touch.
+  /// Checks a cycle in which all bodies move from their start to their end poses.
+  /// @return more than zero if a pair touches; peers return the number of pairs that touch.
   virtual int check(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) = 0;
 };
 
 using MonitorSystems = std::vector<std::unique_ptr<MonitorSystem>>;
 
-/// Other libraries on the study's scenes: each is one file that adds itself here before main().
+/// Factories of systems that check a scene with other libraries. Each is in a file of its own that registers it here
+/// before main().
 using MonitorPeerFactory =
     std::function<void(const SceneDescription& scene, const std::vector<PlannedPair>& pairs, MonitorSystems& systems)>;
 

@@ -9,7 +9,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr double kKeep = 1e5;  // longer than a bag [s]
+constexpr double kKeep = 1e5;  // length of the history, longer than any bag [s]
 
 }  // namespace
 

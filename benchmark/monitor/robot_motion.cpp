@@ -9,8 +9,8 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr double kAngle = 0.5, kSlide = 0.05;      // amplitudes at most [rad], [m]
-constexpr double kShare = 0.4;                     // of a joint's range, at most
+constexpr double kAngle = 0.5, kSlide = 0.05;      // maximum amplitudes [rad], [m]
+constexpr double kShare = 0.4;                     // maximum amplitude, as a share of a joint's range
 constexpr double kSlowest = 0.1, kFastest = 0.35;  // [Hz]
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A motion of all driven joints of a robot, each up and down about a position of its own, at about 1 rad/s at most.
+/// A motion of all driven joints of a robot. Each oscillates about a random position, with about 1 rad/s at most.
 class RobotMotion {
  public:
   RobotMotion(const Robot& robot, std::uint64_t seed);

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd::benchmark {
 
-/// Our monitor as a system.
+/// The monitor of this package as a MonitorSystem; check() returns 1 if any pair touches, else 0.
 class SdfCcdMonitor : public MonitorSystem {
  public:
   SdfCcdMonitor(std::string name, const CycleRequest& request, std::shared_ptr<const Scene> scene,
@@ -42,7 +42,7 @@ class SdfCcdMonitor : public MonitorSystem {
   CycleMotion motion_;
 };
 
-/// Whether pairs touch, and no more.
+/// A request for verdicts only: no wrenches, contact points or skipped pairs.
 inline CycleRequest verdictsAlone() {
   CycleRequest request;
   request.wrenches = request.skipped_pairs = request.contacts = false;

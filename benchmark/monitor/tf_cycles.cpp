@@ -7,7 +7,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-constexpr double kStart = 1000.0;  // of the clock [s]
+constexpr double kStart = 1000.0;  // start time of the clock [s]
 
 std::shared_ptr<const RobotModel> shared(const RobotModel& robot) {
   return {std::shared_ptr<const RobotModel>(), &robot};

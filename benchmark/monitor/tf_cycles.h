@@ -11,20 +11,20 @@
 namespace sdf_ccd::benchmark {
 
 /// The monitor as its nodelet runs it, without a ROS master: from the transforms that robot_state_publisher sends for a
-/// robot that moves to the serialised message about its contacts.
+/// moving robot to the serialised message of its contacts.
 class TfCycles {
  public:
-  /// @param period  between two messages of transforms, each the begin of a cycle [s].
+  /// @param period  time between two messages of transforms, each of which begins a cycle [s].
   TfCycles(const Robot& robot, const BoxWorld& world, std::shared_ptr<const Scene> scene, const MonitorOptions& options,
            double period);
 
-  /// Makes the transforms that end cycle `i` of the motion, stamped behind all that were before.
+  /// Prepares the transforms at the end of cycle `i` of the motion, stamped later than all previous ones.
   void prepare(std::size_t i);
 
-  /// Takes the transforms, runs a cycle and makes its message.
+  /// Adds the prepared transforms, runs a cycle and serialises its message.
   void run();
 
-  /// What of that the monitor itself took, from poses to its result [s]; 0 if there was no cycle.
+  /// Part of run() that the monitor itself took, from poses to its result [s]; 0 if no cycle was run.
   double monitorSeconds() const { return monitor_seconds_; }
 
   std::size_t transformsPerMessage() const { return message_.transforms.size(); }

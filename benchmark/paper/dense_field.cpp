@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBlock = 8;
 
-/// Samples of one block, up to and with its last grid points.
+/// Computes the samples of one block, at the grid's end with its last grid points.
 void fillBlock(const DistanceField& source, const Vector3i& first, DenseField& field) {
   const Vector3i last = (first.array() + kBlock).min(field.cells);
   const auto place = [&](int x, int y, int z) -> Vector3d { return field.origin + field.cell * Vector3d(x, y, z); };
@@ -26,7 +26,7 @@ void fillBlock(const DistanceField& source, const Vector3i& first, DenseField& f
       corners[k] = source.sample({(k & 1 ? high : low).x(), (k & 2 ? high : low).y(), (k & 4 ? high : low).z()}).value;
     }
   }
-  // The last points belong to the next block, which computes the same; the grid's last have none.
+  // The last points belong to the next block, which computes them; at the grid's end there is no next block.
   const Vector3i end = (last.array() == field.cells).select(last.array() + 1, last);
   for (int z = first.z(); z < end.z(); ++z)
     for (int y = first.y(); y < end.y(); ++y)

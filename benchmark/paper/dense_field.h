@@ -8,11 +8,11 @@
 
 namespace sdf_ccd::benchmark {
 
-/// A signed distance on every point of a cubic grid, as in Xu & Barbič 2014, §3.1.
+/// Signed distances at all points of a cubic grid, as in Xu & Barbič 2014, §3.1.
 struct DenseField {
   Vector3d origin;                   ///< first grid point [m]
   double cell;                       ///< [m]
-  int cells;                         ///< per axis; one grid point more
+  int cells;                         ///< per axis; there is one grid point more
   std::unique_ptr<float[]> samples;  ///< x fastest, then y, then z [m]
 
   std::size_t strideY() const { return std::size_t(cells) + 1; }
@@ -21,12 +21,13 @@ struct DenseField {
   std::size_t bytes() const { return strideZ() * strideY() * sizeof(float); }
 };
 
-/// Samples a field at `cells` cells per axis of the cube around its surface's box. Far from the surface blocks of 8³
-/// cells are interpolated between their corners: the values there only have to be on the right side.
+/// Samples a field with `cells` cells per axis of the cube around its surface's box. Far from the surface, blocks of
+/// 8³ cells are interpolated between their corners: only the sign of their values matters.
 DenseField sampleDensely(const DistanceField& field, int cells);
 
-/// Smallest and largest sample of each block of 2×2×2, 4×4×4, … cells (paper §3.2, bottom-up). Single cells have no
-/// entry: their eight samples are the range, which costs no look-up and a fifth of the paper's memory.
+/// Smallest and largest sample of each block of 2×2×2, 4×4×4, … cells (paper §3.2, bottom-up). Single cells have
+/// no entry: their range is read from their eight samples, which saves a look-up and needs a fifth of the paper's
+/// memory.
 struct MinMaxOctree {
   struct Range {
     float min, max;

@@ -9,9 +9,9 @@ namespace sdf_ccd::benchmark {
 namespace {
 
 constexpr int kMaxBisections = 5;
-constexpr double kConverged = 1e-3;  ///< of a cell; the paper does not say
+constexpr double kConverged = 1e-3;  ///< [cells]; the paper gives no value
 
-/// A segment in cells of the grid, cut to the grid's box.
+/// A segment in units of cells, clipped to the grid's box.
 struct Walk {
   Vector3d o, d;
   double t, t_end;
@@ -37,7 +37,7 @@ struct Walk {
   }
 };
 
-/// φ − σ along the walk inside its cell.
+/// φ − σ along the segment inside a cell.
 class Cell {
  public:
   Cell(const DenseField& field, const Walk& walk, double sigma) : walk_(walk), sigma_(sigma) {
@@ -68,7 +68,7 @@ class Cell {
   std::array<float, 8> corners_;
 };
 
-/// Adds the time of the crossing between t0 and t1, if the signs there differ (Eq. 2, Figure 1).
+/// Adds the time of the crossing between t0 and t1 if the signs at them differ (Eq. 2, Figure 1).
 void addCrossing(const Cell& cell, double t0, double t1, double tolerance, std::vector<double>& times) {
   double f0 = cell.value(t0), f1 = cell.value(t1);
   if ((f0 < 0.0) == (f1 < 0.0)) return;
@@ -88,7 +88,7 @@ struct Step {
   double t;
 };
 
-/// All cells, one after the other: steps by comparisons and integer additions (Amanatides & Woo 1987).
+/// Visits all cells one after the other (digital differential analyser, Amanatides & Woo 1987).
 class CellByCell {
  public:
   CellByCell(const DenseField&, const Walk& walk) {
@@ -120,12 +120,12 @@ class CellByCell {
   std::array<double, 3> delta_, next_;
 };
 
-/// From block to block of the octree.
+/// Skips blocks of the octree.
 class BlockByBlock {
  public:
   BlockByBlock(const MinMaxOctree& octree) : octree_(octree) {}
 
-  /// False if a block around the cell is free of the isosurface; remembers the largest.
+  /// False if a block around the cell is free of the isosurface; stores the largest such block.
   bool mayCross(const Walk& walk, double sigma) {
     for (std::size_t level = octree_.levels.size(); level-- > 0;) {
       const auto& range = octree_.range(level, walk.cell[0], walk.cell[1], walk.cell[2]);

@@ -20,10 +20,10 @@ btTransform toBullet(const Isometry3d& X) {
   return btTransform(rotation, toBullet(X.translation()));
 }
 
-constexpr double kTessellation = 5e-4;  // of spheres and cylinders [m]
+constexpr double kTessellation = 5e-4;  // error of tessellated spheres and cylinders [m]
 
-/// The convex hulls of the collision elements, turned and shifted along: conservative advancement in single precision.
-/// Hulls are larger than meshes that are not convex, so that it finds contacts where there are none.
+/// Bullet's continuous convex cast of the convex hulls of the collision elements: conservative advancement in single
+/// precision. The hull of a non-convex mesh is larger than the mesh, so it reports false contacts.
 class BulletCast : public MonitorSystem {
  public:
   BulletCast(const SceneDescription& scene, const std::vector<PlannedPair>& pairs) : pairs_(pairs) {

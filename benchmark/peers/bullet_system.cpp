@@ -7,7 +7,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// Counts hits; as a ray to the nearest one, or to all.
+/// Counts hits: of all triangles, or only those nearer than the previous ones (which finds the first hit).
 struct CountHits : btTriangleRaycastCallback {
   CountHits(const btVector3& from, const btVector3& to, bool all) : btTriangleRaycastCallback(from, to), all(all) {}
 
@@ -20,7 +20,7 @@ struct CountHits : btTriangleRaycastCallback {
   long hits = 0;
 };
 
-/// Bullet's quantised hierarchy over the triangles.
+/// Ray casts with Bullet's quantised bounding volume hierarchy of the triangles.
 class Bullet : public SegmentSystem {
  public:
   explicit Bullet(const TriangleMesh& mesh) {

@@ -13,7 +13,7 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-/// CGAL's tree of boxes, in doubles. It has first hits for rays only: of a segment all hits are found.
+/// CGAL's AABB tree, in doubles. It returns first hits only for rays, so for a segment all hits are computed.
 class Cgal : public SegmentSystem {
  public:
   explicit Cgal(const TriangleMesh& mesh) {

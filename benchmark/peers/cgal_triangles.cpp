@@ -23,8 +23,8 @@ Kernel::Segment_3 edge(const Corners& t, int i) {
   return {toPoint(t[i]), toPoint(t[(i + 1) % 3])};
 }
 
-/// Whether an edge of one cuts the other; edges that touch are nearest to each other in any case. One of no area has
-/// edges alone.
+/// Whether an edge of the first triangle intersects the second. False for a second triangle of no area: the distances
+/// between its edges and those of the first cover that case.
 bool cuts(const Corners& edges, const Corners& t) {
   const Kernel::Triangle_3 triangle(toPoint(t[0]), toPoint(t[1]), toPoint(t[2]));
   if (triangle.is_degenerate()) return false;
@@ -34,7 +34,7 @@ bool cuts(const Corners& edges, const Corners& t) {
   return false;
 }
 
-/// Of a corner or an edge of one and the other: triangles that do not cut each other are nearest there.
+/// Distance of two triangles. If they do not intersect, it is that of two edges, or of a vertex and a triangle.
 double distance(const Corners& a, const Corners& b) {
   if (cuts(a, b) || cuts(b, a)) return 0.0;
   Number best = CGAL::squared_distance(toPoint(a[0]), toPoint(b[0]));

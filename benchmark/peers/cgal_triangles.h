@@ -4,17 +4,17 @@
 
 namespace sdf_ccd::benchmark {
 
-/// How far the distances of triangles that the adversaries' truth rests on (test/oracle/triangle_distance.h) are from
-/// CGAL's, with exact arithmetic on the same coordinates.
+/// Difference between the triangle distances of the adversarial tests' oracle (test/oracle/triangle_distance.h) and
+/// CGAL's, in exact arithmetic on the same coordinates.
 struct OracleError {
   long pairs = 0;
-  long touching = 0;     ///< by CGAL
-  long wrong_touch = 0;  ///< one says that they touch, the other that they are more than a rounding apart
-  double largest = 0.0;  ///< difference of distances over the size of the triangles
+  long touching = 0;     ///< pairs that touch according to CGAL
+  long wrong_touch = 0;  ///< one finds contact, the other a distance above the rounding error
+  double largest = 0.0;  ///< largest difference of distances, relative to the triangles' size
 };
 
-/// Pairs of triangles: in general position, and with whole coordinates so small that most are parallel, in one plane,
-/// of no area, or touch at a corner or an edge.
+/// Compares the distances of random pairs of triangles: half in general position, half with integer coordinates from 0
+/// to 2, of which most are parallel, coplanar, of no area, or touch at a vertex or an edge.
 OracleError compareWithCgal(std::uint64_t seed, long pairs);
 
 }  // namespace sdf_ccd::benchmark

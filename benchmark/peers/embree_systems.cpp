@@ -6,7 +6,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// All crossings: shoot again from just behind the last hit, until nothing is hit.
+/// Start of the next ray, just behind a hit: all crossings are found by casting rays until none hits.
 float behind(float t) {
   return t + 1e-6F;
 }

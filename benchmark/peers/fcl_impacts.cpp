@@ -6,8 +6,8 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// FCL's continuous collision along a screw motion by its default solver, which tests so many poses along the way. It
-/// sees whole triangles, where a shell sees its points: a difference up to the points' spacing is not its error.
+/// FCL's continuous collision along a screw motion by its default solver, which tests a given number of poses. It tests
+/// whole triangles, while a shell has only points, so a difference of up to the points' spacing is not FCL's error.
 std::vector<precision::ImpactSystem> impacts(const TriangleMesh& field, const TriangleMesh& shell) {
   const std::shared_ptr<const FclModel> field_model = fclModel(field), shell_model = fclModel(shell);
   std::vector<precision::ImpactSystem> systems;

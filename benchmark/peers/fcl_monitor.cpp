@@ -6,7 +6,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// What planners do at every pose: whether each pair touches at the cycle's end, and nothing about the time before.
+/// Collision tests of all pairs at the end of a cycle, as planners do at every pose; the time before is not tested.
 class FclMonitor : public MonitorSystem {
  public:
   FclMonitor(const SceneDescription& scene, const std::vector<PlannedPair>& pairs)
@@ -30,7 +30,7 @@ class FclMonitor : public MonitorSystem {
   std::vector<PlannedPair> pairs_;
 };
 
-/// The same, with the distance of every pair.
+/// The same with distance queries instead of collision tests.
 class FclDistanceMonitor : public FclMonitor {
  public:
   using FclMonitor::FclMonitor;

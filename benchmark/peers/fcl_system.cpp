@@ -6,10 +6,10 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// FCL's continuous collision of the two meshes by its default solver, which tests poses along the motion (10) and
-/// can miss what happens between them. Its conservative advancement is no peer: in FCL 0.7.0 it reports no contact for
-/// meshes of two balls that run into each other. It turns the body about one axis, where shell points run straight,
-/// stops at the first contact, and sees surfaces only: a body inside another is free.
+/// FCL's continuous collision of the two meshes by its default solver, which tests 10 poses along the motion and can
+/// miss contacts between them. Its conservative advancement is not used: in FCL 0.7.0 it reports no contact for meshes
+/// of two balls that collide. FCL rotates the body about one axis, while shell points move on straight lines; it stops
+/// at the first contact, and tests surfaces only, so a body inside another is reported as free.
 class Fcl : public ShellSystem {
  public:
   explicit Fcl(const ShellSubject& subject)

@@ -10,8 +10,8 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// OpenVDB's intersector of rays and narrow-band level sets. First hits only; a segment that starts inside is in
-/// contact where it leaves.
+/// OpenVDB's ray intersector of narrow-band level sets. It finds first hits only; for a segment that starts inside,
+/// that is where the segment leaves.
 class OpenVdb : public SegmentSystem {
  public:
   explicit OpenVdb(openvdb::FloatGrid::Ptr grid) : grid_(std::move(grid)), intersector_(std::in_place, *grid_) {}
@@ -50,7 +50,7 @@ class OpenVdb : public SegmentSystem {
                                          openvdb::math::Delta<double>::value(), length);
     double at = 0.0;
     openvdb::Vec3d place;
-    // It steps by voxels and may report what lies just behind the end.
+    // It steps by voxels and may report a hit just behind the segment's end.
     return intersector_->intersectsIS(ray, place, at) && at <= length ? at / length : -1.0;
   }
 

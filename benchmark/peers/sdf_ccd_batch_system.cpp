@@ -5,7 +5,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// This package, many segments a call.
+/// This package's query of many segments per call.
 class BatchQuery : public SegmentSystem {
  public:
   BatchQuery(const std::string& name, const DistanceField& field) : name_(name), field_(field) {}

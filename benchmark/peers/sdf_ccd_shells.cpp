@@ -8,7 +8,7 @@ ChordPath straight(const PosePair& pair) {
   return {{{0.0, 1.0, pair.X_FP_start, pair.X_FP_end, 0}}, 0.0};
 }
 
-/// Every point of the shell against the field, in one batch, as the tree asks those that it leaves.
+/// Queries every point of the shell in one batch, with the query that the tree uses for the remaining points.
 class Linear : public ShellSystem {
  public:
   explicit Linear(const ShellSubject& subject) : subject_(subject) {}
@@ -35,7 +35,7 @@ class Linear : public ShellSystem {
   BatchResult found_;
 };
 
-/// Through the tree of spheres.
+/// Queries the shell through its sphere tree.
 class Tree : public ShellSystem {
  public:
   explicit Tree(const ShellSubject& subject) : subject_(subject) {}

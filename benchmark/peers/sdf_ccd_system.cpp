@@ -3,7 +3,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// This package, one query a call.
+/// This package's query of one segment per call.
 class SingleQuery : public SegmentSystem {
  public:
   SingleQuery(const std::string& name, const DistanceField& field) : name_(name), field_(field) {}

@@ -29,7 +29,7 @@ CycleMotion RunningMonitor::emptyMotion(const WorldSnapshot& world) const {
   return motion;
 }
 
-/// Of what moves; all else rests where it was set.
+/// Sets the poses of moving bodies; world bodies, which come after them, keep their poses.
 void RunningMonitor::setMotion(double from, double until) {
   const std::vector<BodyDescription>& bodies = world_->description->bodies;
   for (std::size_t b = 0; b < bodies.size() && !bodies[b].is_world; ++b)
@@ -45,7 +45,7 @@ void RunningMonitor::change(const std::shared_ptr<const WorldSnapshot>& world) {
   given_ = std::move(offer);
   offered_ = given_.get();
   while (!is_checked_) std::this_thread::sleep_for(std::chrono::microseconds(50));
-  given_.reset();  // with what was before
+  given_.reset();  // frees the previous world, which the cycle has swapped into the offer
 }
 
 std::vector<double> RunningMonitor::takeTimes() {
@@ -69,7 +69,7 @@ void RunningMonitor::run() {
   double time = 0.0;
   for (Clock::time_point next = Clock::now(); !stop_; next += kPeriod) {
     std::this_thread::sleep_until(next);
-    next = std::max(next, Clock::now() - 10 * kPeriod);  // what was missed is not caught up on
+    next = std::max(next, Clock::now() - 10 * kPeriod);  // missed cycles are not caught up on
     const Clock::time_point start = Clock::now();
     Offer* const offer = offered_.exchange(nullptr);
     if (offer) {

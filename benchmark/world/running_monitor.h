@@ -13,32 +13,32 @@
 
 namespace sdf_ccd::benchmark {
 
-/// What a cycle said, for who wants to check it.
+/// The result of a cycle, with its world and motion, so that it can be verified.
 struct SaidOfCycle {
   std::shared_ptr<const WorldSnapshot> world;
   CycleMotion motion;
   std::vector<Verdict> verdicts;  ///< per pair
 };
 
-/// A monitor whose cycles run at a kilohertz on a thread of their own, while another one changes its world.
+/// A monitor whose cycles run at 1 kHz on their own thread, while another thread changes its world.
 class RunningMonitor {
  public:
-  /// Where a body is at a time [s].
+  /// Pose of a body at a time [s].
   using Place = std::function<Isometry3d(const BodyDescription& body, double time)>;
 
   RunningMonitor(std::shared_ptr<const WorldSnapshot> world, Place place);
   ~RunningMonitor();
 
-  /// Makes what the monitor needs of another world, and waits until a cycle has been checked with it.
+  /// Prepares the monitor's data for another world, and waits until a cycle has been checked with it.
   void change(const std::shared_ptr<const WorldSnapshot>& world);
 
-  /// Of the cycles since the last call: what each took, taking a world over included [s].
+  /// Times of the cycles since the last call, including the adoption of a world [s].
   std::vector<double> takeTimes();
 
-  /// What taking over took, of all changes since the last call [s].
+  /// Times of the adoptions since the last call [s].
   std::vector<double> takeAdoptions();
 
-  /// What the first cycle with the last world said.
+  /// Result of the first cycle with the latest world.
   SaidOfCycle firstCycle();
 
  private:
@@ -60,7 +60,7 @@ class RunningMonitor {
   std::atomic<Offer*> offered_{nullptr};
   std::atomic<bool> is_checked_{false}, stop_{false};
   std::mutex mutex_;
-  std::vector<double> times_, adoptions_;  // guarded by mutex_, as what follows
+  std::vector<double> times_, adoptions_;  // guarded by mutex_, like first_
   SaidOfCycle first_;
   std::thread thread_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
-/// All that checking bodies in motion takes. Robots are apart: sdf_ccd/robot/robot_scene.h and what lies beside it.
+/// Everything needed to check moving bodies. Robots have headers of their own: sdf_ccd/robot/robot_scene.h and its
+/// neighbours.
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/import/mesh_file.h"

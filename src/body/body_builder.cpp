@@ -147,7 +147,7 @@ class BodyBuilder {
     return shell;
   }
 
-  /// With vertices on its surface.
+  /// A tessellation, whose vertices lie on the primitive's surface.
   static TriangleMesh coarse(const Primitive& primitive) {
     return tessellate(primitive, 0.1 * boundingBox(primitive).sizes().maxCoeff());
   }

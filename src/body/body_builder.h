@@ -43,10 +43,10 @@ struct BuiltBody {
 BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                     MeshPool& pool, const Progress& progress);
 
-/// Has a report say that the body is made of what another one holds, and takes no memory of its own.
+/// Marks a report's body as made of another body's data, without memory of its own.
 void countAsShared(BodyReport& report);
 
-/// The triangles of a body's geometry; null where it has none.
+/// The triangles of a body's geometry; null if it has none.
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool);
 
 }  // namespace sdf_ccd

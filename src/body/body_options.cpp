@@ -6,7 +6,7 @@ namespace sdf_ccd {
 
 BodyOptions optionsForContacts(const std::optional<double>& accuracy) {
   constexpr double kCoarsest = 0.005;             // [m]
-  constexpr double kPointsAcross = 25.0;          // then those of a robot's finger are 2.5 mm apart
+  constexpr double kPointsAcross = 25.0;          // the points of a robot's finger are then 2.5 mm apart
   constexpr double kCell = 1.2, kVertices = 0.4;  // of the spacing
   BodyOptions options;
   options.shell.spacing = accuracy.value_or(kCoarsest);

@@ -5,7 +5,7 @@
 
 namespace sdf_ccd {
 
-/// Gives a body what its description says of it besides geometry: bodies of one geometry differ in nothing else.
+/// Sets what a description says of a body besides its geometry. Bodies of equal geometry differ in nothing else.
 inline void setPlace(const BodyDescription& description, Body& body) {
   body.name = description.name;
   body.frame = description.frame;
@@ -15,7 +15,7 @@ inline void setPlace(const BodyDescription& description, Body& body) {
   body.failure = description.failure;
 }
 
-/// Whether setPlace() would change nothing.
+/// Whether setPlace() would leave the body unchanged.
 inline bool hasPlace(const Body& body, const BodyDescription& description) {
   return body.name == description.name && body.frame == description.frame &&
          body.X_frame_B.matrix() == description.X_frame_B.matrix() && body.is_world == description.is_world &&

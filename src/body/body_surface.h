@@ -4,11 +4,11 @@
 
 namespace sdf_ccd {
 
-/// The triangles of a body's surface, frame B: of its meshes as they are, open where those are open.
+/// The triangles of a body's surface, frame B. Meshes are as given: open ones stay open.
 struct BodySurface {
   TriangleMesh mesh;
   TriangleTree tree;
-  double deviation;  ///< of the triangles from the surface, of curved primitives [m]
+  double deviation;  ///< of the triangles from curved primitives [m]
 
   BodySurface(TriangleMesh triangles, double deviation)
       : mesh(std::move(triangles)), tree(mesh), deviation(deviation) {}

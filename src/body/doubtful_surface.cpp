@@ -5,19 +5,20 @@
 namespace sdf_ccd {
 namespace {
 
-/// For a mesh whose faces only seem to meet, by findOpenings(); none for a closed mesh.
+/// Caps of a mesh that is not closed, from findOpenings(), also if its faces only seem to meet; empty for a closed
+/// mesh.
 const TriangleMesh& capsOf(PooledMesh& pooled) {
   static const TriangleMesh kNone;
   return isClosed(pooled.mesh) ? kNone : SolidSource(pooled.mesh, pooled.made).closed().openings().caps;
 }
 
-/// Whether winding numbers may cancel each other where solids are. Of a mesh that stays open which parts face outward
-/// is a guess: those that were tessellated apart beside a loose sheet may be turned against each other.
+/// Whether winding numbers may cancel each other inside solids. In a mesh that is not closed, the outward side of its
+/// parts is a guess: parts that were tessellated separately next to a loose sheet may be oriented against each other.
 bool mayMissSolids(const PooledMesh& pooled) {
   return !pooled.voxels && !pooled.quality.sign_trusted;
 }
 
-/// Whether they may be there where no solid is, besides.
+/// Whether winding numbers may also indicate a solid where there is none.
 bool mayFillCavities(PooledMesh& pooled) {
   return mayMissSolids(pooled) && (pooled.quality.doubtful || capsOf(pooled).triangles.empty());
 }

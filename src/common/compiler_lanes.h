@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-// Vectors by compiler extensions, for files that are compiled for processors with wider vectors too:
-// functions marked SDF_CCD_LANES; the version for the processor is chosen when the program is loaded.
-// Not by Highway, as the package must build without it (Ubuntu 20.04 has none): without vectors uniform fields take 3.2
-// times as long to build, and adaptive ones 3.6 times.
+// SIMD vectors by compiler extensions. Functions marked SDF_CCD_LANES are also compiled for processors with wider
+// vectors; the version for the processor is chosen when the program is loaded.
+// Highway is not used here, as the package must build without it (Ubuntu 20.04 has none): without vectors uniform
+// fields take 3.2 times as long to build, and adaptive ones 3.6 times.
 // Not under TSan: it also instruments the resolver function, which runs before TSan is initialised, and crashes.
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \

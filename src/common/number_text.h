@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// A number as messages show it: six digits, also of 1e300, of which std::to_string() would print 308.
+/// A number for messages, in six digits: also 1e300, of which std::to_string() would print 308.
 inline std::string numberText(double value) {
   return fmt::format("{:g}", value);
 }

@@ -46,8 +46,8 @@ std::string soundText(std::string text) {
 
 void requireSoundYaml(const std::string& yaml) {
   requireSize(yaml, kMaxYamlBytes);
-  // Levels of flow style, whose brackets may also be in strings; and of block style: by indicators at the start of
-  // lines by indentation.
+  // Depth of flow style by brackets, also those in strings; and of block style by indentation and by the indicators at
+  // the start of a line.
   int flow = 0;
   std::size_t position = 0;
   std::vector<std::size_t> indents;

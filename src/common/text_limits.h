@@ -13,7 +13,7 @@ constexpr int kMaxYamlDepth = 64;
 /// @throws std::runtime_error if it is larger than kMaxXmlBytes.
 void requireXmlSize(const std::string& xml);
 
-/// The text as UTF-8: bytes that are none, and control characters but tabs and ends of lines, become '?'.
+/// The text as valid UTF-8: invalid bytes, and control characters except tabs and line ends, become '?'.
 std::string soundText(std::string text);
 
 /// @throws std::runtime_error if the YAML is larger than kMaxYamlBytes or nested deeper than kMaxYamlDepth.

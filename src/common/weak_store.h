@@ -9,13 +9,13 @@
 
 namespace sdf_ccd {
 
-/// Values by key, for as long as somebody holds them. Thread-safe.
+/// Values by key, for as long as they are in use elsewhere. Thread-safe.
 template <class T>
 class WeakStore {
  public:
   using Pointer = std::shared_ptr<const T>;
 
-  /// Null if nobody holds it.
+  /// Null if it is not in use.
   Pointer find(const std::string& key) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto found = kept_.find(key);

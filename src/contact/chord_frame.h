@@ -21,10 +21,10 @@ class ChordFrame {
 
  private:
   Isometry3d X_CF_;
-  std::optional<ScrewMotion> motion_;  // none for a body of the world, at rest: no sine for every node
+  std::optional<ScrewMotion> motion_;  // none if F rests, which saves the trigonometry at every node
 };
 
-/// Its poses; those at the last few times are cached, as points are mostly evaluated at the same ones.
+/// The poses of a ChordFrame; the last few are cached, as most points are evaluated at the same times.
 class ChordPoses {
  public:
   void begin(const ChordFrame& frame) {
@@ -72,8 +72,8 @@ struct ChordPoint {
   Vector3d position(double s) const { return start + s * step; }
   Vector3d inward(double s) const { return ((1.0 - s) * inward_start + s * inward_end).normalized(); }
 
-  /// Of the shell's point relative to the field's body at the same point: v_A + ω_A×r_A − v_B − ω_B×r_B of Eq. 10,
-  /// seen from F [m/s].
+  /// Velocity of the shell's point relative to the field's body at the same point: v_A + ω_A×r_A − v_B −
+  /// ω_B×r_B of Eq. 10, in F [m/s].
   Vector3d velocity() const { return step / duration; }
 };
 

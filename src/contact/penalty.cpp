@@ -27,7 +27,7 @@ const std::vector<Node> kGauss = {
     {0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}};
 const std::vector<Node> kMidpoint = {{0.5, 1.0}};
 
-// Siblings with the same pose: their values differ by the rounding of their poses [m].
+// Values of sibling fields that differ by less than this, the rounding of their poses, count as equal [m].
 constexpr double kTie = 1e-9;
 
 class Integrator {
@@ -90,7 +90,7 @@ class Integrator {
     for (const SiblingField& sibling : input_.siblings) {
       const Vector3d p_G = sibling.X_GF * p_F;
       const AlignedBox3d& box = sibling.field->surfaceBox();
-      // Beyond its error outside the surface's box, the sibling's value is positive.
+      // Farther than its error bound outside its surface's box, the sibling's value is positive.
       if (box.exteriorDistance(p_G) > sibling.field->errorBound()) continue;
       if (!own) own = field_.value(p_F);
       const double ahead = *own - sibling.field->interpolate(p_G).value;

@@ -21,7 +21,7 @@ Thread readThread(YamlMap& shape) {
   return {shape.get<double>("radius"), shape.get<double>("pitch"), shape.get<double>("depth")};
 }
 
-/// Points around the axis.
+/// Number of points around the axis.
 int readSteps(YamlMap& shape, int otherwise) {
   return shape.count("steps", otherwise, 3, 1000);
 }
@@ -67,7 +67,7 @@ const std::map<std::string, Maker>& meshMakers() {
   return makers;
 }
 
-/// Mass properties, if the geometry has any: a fixed body needs none.
+/// Mass properties at 1 kg/m³; empty if the geometry has none, because a fixed body needs none.
 template <class Geometry>
 std::optional<MassProperties> unitMass(const Geometry& geometry) {
   try {
@@ -77,7 +77,7 @@ std::optional<MassProperties> unitMass(const Geometry& geometry) {
   }
 }
 
-/// Point by point, for comparison with the hierarchy (paper Tables 3 and 4): one sphere around all points.
+/// Replaces the hierarchy by a single sphere around all points, for comparison (paper Tables 3 and 4).
 void flatten(CollisionShape& shape) {
   if (shape.tree.nodes.empty()) return;
   SphereTree::Node root = shape.tree.nodes.front();

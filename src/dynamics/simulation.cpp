@@ -25,7 +25,7 @@ double reactionError(const std::vector<Wrench>& impulses) {
 
 // Contacts are not searched beyond this distance [m].
 constexpr double kFarthest = 1e11;
-// So that sums over all bodies stay finite.
+// Bound of energies and momenta, so that sums over all bodies stay finite.
 constexpr double kLargest = 1e290;
 
 /// @throws SimulationError for a body whose position, energy or momentum is out of range.

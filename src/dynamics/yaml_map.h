@@ -47,7 +47,7 @@ class YamlMap {
     return has(key) ? get<T>(key) : otherwise;
   }
 
-  /// One of these words, by its index.
+  /// Index of the value in `words`.
   std::size_t choice(const std::string& key, const std::vector<std::string>& words, const std::string& otherwise) {
     const auto chosen = get(key, otherwise);
     const auto found = std::find(words.begin(), words.end(), chosen);
@@ -83,7 +83,7 @@ class YamlMap {
     return has(key) ? vector(key) : otherwise;
   }
 
-  /// Throws if a key was not read.
+  /// Throws if the map has a key that was not read.
   void finish() const {
     for (const auto& entry : node_) {
       const auto key = entry.first.Scalar();

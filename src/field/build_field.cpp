@@ -19,8 +19,8 @@
 namespace sdf_ccd {
 namespace {
 
-/// Bricks that need samples: the distance at the centre, or a sign that changes between the corners, says that
-/// |φ| ≤ band (and its interpolation error) may be met inside.
+/// Whether a brick needs samples: its corners differ in sign, or the distance at its centre does not exclude that
+/// |φ| ≤ band + cell (the band and its interpolation error) somewhere inside.
 bool needsSamples(const BrickSampler& sampler, const GridShape& shape, const std::vector<float>& corners,
                   const Vector3i& brick) {
   const double side = GridShape::kBrick * shape.cell;
@@ -86,7 +86,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   shape.step = GridShape::stepFor(largest);
   data.samples.resize(samples);
   ProgressCounter counter(progress, sampled.size());
-  const SpreadOrder order(sampled.size());  // for the progress, as in adaptive grids
+  const SpreadOrder order(sampled.size());  // so that the part done is a fair sample, as in build_adaptive.cpp
   parallelFor(std::size_t{0}, sampled.size(), [&](std::size_t k) {
     const std::size_t i = order[k], first = i * GridShape::kSamples;
     std::array<float, GridShape::kSamples> metres;
@@ -98,7 +98,7 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   return std::make_shared<const SparseGrid>(shape, std::move(data));
 }
 
-/// The caps that a field with this error bound must keep [m]; null if there are none.
+/// The caps that a field with this error bound [m] must store: those that reach farther from the mesh. Null if none do.
 std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double error) {
   TriangleMesh caps;
   std::vector<double> reach;
@@ -113,7 +113,7 @@ std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double err
   return std::make_shared<const OpeningCaps>(std::move(caps), std::move(reach));
 }
 
-/// The field of a solid, and the openings that it must keep.
+/// The field of a solid, with the caps of its openings that it must store.
 DistanceField build(const Solid& solid, const Openings& openings, const FieldOptions& options,
                     const Progress& progress) {
   if (options.max_error) {

@@ -10,7 +10,7 @@ Vector3d unit(const Vector3d& u) {
   return u.array().max(0.0).min(1.0);
 }
 
-/// The cube of a lattice that holds a point, of those within the lattice.
+/// The cube of a lattice that holds a point, clamped to the `count` cubes per axis.
 Vector3i cubeOf(const Vector3d& g, const Vector3i& count) {
   return g.array().floor().max(0.0).matrix().cast<int>().cwiseMin((count.array() - 1).matrix());
 }
@@ -22,7 +22,8 @@ CellReader::CellReader(const DistanceField& field)
   if (!primitive_) box_ = field.box();
 }
 
-/// Whether the point is in a cell of known corners, those of the last one or others.
+/// Moves to the cell (or leaf) that holds the point, and reads its corners if it is not the previous one.
+/// @return false if the point is outside the grid or in a cell without corner values.
 bool CellReader::enter(const Vector3d& p_F) {
   return box_.contains(p_F) && (grid_ ? enterCell(p_F) : enterLeaf(p_F));
 }

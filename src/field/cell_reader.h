@@ -6,8 +6,8 @@
 
 namespace sdf_ccd {
 
-/// Interpolates a field at a sequence of points, most of which are in the same cell as the one before: that cell's
-/// corners are read once. The results equal those of DistanceField::interpolate() bit by bit.
+/// Interpolates a field at a sequence of points, most of which lie in the same cell as their predecessor: the corners
+/// of a cell are read once. The results equal those of DistanceField::interpolate() bit by bit.
 class CellReader {
  public:
   /// @param field  must outlive this.
@@ -28,11 +28,11 @@ class CellReader {
   const SparseGrid* grid_;
   const AdaptiveGrid* adaptive_;
   AlignedBox3d box_;  // of the grid
-  // The cell, or leaf; in cells, or units of the adaptive grid.
+  // The current cell (or leaf): first corner and side, in cells (or units of the adaptive grid).
   Vector3i low_ = Vector3i::Zero();
-  int side_ = 0;  // 0: none is known
+  int side_ = 0;  // 0: no cell has been read yet
   std::array<double, 8> corners_;
-  Vector3d u_ = Vector3d::Zero();  // the point in it, [0, 1]³
+  Vector3d u_ = Vector3d::Zero();  // the point's coordinates in the cell, [0, 1]³
 };
 
 }  // namespace sdf_ccd

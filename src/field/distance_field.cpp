@@ -12,8 +12,8 @@ namespace sdf_ccd {
 
 namespace {
 
-/// The sample at a point outside a grid: at least the distance to the surface's box, at most that through the grid's
-/// point `boundary_F` nearest to it.
+/// The sample at a point outside a grid. The distance is at least that to the surface's box, and at most the length of
+/// the path through `boundary_F`, the nearest point of the grid's box.
 FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, const Vector3d& boundary_F,
                           const FieldSample& at_boundary) {
   const double low = surface_box.exteriorDistance(p_F);
@@ -72,13 +72,13 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
 FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
   FieldSample known = sample(p_F);
   if (!openings_) return known;
-  // The mesh is at least as far as the closed surface; and at most as far, or as the path through the nearest cap if
-  // that may contain the nearest point.
+  // The mesh is at least as far as the closed surface. It is at most as far, too, unless a cap may contain the nearest
+  // point: then the upper bound is the length of the path through the nearest cap.
   const double near = std::abs(known.value) + known.error;
   const bool by_cap = openings_->isWithin(p_F, near);
   const double far = by_cap ? std::max(near, openings_->meshWithin(p_F)) : near;
   if (known.value < 0.0 || (by_cap && known.value < known.error)) {
-    known.error = far + std::abs(known.value);  // either side
+    known.error = far + std::abs(known.value);  // the point may be on either side
   } else if (by_cap) {
     known.error = far - known.value;
   }

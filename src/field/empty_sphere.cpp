@@ -3,7 +3,7 @@
 namespace sdf_ccd {
 namespace {
 
-// From the last bit on: two of the cell's kind, five for each offset, fourteen for the radius, and the side.
+// From the lowest bit: two bits for the cell's kind, five for each offset, fourteen for the radius, one for the side.
 constexpr int kFirstOffset = 2, kOffsetBits = 5, kFirstStep = 17, kSide = 31;
 
 }  // namespace

@@ -16,16 +16,16 @@ class EmptySphereSearch {
   /// @param distances  signed, at the lattice's points, x fastest; kCorners has one more than cells per axis [cells].
   EmptySphereSearch(Lattice lattice, const Vector3i& size, const std::vector<float>& distances);
 
-  /// The sphere of a cell that is all on one side of the surface.
+  /// The sphere of a cell, which must lie entirely on one side of the surface.
   EmptySphere ball(const Vector3i& cell) const;
 
  private:
   float distance(const Vector3i& point) const {
     return distances_[(std::size_t(point.z()) * points_.y() + point.y()) * points_.x() + point.x()];
   }
-  /// The lattice point next to a cell's centre that is farthest from the surface.
+  /// Of the lattice points that belong to a cell (its centre, or its corners) the one farthest from the surface.
   Vector3i farthest(const Vector3i& cell) const;
-  /// The direction away from the surface, on the point's side of it.
+  /// The unit direction in which |φ| grows at a lattice point.
   Vector3d away(const Vector3i& point) const;
 
   Lattice lattice_;

@@ -13,8 +13,8 @@ struct CachedField {
   CacheOutcome outcome;
 };
 
-/// As buildField(), but loaded from the cache if possible: by the mesh's content (scale included) and the options. The
-/// outcome's warning tells where depths may be those of faces inside the solid; it is kept beside the file.
+/// As buildField(), but loaded from the cache if possible; the key is the mesh's content (scale included) and the
+/// options. The outcome's warning says where depths may be those of faces inside the solid; a second file stores it.
 CachedField cachedField(const FileCache& cache, const SolidSource& source, const FieldOptions& options,
                         const Progress& progress = {});
 

@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Of the caps that the field keeps; see buildField().
+/// Memory of the caps that the field stores [bytes]; see wideCaps() in build_field.cpp.
 double capBytes(const Openings& openings, double error) {
   const auto kept = std::count_if(openings.reach.begin(), openings.reach.end(), [&](double r) { return r > error; });
   return double(kept) * double(3 * sizeof(Vector3d) + sizeof(Vector3i) + sizeof(double));

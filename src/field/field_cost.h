@@ -5,21 +5,20 @@
 
 namespace sdf_ccd {
 
-/// The expected cost of building a field, with the standard errors relative to it.
+/// The expected cost of building a field, and its relative standard errors.
 struct FieldCost {
   double bytes = 0.0;
-  double seconds = 0.0;  ///< of one processor
+  double seconds = 0.0;  ///< of processor time
   double bytes_error = 0.0;
   double seconds_error = 0.0;
 };
 
 /// Estimates the cost of buildField() with the same arguments by building a sample of the field's cells.
 ///
-/// The sample is spread uniformly over the grid and takes some 20 ms, or a thirtieth of the estimate if that is more,
-/// of the calling thread; for small fields, mostly much less. If single cells take long the sample has few cells, and
-/// the errors are large. Unless time ends it, the sample is the same in each call; the time that it takes is measured
-/// anew.
-/// @throws as buildField() for options that no field can have, or for a grid that exceeds the limit by itself.
+/// The sample is spread uniformly over the grid. It takes about 20 ms of the calling thread, or a thirtieth of the
+/// estimated time if that is more; usually much less for small fields. Where single cells take long, the sample has few
+/// cells and the errors are large. Every call takes the same sample, unless time ends it, and measures the time again.
+/// @throws as buildField() for options that are not valid, or for a grid that exceeds a limit even without samples.
 FieldCost expectedCost(const ClosedSolid& closed, const FieldOptions& options);
 
 }  // namespace sdf_ccd

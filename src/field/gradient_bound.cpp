@@ -64,13 +64,13 @@ SDF_CCD_LANES void leastGrowth(const NearTriangles& near, double* least) {
   }
 }
 
-/// A lane of Floats for each pair of corners across from each other, twice: for how far an interpolant is above φ, and
-/// below it.
+/// Pairs of diagonally opposite corners. Floats has two lanes for each: the first four lanes bound how far an
+/// interpolant is above φ, the last four how far it is below.
 constexpr int kPairs = 4;
 static_assert(2 * kPairs == kFloatWidth, "one vector");
 constexpr Floats kSign = {1.0F, 1.0F, 1.0F, 1.0F, -1.0F, -1.0F, -1.0F, -1.0F};
 
-/// The best pair's, above and below.
+/// The bounds by the best pair, above and below φ.
 struct Least {
   float above, below;
 };
@@ -78,12 +78,12 @@ SDF_CCD_INLINE Least leastOf(const Floats& v) {
   return {std::min(std::min(v[0], v[1]), std::min(v[2], v[3])), std::min(std::min(v[4], v[5]), std::min(v[6], v[7]))};
 }
 
-/// A line per lane, over the weight of the pair's second corner: its value and its slope.
+/// A linear function of the weight of the pair's second corner, per lane: its value at a weight, and its slope.
 struct Lines {
   Floats value, slope;
 };
 
-/// The highest of the lines of all eight corners, at each lane's weight.
+/// Per lane, the line of the eight corners' lines that has the largest value at the lane's weight.
 SDF_CCD_INLINE Lines highest(const Lines* lines, const Floats& weight) {
   Lines top = lines[0];
   top.value += weight * top.slope;
@@ -95,9 +95,9 @@ SDF_CCD_INLINE Lines highest(const Lines* lines, const Floats& weight) {
   return top;
 }
 
-/// The minimum over the weights from 0 to 1 of the highest line, for the best pair; stops early at values below
-/// `enough`. Between two weights, the next is where their highest lines meet; any weight gives a valid bound, so it
-/// need not be the best.
+/// The minimum of highest() over the weights from 0 to 1, for the best pair; stops early when both values are at most
+/// `enough`. The next weight between two is where their highest lines intersect. Any weight gives a valid bound, so the
+/// minimum need not be exact.
 SDF_CCD_INLINE Least lowestTop(const Lines* lines, const Least& enough) {
   const Floats zero = {}, one = zero + 1.0F;
   Floats low = zero, high = one;
@@ -162,8 +162,7 @@ SDF_CCD_LANES Deviation GradientBound::deviation(double side, const Corners& exa
   }
   const auto scaled = [&](double bound) { return static_cast<float>(bound * per_side); };
   const Least found = lowestTop(lines, {scaled(enough.above), scaled(enough.below)});
-  // A bound is made of a dozen roundings, each by 2^-24 of at most six times the largest number: less than 2^-18 in
-  // all.
+  // A bound takes eight roundings, each by 2^-24 of at most six times the largest number: less than 2^-18 in total.
   constexpr double kRounding = 0x1p-18;
   return {side * (found.above + kRounding * largest), side * (found.below + kRounding * largest)};
 }

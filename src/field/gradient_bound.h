@@ -21,11 +21,11 @@ struct Deviation {
 /// Bounds the error of an interpolant in a cube by the gradients of φ there.
 ///
 /// From a corner a to a point x the distance grows at least by m(x − a), with m(v) the minimum of g·v over all
-/// gradients g in the cube: φ(x) ≥ φ(a) + m(x − a). That holds for each corner, hence for weighted means of two of
-/// them. The right-hand side is concave, so that it is nowhere below the interpolation of its values at the
-/// cube's corners. Its difference from the interpolant is largest at a corner, which bounds the error above φ. Two
-/// diagonally opposite corners, with the right weights: where the surface has one edge, their two planes are those
-/// of its faces, and the bound is tight. The same below φ, with the maximum growth.
+/// gradients g in the cube: φ(x) ≥ φ(a) + m(x − a). That holds for each corner, hence for weighted means of two
+/// of them. The right-hand side is concave, so that it is nowhere below the interpolation of its values at the cube's
+/// corners. Its difference from the interpolant is largest at a corner, which bounds the error above φ. The two are
+/// diagonally opposite corners, with the best weights: where the surface has one edge, their two planes are those of
+/// its faces, and the bound is tight. The error below φ is bounded likewise, by the maximum growth.
 ///
 /// A gradient is a sum of the near triangles' normals whose weights sum to between 1 and 1 / cos of their cone's angle;
 /// if the normals are not in one cone, only |g| ≤ 1 is known.
@@ -35,18 +35,18 @@ class GradientBound {
 
   explicit GradientBound(const NearTriangles& near);
 
-  /// Bounds on interpolant − φ in a cube within near's.
+  /// Bounds on interpolant − φ in a cube that lies within the cube of the constructor's triangles.
   /// @param side    of the cube [m].
   /// @param exact   φ at the cube's corners [m].
-  /// @param values  the interpolant's there [m].
+  /// @param values  the interpolant at the cube's corners [m].
   /// @param enough  bounds below these are not tightened further.
   Deviation deviation(double side, const Corners& exact, const Corners& values, const Deviation& enough = {}) const;
 
  private:
   using Lanes = std::array<float, 8>;  ///< see gradient_bound.cpp
 
-  /// Lower bounds of the distance's growth from the pairs' first (second) corners to corner k, or back,
-  /// for a side of 1.
+  /// Per corner k of a cube of side 1: lower bounds of the distance's growth from each pair's first (second) corner to
+  /// corner k, then from corner k to those.
   alignas(64) std::array<Lanes, 8> from_low_, from_high_;
   double max_growth_ = 0.0;  ///< the largest of their absolute values
 };

@@ -15,7 +15,7 @@ struct GridRecord {
   double surface_min[3];
   double surface_max[3];
   std::int32_t size[3];    ///< bricks, or top cells
-  std::int32_t divisions;  ///< along the side of one of these, so that another layout is never misread
+  std::int32_t divisions;  ///< cells (units) along the side of one of these: a file of another layout is rejected
 };
 static_assert(sizeof(GridRecord) == 112, "the file's layout must not depend on the compiler");
 

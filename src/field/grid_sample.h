@@ -4,7 +4,7 @@
 #include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field/distance_field.h"
 
-/// What DistanceField queries each kind of grid for, at points within its box.
+/// DistanceField's queries of each kind of grid, at points within its box.
 namespace sdf_ccd {
 
 FieldSample sampleWithin(const SparseGrid& grid, const Vector3d& p_F);

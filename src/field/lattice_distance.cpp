@@ -2,13 +2,15 @@
 
 namespace sdf_ccd {
 
-/// Of a row of lattice points to the voxels of a row of the window that are so; kNone if none is.
+/// Squared distances along x from a row of lattice points to the occupied (or free) voxels of one row of the window;
+/// kNone if there are none.
 void LatticeDistance::alongX(const std::uint8_t* voxels, bool to_occupied, Squared* row) {
   constexpr int kFar = 1000;
   const int points = size_.x();
   std::array<int, 512> away;
   std::fill_n(away.begin(), points, kFar);
-  int before = kFar, behind = kFar;  // how far what ends before the row, and what begins behind it
+  // Distances from the row's first point to voxels that end before it, and from its last to those that begin behind.
+  int before = kFar, behind = kFar;
   bool is_any = false;
   for (int i = 0; i < count_.x(); ++i) {
     if ((voxels[i] != 0) != to_occupied) continue;

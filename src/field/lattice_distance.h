@@ -11,24 +11,24 @@
 
 namespace sdf_ccd {
 
-/// Signed distances from the points of a lattice to the boundary of voxels that fill whole cells of it: voxel i the
-/// cells n i to n (i + 1), along each axis. All are counted in cells, and exact.
+/// Signed distances from the points of a lattice to the boundary of voxels that fill whole cells of it: along each axis
+/// voxel i fills the cells from n i to n (i + 1). Distances are in cells, and exact.
 ///
-/// The square of the distance from a lattice point to a set of cubes is the least sum of squares of its distances to
-/// their intervals along the axes, so that one axis after the other can be dealt with (Felzenszwalb & Huttenlocher,
+/// The squared distance from a lattice point to a set of cubes is the minimum over the cubes of the sum of the squared
+/// distances along the three axes, so it can be computed one axis after the other (Felzenszwalb & Huttenlocher,
 /// "Distance transforms of sampled functions", 2012).
 class LatticeDistance {
  public:
   /// @param low, size    the lattice's first point, and the number of points along each axis.
-  /// @param first, last  range of the voxels considered; the window's cells and the lattice's span at most 140 along an
+  /// @param first, last  the window: the voxels considered. No point is farther than 140 cells from a voxel along an
   /// axis.
   /// @param is_in        whether voxel (x, y, z) is occupied.
   template <class IsIn>
   void compute(int cells_per_voxel, const Vector3i& low, const Vector3i& size, const Vector3i& first,
                const Vector3i& last, const IsIn& is_in);
 
-  /// The distance at a point, counted from the lattice's first one; negative in occupied voxels. Values below the
-  /// window's reach are exact, others are beyond its reach.
+  /// The distance at a point, given by its indices from the lattice's first point; negative in occupied voxels. Exact
+  /// up to the distance that the window covers around the point; a larger value only says that the distance is larger.
   double at(const Vector3i& point) const {
     const std::size_t i = indexOf(point);
     return outside_[i] > 0 ? std::sqrt(double(outside_[i])) : -std::sqrt(double(inside_[i]));
@@ -36,7 +36,7 @@ class LatticeDistance {
 
  private:
   using Squared = std::uint16_t;
-  static constexpr Squared kNone = 40000;  // more than a window's reach; and a sum with one more does not overflow
+  static constexpr Squared kNone = 40000;  // more than any distance in a window; adding one more does not overflow
 
   std::size_t indexOf(const Vector3i& p) const {
     return (static_cast<std::size_t>(p.z()) * static_cast<std::size_t>(size_.y()) + static_cast<std::size_t>(p.y())) *
@@ -46,7 +46,7 @@ class LatticeDistance {
   void transform(bool to_occupied, std::vector<Squared>& squares);
   void alongX(const std::uint8_t* voxels, bool to_occupied, Squared* row);
 
-  /// From a lattice point to a voxel along an axis.
+  /// Squared distance from a lattice point to a voxel along an axis.
   Squared squared(int axis, int point, int voxel) const {
     const int p = low_[axis] + point, begin = n_ * (first_[axis] + voxel);
     const int away = std::max({0, begin - p, p - begin - n_});

@@ -12,10 +12,10 @@ namespace sdf_ccd {
 LatticeGrid::LatticeGrid(const AlignedBox3d& box, const Vector3d& origin, const FieldOptions& options) {
   const double band = std::max(options.band, 2.0 * *options.cell_size);
   FieldOptions wider = options;
-  wider.band = band + *options.cell_size;  // the possible shift of the grid
+  wider.band = band + *options.cell_size;  // room for the shift of the grid
   shape = uniformShape(box, wider);
   shape.band = band;
-  // The box's corners are on the lattice, so a padding of a whole number of cells suffices.
+  // The origin moves down to the lattice, on which the box's corners lie, by less than a cell (1e-6: rounding).
   low = ((shape.origin - origin) / shape.cell)
             .array()
             .unaryExpr([](double c) { return std::floor(c + 1e-6); })
@@ -25,8 +25,8 @@ LatticeGrid::LatticeGrid(const AlignedBox3d& box, const Vector3d& origin, const 
 }
 
 int farthestSample(const GridShape& shape) {
-  // The nearest of a brick's samples is within the band, one cell and half of one's diagonal; the others are no farther
-  // from it than the brick's diagonal.
+  // The smallest |φ| of a brick's samples is at most the band, one cell and half of a cell's diagonal, see take(). The
+  // other samples are no farther from that one than the brick's diagonal.
   constexpr double kMore = 1.0 + kHalfSqrt3 + 2.0 * kHalfSqrt3 * GridShape::kBrick;
   return static_cast<int>(std::ceil(shape.band / shape.cell + kMore)) + 1;
 }
@@ -42,7 +42,7 @@ bool BrickSamples::take(const LatticeDistance& distances, const Vector3i& first,
         metres[at++] = static_cast<float>(distance);
         nearest = std::min(nearest, std::abs(distance));
       }
-  // Samples are a cell apart: between them the distance is less by at most half of the cell's diagonal.
+  // Samples are a cell apart: between them |φ| can be smaller by at most half of the cell's diagonal.
   if (nearest - kHalfSqrt3 * shape.cell > shape.band + shape.cell) return false;
   ++bricks;
   for (const float distance : metres) samples.push_back(shape.inSteps(distance));

@@ -9,23 +9,24 @@
 
 namespace sdf_ccd {
 
-/// A uniform grid about voxels whose cells' corners lie on a lattice with the voxels' corners.
+/// A uniform grid around voxels. The corners of its cells and those of the voxels lie on one lattice.
 struct LatticeGrid {
   /// @param origin   a corner of a voxel [m].
-  /// @param options  with a cell_size of which a voxel is a whole number.
+  /// @param options  with a cell_size of which the voxels' side is a multiple.
   LatticeGrid(const AlignedBox3d& box, const Vector3d& origin, const FieldOptions& options);
 
-  GridShape shape;  ///< its step is that of the farthest sample that BrickSamples may take
+  GridShape shape;  ///< the step suits the largest sample that BrickSamples may take
   Vector3i low;     ///< the grid's first corner, in cells from the origin
 };
 
-/// Upper bound of the distance from a surface of samples that BrickSamples takes [cells].
+/// Upper bound of |φ| at the samples that BrickSamples takes [cells].
 int farthestSample(const GridShape& shape);
 
 /// Samples of bricks, one after the other.
 struct BrickSamples {
-  /// Takes a brick's samples if one of its points may be within the band, and a cell, of a surface.
-  /// @param first  of the brick's corners, in the lattice of the distances. They must reach up to farthestSample().
+  /// Appends a brick's samples if |φ| ≤ band + cell may hold at one of its points; returns whether it did.
+  /// @param distances  exact up to farthestSample().
+  /// @param first      the brick's first corner, as a point of `distances`.
   bool take(const LatticeDistance& distances, const Vector3i& first, const GridShape& shape);
 
   std::int32_t bricks = 0;

@@ -15,19 +15,22 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Upper bound of a distance's rounding, relative to the cube it is compared in.
 constexpr double kSlack = 1e-9;
 
-/// How far a triangle may be from the centre of a cube and still be the closest to a point in it: that point is within
-/// distance + radius of the surface, and the centre within another radius of it.
+/// The maximum distance from a cube's centre to a triangle that is closest to a point in the cube: the point is at most
+/// distance + radius from the surface, and at most another radius from the centre.
 double reach(const SurfaceIndex& surface, const SpaceCube& cube, double distance) {
   return (std::abs(distance) + 2.0 * cube.radius()) * (1.0 + kSlack) + surface.exact().solid().seam();
 }
 
-/// Whether a triangle can be nearer to a point of a cube than another whose distances from the corners are given.
+/// Whether a triangle can be nearer to a point of a cube than another one, whose distances from the corners are given.
 ///
-/// A triangle's distance is convex. So it exceeds its tangent at the centre; and that of the other triangle nowhere
-/// exceeds what is interpolated between the corners. A tangent that is above at each corner is above all over.
-/// @param distance  at the cube's centre, or less [m].
-/// @param displacement  from the closest point to the centre, or a longer one: the gradient's direction.
+/// The distance from a triangle is convex. So it is nowhere below its tangent at the centre, and that from the other
+/// triangle is nowhere above the interpolation of its values at the corners. If the tangent is above these values at
+/// all corners, it is above the interpolation everywhere.
+/// @param distance      from the triangle to the cube's centre, or a lower bound of it [m].
+/// @param displacement  from the closest point (or the centre of a bounding sphere) to the cube's centre: the direction
+///                      of the gradient.
 /// @param length        of the displacement [m].
+/// @param other         the other triangle's distances from the cube's corners [m].
 SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& displacement, double length, double side,
                                  const PlaceLanes::Lane& other) {
   // All multiplied by the length, which avoids the division; a displacement of length zero proves nothing.
@@ -39,8 +42,8 @@ SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& displacement, 
   return !(leastOf(above) > 0.0);
 }
 
-/// Lists those of the triangles around that may be closest in an octant, besides the nearest one to its centre. Returns
-/// the list's end.
+/// Lists the triangles of `around` that may be closest to a point of an octant, without the one nearest to its centre.
+/// Returns the list's end.
 SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const WayLanes* ways, int octant, int nearest,
                                      double max_distance, const PlaceLanes::Lane& at_corners, std::int32_t* list) {
   const double side = 0.5 * around.cube().side, max_distance2 = max_distance * max_distance;
@@ -53,7 +56,7 @@ SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const WayLanes
   return list;
 }
 
-/// Distances of a cube's corners from a triangle, to within rounding.
+/// Upper bounds of the distances from a cube's corners to a triangle, rounding included.
 PlaceLanes::Lane distancesAtCorners(const SurfaceIndex& surface, int triangle, const SpaceCube& cube, double size) {
   PlaceLanes corners;
   for (int c = 0; c < 8; ++c) corners.set(c, cube.corner(c));
@@ -175,9 +178,9 @@ NearTriangles::Closest NearTriangles::closest(const Vector3d& p) const {
 double NearTriangles::signedDistance(const Vector3d& p) const {
   const Closest found = closest(p);
   const double d = found.distance;
-  // If all gradients lie in one cone, so does the direction to the closest point. Else: outside, the vector from that
-  // point is a positive sum of the normals of the triangles that share it, so at least one has its sign; inside, a
-  // negative one. If all agree, that is the sign.
+  // If all gradients lie in one cone, its axis tells the side of the closest point on which p is. Otherwise: outside,
+  // the vector from the closest point to p is a positive combination of the normals of the triangles that share this
+  // point, so p is in front of at least one; inside, a negative one. If all triangles agree, their sign is right.
   if (cone_.sine < 1.0) return (p - found.point).dot(cone_.axis) < 0.0 ? -d : d;
   return (found.sign != 0 ? found.sign : signFarther(p, d)) * d;
 }

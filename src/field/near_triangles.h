@@ -28,7 +28,7 @@ class SurfaceIndex {
   };
 
   const SignedSurface& exact() const { return exact_; }
-  /// Triangles that share the closest edge or vertex tie: the largest squared distance that counts as equal to this.
+  /// The largest squared distance that ties with this one, as those of triangles with a common closest edge do.
   double tie2(double closest2) const {
     const double closest = std::sqrt(closest2) + exact_.solid().seam();
     return closest * closest * (1.0 + kTie);
@@ -36,13 +36,13 @@ class SurfaceIndex {
   const MeasuredTriangle& triangle(int i) const { return triangles_[static_cast<std::size_t>(i)]; }
   const Face& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
 
-  /// See the functions of triangle_lanes.h; for slivers too.
+  /// As the functions of triangle_lanes.h, but for slivers too.
   void offer(int i, const Vector3d& axis, const PlaceLanes& points, ClosestLanes& closest) const;
   void ways(int i, const PlaceLanes& points, WayLanes& ways) const;
 
  private:
-  /// Rounding of squared distances, which is largest for slivers. Too many ties cost little: if they then disagree
-  /// about the sign, the centre's sign decides.
+  /// Relative rounding of squared distances, which is largest for slivers. A false tie costs little: if the triangles
+  /// then disagree about the sign, the centre's sign decides.
   static constexpr double kTie = 1e-9;
 
   SignedSurface exact_;
@@ -65,7 +65,7 @@ struct SpaceCube {
   Vector3d corner(int k) const { return octant(k).center + (octant(k).center - center); }
 };
 
-/// A cone of directions: those within the half-angle whose sine this is from the axis. Sine 1: all directions.
+/// A cone of directions about an axis; `sine` is that of its half-angle. Sine 1: all directions.
 struct DirectionCone {
   Vector3d axis = Vector3d::Zero();
   double sine = 1.0;
@@ -76,8 +76,8 @@ class NearTriangles {
  public:
   NearTriangles() = default;
 
-  /// @param distance  of the surface from the cube's centre, signed [m].
-  /// @param ids  the triangles, the nearest to the centre first; they outlive this.
+  /// @param distance  signed distance at the cube's centre [m].
+  /// @param ids  the triangles, first the one nearest to the cube's centre; the array must outlive this.
   NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube, double distance, const std::int32_t* ids,
                 std::size_t count);
 
@@ -87,10 +87,11 @@ class NearTriangles {
   /// Signed distances at eight points of the cube, of which `count` are needed.
   void signedDistances(const PlaceLanes& points, int count, PlaceLanes::Lane& distances) const;
 
-  /// Holds the gradient of the signed distance wherever it is defined in the cube.
+  /// Contains the gradient of the signed distance at all points of the cube where it is defined.
   const DirectionCone& gradientCone() const { return cone_; }
 
-  /// The sign at a point of the cube, `distance` from the surface, if its closest triangles do not determine it.
+  /// The sign at a point of the cube if its closest triangles do not determine it.
+  /// @param distance  of the point from the surface, unsigned [m].
   int signFarther(const Vector3d& p, double distance) const;
 
   const SurfaceIndex& surface() const { return *surface_; }
@@ -118,7 +119,7 @@ class NearTriangles {
   DirectionCone cone_;
 };
 
-/// Stores the signed distances at points of a cube under the values' indices, eight at a time.
+/// Computes the signed distances at points of a cube, eight at a time, and writes them to elements of an array.
 template <class Value>
 class DistanceWriter {
  public:
@@ -127,7 +128,7 @@ class DistanceWriter {
   DistanceWriter(const DistanceWriter&) = delete;
   DistanceWriter& operator=(const DistanceWriter&) = delete;
 
-  /// @param index  of the value.
+  /// @param index  of the array's element.
   void add(int index, const Vector3d& point) {
     indices_[count_] = index;
     points_.set(count_, point);
@@ -154,7 +155,7 @@ class DistanceWriter {
 /// The triangles near a cube, from a search over all triangles.
 class NearCube {
  public:
-  /// @param nearest  to the cube's centre.
+  /// @param nearest  the triangle nearest to the cube's centre, and its distance.
   NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const SignedSurface::Nearest& nearest);
 
   const NearTriangles& near() const { return near_; }
@@ -164,7 +165,7 @@ class NearCube {
   NearTriangles near_;
 };
 
-/// The triangles near each octant of a cube, ordered like corners. Lists are made when needed.
+/// The triangles near each octant of a cube; octants are ordered like corners. A list is made when it is first needed.
 class NearOctants {
  public:
   explicit NearOctants(const NearTriangles& around);
@@ -180,7 +181,7 @@ class NearOctants {
  private:
   int sign(int k, std::size_t nearest) const;
 
-  /// Memory for an element per triangle around: inline if they are few, as they mostly are.
+  /// Memory for `per_triangle` elements for each triangle; inline if there are few triangles, which is usual.
   template <class T, std::size_t per_triangle>
   class Room {
    public:
@@ -197,9 +198,9 @@ class NearOctants {
   };
 
   const NearTriangles& around_;
-  Room<WayLanes, 1> ways_;               ///< of each triangle around to the octants' centres
-  Room<std::int32_t, 8> ids_;            ///< for each octant an array for all triangles around
-  std::array<std::int32_t, 8> nearest_;  ///< triangle at each octant's centre
+  Room<WayLanes, 1> ways_;               ///< per triangle: displacements from it to the octants' centres
+  Room<std::int32_t, 8> ids_;            ///< per octant: a list with room for all triangles
+  std::array<std::int32_t, 8> nearest_;  ///< the triangle nearest to each octant's centre
   std::array<double, 8> distances_;
   std::array<NearTriangles, 8> near_;
 };

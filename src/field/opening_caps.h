@@ -22,7 +22,7 @@ class OpeningCaps {
   /// Whether a cap is at most this far; cheaper than distance() if none is.
   bool isWithin(const Vector3d& p_F, double distance) const { return tree_.closestPoint(p_F, distance).triangle >= 0; }
 
-  /// Upper bound of the distance from the mesh with the openings [m]: through the nearest cap.
+  /// Upper bound of the distance from the mesh alone [m]: the path through the nearest cap.
   double meshWithin(const Vector3d& p_F) const;
 
   std::size_t bytes() const;

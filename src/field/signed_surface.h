@@ -23,7 +23,7 @@ class SignedSurface {
 
   double signedDistance(const Vector3d& p) const { return nearest(p).distance; }
 
-  /// A signed distance, and the boundary's triangle it is to.
+  /// A signed distance [m], and the nearest of the boundary's triangles.
   struct Nearest {
     double distance;
     int triangle;
@@ -31,8 +31,8 @@ class SignedSurface {
 
   Nearest nearest(const Vector3d& p) const;
 
-  /// The same at a point `step` away from one where it is `last`. If the two empty spheres intersect, the sign is
-  /// the same (if the mesh is closed).
+  /// As nearest(), but cheaper, at a point `step` [m] away from one where the result was `last`. If the mesh is closed
+  /// and the empty spheres about both points intersect, the sign is the same.
   Nearest next(const Vector3d& p, const Nearest& last, double step) const;
 
  private:

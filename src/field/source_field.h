@@ -5,11 +5,11 @@
 
 namespace sdf_ccd {
 
-/// The field of the solid that a mesh bounds: by its voxels, if these are known and the options allow it, else by the
-/// solid.
+/// The field of the solid that a mesh bounds: computed from voxels if the mesh is a boundary of voxels and the options
+/// allow it (canBeLattice()), else from the triangles.
 DistanceField buildField(const SolidSource& source, const FieldOptions& options, const Progress& progress = {});
 
-/// The expected cost of that.
+/// The expected cost of that buildField().
 FieldCost expectedCost(const SolidSource& source, const FieldOptions& options);
 
 }  // namespace sdf_ccd

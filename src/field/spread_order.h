@@ -7,8 +7,8 @@
 
 namespace sdf_ccd {
 
-/// The numbers below `count`, each once, so that the first few of them, and any few in a row, are spread uniformly:
-/// steps of the golden section of `count`, or of the nearest number that is coprime with it.
+/// A permutation of the numbers below `count`: the first few of them, like any few in a row, are spread uniformly.
+/// Multiples, modulo `count`, of its golden section, rounded up to the next number that is coprime to `count`.
 class SpreadOrder {
  public:
   explicit SpreadOrder(std::size_t count) : count_(count) {

@@ -63,12 +63,12 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelLattice& lattice) 
 std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLattice& lattice, double band) {
   const AlignedBox3d box = boxOf(block, lattice);
   if (box.isEmpty()) return std::nullopt;
-  constexpr int kCells = 2;  // a voxel
+  constexpr int kCells = 2;  // along a voxel's side
   FieldOptions options;
   options.max_error.reset();
   options.cells.reset();
   options.cell_size = lattice.size / kCells;
-  options.band = std::min(band, 16.0 * *options.cell_size);  // the lattice stays one of up to 100 cells
+  options.band = std::min(band, 16.0 * *options.cell_size);  // limits the lattice to 100 cells along an axis
   LatticeGrid grid(box, lattice.origin, options);
   GridShape& shape = grid.shape;
 
@@ -77,7 +77,8 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLatt
     const bool inside = std::min({x, y, z}) >= 0 && std::max({x, y, z}) < kSide;
     return inside && block.occupied[VoxelBlock::index(x, y, z)];
   };
-  // Voxels beyond the free ones around the block are free too; in that direction the occupied ones count.
+  // The window has one layer of free voxels around the block. The voxels beyond are free too, and never the nearest
+  // free ones of a point in the block.
   distances.compute(kCells, grid.low, shape.cells().array() + 1, Vector3i::Constant(-1), Vector3i::Constant(kSide),
                     isIn);
 

@@ -12,7 +12,7 @@
 
 namespace sdf_ccd {
 
-/// A cube of voxels, each occupied or not; the outside is not.
+/// A cube of voxels, each occupied or free; all voxels outside it are free.
 struct VoxelBlock {
   static constexpr int kSide = 20;  ///< voxels
   static constexpr std::size_t kCount = std::size_t{kSide} * kSide * kSide;
@@ -33,21 +33,23 @@ struct VoxelLattice {
 /// Boundary of a block's occupied voxels, two triangles a face, with shared vertices; see loadOctomapSurface().
 TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelLattice& lattice);
 
-/// The field of a block's occupied voxels, with cells of half a voxel and exact distances at their corners: as
-/// buildField() makes it of voxelSurface(), in about a millisecond.
-/// @param band  as in FieldOptions [m].
-/// @return none if nothing is occupied.
+/// The field of a block's occupied voxels, with cells of half a voxel and exact distances at their corners, as
+/// buildField() computes it from voxelSurface(); takes about a millisecond.
+/// @param band  as in FieldOptions, but limited to 16 cells [m].
+/// @return std::nullopt if no voxel is occupied.
 std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLattice& lattice, double band);
 
-/// The field of a map, as buildField() makes it of the mesh that is its boundary, except for its cells' origin, in a
-/// fraction of the time.
-/// @param options  with a cell_size of which a voxel is a whole number, and a band of up to 32 cells (canBeLattice()).
+/// The field of a map, as buildField() computes it from the mesh of the map's boundary, in a fraction of the time; only
+/// the origin of the cells differs.
+/// @param options  with a cell_size of which the voxels' side is a multiple, and a band of up to 32 cells: see
+///                 canBeLattice().
 /// @throws std::length_error as buildField(); Cancelled.
 DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, const Progress& progress = {});
 
+/// Whether the options meet these conditions.
 bool canBeLattice(const VoxelSolid& solid, const FieldOptions& options);
 
-/// The expected cost of that: measured on a share of it.
+/// The expected cost of that buildField(), measured on a sample of its blocks.
 FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options);
 
 }  // namespace sdf_ccd

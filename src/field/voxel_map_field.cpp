@@ -17,7 +17,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr int kMaxReach = 50;  // cells; limits a block's window to the width that LatticeDistance allows
-constexpr int kBlock = 4;      // bricks along the side of the blocks that are made together
+constexpr int kBlock = 4;      // bricks along the side of a block, whose bricks share one LatticeDistance
 
 int cellsPerVoxel(const VoxelSolid& solid, double cell) {
   return static_cast<int>(std::lround(solid.size() / cell));
@@ -27,8 +27,8 @@ int floorDivide(int a, int b) {
   return a / b - (a % b != 0 && (a < 0) != (b < 0));
 }
 
-/// Squared distances from the bricks' corners to the voxels that are occupied, or that are free [cells²]: one axis
-/// after the other, as LatticeDistance, each corner from its nearest rows and layers on.
+/// Squared distances from the bricks' corners to the nearest occupied, or the nearest free, voxel [cells²]: one axis
+/// after the other, as in LatticeDistance. Along y each corner visits the nearest rows first.
 class CornerSquares {
  public:
   CornerSquares(const VoxelSolid& solid, const LatticeGrid& grid, bool to_occupied)
@@ -42,10 +42,10 @@ class CornerSquares {
   static constexpr int kWidth = 32;
   int columns() const { return (corners_.x() + kWidth - 1) / kWidth; }
 
-  /// @param squares  of all corners; gets those of the column, where they are less.
+  /// @param squares  of all corners; those of the column are reduced to the distances found, where these are smaller.
   void compute(int column, std::vector<float>& squares) const {
     const int from = column * kWidth, width = std::min(kWidth, corners_.x() - from);
-    const int ring = to_occupied_ ? 0 : 1;  // outside the box all are free
+    const int ring = to_occupied_ ? 0 : 1;  // all voxels outside the box are free
     std::vector<VoxelSolid::Run> runs;
     std::vector<Row> rows;
     std::vector<float> layer(static_cast<std::size_t>(kWidth) * static_cast<std::size_t>(corners_.y()));
@@ -81,7 +81,7 @@ class CornerSquares {
     std::array<float, kWidth> squares;
   };
 
-  /// From a corner to a voxel, along an axis.
+  /// Squared distance from a corner to a voxel along an axis [cells²].
   float squaredGap(int voxel, int corner) const {
     const auto gap = static_cast<float>(std::max({0, n_ * voxel - corner, corner - n_ * (voxel + 1)}));
     return gap * gap;
@@ -100,7 +100,7 @@ class CornerSquares {
   }
 
   void alongX(const std::vector<VoxelSolid::Run>& runs, int from, int width, std::array<float, kWidth>& squares) const {
-    std::size_t next = 0;  // the first that does not end before the corner
+    std::size_t next = 0;  // the first run that does not end before the corner
     for (int x = 0; x < width; ++x) {
       const int corner = low_.x() + GridShape::kBrick * (from + x);
       while (next < runs.size() && n_ * runs[next].end < corner) ++next;
@@ -111,7 +111,7 @@ class CornerSquares {
     }
   }
 
-  /// From the nearest rows outward, until rows are too far away to matter.
+  /// Visits the nearest rows first, and stops where rows are too far away to matter.
   void alongY(const std::vector<Row>& rows, int y, int width, float* best) const {
     std::fill_n(best, width, std::numeric_limits<float>::infinity());
     const int corner = low_.y() + GridShape::kBrick * y;
@@ -151,7 +151,7 @@ class MapGrid {
     return inMetres(outside, squares(false));
   }
 
-  /// Processor seconds of corners(), estimated from one column of several.
+  /// Processor seconds of corners(), estimated from the middle column.
   double cornerSeconds() const {
     const CornerSquares squares(solid_, grid_, true);
     std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
@@ -166,14 +166,14 @@ class MapGrid {
     return {static_cast<int>(i % x), static_cast<int>(i / x % y), static_cast<int>(i / x / y)};
   }
 
-  /// Whether a brick may have samples, by its corners.
+  /// Whether a brick may need samples, judged by the distances at its corners.
   bool mayBeNear(const Vector3i& brick, const std::vector<float>& corners) const {
-    // Any of its points is no farther from one of its corners than half of its diagonal.
+    // Every point of the brick is at most half of its diagonal from one of its corners.
     return nearestCorner(shape(), corners, brick) <=
            shape().band + (1.0 + kHalfSqrt3 * (1 + GridShape::kBrick)) * shape().cell;
   }
 
-  /// The bricks of a block that have samples, and these. @param mayBe  whether a brick may have samples.
+  /// Finds the bricks of a block that need samples, and their samples. @param mayBe  false for bricks that need none.
   template <class MayBe>
   void make(const Vector3i& block, const MayBe& mayBe, std::vector<std::size_t>& bricks, BrickSamples& samples) const {
     const Vector3i first = kBlock * block, end = (first.array() + kBlock).min(shape().bricks.array());

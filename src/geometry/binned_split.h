@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 
 constexpr int kBins = 16;
-/// Deeper than this, ranges are halved whatever it costs: the depth stays below kHeuristicDepth + 31.
+/// At greater depths, ranges are split in half regardless of cost: the depth stays below kHeuristicDepth + 31.
 constexpr int kHeuristicDepth = 64;
 
 inline double halfArea(const AlignedBox3d& box) {
@@ -16,13 +16,13 @@ inline double halfArea(const AlignedBox3d& box) {
   return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
 }
 
-/// What of a range falls in each of equal parts of its extent.
+/// Boxes and counts of the elements of a range in each of kBins equal parts of its extent.
 struct Bins {
   std::array<AlignedBox3d, kBins> boxes;
   std::array<int, kBins> counts{};
 
-  /// The first bin of the second half where dividing costs least by the surface area heuristic (Wald 2007); 0 if one
-  /// bin holds all.
+  /// First bin of the second part, for the split with the lowest cost by the surface area heuristic (Wald 2007); 0 if
+  /// one bin holds all.
   int bestSplit() const {
     std::array<double, kBins> cost_above{};
     AlignedBox3d box;

@@ -43,7 +43,7 @@ SDF_CCD_LANES void boxGaps(const BoxTree::Node& node, const PlacedBox& box, cons
   const Vectors axes[3] = {load(node.axis[0]), load(node.axis[1]), load(node.axis[2])};
   const Floats half[3] = {load(node.half[0]), load(node.half[1]), load(node.half[2])};
 
-  Floats along_box[3];  // how far the node's boxes reach along the other's axes
+  Floats along_box[3];  // half extents of the node's boxes along the other box's axes
   Floats best;
   for (int i = 0; i < 3; ++i) {
     Floats reach = half[i];

@@ -14,7 +14,7 @@ namespace {
 
 using Axes = std::array<Vector3d, 3>;
 
-/// Sums over a surface's triangles, for its main directions.
+/// Area moments of a surface's triangles, for its principal axes.
 struct Moments {
   double area = 0.0;
   Vector3d first = Vector3d::Zero();
@@ -30,7 +30,7 @@ struct Moments {
   }
 };
 
-/// The plane of the triangle, and its longest edge.
+/// Axes of a triangle's box: its normal first, its longest edge last.
 Axes axesOf(const Corners& t) {
   Vector3d along = t[1] - t[0];
   for (const Vector3d& edge : {Vector3d(t[2] - t[1]), Vector3d(t[0] - t[2])})
@@ -53,7 +53,7 @@ struct Extent {
 
 }  // namespace
 
-/// Top-down: boxes along main directions, divided by the surface area heuristic over bins (Wald 2007).
+/// Builds top-down: boxes along principal axes, split by the surface area heuristic over bins (Wald 2007).
 class BoxTree::Builder {
  public:
   explicit Builder(BoxTree& tree) : tree_(tree) {}
@@ -124,7 +124,7 @@ class BoxTree::Builder {
     return axes;
   }
 
-  /// Writes the ranges' boxes into a node, and makes nodes for those of several triangles.
+  /// Writes the ranges' boxes into a node, and appends nodes for ranges of several triangles.
   void fill(std::vector<Range> ranges, std::size_t index, std::vector<Range>& pending) {
     Node node{};
     node.count = static_cast<std::int32_t>(ranges.size());
@@ -162,7 +162,7 @@ class BoxTree::Builder {
       }
       radius = std::max(radius, at(i).radius);
     }
-    // What rounding the center and the axes to single precision displaces a point by, twice over.
+    // Twice the displacement of a point by rounding the centre and the axes to single precision.
     const double rounding = (center.norm() + reach) / (1 << 23);
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) node.axis[i][k][lane] = static_cast<float>(axes[i][k]);
@@ -175,7 +175,8 @@ class BoxTree::Builder {
 
   static float roundedUp(double value) { return value > 0.0 ? static_cast<float>(value * (1.0 + 2e-7)) : 0.0F; }
 
-  /// Into eight at most, the largest first; not into less than fill a node, unless one node holds them all.
+  /// Splits a range into at most eight parts, the largest first. Parts that fit into one node are not split, unless the
+  /// whole range fits into one.
   std::vector<Range> divide(const Range& range) {
     least_ = range.size() > Node::kWidth ? Node::kWidth : 1;
     std::vector<Range> parts = {range};
@@ -230,7 +231,7 @@ class BoxTree::Builder {
     return std::clamp(static_cast<int>((x - low) * scale), 0, kBins - 1);
   }
 
-  /// Of the least cost; 0 if there is none.
+  /// The split with the lowest cost; 0 if there is none.
   int bestBin(const Range& range, const Axes& axes, int axis, double low, double scale) const {
     Bins bins;
     for (int i = range.begin; i < range.end; ++i) {
@@ -253,7 +254,7 @@ class BoxTree::Builder {
   BoxTree& tree_;
   std::vector<Vector3d> centers_;
   std::vector<int> order_;
-  int least_ = 1;  ///< ranges of so many triangles are not divided
+  int least_ = 1;  ///< ranges of at most this many triangles are not split
 };
 
 BoxTree::BoxTree(std::vector<RoundedTriangle> triangles) : triangles_(std::move(triangles)) {

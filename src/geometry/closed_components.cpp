@@ -14,18 +14,18 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of coordinates that are floats, over the mesh's size
+constexpr double kRounding = 1e-6;  // of coordinates stored as floats, relative to the mesh's size
 
-/// A patch by itself.
+/// Properties of one patch.
 struct Component {
-  std::unique_ptr<TriangleTree> tree;  ///< none where it is open, or holds nothing
+  std::unique_ptr<TriangleTree> tree;  ///< null if the patch is open, or encloses no volume
   AlignedBox3d box;
-  bool inward = false;                   ///< most of what is seen of it from outside is its back
-  std::vector<std::int32_t> facing_out;  ///< triangles of the mesh behind which its winding number is above zero,
-  std::vector<std::int32_t> facing_in;   ///< and others
-  Vector3d witness = Vector3d::Zero();   ///< a point on its surface,
-  Vector3d behind = Vector3d::Zero();    ///< and one behind it
-  double own_number = 0.0;               ///< its winding number there
+  bool inward = false;                   ///< from outside, mostly its back is visible
+  std::vector<std::int32_t> facing_out;  ///< triangles of the mesh with a winding number above zero behind them
+  std::vector<std::int32_t> facing_in;   ///< all others
+  Vector3d witness = Vector3d::Zero();   ///< a point on its surface
+  Vector3d behind = Vector3d::Zero();    ///< a point just behind the witness
+  double own_number = 0.0;               ///< the patch's winding number at `behind`
   bool flat = false;                     ///< a sheet that is drawn from both sides
   bool unmeasured = false;               ///< its volume is zero, but it is not flat
 };
@@ -49,7 +49,7 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
   if (!patch.closed) return result;
   const double volume = signedVolume(part), size = result.box.sizes().maxCoeff();
   result.inward = volume < 0.0;
-  if (!(size > 1e-9)) return result;  // a mere point
+  if (!(size > 1e-9)) return result;  // only a point
   if (!(std::abs(volume) > 1e-7 * size * surfaceArea(part))) {
     result.flat = isFlat(part, size);
     result.unmeasured = !result.flat;
@@ -75,7 +75,8 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
   for (std::size_t i = 0; i < count; ++i) {
     if (!known[i]) continue;
     (numbers[i] > 0.5 ? result.facing_out : result.facing_in).push_back(patch.triangles[i]);
-    // Seen from where the number is zero: in front of these, behind those.
+    // Visible from where the number is zero: the front of a triangle with 1 behind it, the back of one with 0 behind
+    // it.
     const long number = std::lround(numbers[i]);
     const double area = areaNormal(part, static_cast<int>(i)).norm();
     if (number == 1) area_out += area;
@@ -88,13 +89,13 @@ Component measure(const TriangleMesh& mesh, const Patch& patch) {
       result.own_number = numbers[i];
     }
   }
-  // Of lobes of like area the larger volume decides.
+  // If both areas are similar, the sign of the volume decides.
   if (area_in > 2.0 * area_out) result.inward = true;
   if (area_out > 2.0 * area_in) result.inward = false;
   return result;
 }
 
-/// Decides on the patches of a mesh together.
+/// Decides about all patches of a mesh together.
 class Inspection {
  public:
   Inspection(const TriangleMesh& mesh, const std::vector<Patch>& patches)
@@ -127,12 +128,12 @@ class Inspection {
     }
     if (closed_.size() > 1) doubtNested(result);
     for (const std::int32_t i : closed_) {
-      // Of two parts that meet in edges one alone may be inside out.
+      // Of two parts that meet in edges, only one may be inside out.
       doubt(result[i], result[i].turn && branches(extract(mesh_, patches_[i])));
       doubt(result[i], result[i].turn && isHeldByOpen(i));
       findLobes(i, result);
     }
-    // So many sheets may enclose something.
+    // This many sheets may enclose a volume.
     constexpr std::ptrdiff_t kFaces = 4;
     const bool encloses = std::count_if(components_.begin(), components_.end(),
                                         [](const Component& component) { return component.flat; }) >= kFaces;
@@ -157,7 +158,7 @@ class Inspection {
     for (const std::int32_t i : closed_) {
       if (components_[i].inward != result[i].turn) inward.push_back(i);
     }
-    // What holds others comes before them.
+    // Patches that contain others come before them.
     std::stable_sort(inward.begin(), inward.end(), [&](std::int32_t a, std::int32_t b) {
       return components_[a].box.diagonal().squaredNorm() > components_[b].box.diagonal().squaredNorm();
     });
@@ -182,8 +183,8 @@ class Inspection {
     }
   }
 
-  /// What lies in another one is a cavity or a solid by which way it faces: if that is not certain of both, neither is
-  /// what it is.
+  /// Whether a patch within another one is a cavity or a solid follows from its orientation: if that of either patch is
+  /// not certain, the inner one is doubtful.
   void doubtNested(std::vector<ClosedComponent>& result) {
     std::vector<char> uncertain(patches_.size(), 0);
     bool any = false;
@@ -211,10 +212,10 @@ class Inspection {
     triangles_ = std::move(all.triangles);
   }
 
-  /// Whether all patches that lie in no other one face their insides.
+  /// Whether all patches that lie in no other one are inside out.
   bool isInsideOut() const {
     bool any = false;
-    std::vector<std::int32_t> perhaps_held;  // by their witnesses, but those may lie in what they only overlap
+    std::vector<std::int32_t> perhaps_held;  // by their witnesses, which may also lie in a patch that only overlaps
     for (const std::int32_t i : closed_) {
       const Component& component = components_[i];
       if (std::abs(tree_->windingNumber(component.behind) - component.own_number) > 0.5) {
@@ -244,7 +245,7 @@ class Inspection {
     return std::any_of(holders.begin(), holders.end(), [&](auto holder) { return touched.count(holder) == 0; });
   }
 
-  /// Whether one that is not closed may hold it.
+  /// Whether an open patch may contain it.
   bool isHeldByOpen(std::int32_t inner) const {
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       if (!patches_[i].closed && components_[i].box.contains(components_[inner].box)) return true;
@@ -252,8 +253,8 @@ class Inspection {
     return false;
   }
 
-  /// A patch's winding number at another one: just behind it where they touch, as a wall between them may be thinner
-  /// than that is.
+  /// A patch's winding number at the witness of another one. If they touch there, it is evaluated just behind the
+  /// witness; not always, because a wall between them may be thinner than that distance.
   long numberIn(std::int32_t holder, std::int32_t inner) const {
     constexpr double kWhole = 0.25;
     const TriangleTree& tree = *components_[holder].tree;
@@ -261,7 +262,7 @@ class Inspection {
     return std::lround(std::abs(at - whole) < kWhole ? whole : tree.windingNumber(components_[inner].behind));
   }
 
-  /// Whether the witness lies in another patch or on it, as that of a patch flush with it does, whichever way it faces.
+  /// Whether the witness lies inside another patch or on it, from either side: on it if the patches are flush.
   bool isAtSolid(std::int32_t holder, std::int32_t inner) const {
     const Component& component = components_[inner];
     const TriangleTree& tree = *components_[holder].tree;
@@ -270,8 +271,8 @@ class Inspection {
            std::lround(tree.windingNumber(component.behind)) != 0;
   }
 
-  /// Whether some faces of a cavity, but not all, lie on what holds it but for rounding: it may be a part that was to
-  /// be flush there, drawn inside out. A hull of walls without thickness is near its cavity everywhere.
+  /// Whether some faces of a cavity, but not all, lie on the patch that contains it, up to rounding: it may be a part
+  /// that is flush there and was drawn inside out. (A hull of walls without thickness is near its cavity everywhere.)
   bool isFlushInPart(std::int32_t cavity) const {
     const std::set<std::int32_t> holders = candidates(cavity);
     bool flush = false, free = false;
@@ -288,7 +289,8 @@ class Inspection {
     return false;
   }
 
-  /// Patches whose box holds this one's, but for rounding, and that a ray from its witness along x may cross, in order.
+  /// Patches whose box contains this one's, up to rounding, and that a ray from its witness along x may cross;
+  /// ascending.
   std::set<std::int32_t> candidates(std::int32_t inner) const {
     const Component& component = components_[inner];
     std::set<std::int32_t> found;
@@ -306,7 +308,7 @@ class Inspection {
     return found;
   }
 
-  /// Other closed patches that these triangles of one cut or touch.
+  /// Other closed patches that the given triangles of one patch cut or touch.
   std::set<std::int32_t> touchedBy(const std::vector<std::int32_t>& triangles) const {
     std::set<std::int32_t> found;
     std::vector<int> near;
@@ -330,12 +332,12 @@ class Inspection {
     const std::vector<std::int32_t>& lobe = component.inward ? component.facing_out : component.facing_in;
     result[i].negative_triangles = static_cast<int>(lobe.size());
     if (lobe.empty()) return;
-    // Parts that meet in edges are one patch, and may cancel each other in it.
+    // Parts that meet in edges form one patch, and may cancel each other within it.
     const TriangleMesh part = extract(mesh_, patches_[i]);
     doubt(result[i], branches(part) || mayHidePockets(part, *component.tree));
     if (closed_.size() < 2) return;
     uniteClosed();
-    // A triangle may be of the lobe in part.
+    // A triangle may belong to the lobe only in part.
     doubt(result[i], !touchedBy(patches_[i].triangles).empty());
     for (const std::int32_t other : closed_) {
       if (result[i].doubtful) return;
@@ -345,7 +347,7 @@ class Inspection {
     }
   }
 
-  /// Whether a triangle lies in the other patch, which none of them cuts.
+  /// Whether one of the triangles, none of which cuts the other patch, lies inside it.
   bool holds(std::int32_t patch, const std::vector<std::int32_t>& triangles) const {
     const Component& component = components_[patch];
     return std::any_of(triangles.begin(), triangles.end(), [&](std::int32_t triangle) {
@@ -359,12 +361,12 @@ class Inspection {
   const std::vector<Patch>& patches_;
   double eps_;                           ///< see cutTolerance()
   double rounding_;                      ///< [m]
-  bool all_turned_ = false;              ///< the file is inside out
+  bool all_turned_ = false;              ///< the whole file is inside out
   std::vector<Component> components_;    ///< per patch
   std::vector<std::int32_t> label_;      ///< of each triangle: its closed patch, or -1
-  std::vector<std::int32_t> closed_;     ///< patches
+  std::vector<std::int32_t> closed_;     ///< indices of the closed patches
   std::unique_ptr<TriangleTree> tree_;   ///< of all closed patches
-  std::vector<std::int32_t> triangles_;  ///< of the mesh, in the order of that tree's
+  std::vector<std::int32_t> triangles_;  ///< of the mesh, in the order of tree_'s triangles
 };
 
 }  // namespace

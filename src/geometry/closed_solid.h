@@ -9,34 +9,34 @@
 
 namespace sdf_ccd {
 
-/// A solid; if it is not closed, joined where faces were tessellated apart (see conformingMesh()) if that closes it,
-/// else with caps in its openings (see findOpenings()).
+/// A solid that is made closed if it is not. Faces that were tessellated separately are joined if that closes it (see
+/// conformingMesh()); else caps are added in its openings (see findOpenings()).
 class ClosedSolid {
  public:
   explicit ClosedSolid(std::shared_ptr<const Solid> solid);
 
   const Solid& solid() const { return *solid_; }
-  const Openings& openings() const { return openings_; }  ///< that were closed
+  const Openings& openings() const { return openings_; }  ///< those that were closed by caps
 
  private:
   std::shared_ptr<const Solid> solid_;
   Openings openings_;
 };
 
-/// What a mesh was made into, each part when it was first asked for.
+/// The solids made from a mesh, each when it was first requested.
 struct MadeSolid {
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ClosedSolid> closed;
-  bool may_be_voxels = false;  ///< whether it is worth to look whether the mesh is a boundary of voxels
+  bool may_be_voxels = false;  ///< whether to test if the mesh is the boundary of voxels
   std::optional<std::shared_ptr<const VoxelSolid>> voxels;
 };
 
-/// A mesh whose solid is made when it is first asked for, for what is mostly found in a cache.
+/// A mesh whose solid is made when it is first requested, as what is made from it is mostly found in a cache.
 class SolidSource {
  public:
   /// @param mesh  must outlive this.
   SolidSource(const TriangleMesh& mesh) : mesh_(mesh), made_(&own_) {}  // NOLINT: a mesh is enough for most
-  /// @param made  what is kept for other sources. Must outlive this.
+  /// @param made  holds the solids, also for other sources. Must outlive this.
   SolidSource(const TriangleMesh& mesh, MadeSolid& made) : mesh_(mesh), made_(&made) {}
   SolidSource(const SolidSource&) = delete;
   SolidSource& operator=(const SolidSource&) = delete;
@@ -44,7 +44,7 @@ class SolidSource {
   const TriangleMesh& mesh() const { return mesh_; }
   const Solid& solid() const;
   const ClosedSolid& closed() const;
-  const VoxelSolid* voxels() const;  ///< null if it is none of voxels
+  const VoxelSolid* voxels() const;  ///< null if the mesh is not the boundary of voxels
 
  private:
   const TriangleMesh& mesh_;

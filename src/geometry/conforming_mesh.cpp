@@ -12,7 +12,7 @@ namespace sdf_ccd {
 namespace {
 
 using Edge = std::pair<int, int>;  // ascending
-using Points = std::vector<int>;   // vertices on a side, as it runs
+using Points = std::vector<int>;   // vertices on a side, in its direction
 
 /// Whether an edge has an odd number of triangles.
 bool isOdd(const TriangleMesh& mesh) {
@@ -21,7 +21,7 @@ bool isOdd(const TriangleMesh& mesh) {
   return odd;
 }
 
-/// Edges that are not run through as often either way: open ones, and those of which two parts have one side each.
+/// Edges that are not used equally often in both directions: open ones, and those to which two parts add a side each.
 std::vector<Edge> unbalancedEdges(const TriangleMesh& mesh) {
   std::vector<Edge> edges;
   forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
@@ -30,7 +30,7 @@ std::vector<Edge> unbalancedEdges(const TriangleMesh& mesh) {
   return edges;
 }
 
-/// Lets triangles at such edges share vertices that are within a distance of each other [m].
+/// Merges vertices of such edges that are within a distance of each other [m].
 void joinVertices(TriangleMesh& mesh, double tolerance) {
   const std::vector<Edge> edges = unbalancedEdges(mesh);
   if (edges.empty()) return;
@@ -59,7 +59,7 @@ bool isSeam(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
 
 /// Per edge, the vertices on it from its lower end to the higher one.
 std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double tolerance) {
-  constexpr std::size_t kMostPerEdge = 16;  // on an average; more is no tessellation but noise
+  constexpr std::size_t kMostPerEdge = 16;  // on average; more are not a tessellation but noise
   const std::vector<Edge> edges = unbalancedEdges(mesh);
   std::map<Edge, Points> on;
   if (edges.empty()) return on;
@@ -82,7 +82,7 @@ std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double toleranc
   return on;
 }
 
-/// Adds the parts of a triangle with vertices on its sides; side k runs from corner k to the next one.
+/// Appends the parts of a triangle split at the vertices on its sides; side k runs from corner k to the next one.
 void split(const Vector3i& corners, const std::array<Points, 3>& on, std::vector<Vector3i>& parts) {
   for (int k = 0; k < 3; ++k) {
     if (on[k].empty()) continue;
@@ -95,8 +95,8 @@ void split(const Vector3i& corners, const std::array<Points, 3>& on, std::vector
   parts.push_back(corners);
 }
 
-/// The mesh joined at vertices, and split at those on its sides, within a distance [m]; without triangles that are no
-/// higher.
+/// The mesh with vertices merged, and triangles split at vertices on their sides, within a distance [m]; without
+/// triangles of at most that height.
 ConformingMesh joinedWithin(TriangleMesh mesh, double tolerance) {
   joinVertices(mesh, tolerance);
   ConformingMesh result;

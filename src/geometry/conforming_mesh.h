@@ -6,16 +6,16 @@ namespace sdf_ccd {
 
 /// A mesh whose neighbours share whole edges.
 struct ConformingMesh {
-  TriangleMesh mesh;                 ///< with the vertices of the other
-  std::vector<std::int32_t> source;  ///< of each triangle: the one of the other mesh that it is a part of
+  TriangleMesh mesh;                 ///< with the vertices of the original mesh
+  std::vector<std::int32_t> source;  ///< per triangle: the original triangle of which it is a part
 };
 
-/// Lets triangles share vertices that lie at one place, and splits them at vertices that lie on their sides, as far as
-/// digits of doubles or else of floats tell, where such a side is not run through as often either way: faces that were
-/// tessellated apart meet so, of one part or of two.
-/// Triangles without height, which fill such seams in some files, have no part there. The mesh as it is where that
-/// leaves sides of an odd number of triangles: in open meshes, what is joined in part says little. For questions of
-/// what is connected with what; the parts of a triangle are flat only up to that tolerance.
+/// Merges vertices that coincide, and splits triangles at vertices on their sides, where a side is not used equally
+/// often in both directions: so faces are joined that were tessellated separately, of one part or of two. The tolerance
+/// is the rounding of doubles or, if that does not suffice, of floats.
+/// Triangles without height, which fill such seams in some files, are dropped. The mesh is returned unchanged if sides
+/// with an odd number of triangles would remain: in open meshes, a partial join says little. For questions of
+/// connectivity; the parts of a triangle are flat only to that tolerance.
 /// @param mesh  welded.
 ConformingMesh conformingMesh(const TriangleMesh& mesh);
 

@@ -11,7 +11,7 @@ namespace {
 struct Key {
   Vector3i corners;  // ascending
   std::int32_t triangle;
-  bool even;  // of the triangle's corners, as a permutation of these
+  bool even;  // the triangle's corners are an even permutation of these
 };
 
 std::vector<Key> sortedKeys(const TriangleMesh& mesh) {
@@ -66,8 +66,8 @@ std::vector<char> walls(const TriangleMesh& mesh, const std::vector<char>& doubl
 
 DistinctTriangles distinctTriangles(const TriangleMesh& mesh) {
   const std::vector<Key> keys = sortedKeys(mesh);
-  std::vector<std::int32_t> copies(mesh.triangles.size(), -1);  // of the first of equal ones
-  std::vector<char> one_way(mesh.triangles.size(), 0);          // all of them are drawn the same way round
+  std::vector<std::int32_t> copies(mesh.triangles.size(), -1);  // of the first of equal triangles: how many others
+  std::vector<char> one_way(mesh.triangles.size(), 0);          // all of them have the same orientation
   bool any_copy = false;
   for (std::size_t i = 0; i < keys.size();) {
     const std::size_t first = i;

@@ -16,7 +16,7 @@ EdgeSearch::EdgeSearch(const TriangleMesh& mesh, const std::vector<std::pair<int
   }
   std::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-  constexpr double kSmallestMesh = 1e-8;  // [m], below which a tree refuses it
+  constexpr double kSmallestMesh = 1e-8;  // [m]; a tree refuses smaller ones
   if (boundingBox(segments).sizes().maxCoeff() > kSmallestMesh) tree_.emplace(segments);
 }
 

@@ -8,16 +8,16 @@
 
 namespace sdf_ccd {
 
-/// Finds the edges that come near a place.
+/// Finds the edges near a point.
 class EdgeSearch {
  public:
   /// @param edges  between two vertices of the mesh each.
   EdgeSearch(const TriangleMesh& mesh, const std::vector<std::pair<int, int>>& edges);
 
-  /// Those of the edges, in ascending order.
+  /// The vertices of the edges, in ascending order.
   const std::vector<int>& vertices() const { return vertices_; }
 
-  /// Edges within a distance [m] of p, by their place in the list.
+  /// Edges within a distance [m] of p, by their index in the list.
   void find(const Vector3d& p, double distance, std::vector<int>& found) const;
 
  private:
@@ -25,7 +25,7 @@ class EdgeSearch {
   std::optional<TriangleTree> tree_;
 };
 
-/// Sorts vertices by where they are along an edge, from its first end on.
+/// Sorts vertices by their position along an edge, from its first end on.
 void sortAlong(const TriangleMesh& mesh, const std::pair<int, int>& edge, std::vector<int>& vertices);
 
 }  // namespace sdf_ccd

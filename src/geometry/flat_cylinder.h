@@ -7,15 +7,15 @@
 
 namespace sdf_ccd {
 
-/// A cylinder about pieces of a surface. They are flat, so that it is low: seen from far above it tells their distance
-/// far better than a box or a ball does.
+/// A cylinder around pieces of a surface. It is low if they are nearly flat: then, seen from far above, it bounds their
+/// distance much more tightly than a box or a sphere does.
 struct FlatCylinder {
   Vector3d center;
-  Vector3d axis;           ///< of length one; or zero: a ball
+  Vector3d axis;           ///< unit; or zero: a sphere
   double radius = 0.0;     ///< [m]
   double half_height = 0;  ///< to each side of the centre [m]
 
-  /// Makes it large enough for a place, and a little larger, for rounding.
+  /// Enlarges it to contain a point, with a margin for rounding.
   void extend(const Vector3d& p) {
     const Vector3d way = p - center;
     const double along = std::abs(axis.dot(way));
@@ -23,7 +23,7 @@ struct FlatCylinder {
     radius = std::max(radius, across(way, along) * (1.0 + 1e-9));
   }
 
-  /// False if every place of it surely is farther than `distance` from p.
+  /// False only if all of its points are certainly farther than `distance` from p.
   bool mayBeWithin(double distance, const Vector3d& p) const {
     const Vector3d way = p - center;
     const double along = std::abs(axis.dot(way));

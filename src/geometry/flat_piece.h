@@ -14,7 +14,7 @@ using Vector2d = Eigen::Vector2d;
 struct FlatCorner {
   Vector2d at;
   Vector3d place;
-  int vertex = -1;  ///< of the mesh; -1 for one that a cut has made
+  int vertex = -1;  ///< of the mesh; -1 for a corner made by a cut
 };
 
 /// A line in the plane: where normal · x = offset.
@@ -34,20 +34,20 @@ class FlatPiece {
 
   const std::vector<FlatCorner>& corners() const { return corners_; }
   Vector2d centroid() const;
-  /// Least distance of a place from the border, as far as lines go: negative outside.
+  /// Least distance of a point to the lines through the sides: negative outside.
   double depth(const Vector2d& x) const;
 
-  /// Length of what a segment has in common with the part of the piece that is `border` away from its border; negative
-  /// if there is no such place. A single place has length 0.
+  /// Length of the intersection of a segment with the piece shrunk by `border`; negative if it is empty, 0 for a single
+  /// point.
   double chord(const Vector2d& from, const Vector2d& to, double border) const;
 
-  /// Of a triangle, the part within that same part of the piece.
+  /// The intersection of a triangle with the piece shrunk by `border`.
   std::vector<Vector2d> common(const std::array<Vector2d, 3>& triangle, double border) const;
 
-  /// What is before and behind a line. Corners within `snap` of it belong to both.
+  /// The parts before and behind a line. Corners within `snap` of the line belong to both.
   std::array<FlatPiece, 2> cut(const FlatLine& line, double snap) const;
 
-  /// Triangles that cover it, as corners' indices: fans about the corner that makes the least of them widest.
+  /// Triangles that cover it, as indices of corners: a fan about the corner for which the narrowest triangle is widest.
   std::vector<std::array<int, 3>> triangles() const;
 
  private:

@@ -36,7 +36,7 @@ Ring circle(double radius, double z, int steps) {
   return ring;
 }
 
-/// Points (r, z) from axis to axis, turned about z.
+/// Surface of revolution about z of a profile (r, z) that runs from axis to axis.
 TriangleMesh revolved(const std::vector<std::pair<double, double>>& profile, int steps) {
   std::vector<Ring> rings;
   for (const auto& [r, z] : profile) rings.push_back(r > 0.0 ? circle(r, z, steps) : Ring{Vector3d(0, 0, z)});
@@ -52,7 +52,7 @@ Ring threadRing(const Thread& thread, double widened, double z, int steps) {
   return ring;
 }
 
-/// Rings along a thread's length: as far apart as the points around are.
+/// Rings along a thread's length, as far apart as the points of a ring.
 std::vector<Ring> threadRings(const Thread& thread, double widened, double length, int steps) {
   const int rows = std::max(2, int(std::ceil(length / (2.0 * kPi * thread.radius / steps))));
   std::vector<Ring> rings;
@@ -62,7 +62,7 @@ std::vector<Ring> threadRings(const Thread& thread, double widened, double lengt
   return rings;
 }
 
-/// A regular hexagon of inner radius `across`, as many points as a circle of the same steps has.
+/// A regular hexagon of inner radius `across`, with as many points as a circle of the same steps.
 Ring hexagon(double across, double z, int steps) {
   Ring ring = circle(1.0, z, steps);
   for (int i = 0; i < steps; ++i) {

@@ -12,7 +12,7 @@ namespace sdf_ccd {
 std::vector<char> hiddenWalls(const TriangleMesh& mesh, const std::vector<Patch>& patches,
                               const std::vector<Vector3i>& walls) {
   std::vector<char> hidden(walls.size(), 0);
-  TriangleMesh closed;  // and the walls behind, with the same vertices
+  TriangleMesh closed;  // the closed patches, then the walls, with the mesh's vertices
   closed.vertices = mesh.vertices;
   for (const Patch& patch : patches) {
     if (!patch.closed) continue;

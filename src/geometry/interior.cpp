@@ -9,7 +9,7 @@ namespace {
 
 using Inside = TriangleTree::Inside;
 
-/// The closed parts of a mesh: one mesh of those whose winding numbers may be added, and one each of the others.
+/// The closed parts of a mesh: those whose winding numbers may be added, as one patch, and the others, each by itself.
 struct ClosedParts {
   Patch together;
   std::vector<Patch> apart;
@@ -20,7 +20,7 @@ ClosedParts closedParts(const TriangleMesh& mesh) {
   std::vector<Patch> patches = orientConsistently(turned);
   std::ptrdiff_t closed = 0;
   for (Patch& patch : patches) {
-    // As the mesh is, not as it could be turned.
+    // In the orientation of the mesh, not in the one that would close it.
     patch.closed = patch.closed && isClosed(extract(mesh, patch));
     closed += patch.closed;
   }
@@ -30,7 +30,7 @@ ClosedParts closedParts(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (!patches[i].closed) continue;
     const bool has_lobe = found[i].negative_triangles > 0 && found[i].doubtful;
-    if (has_lobe && signedVolume(extract(mesh, patches[i])) > 0.0) {  // else a cavity, which is to cancel
+    if (has_lobe && signedVolume(extract(mesh, patches[i])) > 0.0) {  // else it is a cavity, which has to cancel
       parts.apart.push_back(std::move(patches[i]));
       continue;
     }

@@ -7,13 +7,13 @@
 
 namespace sdf_ccd {
 
-/// What is inside a mesh, by winding numbers. They are added up over the whole mesh only where they cannot cancel each
-/// other wrongly: a cavity must cancel what holds it, but a lobe that a surface turns inside out where it crosses
-/// itself, or a sheet that faces the wrong way, must not cancel a solid that overlaps it.
+/// Decides what is inside a mesh, by winding numbers. They are added over the whole mesh only where they cannot cancel
+/// each other wrongly: a cavity must cancel the solid that contains it, but neither an inside-out lobe of a surface
+/// that intersects itself nor a sheet that faces the wrong way may cancel a solid that overlaps it.
 ///
-/// A closed mesh holds the places where the number of all its parts is not zero, those with such a lobe in another part
-/// apart. One that is not closed holds what its closed parts hold, and where the number of all together is above one
-/// half.
+/// A point is inside a closed mesh if the winding number of its parts is not zero; doubtful parts with such a lobe are
+/// tested separately. It is inside an open mesh if it is inside the closed parts, or if the winding number of the whole
+/// mesh is above one half.
 class Interior {
  public:
   /// @param mesh  turned outward (see orientOutward()).
@@ -31,7 +31,7 @@ class Interior {
   };
 
   bool closed_;
-  std::vector<Group> groups_;  ///< inside one is inside
+  std::vector<Group> groups_;  ///< a point inside one of them is inside
 };
 
 }  // namespace sdf_ccd

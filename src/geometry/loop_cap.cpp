@@ -53,7 +53,7 @@ std::vector<int> shortened(const std::vector<Vector3d>& vertices, const std::vec
   return rest;
 }
 
-/// The smallest triangulation: of the part of the loop from i to k, for all i < k, the best corner between.
+/// The triangulation of least area: for each part of the loop from i to k, the best corner between, for all i < k.
 void triangulate(const std::vector<Vector3d>& vertices, const std::vector<int>& loop, LoopCap& cap) {
   const int n = static_cast<int>(loop.size());
   std::vector<double> least(std::size_t(n) * n, 0.0);
@@ -108,7 +108,7 @@ LoopCap capLoop(const std::vector<Vector3d>& vertices, const std::vector<int>& l
 std::vector<LoopCap> capLoops(const std::vector<Vector3d>& vertices, const std::vector<std::vector<int>>& loops) {
   std::vector<LoopCap> caps;
   for (const std::vector<int>& loop : loops) caps.push_back(capLoop(vertices, loop));
-  // The largest openings matter, and all pairs of many would take long.
+  // Only the largest openings matter, and trying all pairs of many would take long.
   constexpr std::size_t kMostLoops = 12, kLongestLoop = 1000;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < loops.size(); ++i) {

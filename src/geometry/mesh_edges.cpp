@@ -6,8 +6,8 @@
 namespace sdf_ccd {
 namespace {
 
-/// Sorts by a vertex, leaving equal ones in their order: linear, and always as quick, where std::sort of a large mesh
-/// would be deaf for half a second.
+/// Stable sort by a vertex, in linear time. It can be cancelled; std::sort of a large mesh could not be for half a
+/// second.
 template <class Vertex>
 void sortInto(std::vector<EdgeUse>& sorted, const std::vector<EdgeUse>& uses, std::size_t vertices,
               const Vertex& vertex) {

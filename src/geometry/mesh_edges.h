@@ -32,8 +32,8 @@ void forEachEdge(const std::vector<EdgeUse>& uses, Visit visit) {
   }
 }
 
-/// How much more often an edge is run along one way than the other, of its uses [first, last): 0 where its triangles
-/// agree about the outside.
+/// How many more of the uses [first, last) of an edge run forward than backward: 0 if its triangles agree about the
+/// outside.
 inline int imbalance(const EdgeUse* first, const EdgeUse* last) {
   int sum = 0;
   for (; first != last; ++first) sum += first->forward ? 1 : -1;
@@ -51,8 +51,8 @@ class TriangleSets {
   std::vector<std::int32_t> parent_;
 };
 
-/// Of each vertex the component of the surface, of what is connected over shared vertices: by one of its triangles; -1
-/// for vertices that no triangle has.
+/// Per vertex, its component of the surface (connected over shared vertices), named by one of the component's
+/// triangles; -1 for vertices that no triangle uses.
 std::vector<std::int32_t> componentOfVertices(const TriangleMesh& mesh);
 
 }  // namespace sdf_ccd

@@ -15,7 +15,7 @@ struct Neighbour {
   bool agrees = true;
 };
 
-/// Over the three sides of every triangle, where the edge has exactly two triangles.
+/// The neighbours over the three sides of every triangle, where the edge has exactly two triangles.
 std::vector<std::array<Neighbour, 3>> neighbours(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   std::vector<std::array<Neighbour, 3>> result(mesh.triangles.size());
   std::vector<char> filled(mesh.triangles.size(), 0);
@@ -32,10 +32,10 @@ std::vector<std::array<Neighbour, 3>> neighbours(const TriangleMesh& mesh, const
 /// Connected sets of triangles.
 struct TurnedSets {
   std::vector<std::int32_t> label;  ///< of each triangle
-  std::vector<char> mixed;          ///< per label, whether some of its triangles were turned, but not all
+  std::vector<char> mixed;          ///< per label, whether some of its triangles were flipped, but not all
 };
 
-/// Turns each set's triangles until they agree.
+/// Flips triangles until those of each set agree.
 TurnedSets turnBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   const auto adjacent = neighbours(mesh, uses);
   std::vector<std::int32_t> label(mesh.triangles.size(), -1);
@@ -71,7 +71,7 @@ TurnedSets turnBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   return {std::move(label), std::move(mixed)};
 }
 
-/// Which labels have every edge balanced. `uses` must be of the mesh as it is now.
+/// Whether all edges of a label are balanced, per label. `uses` must be of the mesh in its current state.
 std::vector<char> balanced(const std::vector<EdgeUse>& uses, const std::vector<std::int32_t>& label) {
   std::vector<char> result(label.size(), 1);
   std::map<std::int32_t, int> balance;

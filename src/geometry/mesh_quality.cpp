@@ -20,7 +20,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Counts what edges tell before anything is turned.
+/// Counts components and kinds of edges, before any triangle is flipped.
 void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
   TriangleSets sets(mesh.triangles.size());
   forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
@@ -35,7 +35,7 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
   }
 }
 
-/// Turns triangles of `mesh` as their parts are turned in `turned`.
+/// Flips triangles of `mesh` as their parts are flipped in `turned`.
 /// @return whether all parts of each triangle agree.
 bool turnAsParts(const ConformingMesh& parts, const TriangleMesh& turned, TriangleMesh& mesh) {
   std::vector<char> turn(mesh.triangles.size(), 0);
@@ -52,16 +52,17 @@ bool turnAsParts(const ConformingMesh& parts, const TriangleMesh& turned, Triang
   return agree;
 }
 
-/// What turning a mesh's closed patches has shown of them together.
+/// What orienting the closed patches of a mesh has shown of all of them together.
 struct ClosedPatches {
   int closed = 0, turned = 0, cavities = 0, flat = 0, mixed = 0;
   bool doubtful = false;
 
-  /// Whether nothing but whole solids as they are drawn, side by side or over each other, has been found.
+  /// Whether all closed patches are whole solids in the orientation in which they are drawn, side by side or
+  /// overlapping.
   bool isPlain() const { return turned == 0 && cavities == 0 && flat == 0 && mixed == 0; }
 };
 
-/// Whether a patch that was turned meets others in an edge, so that it may have been cut from them, or they from it.
+/// Whether a flipped patch meets others in an edge, so that one may have been cut out of the other.
 bool turnedMeetsOthers(const std::vector<Patch>& patches, const std::vector<ClosedComponent>& closed,
                        const TriangleMesh& mesh) {
   std::vector<char> turned(mesh.triangles.size(), 0);
@@ -78,7 +79,7 @@ bool turnedMeetsOthers(const std::vector<Patch>& patches, const std::vector<Clos
   return found;
 }
 
-/// Whether a patch that was turned touches itself: linked where faces were tessellated apart, it may be two parts.
+/// Whether a flipped patch touches itself: it may be two parts, joined where faces were tessellated separately.
 bool turnedTouchesItself(const std::vector<Patch>& patches, const TriangleMesh& drawn, const TriangleMesh& turned) {
   return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
     const std::int32_t first = patch.triangles.front();
@@ -106,14 +107,14 @@ ClosedPatches turnClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, 
   return all;
 }
 
-/// Whether some wall has a side from which nothing leads outside: with others it may be all that is left of a part that
-/// was drawn inside out where it is flush with those that hold it.
+/// Whether some wall has a side that cannot see the outside: such walls may be all that is left of a part that was
+/// drawn inside out, where it is flush with the parts that contain it.
 bool enclose(const std::vector<Vector3i>& walls, TriangleMesh mesh) {
   if (walls.empty()) return false;
   const std::size_t first = mesh.triangles.size();
   mesh.triangles.insert(mesh.triangles.end(), walls.begin(), walls.end());
   const TriangleTree tree(mesh);
-  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();  // farther than rays are wide
+  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();  // more than seesOutside() widens triangles by
   for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
     checkCancelled();
     const Corners c = cornersOf(mesh, static_cast<int>(i));
@@ -123,7 +124,7 @@ bool enclose(const std::vector<Vector3i>& walls, TriangleMesh mesh) {
   return false;
 }
 
-/// Turns the patches of the mesh, and takes the walls that are hidden inside it out of `distinct`.
+/// Flips the patches of the mesh outward, and removes the walls that are hidden inside it from `distinct`.
 void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   std::vector<Vector3i>& walls = distinct.walls;
   MeshQuality& quality = result.quality;
@@ -139,11 +140,11 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   likeness = normalized(std::move(likeness));
   const TriangleMesh drawn = likeness;
   const ClosedPatches closed = turnClosed(patches, likeness, quality);
-  // Two parts that were tessellated apart may be linked over an edge of both, and cancel each other.
+  // Two parts that were tessellated separately may have been joined at a common edge, and cancel each other.
   const bool is_joined = joined.mesh.triangles.size() != result.mesh.triangles.size();
   bool doubtful = closed.doubtful || (is_joined && quality.negative_triangles > 0);
   doubtful = doubtful || (is_joined && closed.turned > 0 && turnedTouchesItself(patches, drawn, likeness));
-  // A part that is drawn twice may be solid once, and once not.
+  // Of a part that is drawn twice, one may be a solid and the other not.
   const bool some_turned = closed.turned > 0 && closed.turned < closed.closed;
   doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_turned));
   TriangleMesh hiding = likeness;
@@ -168,7 +169,7 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
     quality.hidden_area += (b - a).cross(c - a).norm();
   }
   walls.resize(kept);
-  // Such walls may be what is left of a part that another one cancels.
+  // Walls that are kept may be what is left of a part that another one cancels.
   quality.doubtful =
       doubtful || (!walls.empty() && (quality.negative_triangles > 0 || !closed.isPlain())) || enclose(walls, likeness);
   quality.sign_trusted = isClosed(likeness) && !quality.doubtful;

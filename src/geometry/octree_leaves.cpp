@@ -125,7 +125,7 @@ class LeafReader {
 
 void visitLeaves(const std::int8_t* data, std::size_t bytes, OctreeData kind,
                  const std::function<void(const OctreeLeaf&)>& visit) {
-  if (bytes == 0) return;  // a map that knows nothing
+  if (bytes == 0) return;  // a map without any known leaf
   LeafReader reader(data, bytes, visit);
   if (kind == OctreeData::kBinary) {
     reader.readBinary();

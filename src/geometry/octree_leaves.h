@@ -7,26 +7,26 @@
 
 namespace sdf_ccd {
 
-/// A leaf of an OctoMap: a cube of 2^level voxels along each side, from the voxel `low` on. Voxel 32768 begins at the
-/// map's origin, as OctoMap counts.
+/// A leaf of an OctoMap: a cube of 2^level voxels along each side, with `low` its lowest voxel. Voxel 32768 begins at
+/// the map's origin, as in OctoMap.
 struct OctreeLeaf {
   std::uint16_t low[3];
   int level;  ///< 0 to 16
   bool is_occupied;
 };
 
-/// What the bytes of a tree mean, as octomap_msgs/Octomap and OctoMap's files hold them behind their heads.
+/// Encoding of a tree's data in octomap_msgs/Octomap and, after their headers, in OctoMap's files.
 enum class OctreeData {
-  kBinary,     ///< two bits a child: unknown, free, occupied, or a node that follows
+  kBinary,     ///< two bits per child: unknown, free, occupied, or a node that follows
   kFull,       ///< a node's log odds and a byte for its children
-  kFullColor,  ///< with three bytes of colour between
+  kFullColor,  ///< the same with three bytes of colour between these
 };
 
-/// Calls `visit` with each known leaf, in the tree's order: what is called with no leaf is unknown. Reads no more than
-/// there is, goes no deeper than 16 levels, and allocates nothing; a leaf of the full format is occupied where its log
-/// odds are 0 or more, as OctoMap says by default.
-/// @throws std::runtime_error if the data is cut short, goes on behind its end, is deeper than 16 levels, or holds a
-/// number that is none. Then some leaves may have been visited.
+/// Calls `visit` for each known leaf, in the tree's order; space without a leaf is unknown. Reads never beyond the
+/// data, goes no deeper than 16 levels, and allocates nothing; a leaf of the full format is occupied if its log odds
+/// are 0 or more, as by OctoMap's default.
+/// @throws std::runtime_error if the data is cut short, continues after the tree's end, is deeper than 16 levels, or
+/// holds log odds that are not finite. Some leaves may have been visited by then.
 void visitLeaves(const std::int8_t* data, std::size_t bytes, OctreeData kind,
                  const std::function<void(const OctreeLeaf&)>& visit);
 

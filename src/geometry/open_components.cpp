@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 
-/// SplitMix64 (Steele, Lea, Flood 2014): a sequence per seed, without a state worth mentioning.
+/// SplitMix64 (Steele, Lea, Flood 2014): one sequence per seed, with a state of a single number.
 class Sequence {
  public:
   explicit Sequence(std::uint64_t seed) : state_(seed * 0xD1342543DE82EF95ULL + 1) {}
@@ -31,12 +31,12 @@ class Sequence {
   std::uint64_t state_;
 };
 
-/// What rays from an open patch met, as it was drawn.
+/// Counts of what rays from an open patch met, the patch in the orientation in which it is drawn.
 struct Votes {
   int rays = 0;                      ///< from both sides
-  int escape = 0;                    ///< those from the front that left the mesh, less those from the back
-  std::map<std::int32_t, int> same;  ///< per other patch: rays between sides of one kind, less those between a front
-                                     ///< and a back
+  int escape = 0;                    ///< rays from the front that left the mesh, minus those from the back
+  std::map<std::int32_t, int> same;  ///< per other patch: rays from front to front or from back to back, minus those
+                                     ///< between a front and a back
 };
 
 class Caster {
@@ -48,9 +48,9 @@ class Caster {
     }
   }
 
-  /// Whether the patch, as it is drawn, bounds a solid: the winding number before its front is a whole one, 0 or more.
+  /// Whether the patch, as it is drawn, bounds a solid: the winding number in front of it is an integer, 0 or more.
   bool boundsSolid(std::int32_t patch, int points) const {
-    constexpr double kBefore = 1e-7, kWhole = 0.05;  // [m]; cracks of meshes that are closed take less
+    constexpr double kBefore = 1e-7, kWhole = 0.05;  // [m]; of the number: cracks of closed meshes change it by less
     const std::vector<std::int32_t>& triangles = patches_[patch].triangles;
     Sequence random(static_cast<std::uint64_t>(patch));
     for (int i = 0; i < points; ++i) {
@@ -64,8 +64,8 @@ class Caster {
     return true;
   }
 
-  /// Casts rays from both sides, at points spread evenly over the area; none where the patch, one of `patches`, is too
-  /// small for its share of all rays to tell anything.
+  /// Casts rays from both sides, at points spread evenly over the area; none if the patch, one of `patches`, is so
+  /// small that its share of all rays would show nothing.
   Votes cast(std::int32_t patch, std::size_t patches) const {
     constexpr double kRays = 1 << 17;
     Votes votes;
@@ -97,7 +97,7 @@ class Caster {
     return (1.0 - u) * mesh_.vertices[t[0]] + u * (1.0 - v) * mesh_.vertices[t[1]] + u * v * mesh_.vertices[t[2]];
   }
 
-  /// Distributed by the cosine to the normal.
+  /// A random direction, distributed by the cosine to the normal.
   static Vector3d aboutNormal(const Vector3d& normal, Sequence& random) {
     const double radius = std::sqrt(random.next()), angle = kTwoPi * random.next();
     const Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
@@ -140,15 +140,15 @@ std::vector<char> seenFromBehind(const TriangleMesh& mesh, const std::vector<Pat
   if (open.empty()) return turned;
 
   const Caster caster(mesh, patches);
-  // Of solids that overlap, the outside sees the faces of one in part, and the other's inside their fronts: rays say
-  // the wrong thing then. What winding numbers say is beyond doubt where they are whole.
+  // If solids overlap, part of a face is visible from outside, and another part from inside the other solid, so rays
+  // can be misleading. Winding numbers are reliable where they are integers.
   const int points = open.size() > kManyPatches ? 1 : 8;
   if (std::all_of(open.begin(), open.end(), [&](std::int32_t i) { return caster.boundsSolid(i, points); }))
     return turned;
   std::vector<Votes> votes(patches.size());
   parallelFor(std::size_t{0}, open.size(), [&](std::size_t i) { votes[open[i]] = caster.cast(open[i], open.size()); });
 
-  // What the outside sees is decided first, then what is seen from there.
+  // First the patches that are seen from outside are decided, then those that are seen from these.
   std::stable_sort(open.begin(), open.end(), [&](std::int32_t a, std::int32_t b) {
     return std::int64_t{std::abs(votes[a].escape)} * votes[b].rays >
            std::int64_t{std::abs(votes[b].escape)} * votes[a].rays;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFinestJoin = 1e-8, kCrack = 1e-4;  // of the mesh's diagonal
 
-/// Caps of the mesh's rims, which are joined up to a tolerance. Their vertices are the mesh's.
+/// Caps of the mesh's rims after these are joined up to a tolerance. Their vertices are the mesh's.
 Openings capped(const TriangleMesh& mesh, double diagonal, double widest) {
   Openings openings;
   openings.crack = widest * diagonal;
@@ -41,7 +41,7 @@ Openings capped(const TriangleMesh& mesh, double diagonal, double widest) {
   return openings;
 }
 
-/// Compares the closed mesh with what the winding number of the open one says on a grid of cells.
+/// Compares the closed mesh with the winding number of the open one on a grid of cells.
 class SideCheck {
  public:
   explicit SideCheck(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {
@@ -55,14 +55,14 @@ class SideCheck {
 
   const TriangleTree& tree() const { return tree_; }
 
-  /// Sets `openings.doubt`; returns the cells that the caps leave outside of what clearly is inside.
+  /// Sets `openings.doubt`; returns the cells that are clearly inside, but outside of the mesh with its caps.
   std::vector<Vector3i> missing(Openings& openings) const {
     const TriangleTree closed(merged(mesh_, openings.caps));
     std::vector<Vector3i> missing;
     int inside = 0, wrong = 0;
     forEachCell([&](const Vector3i& c) {
       checkCancelled();
-      // Next to a surface the sides are that surface's matter.
+      // Cells next to a surface are skipped: their side depends on that surface alone.
       if (closed.closestPoint(center(c), 0.1 * cell_).triangle >= 0) return;
       const double alone = std::abs(winding_[index(c)]);
       const bool closed_inside = std::abs(closed.windingNumber(center(c))) > 0.5;
@@ -128,22 +128,22 @@ class SideCheck {
   std::vector<double> winding_;  // of the mesh alone
 };
 
-/// Bounds how far any place of a triangle is from the mesh.
+/// Upper bound of the distance from a triangle's points to the mesh.
 class ReachBound {
  public:
-  /// @param crack  where a cap is this near to the mesh, all triangles so near are tried [m].
+  /// @param crack  where a cap is nearer to the mesh than this, all triangles within this distance are tried [m].
   ReachBound(const TriangleTree& tree, double crack) : tree_(tree), crack_(crack) {}
 
   double of(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-    constexpr int kParts = 5;  // times halved
+    constexpr int kParts = 5;  // number of halvings
     return bound({a, b, c}, kParts);
   }
 
  private:
   using Corners = std::array<Vector3d, 3>;
 
-  /// The distance from one triangle of the mesh is convex, so that at the corners bounds it. Of a sliver that bridges a
-  /// crack, several triangles are as near to the middle, and one of them has all of it near.
+  /// The distance from one triangle of the mesh is convex, so its largest value at the corners is a bound. For a sliver
+  /// that bridges a crack, several triangles are equally near to its middle, and one of them is near to all of it.
   double boundByOne(const Corners& t, const Vector3d& center, double radius) {
     const TriangleTree::ClosestPoint nearest = tree_.closestPoint(center);
     least_ = nearest.distance;
@@ -164,7 +164,7 @@ class ReachBound {
     for (const Vector3d& p : t) radius = std::max(radius, (p - center).norm());
     const double whole = boundByOne(t, center, radius);
     if (depth == 0 || whole <= 2.0 * least_) return whole;
-    // The parts of a triangle are near other triangles of the mesh.
+    // The parts of a triangle may be near to other triangles of the mesh.
     int longest = 0;
     for (int k = 1; k < 3; ++k) {
       if ((t[(k + 1) % 3] - t[k]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm()) longest = k;

@@ -7,22 +7,23 @@
 
 namespace sdf_ccd {
 
-/// What closes a mesh.
+/// Triangles that close a mesh.
 ///
-/// The edges that a mesh runs along more often one way than the other are its rims: always closed loops, whatever the
-/// mesh, so triangles within them (caps) make the whole closed, with winding numbers that are whole everywhere.
+/// The edges that a mesh uses more often in one direction than in the other are its rims. They form closed loops,
+/// whatever the mesh is, so triangles that fill these (caps) make the whole closed, with winding numbers that are
+/// integers everywhere.
 struct Openings {
   TriangleMesh caps;          ///< welded(merged(mesh, caps)) is closed; no triangles if the mesh is
-  std::vector<double> reach;  ///< per triangle of `caps`: no place of it is farther from the mesh [m]
+  std::vector<double> reach;  ///< per triangle of `caps`: upper bound of its points' distance from the mesh [m]
 
-  int count = 0;         ///< loops that are left when cracks have been bridged
+  int count = 0;         ///< loops that are left after cracks have been bridged
   double area = 0.0;     ///< of the caps in these loops [m²]
-  double longest = 0.0;  ///< the longest of these loops [m]
-  double crack = 0.0;    ///< up to this distance rims were joined to each other [m]
+  double longest = 0.0;  ///< length of the longest of these loops [m]
+  double crack = 0.0;    ///< rims up to this distance from each other were joined [m]
 
-  /// Of the places on a grid where either the winding number of the mesh alone is clear (below 0.1 or above 0.9) and
-  /// inside, or the closed mesh has its inside, the share where the two differ: where much is missing, as of a polygon
-  /// soup, the caps are a guess.
+  /// Share of the points of a grid at which the winding number of the mesh alone, where it is clear (below 0.1 or above
+  /// 0.9), contradicts the closed mesh; relative to the points that are inside by either. If much of a mesh is missing,
+  /// as of a polygon soup, the caps are a guess.
   double doubt = 0.0;
   int voxels = 0;  ///< cubes that were added to the caps (see findOpenings())
 };
@@ -30,20 +31,20 @@ struct Openings {
 /// Caps for all openings of a mesh.
 ///
 /// Rims that are near each other are joined first, with tolerances that grow from 1e-8 to 1e-4 of the mesh's diagonal,
-/// so that cracks and T-junctions between panels get slivers, not caps over whole panels. What remains are loops. Each
-/// gets a triangulation of small area (Barequet & Sharir 1995: the smallest, of a loop with more than 100 vertices
-/// after ears of small area were cut off), two of them a common one where that is smaller (the rims of a wall with two
-/// sides).
+/// so that cracks and T-junctions between panels get slivers, not caps over whole panels. Each of the loops that remain
+/// gets a triangulation of small area (Barequet & Sharir 1995: the smallest; for a loop of more than 100 vertices,
+/// after ears of small area were cut off). Two loops get a common one where that is smaller (the rims of a wall with
+/// two sides).
 ///
-/// Where the result contradicts the winding number of the mesh at more than a twentieth of the places (see
+/// If the result contradicts the winding number of the mesh at more than a twentieth of the points (see
 /// Openings::doubt), wider tolerances are tried, up to a thirtieth of the diagonal, and the best is taken. Where the
-/// winding number still is above 0.9 and the closed mesh has no inside, cubes are added: it is better to call a place
+/// winding number is still above 0.9 but the closed mesh has no inside, cubes are added: it is safer to call a location
 /// doubtful than free.
-/// @param mesh  oriented; not closed meshes are welded here.
+/// @param mesh  oriented; meshes that are not closed are welded here.
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 Openings findOpenings(const TriangleMesh& mesh);
 
-/// One line for people: "3 openings, the longest of 1.76 m, 0.19 m^2 of caps".
+/// One line of text: "3 openings, the longest of 1.76 m, 0.19 m^2 of caps".
 std::string summary(const Openings& openings);
 
 }  // namespace sdf_ccd

@@ -49,7 +49,7 @@ std::vector<Vector3i> triangulatePolygon(const std::vector<Vector3d>& corners) {
   std::size_t tip = 0;
   while (rest.size() > 3) {
     const std::size_t n = rest.size();
-    // Where nothing is an ear (no area, or the polygon crosses itself), any corner goes.
+    // If no corner is an ear (no area, or the polygon intersects itself), any corner is cut off.
     for (std::size_t tried = 0; tried < n && !isEar(points, rest, tip); ++tried) tip = (tip + 1) % n;
     triangles.emplace_back(rest[(tip + n - 1) % n], rest[tip], rest[(tip + 1) % n]);
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(tip));

@@ -48,7 +48,7 @@ struct Validate {
   }
 };
 
-/// Distance of the corner region {q ≤ 0}, per coordinate: to its corner outside, to its nearest side inside.
+/// Signed distance to the region where no coordinate of q is positive: to its corner outside, its nearest side inside.
 template <typename Vector>
 double cornerDistance(const Vector& q) {
   return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);

@@ -33,7 +33,7 @@ void Rim::add(int from, int to, int n) {
 }
 
 void Rim::fill(int a, int b, int c, int n) {
-  if (a == b || b == c || c == a) return;  // its boundary is nothing
+  if (a == b || b == c || c == a) return;  // its boundary cancels
   for (int i = 0; i < std::abs(n); ++i) triangles_.push_back(n > 0 ? Vector3i(a, b, c) : Vector3i(a, c, b));
   add(a, b, -n);
   add(b, c, -n);
@@ -48,7 +48,7 @@ void Rim::join(double tolerance) {
 void Rim::mergeVertices(double tolerance) {
   const std::vector<std::pair<Edge, int>> before = edges();
   const EdgeSearch search = searchOf(mesh_, before);
-  std::map<int, int> target;  // those that stay are targets of themselves, and farther than the tolerance apart
+  std::map<int, int> target;  // vertices that are kept map to themselves, and are more than the tolerance apart
   std::vector<int> near;
   bool any = false;
   for (const int vertex : search.vertices()) {
@@ -111,7 +111,7 @@ std::vector<std::vector<int>> Rim::takeLoops() {
   std::vector<std::vector<int>> loops;
   for (auto& [start, first] : next) {
     std::vector<int> way;
-    std::map<int, std::size_t> place;  // on the way
+    std::map<int, std::size_t> place;  // index in `way`
     int at = start;
     while (!next[at].empty() || !way.empty()) {
       const auto [seen, is_new] = place.try_emplace(at, way.size());

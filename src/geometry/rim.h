@@ -8,9 +8,9 @@
 
 namespace sdf_ccd {
 
-/// What is left to close of a mesh, as directed edges with multiplicities (a 1-chain without boundary: into each vertex
-/// run as many as out of it), and the triangles that were added so far. Each of them takes its own boundary off the
-/// rest, so mesh, triangles and rest fit together at any time, and an empty rest says that the mesh is closed.
+/// The part of a mesh that is still open, as directed edges with multiplicities (a 1-chain without boundary: as many
+/// edges enter a vertex as leave it), and the triangles that were added so far. Adding a triangle subtracts its
+/// boundary from the open edges, so that these always fit mesh and triangles; when none are left, the mesh is closed.
 class Rim {
  public:
   /// @param mesh  welded; outlives this.
@@ -18,14 +18,14 @@ class Rim {
 
   bool empty() const { return edges_.empty(); }
 
-  /// Bridges cracks: makes one of vertices within `tolerance` [m] of each other, and lets edges run through vertices
-  /// within half of it.
+  /// Bridges cracks: merges vertices within `tolerance` [m] of each other, and makes edges pass through vertices within
+  /// half of it.
   void join(double tolerance);
 
-  /// Takes the rest apart into simple loops of vertices, which are no longer part of it: they must be capped.
+  /// Returns the open edges as simple loops of vertices and removes them; the caller must cap the loops.
   std::vector<std::vector<int>> takeLoops();
 
-  /// Adds a triangle, n times; turned round if n is negative.
+  /// Adds a triangle, n times; flipped if n is negative.
   void fill(int a, int b, int c, int n = 1);
 
   const std::vector<Vector3i>& triangles() const { return triangles_; }

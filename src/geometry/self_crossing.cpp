@@ -26,7 +26,7 @@ std::optional<Vector3d> piercing(const Vector3d& a, const Vector3d& b, const Cor
   return p;
 }
 
-/// The middle of the stretch in which two triangles cross, if they do.
+/// The middle of the segment in which two triangles cross, if they do.
 std::optional<Vector3d> middleOfCrossing(const Corners& i, const Corners& j) {
   Vector3d sum = Vector3d::Zero();
   int count = 0;
@@ -41,15 +41,15 @@ std::optional<Vector3d> middleOfCrossing(const Corners& i, const Corners& j) {
   return sum / count;
 }
 
-/// Whether all places of number zero beside the crossing of two triangles see the outside, at a distance `step` [m]
-/// from both.
+/// Looks at the four points at a distance `step` [m] from both planes beside the crossing of two triangles. @return
+/// whether all of them with winding number zero see the outside.
 bool allSeen(const TriangleMesh& mesh, const TriangleTree& tree, int first, int second, double step) {
   constexpr double kFlat = 1e-4;
   const Vector3d n = areaNormal(mesh, first).normalized(), m = areaNormal(mesh, second).normalized();
   const double cosine = n.dot(m), squared_sine = n.cross(m).squaredNorm();
   if (!(squared_sine > kFlat)) return false;
   const std::optional<Vector3d> middle = middleOfCrossing(cornersOf(mesh, first), cornersOf(mesh, second));
-  if (!middle) return true;  // a point, in which others cross too
+  if (!middle) return true;  // they meet in a point only, where other triangles cross, too
   for (const double s : {-step, step}) {
     for (const double t : {-step, step}) {
       // n·d = s, m·d = t
@@ -61,7 +61,7 @@ bool allSeen(const TriangleMesh& mesh, const TriangleTree& tree, int first, int 
   return true;
 }
 
-/// Whether any two triangles that cut each other are as is asked for.
+/// Whether `test` is true for any two triangles that cut each other.
 template <typename Test>
 bool anyCut(const TriangleMesh& mesh, const TriangleTree& tree, const Test& test) {
   const double eps = cutTolerance(mesh);

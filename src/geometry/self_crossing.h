@@ -11,10 +11,10 @@ bool branches(const TriangleMesh& mesh);
 /// @param tree  over the same mesh.
 bool touchesItself(const TriangleMesh& mesh, const TriangleTree& tree);
 
-/// Whether a closed surface may enclose places where its winding number is zero: where it crosses itself, a solid part
-/// and a lobe that is inside out may overlap and cancel each other. Such a place has a stretch of such a crossing on
-/// its border; so beside all of these it is looked whether each place where the number is zero sees the outside, on the
-/// cautious side. Places thinner than 1e-5 of the size may be missed.
+/// Whether a closed surface may enclose regions where its winding number is zero: where it crosses itself, a solid part
+/// and a lobe that is inside out may overlap and cancel each other. Such a region has a piece of the crossing on its
+/// border. So beside all crossings, each point where the number is zero is tested for whether it sees the outside;
+/// conservative. Regions thinner than 1e-5 of the mesh's size may be missed.
 /// @param tree  over the same mesh.
 bool mayHidePockets(const TriangleMesh& mesh, const TriangleTree& tree);
 

@@ -13,7 +13,7 @@ bool isKept(Sides sides) {
   return sides != Sides::kBuried && sides != Sides::kCovered;
 }
 
-/// Collects what is kept of a mesh.
+/// Collects the triangles and pieces of a mesh that are kept.
 class BoundaryWriter {
  public:
   BoundaryWriter(const TriangleMesh& mesh, const SurfaceTolerance& tolerance, SolidReport& report)
@@ -32,7 +32,7 @@ class BoundaryWriter {
   }
 
   void addParts(int triangle, const std::vector<SurfacePart>& parts) {
-    // Cuts are of use only where they leave something out or tell the front from the back.
+    // Cuts are needed only if they drop a part, or separate an outward part from an inward one.
     const auto has = [&](Sides sides) {
       return std::any_of(parts.begin(), parts.end(), [&](const SurfacePart& part) { return part.sides == sides; });
     };
@@ -99,11 +99,12 @@ class BoundaryWriter {
   std::vector<std::uint8_t> separates_;
 };
 
-/// Parts of triangles that others cut; none of those that cost too much.
+/// Parts of triangles that others cut; none for triangles that cost too much.
 ///
-/// What one costs is not known before, and differs by thousands. Each may first cost what does for most; those that it
-/// does not do for begin anew and may cost four times that, and so on, until what all may cost is spent. So few that
-/// cost much do not take from the many, and the many that would never be told cost no more than that.
+/// The cost of a triangle is not known in advance, and varies by a factor of thousands. Each triangle first gets a
+/// budget that is enough for most; those that need more start again with four times the budget, and so on, until the
+/// total budget is spent. So a few expensive triangles do not use up the budget of the many, and many triangles that
+/// cannot be decided cost no more than the total.
 std::vector<std::vector<SurfacePart>> partsOf(std::vector<int> cut, const TriangleCuts& cuts,
                                               const TriangleCutter& cutter, const SolidLimits& limits) {
   using Cost = TriangleCutter::Cost;

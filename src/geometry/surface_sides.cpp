@@ -50,7 +50,7 @@ std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tr
     const bool pair = last - first == 2 && uncut[first[0].triangle] != 0 && uncut[first[1].triangle] != 0;
     if (pair) sets.join(first[0].triangle, first[1].triangle);
   });
-  std::vector<std::int32_t> widest(count, -1);  // of the set that a triangle names
+  std::vector<std::int32_t> widest(count, -1);  // per set, by the triangle that names it
   std::vector<double> clearance(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     if (uncut[i] == 0) continue;

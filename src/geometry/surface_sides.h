@@ -9,34 +9,36 @@
 
 namespace sdf_ccd {
 
-/// What lies before and behind a piece of a closed mesh's surface.
+/// What lies before and behind a flat piece of a closed mesh's surface.
 enum class Sides : std::uint8_t {
   kUnknown,  ///< not certain
   kOutward,  ///< outside before it, inside behind it
   kInward,   ///< the reverse: of a part that is inside out
   kBuried,   ///< inside on both sides
-  kCovered,  ///< as another triangle that lies on it, which stands for both
+  kCovered,  ///< lies on another triangle, which stands for both
   kSheet,    ///< outside on both sides: two faces that lie on each other
 };
 
-/// Tells the sides of flat pieces of a closed mesh.
+/// Determines the sides of flat pieces of a closed mesh.
 class SideTest {
  public:
   /// @param tree, interior  of the same mesh.
   SideTest(const TriangleTree& tree, const Interior& interior, const SurfaceTolerance& tolerance)
       : tree_(tree), interior_(interior), tolerance_(tolerance) {}
 
-  /// A place of a piece. Those of `layers` (ascending) lie on all of the piece and are taken together with it.
+  /// A point of a piece.
   struct Place {
     Vector3d point;
     Vector3d normal;   ///< of length one
-    double clearance;  ///< least distance of the piece's border [m]
-    int triangle;      ///< that the piece is of
+    double clearance;  ///< least distance to the piece's border [m]
+    int triangle;      ///< the triangle of which it is a piece
   };
 
-  /// Sides at a place of a piece that nothing but its layers touches: they are the same all over the piece. Both points
-  /// at which inside and outside are asked for are nearer to the place than to any other triangle.
-  /// @param visited  if given, the number of nodes and triangles that were looked at is added to it.
+  /// Sides of a piece at one of its points. Nothing but its layers may touch the piece: then the sides are the same
+  /// everywhere on it. The two query points, before and behind the piece, are nearer to the point than to any other
+  /// triangle.
+  /// @param layers   triangles (ascending) that lie on all of the piece, and are taken as one with it.
+  /// @param visited  if given, the number of visited nodes and triangles is added to it.
   Sides at(const Place& place, const std::vector<int>& layers, std::size_t* visited = nullptr) const;
 
  private:
@@ -45,10 +47,10 @@ class SideTest {
   SurfaceTolerance tolerance_;
 };
 
-/// For the triangles of a closed mesh that nothing cuts their sides; kUnknown for the others.
+/// Sides of the triangles of a closed mesh that nothing cuts; kUnknown for the others.
 ///
-/// Just before the surface nothing lies between triangles that share an edge with no third one and that nothing cuts:
-/// the winding number is the same there. So one of a connected set speaks for all.
+/// If two triangles share an edge with no third one, and nothing cuts them, nothing lies between them just before the
+/// surface, so the winding number is the same there. One triangle therefore decides for a connected set.
 std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const Interior& interior,
                                 const TriangleCuts& cuts, const SurfaceTolerance& tolerance);
 

@@ -24,7 +24,7 @@ TriangleMesh icosahedron(double radius) {
   return mesh;
 }
 
-/// Every triangle into four, the new vertices lifted onto the sphere.
+/// Splits every triangle into four, with the new vertices on the sphere.
 TriangleMesh refined(const TriangleMesh& mesh, double radius) {
   TriangleMesh result;
   result.vertices = mesh.vertices;
@@ -48,7 +48,7 @@ TriangleMesh refined(const TriangleMesh& mesh, double radius) {
   return result;
 }
 
-/// How far the sphere bulges out over its chordal triangles.
+/// Largest distance of the sphere from its inscribed triangles.
 double deviation(const TriangleMesh& mesh, double radius) {
   double worst = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -85,7 +85,7 @@ struct Tessellate {
     return mesh;
   }
 
-  /// A prism: a polygon with n sides stays r(1 − cos(π/n)) behind its circle.
+  /// A prism: the sides of a polygon with n corners are up to r(1 − cos(π/n)) from its circle.
   TriangleMesh operator()(const Cylinder& cylinder) const {
     const double ratio = std::min(max_deviation / cylinder.radius, 1.0);
     // 1 − cos x = 2 sin²(x/2), which does not cancel for small x.

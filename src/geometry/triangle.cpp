@@ -42,7 +42,7 @@ Vector3d closestOnSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c
   };
   offer(closestOnSegment(b, c, p));
   offer(closestOnSegment(c, a, p));
-  // The interior, by the foot of the perpendicular and its barycentric coordinates, forced into the triangle.
+  // The interior, by the foot of the perpendicular and its barycentric coordinates, clamped to the triangle.
   const Vector3d ab = b - a, ac = c - a, normal = ab.cross(ac);
   const double area2 = normal.squaredNorm();
   if (area2 > 0) {
@@ -54,7 +54,7 @@ Vector3d closestOnSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c
   return best;
 }
 
-/// About the triangle's place nearest to its box's centre, or a place near it.
+/// About the centre of the triangle's box, projected onto the triangle's plane; for a sliver about the centre itself.
 FlatCylinder discAbout(const Vector3d& a, const Vector3d& b, const Vector3d& c, bool sliver) {
   const Vector3d middle = 0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c));
   const Vector3d normal = sliver ? Vector3d::Zero() : Vector3d((b - a).cross(c - a).normalized());

@@ -3,19 +3,19 @@
 #include "geometry/flat_cylinder.h"
 #include "sdf_ccd/common/eigen_types.h"
 
-/// What a single triangle abc answers. Degenerate triangles (a segment, a point) are welcome.
+/// Queries of a single triangle abc, which may be degenerate (a segment, a point).
 namespace sdf_ccd {
 
 /// Closest point of the segment ab to p.
 Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p);
 
-/// Closest point of the triangle to p. Always a convex combination of the corners, to rounding, also for slivers.
+/// Closest point of the triangle to p. Always a convex combination of the corners, up to rounding, also for slivers.
 ///
 /// Source: Ericson 2005, Real-Time Collision Detection, §5.1.5; slivers are checked against their edges, because
 /// the Voronoi tests of that method cancel there.
 Vector3d closestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p);
 
-/// A triangle with what its closest points ask for again and again, measured once.
+/// A triangle with precomputed data for many closest-point queries.
 class MeasuredTriangle {
  public:
   MeasuredTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
@@ -23,13 +23,13 @@ class MeasuredTriangle {
   /// As closestOnTriangle().
   Vector3d closest(const Vector3d& p) const;
 
-  /// False if every place of the triangle surely is farther than `distance` from p.
+  /// False only if all points of the triangle are certainly farther than `distance` from p.
   bool mayBeWithin(double distance, const Vector3d& p) const { return disc_.mayBeWithin(distance, p); }
 
   /// True if it is so thin that its plane is uncertain.
   bool sliver() const { return sliver_; }
 
-  /// A ball that holds the triangle.
+  /// A sphere that contains the triangle.
   const Vector3d& center() const { return disc_.center; }
   double radius() const { return disc_.radius; }
 
@@ -40,7 +40,7 @@ class MeasuredTriangle {
  private:
   Vector3d a_, b_, c_;
   bool sliver_;
-  FlatCylinder disc_;  ///< in its plane; of a sliver a ball
+  FlatCylinder disc_;  ///< in its plane; for a sliver a sphere
 };
 
 /// Signed solid angle of the triangle seen from p, over 4π: positive where p lies behind the counter-clockwise

@@ -25,7 +25,7 @@ double squaredDistance(const Vector3d& a, const Vector3d& b, const Vector3d& c, 
   return best;
 }
 
-/// Whether the segment meets the triangle, to a distance `eps`.
+/// Whether the segment meets the triangle, within a distance `eps`.
 bool meets(const FacedTriangle& triangle, const Vector3d& a, const Vector3d& b, double eps) {
   const Corners& t = triangle.corners;
   const Vector3d& normal = triangle.normal;
@@ -102,7 +102,7 @@ int sharedVertices(const Vector3i& a, const Vector3i& b) {
 
 bool meet(const FacedTriangle& a, const FacedTriangle& b, double eps) {
   if (sharedVertices(a.vertices, b.vertices) == 1) {
-    // Beside the common vertex they meet where the opposite side of one does.
+    // Elsewhere than at the common vertex they meet if the opposite side of one meets the other.
     const int at_a = commonCorner(a.vertices, b.vertices), at_b = commonCorner(b.vertices, a.vertices);
     return meets(b, a.corners[(at_a + 1) % 3], a.corners[(at_a + 2) % 3], eps) ||
            meets(a, b.corners[(at_b + 1) % 3], b.corners[(at_b + 2) % 3], eps);

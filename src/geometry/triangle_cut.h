@@ -22,15 +22,15 @@ struct FacedTriangle {
 /// How many vertices two triangles of a mesh have in common.
 int sharedVertices(const Vector3i& a, const Vector3i& b);
 
-/// Whether two triangles with at most one common vertex cut, touch or overlap each other elsewhere than there, to a
-/// distance `eps` [m], on the cautious side. It does not depend on which way they face.
+/// Whether two triangles with at most one common vertex cut, touch or overlap each other elsewhere than at that vertex,
+/// within a distance `eps` [m]. Conservative, and independent of their orientation.
 bool meet(const FacedTriangle& a, const FacedTriangle& b, double eps);
 
-/// What cut() takes for nothing: 1e-12 of the mesh's size [m].
+/// The distance that cut() should ignore: 1e-12 of the mesh's size [m].
 double cutTolerance(const TriangleMesh& mesh);
 
-/// Whether two triangles of a mesh cut, touch or overlap each other elsewhere than at vertices and edges they share, to
-/// a distance `eps` [m], on the cautious side. It does not depend on which way they face.
+/// Whether two triangles of a mesh cut, touch or overlap each other elsewhere than at shared vertices and edges, within
+/// a distance `eps` [m]. Conservative, and independent of their orientation.
 bool cut(const TriangleMesh& mesh, int first, int second, double eps);
 
 }  // namespace sdf_ccd

@@ -11,14 +11,14 @@
 namespace sdf_ccd {
 namespace {
 
-/// What all tests of a triangle against others need, measured once.
+/// Data of a triangle for all tests against others, measured once.
 struct Measured {
   Vector3d normal;  ///< of length one, or zero
   double error;     ///< see closestError()
   bool certain;     ///< see hasCertainPlane()
 };
 
-/// Whether two triangles of a mesh cut or overlap each other elsewhere than at vertices and edges they share.
+/// Whether two triangles of a mesh cut or overlap each other elsewhere than at shared vertices and edges.
 bool cut(const TriangleMesh& mesh, const std::vector<Measured>& measured, int first, int second, double tolerance) {
   const Vector3i &i = mesh.triangles[first], &j = mesh.triangles[second];
   const Measured &a = measured[first], &b = measured[second];
@@ -35,7 +35,7 @@ double closestError(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double longest = longestEdge({a, b, c});
   if (!(longest > 0.0)) return 0.0;
   const double thinness = (b - a).cross(c - a).norm() / (longest * longest);
-  // Below this, closest points are looked for on the edges too, and the interior's lose fewer digits.
+  // For thinner triangles, closest points are also searched on the edges, and those of the interior lose fewer digits.
   constexpr double kSliver = 1e-4;
   const double lost = thinness > kSliver ? 4e-16 / (thinness * thinness) : 1e-15 / std::max(thinness, 1e-300);
   return longest * std::min(thinness, lost);
@@ -43,7 +43,7 @@ double closestError(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 SurfaceTolerance surfaceTolerance(const TriangleMesh& mesh) {
   const AlignedBox3d box = boundingBox(mesh);
-  // Far from the origin, what is cut off a triangle has corners rounded to 1e-16 of their coordinates.
+  // Far from the origin, the corners of cut pieces are rounded to 1e-16 of their coordinates.
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   const double size = std::max(box.sizes().maxCoeff(), 1e-4 * reach);
   return {1e-10 * size, 1e-9 * size, 1e-14 * size, 1e-7 * size};

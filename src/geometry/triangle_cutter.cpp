@@ -7,11 +7,11 @@
 namespace sdf_ccd {
 namespace {
 
-/// Of planes whose angle is less, faces that are meant to lie on each other among them, what matters is how far apart
-/// they are, not along which line they meet.
+/// For planes at a smaller angle [rad], faces that are meant to coincide among them, their distance matters, not the
+/// line in which they meet.
 constexpr double kShallow = 1e-5;
 
-/// Another triangle as seen from the plane of the one that is cut.
+/// Another triangle in the coordinates of the plane of the one that is cut.
 struct Other {
   enum Kind {
     kApart,    ///< does not reach the plane
@@ -26,14 +26,14 @@ struct Other {
   Vector2d from, to;  ///< of the segment
 };
 
-/// What there is to do about another triangle and a part.
+/// How another triangle affects a part.
 struct Relation {
   enum Kind { kNone, kCut, kLayer, kUnclear };
   Kind kind = kNone;
-  bool again = false;  ///< after the cut it may still matter
+  bool again = false;  ///< it may still matter after the cut
   FlatLine line{};
   double length = 0.0;    ///< of the cut
-  bool doubtful = false;  ///< the part's front and back must not tell sides alone
+  bool doubtful = false;  ///< the front and back of the part alone may not decide the side
 };
 
 double heightAt(const Other& other, const Vector2d& x) {
@@ -98,7 +98,7 @@ class TriangleCutter::Task {
       return other;
     }
     if (thin && high - low < kShallow * longest) {
-      // A mere strip on the plane has no sides to tell, and its neighbours have edges there too.
+      // A thin strip within the plane has no sides, and its neighbours have edges there, too.
       other.kind = high <= tolerance.layer && low >= -tolerance.layer ? Other::kApart : Other::kUnclear;
       return other;
     }
@@ -106,7 +106,7 @@ class TriangleCutter::Task {
     return other;
   }
 
-  /// Where the other triangle meets the plane.
+  /// Sets the segment in which the other triangle meets the plane.
   void setSegment(Other& other) const {
     std::array<int, 3> sign;
     for (int k = 0; k < 3; ++k) {
@@ -126,7 +126,7 @@ class TriangleCutter::Task {
         add(other.at[k] + s * (other.at[next] - other.at[k]));
       }
     }
-    // A mere corner on the plane crosses nothing: what passes through it there is seen by the triangles around.
+    // A triangle with only a corner on the plane does not cross it. If the surface does, triangles around it show that.
     if (count >= 2) other.kind = Other::kCrosses;
   }
 
@@ -147,14 +147,14 @@ class TriangleCutter::Task {
     if (found.length < 0.0) return found;
     found.kind = Relation::kCut;
     Vector2d along = to - from;
-    // A mere place can be cut through any way.
+    // The direction of a cut through a single point is arbitrary.
     if (along.norm() <= 0.01 * cutter_.tolerance_.border) along = piece.centroid() - from;
     if (along.norm() <= 0.01 * cutter_.tolerance_.border) along = Vector2d::UnitX();
     found.line = FlatLine::through(from, along);
     return found;
   }
 
-  /// Where the other triangle is within a layer of the part it is taken together with it; beyond, it is apart.
+  /// Within a layer of the part, the other triangle is taken as one with it; farther away, it is separate.
   Relation shallowRelation(const FlatPiece& piece, const Other& other) const {
     const double layer = cutter_.tolerance_.layer;
     const std::vector<Vector2d> common = piece.common(other.at, cutter_.tolerance_.border);
@@ -163,7 +163,7 @@ class TriangleCutter::Task {
     for (const Vector2d& x : common) heights.push_back(heightAt(other, x));
     const double low = *std::min_element(heights.begin(), heights.end());
     const double high = *std::max_element(heights.begin(), heights.end());
-    // What is not a layer all over, seen from both, may be left out of the one and stay of the other.
+    // Unless it is a layer everywhere, as seen from both, one may be left out and the other kept.
     const bool doubtful = (low > 0.05 * layer || high < -0.05 * layer || high - low > 0.05 * layer) &&
                           low < 2.0 * layer && high > -2.0 * layer;
     if (low >= 0.9 * layer || high <= -0.9 * layer) return {Relation::kNone, false, {}, 0.0, doubtful};
@@ -240,7 +240,7 @@ class TriangleCutter::Task {
     const Vector3d place = corners_[0] + middle.x() * u_ + middle.y() * v_;
     const Sides found = cutter_.test_.at({place, normal_, clearance, triangle_}, layers, &cost_.visits);
     costs_too_much_ = cost_.visits > most_.visits;
-    // Of faces that lie on each other all have the same sides, whichever way they are turned. The first one stays.
+    // Faces that lie on each other all have the same sides, in either orientation. The first one is kept.
     const bool has_sides = found == Sides::kOutward || found == Sides::kInward;
     const bool is_first = layers.empty() || layers.front() > triangle_;
     return has_sides && !is_first ? Sides::kCovered : found;

@@ -14,14 +14,14 @@ SDF_CCD_INLINE Doubles clamped(const Doubles& t, double most) {
   return smaller(larger(t, zero), zero + most);
 }
 
-/// The way from the closest point to a place: in the triangle's plane, and along its normal.
+/// The displacement from the closest point to the query point: in the triangle's plane, and along its normal.
 struct Way {
   Doubles u, v, normal;
 
   SDF_CCD_INLINE Doubles squared() const { return u * u + v * v + normal * normal; }
 };
 
-/// In the plane: to the nearest of the edges' closest points, or nothing within them.
+/// In the plane, from the nearest of the edges' closest points; zero if the query point projects into the triangle.
 SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PlaceLanes& places, int k) {
   const Doubles x = load(places.x.data() + k) - t.origin[0], y = load(places.y.data() + k) - t.origin[1],
                 z = load(places.z.data() + k) - t.origin[2];

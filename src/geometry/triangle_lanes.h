@@ -8,9 +8,9 @@
 
 namespace sdf_ccd {
 
-/// A triangle in its own frame: corners at (0, 0), (b, 0) and (c, height). For the closest points of eight places at
-/// once, in steps that do not branch, so that the compiler makes vector code of them. Not for slivers: there the frame
-/// is worth nothing.
+/// A triangle in its own frame: corners at (0, 0), (b, 0) and (c, height). For closest points of eight query points at
+/// once, without branches, so that the compiler generates vector code. Not for slivers, for which the frame is too
+/// inaccurate.
 struct FlatTriangle {
   FlatTriangle() = default;
   FlatTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
@@ -20,7 +20,7 @@ struct FlatTriangle {
   double inverse_bc2, inverse_ca2;  ///< of the edges' squared lengths [1/m²]
 };
 
-/// Eight places.
+/// Eight query points.
 struct PlaceLanes {
   static constexpr int kCount = 8;
   using Lane = std::array<double, kCount>;
@@ -39,21 +39,21 @@ struct PlaceLanes {
   }
 };
 
-/// For eight places the closest one of some triangles.
+/// For each of eight query points, the closest point on several triangles.
 struct ClosestLanes {
   alignas(64) PlaceLanes::Lane distance2;  ///< [m²]
-  alignas(64) PlaceLanes::Lane side;       ///< way from the closest point, along the axis [m]
+  alignas(64) PlaceLanes::Lane side;       ///< displacement from the closest point, along the axis [m]
 };
 
-/// What lies between eight places and the triangle's closest points.
+/// Displacements of eight query points from the triangle's closest points.
 struct WayLanes {
   alignas(64) PlaceLanes::Lane distance2;  ///< [m²]
-  alignas(64) PlaceLanes::Lane x, y, z;    ///< from the closest point to the place [m]
+  alignas(64) PlaceLanes::Lane x, y, z;    ///< from the closest point to the query point [m]
 
   Vector3d at(int k) const { return {x[k], y[k], z[k]}; }
 };
 
-/// Takes the triangle's closest points where they are nearer than what is held so far.
+/// Replaces the closest points held so far where the triangle is nearer.
 void offer(const FlatTriangle& triangle, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest);
 
 void ways(const FlatTriangle& triangle, const PlaceLanes& places, WayLanes& ways);

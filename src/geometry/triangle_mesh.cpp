@@ -27,11 +27,11 @@ std::size_t hashOf(const Vector3d& p) {
   return hash;
 }
 
-/// Different points, numbered as they come. Open addressing: a map of nodes takes as long to give back as to fill, and
-/// nothing can end that.
+/// Numbers different points in the order in which they come. By open addressing, because freeing a map of nodes takes
+/// as long as filling it, and cannot be cancelled.
 class PointNumbers {
  public:
-  /// @param most  points there may be.
+  /// @param most  upper bound of the number of points.
   explicit PointNumbers(std::size_t most) {
     std::size_t size = 16;
     while (size < 2 * most) size *= 2;

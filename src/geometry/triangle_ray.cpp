@@ -7,12 +7,12 @@
 namespace sdf_ccd {
 namespace {
 
-/// Where the ray comes within `slack` of the box, or infinity if it does not before `last`.
+/// Where along the ray it comes within `slack` of the box, or infinity if it does not before `last`.
 double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse, double slack, double last) {
   double enter = 0.0, exit = last;
   for (int k = 0; k < 3; ++k) {
     const double a = (box.min()[k] - slack - p[k]) * inverse[k], b = (box.max()[k] + slack - p[k]) * inverse[k];
-    // A ray in the plane of a side gives NaN, with which comparisons leave both ends as they are.
+    // If the ray lies in the plane of a side, one of these is NaN, and the box may count as missed: see firstHit().
     const double low = a < b ? a : b, high = a < b ? b : a;
     if (low > enter) enter = low;
     if (high < exit) exit = high;
@@ -30,7 +30,7 @@ double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& directi
   const double u = from.dot(across) / determinant, v = direction.dot(along) / determinant;
   constexpr double kLeast = -1e-12;
   double least_u = kLeast, least_v = kLeast, least_w = kLeast;
-  if (slack > 0.0) {  // how fast they change across the ray
+  if (slack > 0.0) {  // the change of the coordinates over that distance across the ray
     const double steep = slack / std::abs(determinant);
     least_u -= steep * across.norm();
     least_v -= steep * direction.cross(ab).norm();
@@ -49,11 +49,11 @@ int TriangleTree::firstHit(const Vector3d& p, const Vector3d& direction, double 
 bool TriangleTree::seesOutside(const Vector3d& p) const {
   constexpr double kCracks = 4e-6;
   const double slack = kCracks * nodes_[0].box.sizes().maxCoeff();
-  // A spiral from pole to pole, even over the sphere: the golden angle apart.
+  // A spiral from pole to pole in steps of the golden angle covers the sphere evenly.
   constexpr int kRays = 128;
   constexpr double kGoldenAngle = 2.39996322972865332;
   for (int i = 0; i < kRays; ++i) {
-    const int k = 37 * i % kRays;  // far apart one after the other
+    const int k = 37 * i % kRays;  // successive rays have very different directions
     const double z = (2 * k + 1.0) / kRays - 1.0, radius = std::sqrt(1.0 - z * z), angle = kGoldenAngle * k;
     const Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), z);
     if (firstHit(p, direction, 0.0, slack) < 0) return true;

@@ -13,11 +13,12 @@ using namespace lanes;
 /// Three nodes of every quad on the way down wait on the stack; the builder keeps the depth below 96.
 constexpr int kStackSize = 3 * 96 + 1;
 
-/// Nodes nearer than this times their radius are opened whatever the bound: the remainder's is made for that.
+/// Nodes nearer than this times their radius are opened whatever the bound: the remainder's bound requires this
+/// distance.
 constexpr double kLeastAccuracy = 2.0;
 
 struct Pending {
-  double bound2;              ///< its squared distance is no less
+  double bound2;              ///< lower bound of the squared distance [m²]
   std::int32_t first, count;  ///< as in a quad
 };
 
@@ -57,7 +58,7 @@ SDF_CCD_INLINE void TriangleTree::leastDistances2(const Quad& quad, const Vector
   store(larger(box2, (above * above + beside * beside) * (1.0 - 1e-12)), least);
 }
 
-/// Looks for what is nearer than √best2.
+/// Finds the closest point nearer than √best2.
 SDF_CCD_LANES void TriangleTree::search(const Vector3d& p, double best2, ClosestPoint& best) const {
   std::array<Pending, kStackSize> stack;
   int size = 0;
@@ -69,7 +70,7 @@ SDF_CCD_LANES void TriangleTree::search(const Vector3d& p, double best2, Closest
       const Quad& quad = quads_[first];
       std::array<double, 4> bounds2;
       leastDistances2(quad, p, bounds2.data());
-      // The nearest last, which is looked at next.
+      // The nearest on top of the stack, so that it is visited next.
       const int begin = size;
       for (int k = 0; k < 4; ++k) {
         if (bounds2[k] >= best2) continue;
@@ -152,7 +153,7 @@ double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
 
 bool TriangleTree::inside(const Vector3d& p, Inside rule, std::size_t* visited) const {
   constexpr double kRounding = 1e-6;
-  // Bounds below one half, which decide next to an open mesh, are mostly met at once with a little more accuracy.
+  // Near an open mesh, bounds below one half decide; a little more accuracy mostly meets them at once.
   const double accuracy = rule == Inside::kAboveHalf ? 2.5 : kLeastAccuracy;
   BoundedNumber number;
   for (const double bound : {kInfinity, 5e-3, 5e-4, 5e-5, 0.0}) {
@@ -163,7 +164,7 @@ bool TriangleTree::inside(const Vector3d& p, Inside rule, std::size_t* visited) 
       if (std::abs(number.value - 0.5) > error) break;
       continue;
     }
-    // A whole number within the error of the sum: zero alone, or others alone, decide. None: p is on the surface.
+    // Integers within the error of the sum: if zero alone, or only others, they decide. If none, p is on the surface.
     const double size = std::abs(number.value);
     const bool may_be_zero = size <= error;
     const bool may_be_other = std::abs(size - std::max(std::round(size), 1.0)) <= error;

@@ -13,8 +13,8 @@ namespace sdf_ccd {
 
 /// Box hierarchy over the triangles of a mesh, for closest points and winding numbers.
 ///
-/// For closest points nodes are asked four at a time, and by flat cylinders beside their boxes: from afar, many boxes
-/// are about as near as the surface, but few pieces of it are. Also holds, per node, the expansion of Barill et al.
+/// For closest points four nodes are tested at a time, by flat cylinders besides their boxes: seen from afar, many
+/// boxes are about as near as the surface, but few cylinders are. Also holds, per node, the expansion of Barill et al.
 /// 2018 up to second order about the node's area-weighted centre. Copies the triangles in tree order, so the mesh need
 /// not outlive it. Queries are thread-safe.
 class TriangleTree {
@@ -28,14 +28,14 @@ class TriangleTree {
     int triangle;     ///< index in the mesh
   };
 
-  /// Of the mesh, by its index there.
+  /// A triangle by its index in the mesh.
   const MeasuredTriangle& triangle(int i) const { return triangles_[places_[i]]; }
 
   /// Closest point of the mesh to p, if nearer than `max_distance`; triangle is -1 (distance `max_distance`) if not.
   ClosestPoint closestPoint(const Vector3d& p, double max_distance = kInfinity) const;
 
-  /// The same for one place after another: `likely`, a triangle of the mesh, is asked first. The nearer it is, the less
-  /// else is looked at; the distance found does not depend on it.
+  /// The same for a sequence of query points: `likely`, a triangle of the mesh, is tested first. The nearer it is, the
+  /// fewer others are visited; the distance found does not depend on it.
   ClosestPoint closestPointNear(const Vector3d& p, int likely) const;
 
   /// Distance of p from one triangle of the mesh [m].
@@ -43,40 +43,39 @@ class TriangleTree {
     return (triangles_[places_[triangle]].closest(p) - p).norm();
   }
 
-  /// Triangles with a place nearer than `radius` to p or as near: replaces `triangles` by their indices in the mesh, in
-  /// no order.
+  /// Triangles within `radius` of p: replaces `triangles` by their indices in the mesh, in no order.
   void trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const;
 
   /// The first triangle, by its index in the mesh, that the ray from p along the unit vector `direction` meets farther
-  /// than `min_distance` from p; -1 if there is none. To rounding: a ray along an edge may meet either side or none.
+  /// than `min_distance` from p; -1 if there is none. Up to rounding: a ray along an edge may meet either side or none.
   int firstHit(const Vector3d& p, const Vector3d& direction, double min_distance) const;
 
-  /// Whether some ray from p meets no triangle, and passes none by less than 4e-6 of the mesh's size: through cracks
-  /// that conformingMesh() closes nothing is seen. False wherever triangles close p in, whichever way they face; true
-  /// of most other places.
+  /// Whether some ray from p meets no triangle, and passes none by less than 4e-6 of the mesh's size: no ray escapes
+  /// through cracks that conformingMesh() closes. False wherever triangles enclose p, in whatever orientation; true at
+  /// most other points.
   bool seesOutside(const Vector3d& p) const;
 
-  /// Visits triangles for which mayMatter(center, radius) [m] says that a ball that holds them may matter: balls of
-  /// ever fewer triangles are asked for, at last of one.
+  /// Visits triangles for which mayMatter(center, radius) [m] is true for spheres that contain them: it is called for
+  /// spheres around ever fewer triangles, at last around a single one.
   template <typename MayMatter, typename Visit>
   void forEachTriangle(MayMatter mayMatter, Visit visit) const;
 
   /// Generalised winding number (Jacobson 2013): 1 inside and 0 outside a closed mesh. Hierarchical (Barill et al.
   /// 2018): far clusters are replaced by their expansion. The error is mostly below 0.02, but grows with the number of
-  /// triangles that lie on each other: what decides a side asks inside().
+  /// triangles that lie on each other: to decide a side, use inside().
   /// @param accuracy  clusters nearer than accuracy × their radius are opened; infinity sums every triangle.
   double windingNumber(const Vector3d& p, double accuracy = 2.0) const;
 
-  /// What of the winding number says that a place is inside.
+  /// How the winding number decides whether a point is inside.
   enum class Inside {
-    kNotZero,    ///< of a closed mesh, where the number is whole (see isClosed())
-    kAboveHalf,  ///< of an open one
+    kNotZero,    ///< for a closed mesh, where the number is an integer (see isClosed())
+    kAboveHalf,  ///< for an open one
   };
 
-  /// Whether p is inside. Each expansion's remainder is bounded, and nodes are opened until the bounds' sum cannot
-  /// change the answer; what is left is rounding, which decides on the surface (and, of an open mesh, where the number
-  /// is one half).
-  /// @param visited  if given, the number of nodes and triangles that were asked is added to it.
+  /// Whether p is inside. Each expansion's remainder is bounded, and nodes are opened until the sum of the bounds
+  /// cannot change the answer. Only rounding remains, which decides on the surface (and, for an open mesh, where the
+  /// number is one half).
+  /// @param visited  if given, the number of visited nodes and triangles is added to it.
   bool inside(const Vector3d& p, Inside rule, std::size_t* visited = nullptr) const;
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -90,14 +89,14 @@ class TriangleTree {
     std::int32_t count;  ///< triangles of a leaf; 0 for an inner node
   };
   /// Expansion of the field r·n/(4π|r|³) of a node's dipoles, r from the query to `center`. That field is the
-  /// gradient of a harmonic function, so of each moment only the symmetric part without trace is felt.
+  /// gradient of a harmonic function, so only the symmetric part without trace of each moment matters.
   struct Expansion {
     Vector3d center;
     double radius2;                 ///< of the ball about `center` that holds the node's triangles
     Vector3d dipole;                ///< Σ area · normal
     std::array<double, 6> first;    ///< xx, yy, zz, xy, xz, yz
     std::array<double, 10> second;  ///< xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
-    double spread;                  ///< no less than ∫ |d|³ over the triangles, d from `center`
+    double spread;                  ///< upper bound of ∫ |d|³ over the triangles, d from `center`
   };
 
   /// Four nodes side by side, for closest points: the children or grandchildren of a node. Unused ones are infinitely
@@ -113,19 +112,19 @@ class TriangleTree {
   };
 
   class Builder;
-  /// Of a quad's nodes, squared: what their boxes and their cylinders say.
+  /// Lower bounds of the squared distances of a quad's nodes, by their boxes and their cylinders.
   static void leastDistances2(const Quad& quad, const Vector3d& p, double* least);
   void search(const Vector3d& p, double best2, ClosestPoint& best) const;
   int firstHit(const Vector3d& p, const Vector3d& direction, double min_distance, double slack) const;
   static Expansion expand(const Triangle* begin, const Triangle* end);
-  /// A winding number, and a bound on its error but for rounding.
+  /// A winding number, and a bound on its error without rounding.
   struct BoundedNumber {
     double value = 0.0;
     double error = 0.0;
     std::size_t visited = 0;  ///< nodes and triangles
   };
   static BoundedNumber evaluate(const Expansion& expansion, const Vector3d& r, double distance2);
-  /// Opens nodes nearer than accuracy × their radius, at least twice that, and those whose own bound is larger.
+  /// Opens nodes nearer than accuracy × their radius (at least twice it), and those whose own error exceeds the bound.
   BoundedNumber boundedNumber(const Vector3d& p, double accuracy, double bound) const;
 
   std::vector<Node> nodes_;

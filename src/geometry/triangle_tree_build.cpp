@@ -67,7 +67,7 @@ class TriangleTree::Builder {
     int depth;
   };
 
-  /// In loops over all triangles, of which a mesh may have millions.
+  /// Checks for cancellation every so often, in loops over all triangles, of which a mesh may have millions.
   void checkNowAndThen(std::size_t i) const {
     if (i % 4096 == 0) cancel_.check();
   }
@@ -118,7 +118,7 @@ class TriangleTree::Builder {
     return static_cast<std::int32_t>(middle - tree_.ids_.data());
   }
 
-  /// About a node's triangles, its axis their mean normal.
+  /// Around a node's triangles, with their mean normal as its axis.
   FlatCylinder cylinder(const Triangle* begin, const Triangle* end, const Expansion& expansion) const {
     FlatCylinder result{expansion.center, expansion.dipole.normalized()};
     for (const Triangle* t = begin; t != end; ++t) {
@@ -156,7 +156,7 @@ class TriangleTree::Builder {
 
   bool isLeaf(std::int32_t node) const { return tree_.nodes_[node].count > 0; }
 
-  /// A node's children, and of the largest theirs: four at most.
+  /// A node's children, the largest of them replaced by its own children: four nodes at most.
   std::vector<std::int32_t> below(std::int32_t node) const {
     std::vector<std::int32_t> found = {tree_.nodes_[node].first, tree_.nodes_[node].first + 1};
     while (found.size() < 4) {

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Each triangle's corners on a lattice, as the mesh's first edges suggest it.
+/// The corners of triangles as points of a lattice, whose spacing is the shortest edge of the mesh's first triangle.
 class Lattice {
  public:
   explicit Lattice(const TriangleMesh& mesh) : mesh_(mesh), box_(boundingBox(mesh)) {
@@ -21,7 +21,7 @@ class Lattice {
   const Vector3d& origin() const { return box_.min(); }
   Eigen::Array3d count() const { return (box_.sizes() / size_).array().round(); }
 
-  /// Of a vertex. @return false if it is none of the lattice's points.
+  /// Sets the lattice point of a vertex. @return false if the vertex is not on the lattice.
   bool place(int vertex, Vector3i& point) const {
     constexpr double kOff =
         1e-4;  // of a voxel: coordinates of 65536 of them, rounded to single precision, are off by less
@@ -36,7 +36,7 @@ class Lattice {
   double size_ = 0.0;
 };
 
-/// The square along two axes that a triangle is a half of.
+/// The axis-aligned square of which a triangle is one half.
 struct Square {
   Vector3i low, extent;
 
@@ -107,7 +107,8 @@ void VoxelSolid::runs(int y, int z, std::vector<Run>& found) const {
   }
 }
 
-/// Between an occupied voxel and a free one: as many as the mesh has, if it is the boundary of these voxels.
+/// The number of faces between an occupied voxel and a free one: that of the mesh, if it is the boundary of these
+/// voxels.
 double VoxelSolid::faces() const {
   const std::vector<std::uint64_t> nothing(words_, 0);
   const auto rowOrNone = [&](int y, int z) {

@@ -9,10 +9,11 @@
 
 namespace sdf_ccd {
 
-/// Whole voxels, told from the mesh that is their boundary.
+/// Whole voxels, reconstructed from the mesh that is their boundary.
 class VoxelSolid {
  public:
-  /// @return null if the mesh is no boundary of cubes of one size on one lattice, or their box has more than that many.
+  /// @return null if the mesh is not the boundary of equal cubes on one lattice, or their box has more than
+  /// `max_voxels`.
   static std::shared_ptr<const VoxelSolid> of(const TriangleMesh& mesh,
                                               std::uint64_t max_voxels = std::uint64_t{1} << 33);
 
@@ -21,13 +22,13 @@ class VoxelSolid {
   const Vector3i& count() const { return count_; }    ///< of voxels, in the box that holds all occupied ones
   AlignedBox3d box() const { return {origin_, origin_ + size_ * count_.cast<double>()}; }
 
-  /// Also for voxels outside the box, which are free.
+  /// Whether a voxel is occupied; those outside the box are free.
   bool isIn(int x, int y, int z) const {
     if (x < 0 || y < 0 || z < 0 || x >= count_.x() || y >= count_.y() || z >= count_.z()) return false;
     return (row(y, z)[x / 64] >> (x % 64) & 1) != 0;
   }
 
-  /// Voxels from one to before another along a row, all occupied, in order; none for rows outside the box.
+  /// Occupied voxels [begin, end) along a row. runs() lists them in order; none for rows outside the box.
   struct Run {
     int begin, end;
   };

@@ -31,7 +31,7 @@ TriangleTree::Expansion TriangleTree::expand(const Triangle* begin, const Triang
     first += normal * (sum / 3).transpose();
     const Matrix3d spread = (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose()) / 12;
     for (int i = 0; i < 3; ++i) second[i] += normal[i] / 2 * spread;
-    // |d|³ is convex: its mean is no more than that of the corners.
+    // |d|³ is convex: its mean over the triangle is at most that of the corners.
     const double cubes = std::pow(a.norm(), 3) + std::pow(b.norm(), 3) + std::pow(c.norm(), 3);
     result.spread += normal.norm() * cubes / 3;
   }
@@ -52,10 +52,10 @@ TriangleTree::Expansion TriangleTree::expand(const Triangle* begin, const Triang
 
 /// Taylor series of r·n/(4π|r|³) to second order: N·r/ρ³ − 3 M(r,r)/ρ⁵ + 15 S(r,r,r)/ρ⁷.
 ///
-/// The remainder: r·n/|r|³ is the derivative along n of 1/|r + d| = Σ |d|ˡ P_l(−cos γ)/ρˡ⁺¹, γ between r and d, and the
-/// gradient of the l-th term no longer than l |d|ˡ⁻¹/ρˡ⁺¹ (Bernstein's and Szegő's inequality for P_l(cos γ)). The
-/// terms from l = 4 on sum to at most |d|³ (4 − 3x)/(1 − x)²/ρ⁵ with x = |d|/ρ, and for x ≤ ½
-/// the factor is at most 4.9 + 20.4 x².
+/// The remainder: r·n/|r|³ is the derivative along n of 1/|r + d| = Σ |d|ˡ P_l(−cos γ)/ρˡ⁺¹, γ between r
+/// and d, and the gradient of the l-th term is no longer than l |d|ˡ⁻¹/ρˡ⁺¹ (Bernstein's and Szegő's
+/// inequality for P_l(cos γ)). The terms from l = 4 on sum to at most |d|³ (4 − 3x)/(1 − x)²/ρ⁵ with x =
+/// |d|/ρ, and for x ≤ ½ the factor is at most 4.9 + 20.4 x².
 TriangleTree::BoundedNumber TriangleTree::evaluate(const Expansion& expansion, const Vector3d& r, double distance2) {
   constexpr double kFourPi = 12.5663706143591729539;
   const double x = r.x(), y = r.y(), z = r.z();

@@ -19,7 +19,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kPollMilliseconds = 20;  // a cancelled reading ends within this
+constexpr int kPollMilliseconds = 20;  // a cancelled read ends within this time
 constexpr int kPipeBytes = 1 << 20;
 constexpr std::size_t kChunk = std::size_t{1} << 24;
 
@@ -27,7 +27,8 @@ constexpr std::size_t kChunk = std::size_t{1} << 24;
   throw std::runtime_error(what + ": " + std::strerror(error));
 }
 
-/// The same file under a number that is none of stdin, stdout and stderr, which the host may have closed.
+/// Moves an open file to a descriptor above stdin, stdout and stderr: if the host has closed those, new files get their
+/// numbers.
 Descriptor aboveStandard(int number) {
   if (number < 0) fail("no file can be opened", errno);
   Descriptor low(number);
@@ -47,7 +48,7 @@ std::vector<std::string> environmentOf(const ProgramCall& call) {
   return environment;
 }
 
-/// As exec() needs them. The strings must outlive it.
+/// Null-terminated array of pointers, as for exec(). The strings must outlive it.
 std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
   for (std::string& text : texts) pointers.push_back(&text[0]);
@@ -55,7 +56,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// Arguments and results of posix_spawn().
+/// File actions and attributes for posix_spawn().
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output) {
@@ -100,7 +101,7 @@ ChildProcess::ChildProcess(const ProgramCall& call, const Descriptor& input, Clo
   output_ = aboveStandard(ends[0]);
   answer = aboveStandard(answer.release());
   ::fcntl(output_.number(), F_SETFL, O_NONBLOCK);
-  ::fcntl(output_.number(), F_SETPIPE_SZ, kPipeBytes);  // fewer reads; refused beyond the user's quota
+  ::fcntl(output_.number(), F_SETPIPE_SZ, kPipeBytes);  // for fewer reads; the user's quota may refuse it
 
   std::vector<std::string> words = {call.program}, environment = environmentOf(call);
   words.insert(words.end(), call.arguments.begin(), call.arguments.end());
@@ -115,7 +116,7 @@ ChildProcess::ChildProcess(const ProgramCall& call, const Descriptor& input, Clo
 }
 
 ChildProcess::~ChildProcess() {
-  // Queried first: if the host ignores SIGCHLD, the number of a process that has ended may be another's by now.
+  // Test hasEnded() first: if the host ignores SIGCHLD, the pid of an ended child may already be another process's.
   if (pid_ < 0 || hasEnded()) return;
   ::kill(pid_, SIGKILL);
   while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
@@ -124,7 +125,8 @@ ChildProcess::~ChildProcess() {
 
 std::size_t ChildProcess::read(char* to, std::size_t size) {
   for (;;) {
-    // A process forked between our pipe's creation and its own exec may hold the other end open: then no EOF comes.
+    // A process that another thread of the host forked meanwhile may hold the pipe's write end open until it calls
+    // exec(): there is no EOF then, so the end of the child is tested too, before the read.
     const bool ended = hasEnded();
     const ssize_t count = ::read(output_.number(), to, size);
     if (count >= 0) return static_cast<std::size_t>(count);

@@ -14,14 +14,14 @@ namespace sdf_ccd {
 struct ProgramCall {
   std::string program;
   std::vector<std::string> arguments;
-  std::vector<const char*> variables = {};  ///< of the environment that it gets too, beside LD_LIBRARY_PATH
+  std::vector<const char*> variables = {};  ///< environment variables passed on, beside LD_LIBRARY_PATH
 };
 
-/// A program that reads its stdin, answers on its stdout, and is killed at the latest with its owner.
+/// A program that reads its stdin and answers on its stdout. The destructor kills it if it still runs.
 ///
-/// May be used from several threads at once, whatever the host does with SIGCHLD and SIGPIPE: only this process is
-/// waited for, and nothing is written to a pipe. It gets no other open file, a process group of its own (so that
-/// Ctrl-C is the host's affair), default signals, and nothing else of the environment.
+/// Different instances may be used from several threads at once, whatever the host does with SIGCHLD and SIGPIPE: only
+/// this child is waited for, and nothing is written to a pipe. The child gets no other open files, a process group of
+/// its own (so that Ctrl-C reaches only the host), default signal handlers, and no other environment variables.
 class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -29,17 +29,19 @@ class ChildProcess {
   /// Thrown when the deadline has passed.
   struct Late {};
 
-  /// @param input  becomes its stdin, at its present offset. Not open: it gets none.
+  /// @param input  becomes the child's stdin, at its present offset; if not open, the child has no stdin.
   /// @throws std::runtime_error with the reason if it cannot be started.
   ChildProcess(const ProgramCall& call, const Descriptor& input, Clock::time_point deadline);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Waits for up to `size` bytes of its answer. @return how many; 0 when it has said all. @throws Late, Cancelled.
+  /// Waits for up to `size` bytes of the child's output. @return the number of bytes; 0 at the end of the output.
+  /// @throws Late, Cancelled.
   std::size_t read(char* to, std::size_t size);
 
-  /// Waits for its end. @return the status of waitpid(), or -1 if the host has reaped it. @throws Late, Cancelled.
+  /// Waits for the child's end. @return the status of waitpid(), or -1 if the host has reaped it. @throws Late,
+  /// Cancelled.
   int wait();
 
  private:
@@ -48,7 +50,7 @@ class ChildProcess {
 
   Clock::time_point deadline_;
   Descriptor output_;
-  pid_t pid_ = -1;  // until it is reaped
+  pid_t pid_ = -1;  // -1 once it is reaped
   int status_ = -1;
 };
 

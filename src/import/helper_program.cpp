@@ -21,7 +21,7 @@ fs::path libraryFolder() {
   return fs::absolute(info.dli_fname, error).parent_path();
 }
 
-// While the library is loaded: its path may be a relative one, and the host may change its directory.
+// Resolved when the library is loaded: its path may be relative, and the host may change its working directory later.
 const fs::path kLibraryFolder = libraryFolder();
 
 }  // namespace

@@ -41,7 +41,7 @@ std::string signalName(int signal) {
   }
 }
 
-/// Why there is no answer.
+/// Error text for a reader that ended without an answer. @param status  of waitpid(), or -1.
 std::string reasonOf(int status, const ReadLimits& limits) {
   if (status == -1) return "the reader ended without an answer";
   if (WIFSIGNALED(status)) {

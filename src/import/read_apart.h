@@ -6,16 +6,16 @@
 
 namespace sdf_ccd {
 
-/// The content of a file.
+/// Content of a mesh or OctoMap file.
 struct ReadMesh {
   TriangleMesh mesh;        ///< valid: finite, and with indices in range
   double resolution = 0.0;  ///< voxel size of an OctoMap [m]
 };
 
-/// Has a file's content read by the program sdf_ccd_read, a process for each, within the limits of limitsOf(). If the
-/// libraries that read it crash, that is an error here; so is an invalid answer.
+/// Parses a file's content in a separate, confined process (the program sdf_ccd_read), within the limits of limitsOf().
+/// A crash of that process, or an invalid answer, becomes an exception.
 /// @param format  the ending of a mesh's file name, or `octomap`.
-/// @throws std::runtime_error with the reason, without a name; Cancelled.
+/// @throws std::runtime_error with the reason, without the file's name; Cancelled.
 ReadMesh readApart(const std::string& format, const std::string& bytes);
 
 }  // namespace sdf_ccd

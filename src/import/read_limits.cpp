@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 constexpr std::uint64_t kLeast = 512 * kMiB;
 constexpr double kCpuSeconds = 5.0, kCpuSecondsPerMiB = 1.0;
-constexpr double kWallPerCpu = 6.0;  // a loaded computer, and one that swaps
+constexpr double kWallPerCpu = 6.0;  // allows for other load and for swapping
 
 std::uint64_t computersMemory() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), bytes = ::sysconf(_SC_PAGESIZE);

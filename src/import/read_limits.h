@@ -13,10 +13,11 @@ struct ReadLimits {
   double wall_seconds = 0.0;
 };
 
-/// Meshes: 512 MiB and 32 times the file's size. OctoMaps, of which a byte may mean many faces: 512 MiB and 2,000 times
-/// the file's size, at most 6 GiB. Neither more than three quarters of the computer's memory. Computing: 5 s and 1 s
-/// per MiB; by the clock six times that.
-/// @param format  as the program sdf_ccd_read takes it: the ending of a mesh's file name, or `octomap`.
+/// Limits for a file of this size. Memory: for meshes 512 MiB plus 32 times the file's size; for OctoMaps, in which one
+/// byte may stand for many faces, 512 MiB plus 2,000 times the file's size, at most 6 GiB; never more than three
+/// quarters of the computer's memory, but at least 512 MiB. CPU time: 5 s plus 1 s per MiB. Wall-clock time: six times
+/// that.
+/// @param format  argument of the program sdf_ccd_read: the ending of a mesh's file name, or `octomap`.
 ReadLimits limitsOf(const std::string& format, std::uint64_t bytes);
 
 }  // namespace sdf_ccd

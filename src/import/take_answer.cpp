@@ -11,9 +11,9 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::uint64_t kMaxReason = 1000;            // bytes
-constexpr std::size_t kChunk = std::size_t{1} << 16;  // elements: memory grows only with what has come
+constexpr std::size_t kChunk = std::size_t{1} << 16;  // elements; memory grows only with the data received
 
-/// Makes names and numbers of a hostile file safe for log and terminal.
+/// Replaces control and non-ASCII characters, so that text from a hostile file is safe for log and terminal.
 std::string printable(std::string text) {
   for (char& c : text) {
     if (c < ' ' || c > '~') c = '?';
@@ -30,7 +30,7 @@ class AnswerReader {
     take(reinterpret_cast<char*>(&answer), sizeof answer);
     if (answer.magic != ReadAnswer::kMagic) throw std::runtime_error("the reader is of another version, or damaged");
     if (answer.reason_bytes > 0) throw std::runtime_error(takeReason(answer.reason_bytes));
-    // The reader's output is limited by its memory limit.
+    // The reader's memory limit bounds the size of its answer too.
     const std::uint64_t most = std::min<std::uint64_t>(limits_.memory, std::numeric_limits<int>::max());
     if (answer.vertices > most || answer.triangles > most ||
         answer.vertices * sizeof(Vector3d) + answer.triangles * sizeof(Vector3i) > limits_.memory) {

@@ -7,12 +7,14 @@
 
 namespace sdf_ccd {
 
-/// Gives up to `size` bytes. @return how many, at least one. @throws where there are no more, with the reason.
+/// Supplies up to `size` bytes. @return the number of bytes, at least one. @throws at the end of the data, with the
+/// reason.
 using ByteSource = std::function<std::size_t(char* to, std::size_t size)>;
 
-/// Takes the answer of sdf_ccd_read (see read_answer.h) and validates it: a process that
-/// reads untrusted files may be compromised. Memory grows only with the data received.
-/// @throws std::runtime_error with the reason that the answer gives, or why it cannot be; what the source throws.
+/// Receives and validates the answer of sdf_ccd_read (see read_answer.h): a process that reads untrusted files may be
+/// compromised. Memory grows only with the data received.
+/// @throws std::runtime_error with the error that the answer holds, or why the answer is invalid; exceptions of the
+/// source.
 ReadMesh takeAnswer(const ByteSource& source, const ReadLimits& limits);
 
 /// The message for exceeded memory limits.

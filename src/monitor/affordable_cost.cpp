@@ -11,9 +11,9 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kSurely = 2.0;  // estimates are within this factor
+constexpr double kSurely = 2.0;  // estimates are accurate to this factor
 
-/// Of a body's largest element [m]; 0 for one without bounds.
+/// Size of the body's largest bounded element [m]; 0 if it has none.
 double sizeOf(const BodyDescription& body) {
   double size = 0.0;
   for (const GeometryDescription& geometry : body.geometry) {
@@ -48,10 +48,10 @@ std::string megabytes(double bytes) {
   return numberText(std::round(1e-6 * bytes)) + " MB";
 }
 
-/// The limit that the cost is surely over; empty if there is none.
+/// The limit that the cost certainly exceeds; empty if there is none.
 std::string exceededLimit(const SceneCost& cost, const BodyOptions& options) {
   if (cost.bytes > machineBytes()) return "this machine has " + megabytes(machineBytes());
-  if (!options.is_shared_out) return "";  // building names the bodies whose settings ask for too much
+  if (!options.is_shared_out) return "";  // building will name the bodies whose settings exceed a limit
   const auto most_bytes = static_cast<double>(options.field.max_bytes);
   const auto most_points = static_cast<double>(options.shell.max_points);
   for (const BodyCost& body : cost.bodies) {

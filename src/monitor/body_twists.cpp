@@ -13,20 +13,20 @@ namespace sdf_ccd {
 
 namespace {
 
-/// 1 + 2 cos(1/8), a little more.
+/// 1 + 2 cos(1/8), rounded up: the trace of a rotation by 1/8 rad.
 constexpr double kTrace = 2.9845;
 
-/// A double rounded to a float, times this, is no less than the double; with a few roundings to spare.
+/// Factor that makes a double's rounding to float an upper bound of it; leaves room for a few more roundings.
 constexpr double kUp = 1.0 + 0x1p-22;
 
-/// What a scan in single precision may be off by, as a share of a body's rotation (times a distance) and of its
-/// velocity: scanPairs() needs 15 u and 7 u with u = 2^-24, the series above 6 u more.
+/// Relative error of a scan in single precision, for a body's rotation (times a distance) and for its velocity:
+/// scanPairs() needs 15 u and 7 u with u = 2^-24, and the series of Twist::small() 6 u more.
 constexpr double kNoise = 0x1p-19;  // 32 u
 
-/// Squares of less than this vanish in single precision.
+/// Lengths below this have squares that underflow in single precision.
 constexpr double kLeast = 1e-18;  // [m]
 
-/// Bit by bit.
+/// Bitwise equality.
 bool same(const Isometry3d& a, const Isometry3d& b) {
   const auto bits = [](const Isometry3d& X, int i) {
     std::uint64_t value;
@@ -38,12 +38,12 @@ bool same(const Isometry3d& a, const Isometry3d& b) {
   return differ == 0;
 }
 
-/// No less than the norm, and no root.
+/// Upper bound of the norm, without a square root.
 double normAbove(const Vector3d& v) {
   return v.lpNorm<1>();
 }
 
-/// No less than poseDefect(), and no root.
+/// Upper bound of poseDefect(), without a square root.
 double defectAbove(const Isometry3d& X_WB) {
   const auto column = [&](int k) { return X_WB.matrix().col(k).head<3>(); };
   const auto product = [&](int i, int k) { return std::abs(column(i).dot(column(k)) - (i == k ? 1.0 : 0.0)); };
@@ -53,24 +53,26 @@ double defectAbove(const Isometry3d& X_WB) {
 
 }  // namespace
 
-/// A step's motion in doubles.
+/// Motion over a step, in double precision.
 ///
-/// Let θ = |ω|, Δ the displacement of the ball's centre, ∥ and ⊥ along the axis and across. The centre runs on an arc
-/// of radius ρ and angle θ, its chord is |Δ_⊥| = 2 ρ sin(θ/2), and m, the chord's middle, lies ρ cos(θ/2) from the
-/// axis: it moves with Δ_∥ + (θ/2) cot(θ/2) Δ_⊥.
+/// Let θ = |ω| and Δ the displacement of the ball's centre, with parts Δ_∥ along the axis and Δ_⊥ across it.
+/// The centre moves on an arc of radius ρ and angle θ with the chord |Δ_⊥| = 2 ρ sin(θ/2). The chord's middle m
+/// is ρ cos(θ/2) from the axis, so its velocity is Δ_∥ + (θ/2) cot(θ/2) Δ_⊥.
 struct BodyTwists::Twist {
   Vector3d omega = Vector3d::Zero(), velocity = Vector3d::Zero(), point_W = Vector3d::Zero();
   double reach = 0.0;        // as TwistRow::kReach
-  double shift = 0.0;        // the centre is never farther from m than this
-  double turn_noise = 0.0;   // of the poses
-  double shift_noise = 0.0;  // of their coordinates
+  double shift = 0.0;        // bound of the centre's distance from m
+  double turn_noise = 0.0;   // error of the rotation, from the poses
+  double shift_noise = 0.0;  // error of the displacement, from the rounding of coordinates
 
-  /// By series, for θ < 1/8, so sin²θ < 0.0156.
+  /// By series, for θ < 1/8, so that sin²θ < 0.0156.
   ///
-  /// θ / sin θ = asin(s)/s = 1 + s²/6 + 3 s⁴/40 + 5 s⁶/112 + …: what is left out is less than 2e-9 of it.
-  /// (θ/2) cot(θ/2) = 1 − θ²/12 − θ⁴/720 − …: what is left out is less than 4e-7 of Δ_⊥; and θ² Δ_⊥ = −ω × (ω × Δ).
-  /// The arc's middle is ρ (1 − cos(θ/2)) = ½ |Δ_⊥| tan(θ/4) < 0.016 |Δ| from m, and the centre on average no farther
-  /// from the arc's middle than a quarter of its path, which is at most 1.0007 |Δ| long.
+  /// θ / sin θ = asin(s)/s = 1 + s²/6 + 3 s⁴/40 + 5 s⁶/112 + …; the relative error of truncation is below
+  /// 2e-9.
+  ///  (θ/2) cot(θ/2) = 1 − θ²/12 − θ⁴/720 − …; the truncated terms are below 4e-7 of Δ_⊥, and θ²
+  /// Δ_⊥ = −ω × (ω × Δ).
+  ///  The arc's middle is ρ (1 − cos(θ/2)) = ½ |Δ_⊥| tan(θ/4) < 0.016 |Δ| from m, and the centre's mean
+  /// distance from the arc's middle is at most a quarter of its path, which is at most 1.0007 |Δ| long.
   static Twist small(const Vector3d& half_cross, const Vector3d& start, const Vector3d& end, double radius) {
     const double s2 = half_cross.squaredNorm();
     const Vector3d shift = end - start;
@@ -83,7 +85,7 @@ struct BodyTwists::Twist {
     return twist;
   }
 
-  /// By logarithm, about the ball's centre at s = ½. @throws std::exception if a pose is none.
+  /// By logarithm, about the ball's centre at s = ½. @throws std::exception if a pose is not a rigid transform.
   static Twist large(const Isometry3d& X_start, const Isometry3d& X_end, const BoundingBall& ball) {
     const WorldTwist exact = worldTwist(ScrewMotion(X_start, X_end), ball);
     Twist twist;
@@ -185,7 +187,8 @@ void BodyTwists::end(const CycleMotion& motion, const std::vector<char>& is_whol
   chooseOrigin();
 }
 
-/// Near what has most pairs: there coordinates are small, and so is what single precision loses of them.
+/// Places the origin near the body with most pairs: there coordinates are small, and so is their rounding in single
+/// precision.
 void BodyTwists::chooseOrigin() {
   constexpr double kNear = 1.0;  // [m]
   if (paired_.empty() || !bodies_[anchor_].is_known) return;
@@ -195,14 +198,14 @@ void BodyTwists::chooseOrigin() {
   for (Followed& body : bodies_) body.rests = false;
 }
 
-/// Takes a pose. @return whether it can be followed.
+/// Sets the pose of a body. @return whether it can be followed.
 bool BodyTwists::enter(std::size_t b, const Isometry3d& X_WB) {
   Followed& body = bodies_[b];
   constexpr double kDefect = 0.9e-6;  // ScrewMotion takes a little more
   body.X_WB = X_WB;
   body.center_W = X_WB * scene_.bodies[b].ball.center;
   body.defect = defectAbove(X_WB);
-  // None of NaN: the centre is NaN too then. That it is no reflection is seen where the body comes from elsewhere.
+  // False for NaN too, which makes the centre NaN. end() excludes reflections, where a body is not yet followed.
   body.is_known = body.defect < kDefect && X_WB.translation().cwiseAbs().maxCoeff() <= kFarthestPose &&
                   normAbove(body.center_W) < std::numeric_limits<double>::infinity();
   return body.is_known;
@@ -216,7 +219,7 @@ void BodyTwists::rest(std::size_t b) {
   twist.reach = scene_.bodies[b].ball.radius;
   write(b, twist);
   at(TwistRow::kTurnNoise, b) = at(TwistRow::kShiftNoise, b) = 0.0F;
-  body.rests = true;  // farthest, tilt and rounding may be those of a step before: they are no less
+  body.rests = true;  // farthest, tilt and rounding of an earlier step remain, which are not smaller
 }
 
 void BodyTwists::move(std::size_t b, const Isometry3d& X_WB) {
@@ -242,7 +245,7 @@ void BodyTwists::move(std::size_t b, const Isometry3d& X_WB) {
   }
   body.tilt = std::max(body.tilt, body.defect);
   body.rounding = std::max(body.rounding, poseRounding(X_WB));
-  twist.turn_noise = 16.0 * body.tilt;  // a cross product of rotations that are none quite is off by a few of these
+  twist.turn_noise = 16.0 * body.tilt;  // bound for cross products of rotations that are not exactly orthonormal
   twist.shift_noise =
       0x1p-48 * (normAbove(X_start.translation()) + normAbove(X_WB.translation()) + normAbove(ball.center));
   write(b, twist);
@@ -265,7 +268,7 @@ void BodyTwists::write(std::size_t b, const Twist& twist) {
   at(TwistRow::kShiftNoise, b) = up(kNoise * normAbove(twist.velocity) + twist.shift_noise + kLeast);
   at(TwistRow::kFar, b) = up(far);
   at(TwistRow::kFarthest, b) = up(body.farthest);
-  // A half-space's surface strays by its motion error within kHalfSpaceRadius, and in proportion beyond.
+  // The motion error of a half-space holds within kHalfSpaceRadius and grows in proportion to the distance beyond.
   const double stray = is_open_[b] && body.motion_error > 0.0 ? body.motion_error / kHalfSpaceRadius : 0.0;
   at(TwistRow::kTilt, b) = up(body.tilt + stray);
   at(TwistRow::kError, b) = up(body.rounding + body.motion_error);

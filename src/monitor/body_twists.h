@@ -9,35 +9,35 @@
 
 namespace sdf_ccd {
 
-/// What a scan over pairs reads of a body, in single precision, for one step from a recorded time to the next; all NaN
-/// of a body that is not followed. Bounds are rounded up.
+/// Data of a body that a scan over pairs reads, in single precision, for one step between two recorded times. Bounds
+/// are rounded up. All values are NaN for a body that is not followed.
 enum class TwistRow {
-  kOmega,                  ///< rotation, and two rows more [rad], world axes
-  kVelocity = kOmega + 3,  ///< of the reference point, and two rows more [m]
-  kPoint = kVelocity + 3,  ///< the reference point, from origin(), and two rows more [m]
-  kReach = kPoint + 3,     ///< no point of the ball is farther from the reference point, on average over the step [m]
-  kOpen,                   ///< 0; infinite of a body that its ball does not hold
-  kTurnNoise,              ///< what rounding adds to the rotation: times a distance, to a displacement [rad]
-  kShiftNoise,             ///< what it adds to a displacement besides [m]
-  kFar,                    ///< neither the ball nor the body's own origin reaches farther from origin() [m]
-  kFarthest,               ///< the same over the cycle up to now [m]
-  kTilt,                   ///< of the cycle's poses: times a distance, their error
-  kError,                  ///< of its poses and motion besides [m]
+  kOmega,                  ///< rotation vector in world axes, three rows [rad]
+  kVelocity = kOmega + 3,  ///< of the reference point, per step, three rows [m]
+  kPoint = kVelocity + 3,  ///< the reference point relative to origin(), three rows [m]
+  kReach = kPoint + 3,     ///< bound of the mean distance of a point of the ball from the reference point [m]
+  kOpen,                   ///< 0; infinite if the body's ball does not contain it
+  kTurnNoise,              ///< rounding error of the rotation: times a distance, it is one of a displacement [rad]
+  kShiftNoise,             ///< further rounding error of a displacement [m]
+  kFar,                    ///< bound of the distance of the ball and of the body's frame origin from origin() [m]
+  kFarthest,               ///< largest kFar in the cycle up to now [m]
+  kTilt,                   ///< error of the cycle's poses, relative to a distance
+  kError,                  ///< further error of its poses and motion [m]
   kCount
 };
 
-/// Bodies in a row are a multiple of this.
+/// The number of bodies in a row is padded to a multiple of this.
 constexpr std::size_t kTwistLanes = lanes::kFloatWidth;
 
-/// Bodies of one scene that stand in a row in another one too.
+/// Bodies with consecutive indices in two scenes.
 struct BodyRun {
   std::size_t to, from, count;
 };
 
-/// How bodies move, each worked out once a step, for all of its pairs.
+/// The twists of a scene's bodies, computed once per step for all pairs.
 ///
-/// Followed are bodies whose motion goes on where it ended the cycle before; what is bitwise at rest costs a
-/// comparison. Each step is taken as a constant twist, as everywhere, about a reference point m.
+/// A body is followed if its motion starts at the pose at which the last cycle ended. A body at rest (bitwise equal
+/// poses) costs a comparison. Each step is a constant twist in the world, about a reference point m.
 class BodyTwists {
  public:
   explicit BodyTwists(const Scene& scene);
@@ -46,41 +46,41 @@ class BodyTwists {
   /// @param is_whole  per body: whether its poses at all times may be read.
   void begin(const CycleMotion& motion, const std::vector<char>& is_whole);
 
-  /// Works out the step from time k to time k + 1; in turn from k = 1.
+  /// Computes the step from time k to time k + 1; to be called for k = 1, 2, … in this order.
   void step(const CycleMotion& motion, std::size_t k);
 
-  /// Ends the cycle: what was not followed will be in the next one, if its poses are whole and can be.
+  /// Ends the cycle. A body that was not followed will be in the next one, if its poses are whole and can be followed.
   void end(const CycleMotion& motion, const std::vector<char>& is_whole);
 
-  /// Forgets where bodies were.
+  /// Discards the bodies' poses.
   void forget();
 
-  /// Takes over what is known of bodies between two cycles, without allocating.
+  /// Takes over the bodies' data from another scene between two cycles, without allocating.
   void take(const BodyTwists& other, const std::vector<BodyRun>& bodies);
 
-  /// By body, stride() of them.
+  /// One value per body; stride() values.
   const float* row(TwistRow row) const { return rows_.data() + static_cast<std::size_t>(row) * stride_; }
   std::size_t stride() const { return stride_; }
 
-  /// Where a body was at the end of the last cycle, if that was whole; between begin() and end().
+  /// The pose of a body at the end of the last cycle, if that was whole. Valid between begin() and end().
   const Isometry3d& last(const CycleMotion& motion, int body) const;
 
-  /// Bound of what poses and motions add to the error of a pair's distance in this cycle [m]; NaN if one of the bodies
+  /// Upper bound of the error of a pair's distance from poses and motions in this cycle [m]; NaN if one of the bodies
   /// is not followed.
   double poseError(int body_a, int body_b) const;
 
  private:
   struct Followed {
-    Isometry3d X_WB = Isometry3d::Identity();  // at the end of the last step, or cycle
-    Vector3d center_W = Vector3d::Zero();      // of the ball there [m]
-    double defect = 0.0;                       // poseDefect() there
-    double tilt = 0.0, rounding = 0.0;         // the largest of the cycle
-    double farthest = 0.0;                     // of the cycle [m]
+    Isometry3d X_WB = Isometry3d::Identity();  // at the end of the last step
+    Vector3d center_W = Vector3d::Zero();      // centre of the ball at X_WB [m]
+    double defect = 0.0;                       // poseDefect() of X_WB, rounded up
+    double tilt = 0.0, rounding = 0.0;         // largest of the cycle
+    double farthest = 0.0;                     // largest TwistRow::kFar of the cycle [m]
     double motion_error = 0.0;                 // [m]
-    bool is_known = false;                     // X_WB is a pose that can be followed
+    bool is_known = false;                     // X_WB can be followed
     bool began = false;                        // it was followed at the cycle's start
     bool is_followed = false;
-    bool rests = false;  // its rows say so, and hold as long as it does
+    bool rests = false;  // its rows are those of a body at rest, and stay valid while it rests
   };
   struct Twist;
 
@@ -100,8 +100,8 @@ class BodyTwists {
   std::vector<float> rows_;
   std::vector<Followed> bodies_;
   std::vector<std::size_t> paired_;     // bodies with pairs that can be checked
-  std::vector<char> is_open_;           // per body: its ball does not hold it
-  std::size_t anchor_ = 0;              // the one with most pairs
+  std::vector<char> is_open_;           // per body: its ball does not contain it
+  std::size_t anchor_ = 0;              // the body with most pairs
   Vector3d origin_ = Vector3d::Zero();  // [m]
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How far building all bodies has come, by what each is expected to take.
+/// Progress of building all bodies, by their expected times.
 class Pace {
  public:
   Pace(const SceneDescription& description, const SceneCost* expected) {
@@ -36,15 +36,15 @@ class Pace {
     }
   }
 
-  /// When this share of a body's fields is done.
+  /// Progress when this share of a body's fields is done.
   double done(std::size_t body, double share) const { return (before_[body] + share * fields_[body]) / all_; }
 
  private:
-  std::vector<double> fields_, before_;  ///< per body [s]
+  std::vector<double> fields_, before_;  ///< per body: expected time for its fields, and for the bodies before it [s]
   double all_ = 0.0;
 };
 
-/// Of bodies that are in a pair with another one that has them.
+/// Makes triangles of the bodies that are in a pair with another one that can have them.
 void makeTriangles(const SceneDescription& description, const std::vector<PlannedPair>& pairs, MeshPool& pool,
                    std::vector<Body>& bodies) {
   const auto possible = [&](int i) { return bodies[i].failure.empty() && whyNoShell(description.bodies[i]).empty(); };

@@ -11,9 +11,9 @@ namespace {
 
 using namespace lanes;
 
-constexpr float kNoPair = 1e30F;  // a budget that is never used up
+constexpr float kNoPair = 1e30F;  // a budget that is never used up, for lanes without a pair
 constexpr float kUp = 1.0F + 0x1p-20F;
-constexpr float kUnit = 0x1p-23F;  // twice the relative rounding
+constexpr float kUnit = 0x1p-23F;  // twice the relative rounding error
 
 struct Vector {
   Floats x, y, z;
@@ -30,7 +30,7 @@ struct Vector {
   }
 };
 
-/// One body's rows, in all lanes, or those of bodies in a row.
+/// The rows of one body, broadcast to all lanes, or of consecutive bodies.
 struct Rows {
   const float* base;
   std::size_t stride;
@@ -51,18 +51,19 @@ SDF_CCD_INLINE Vector vectorOf(const Get& get, TwistRow row) {
   return {get(row, 0), get(row, 1), get(row, 2)};
 }
 
-/// So far no point of one body moves against the other in a step (RelativeMotionBounds::travel, about the reference
-/// points, of the ball that gives less).
+/// Upper bound of the displacement of one body's points relative to the other in a step (RelativeMotionBounds::travel,
+/// about the reference points). Takes the smaller value of the two bodies' balls.
 ///
-/// With twists about the points a and b, d = a − b and w = v_A − v_B, body A moves at a with w − ω_B × d against B, and
-/// body B at b with −(w − ω_A × d) against A; elsewhere that differs by the difference of rotations times the distance
-/// from there, whose average over the step is kReach at most.
+/// With twists about the points a and b, d = a − b and w = v_A − v_B, body A moves at a with w − ω_B × d
+/// relative to B, and body B moves at b with −(w − ω_A × d) relative to A. At other points the velocity differs
+/// by the difference of rotations times the distance from there, whose average over the step is at most kReach.
 ///
-/// Rounding, with u = 2^-24, V = |v_A| + |v_B|, Ω = |ω_A| + |ω_B|, C = |a| + |b| ≥ |d|: the inputs are off by u each,
-/// so d by 2 u C, w by 2 u V and the difference of rotations by 2 u Ω. A cross product adds 6 u Ω |d| of its own, so w
-/// − ω × d is off by (3 V + 10.1 Ω C) u. A norm adds 3 u of itself, reach and rotation's difference 6 u Ω reach, and
-/// the sum and the smaller of both 2 u of V + Ω (C + reach). In all less than 7 u V + 15 u Ω (C + reach), where C +
-/// reach is at most the sum of both kFar. kTurnNoise and kShiftNoise hold 32 u each.
+/// Rounding, with u = 2^-24, V = |v_A| + |v_B|, Ω = |ω_A| + |ω_B|, C = |a| + |b| ≥ |d|: the inputs have errors of
+/// u each, so d has 2 u C, w has 2 u V and the difference of rotations 2 u Ω. A cross product adds 6 u Ω |d|, so the
+/// error of w − ω × d is (3 V + 10.1 Ω C) u. A norm adds 3 u of itself, the product of reach and rotation
+/// difference 6 u Ω reach, and the sum and the smaller of both 2 u of V + Ω (C + reach). The total is less than 7 u V
+/// + 15 u Ω (C + reach), where C + reach is at most the sum of both kFar. kTurnNoise and kShiftNoise contain 32 u
+/// each.
 template <class A, class B>
 SDF_CCD_INLINE Floats travelOf(const A& a, const B& b) {
   const Vector turn_a = vectorOf(a, TwistRow::kOmega), turn_b = vectorOf(b, TwistRow::kOmega);
@@ -73,11 +74,11 @@ SDF_CCD_INLINE Floats travelOf(const A& a, const B& b) {
   const Floats by_b = (w - turn_a.cross(d)).norm() + turn * b(TwistRow::kReach) + b(TwistRow::kOpen);
   const Floats noise = (a(TwistRow::kTurnNoise) + b(TwistRow::kTurnNoise)) * (a(TwistRow::kFar) + b(TwistRow::kFar)) +
                        (a(TwistRow::kShiftNoise) + b(TwistRow::kShiftNoise));
-  // The last factor also holds what a contact's time may be off by, 1e-9 of the path.
+  // The last factor also covers the error of a contact's time, 1e-9 of the path.
   return (smaller(by_a, by_b) + noise) * kUp;
 }
 
-/// What poses and motions add to the error of the distance.
+/// Error of the distance from poses and motions.
 template <class A, class B>
 SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
   const Floats far = a(TwistRow::kFarthest) + b(TwistRow::kFarthest);
@@ -86,11 +87,11 @@ SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
 
 using Ints = decltype(Floats{} < Floats{});
 
-/// Arrays that a scan goes through, by block.
+/// Arrays of a scan, in the order of the blocks.
 struct ScanArrays {
   const float* rows;
   std::size_t stride;
-  const std::int32_t* blocks;  // two numbers each
+  const std::int32_t* blocks;  // two numbers each: Block::body_a, Block::first_b
   std::size_t count;
   float* budget;
   float* spent;
@@ -108,7 +109,8 @@ void addTravel(const ScanArrays& s) {
   }
 }
 
-/// Leaves in `slack` what is left, in `budget` what holds. @return the largest error, and its slot.
+/// Sets `slack` to what remains after the error, and `budget` for the pairs that are not due. @return the largest error
+/// and its slot.
 SDF_CCD_LANES
 QuietPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
   Floats best = Floats{} - 1.0F;
@@ -122,10 +124,11 @@ QuietPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_block
     const Floats budget = load(s.budget + at);
     Floats travel = travelOf(a, b);
     if (add_spent) travel = (travel + load(s.spent + at)) * kUp;
-    // Each of the two subtractions is off by half of kUnit of the budget at most; nothing is, where nothing moves.
+    // Each of the two subtractions has an error of at most half of kUnit times the budget; there is none without
+    // motion.
     const Floats left = (budget - travel) - (travel > zero ? budget * kUnit : zero);
     const Floats error = poseErrorOf(a, b);
-    const Ints is_quiet = left > error;  // not of NaN
+    const Ints is_quiet = left > error;  // false for NaN
     store(is_quiet ? left : budget, s.budget + at);
     store(left - error, s.slack + at);
     const Floats bound = is_quiet ? load(s.error + at) + error : zero - 1.0F;
@@ -156,7 +159,7 @@ float roundedDown(double x) {
 
 ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(pairs.size(), 0.0) {
   constexpr auto kLanes = static_cast<int>(kTwistLanes);
-  std::map<std::pair<int, int>, std::size_t> known;  // block of a body and the first of those in a row
+  std::map<std::pair<int, int>, std::size_t> known;  // block by body and first body in a row
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int a = pairs[i].body_a, b = pairs[i].body_b, first_b = b / kLanes * kLanes;
     const auto [block, is_new] = known.emplace(std::pair(a, first_b), blocks_.size());
@@ -183,7 +186,7 @@ void ClearanceTable::setMargin(int pair, double margin, double error) {
 }
 
 void ClearanceTable::set(int pair, double clearance) {
-  constexpr double kFar = 1e6;  // [m]: beyond it is due again sooner than it had to
+  constexpr double kFar = 1e6;  // [m]: farther pairs are tested earlier than necessary
   budget_[slot(pair)] = roundedDown(std::min(clearance - margin(pair), kFar));
 }
 

@@ -10,14 +10,14 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kJoin = 1e-9;  // of the span: times that differ by rounding are the same
+constexpr double kJoin = 1e-9;  // relative to the span: times closer than this differ by rounding
 
-// What is held at a time: some megabytes. More of them cost no less each.
-constexpr std::size_t kBlockHits = 1 << 17;  // that a block of chords may have, unless one chord alone has more
-constexpr std::size_t kSomeHits = 1 << 14;   // that are integrated together
-constexpr std::size_t kManyFound = 1 << 15;  // beyond twice what is left after putting together
+// Limits of what is held at a time: some megabytes. Larger blocks cost as much per hit.
+constexpr std::size_t kBlockHits = 1 << 17;  // per block of chords, unless a single chord has more
+constexpr std::size_t kSomeHits = 1 << 14;   // integrated together
+constexpr std::size_t kManyFound = 1 << 15;  // added to twice the number left after joining
 
-constexpr std::size_t kWalks = 64;  // of hits that may pass through a mesh, per part
+constexpr std::size_t kWalks = 64;  // per part: hits tested for passing through a mesh
 
 }  // namespace
 
@@ -70,7 +70,7 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
       asked = first;
       return block;
     };
-    // What bears a force depends on whether the surfaces cross at any time.
+    // Which points bear force depends on whether the surfaces cross at any time.
     for (std::size_t first = 0; part.field.openings() && !crosses_ && first < chords; first += size) {
       ask(first);
       crosses_ = passesThrough(part.field, role, path, first, std::max<std::size_t>(1, kWalks / blocks));
@@ -103,8 +103,8 @@ const ChordPath& ContactCollector::blockOf(const ChordPath& path, std::size_t fi
   return block_;
 }
 
-/// Whether a hit of the block that begins at a chord passes through the mesh; of many, some are looked at, as contacts
-/// have many points.
+/// Whether a hit of the block that begins at chord `first` passes through the mesh. At most about `most` hits are
+/// tested, because contacts have many points.
 bool ContactCollector::passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path,
                                      std::size_t first, std::size_t most) const {
   const std::size_t stride = query_.hits.size() / most + 1;
@@ -116,12 +116,12 @@ bool ContactCollector::passesThrough(const DistanceField& field, const PairRole&
   return false;
 }
 
-/// Whether depths must be proved, each hit's: else those are asked about that are listed in the end.
+/// Whether each hit's depth must be proved; otherwise only the errors of the listed points are computed, at the end.
 bool ContactCollector::needsErrors(const DistanceField& field) const {
   return !crosses_ || field.openings();
 }
 
-/// Takes over what integrate() has found of the hits.
+/// Adds the hits that integrate() has processed.
 void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
   const bool certain = !input.field.openings() && !is_doubtful_;
   for (std::size_t h = 0; h < hits_.size(); ++h) {
@@ -140,16 +140,16 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
                 needsErrors(input.field) ? nullptr : &input.field,
                 depth.p_F};
     found.contact.p_W = depth.p_C + p_WC_;
-    // Out of the field's body: that is B if the shell is A's.
+    // Outward from the field's body, which is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
-    // Before it is joined with what the same point does in other parts, whose depths may be none.
+    // Before it is joined with the same point's hits in other parts, whose depths may not be certain.
     if (certain && needsErrors(input.field)) certain_depth_ = std::max(certain_depth_, depth.least);
     found_.push_back(found);
   }
   joinWhereMany();
 }
 
-/// As integrateContact() over all hits; of a field with openings only over those that may bear a force.
+/// integrateContact() over all hits; in a field with openings only over those that may bear force.
 void ContactCollector::integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse) {
   const bool open = input.field.openings() != nullptr;
   integrateContact(input, hits_, options, {with_impulse && !open, needsErrors(input.field)}, impulse_);
@@ -158,7 +158,7 @@ void ContactCollector::integrate(const ContactInput& input, const ContactOptions
   for (std::size_t h = 0; h < hits_.size(); ++h) {
     const bool bears = bearsForce(input, h);
     if (bears) bearing_hits_.push_back(hits_[h]);
-    // A depth to a cap, or of a place that may have come in by one, may be none.
+    // A depth to a cap, or of a point that may have entered through an opening, may be none at all.
     if (!bears) impulse_.depths[h].error = std::max(impulse_.depths[h].error, impulse_.depths[h].depth);
   }
   if (!with_impulse) return;
@@ -166,7 +166,7 @@ void ContactCollector::integrate(const ContactInput& input, const ContactOptions
   impulse_.on_shell_body = bearing_impulse_.on_shell_body;
 }
 
-/// Whether the depth is surely to the mesh, and that of a contact: the surfaces cross, or it may be that they touch.
+/// Whether the depth is certainly to the mesh and of a contact: the surfaces cross, or the point may just touch.
 bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) const {
   const HitDepth& depth = impulse_.depths[hit];
   if (depth.siblings) return false;
@@ -178,12 +178,12 @@ bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) co
   return !input.field.openings()->isWithin(p_F, depth.depth + depth.error);
 }
 
-/// Times that differ by less are the same [s].
+/// Times that differ by less count as the same [s].
 double ContactCollector::tolerance() const {
   return kJoin * duration();
 }
 
-/// As finish() does, before there is too much. A point's next chord goes on where the last one ended, so few are left.
+/// Joins as finish() does, but before there is too much. Consecutive chords of a point join, so few remain.
 void ContactCollector::joinWhereMany() {
   if (found_.size() > most_found_) {
     join();
@@ -195,7 +195,7 @@ void ContactCollector::joinWhereMany() {
   }
 }
 
-/// Makes one contact of what chords and parts have cut of one point's stay inside.
+/// Joins the hits of one point that meet, over chords and parts, to one contact.
 void ContactCollector::join() {
   if (found_.empty()) return;
   CancelTicks<1024> cancel;

@@ -7,34 +7,35 @@
 
 namespace sdf_ccd {
 
-/// Collects the contacts of a pair over both roles and all parts: intervals, points, impulse.
+/// Collects the contacts of a pair over all roles and parts: intervals, points, impulse.
 ///
-/// Chords are taken in blocks, and what they find is put together as it comes, so that memory is as that of the points
-/// of one shell, however many chords they are inside on.
+/// Chords are processed in blocks and their results are joined at once, so that the memory is that of one shell's
+/// points, however many chords the points are inside on.
 ///
-/// Works in frame C: the world's axes about body A's origin at the span's end. Far from the world's origin, moments
-/// about that would lose what the lever about the bodies still has.
+/// Works in frame C: world axes at body A's origin at the span's end. Moments about a far world origin would lose the
+/// precision that moments about the body keep.
 class ContactCollector {
  public:
   using Siblings = std::vector<std::vector<SiblingField>>;  // per part of a body
 
-  /// @param pair     whose bodies and span of the motion it is about; its error is known.
-  /// @param crosses  whether it is known that the surfaces cross.
+  /// @param pair     gives the bodies, the span of the motion, and the error.
+  /// @param crosses  whether the surfaces are known to cross.
   void begin(const CycleMotion& motion, const PairResult& pair, bool crosses);
 
-  /// Adds the contacts of one role; its path must be cut.
+  /// Adds the contacts of one role; PairRole::cut() must have been called.
   /// @param shell_is_a  the shell's body is the pair's body A.
-  /// @param weight      ½ where the other role sees the same contact too (design §3.7).
+  /// @param weight      of the role's impulse; ½ if the other role sees the same contact too (design §3.7).
   void add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings, const ContactOptions& options,
            bool with_impulse);
 
-  /// Whether it is known, from begin() or since, that the bodies' surfaces cross.
+  /// Whether the surfaces are known to cross, from begin() or add().
   bool crosses() const { return crosses_; }
 
-  /// So deep is some point surely in a field without openings, but for the path's error [m]; 0 if none is.
+  /// Largest depth of a point that is certain in fields without openings, up to the path's error [m]; 0 if there is
+  /// none.
   double certainDepth() const { return certain_depth_; }
 
-  /// Writes intervals, deepest point, points and wrenches.
+  /// Writes intervals, deepest point, points and wrenches to the result.
   void finish(const CycleRequest& request, PairResult& result);
 
  private:
@@ -42,8 +43,8 @@ class ContactCollector {
     int role;
     int point;
     ContactPoint contact;
-    const DistanceField* field;  // that is still to be asked for the depth's error; null if it is known
-    Vector3d p_F;                // where
+    const DistanceField* field;  // to be queried for the depth's error later; null if the error is known
+    Vector3d p_F;                // position in that field
   };
 
   void setFieldPoses(const PairRole& role);
@@ -67,17 +68,17 @@ class ContactCollector {
   Wrench impulse_on_a_C_;
   Intervals intervals_;
   std::vector<Found> found_;
-  std::vector<Isometry3d> X_CF_;  // per end of a chord, of the field's body
-  std::vector<Isometry3d> X_CG_;  // the same of a part and a block
+  std::vector<Isometry3d> X_CF_;  // per chord end: pose of the field's body
+  std::vector<Isometry3d> X_CG_;  // the same for a part, in one block
   ChordPath block_;
   ShellQueryResult query_;
-  std::vector<ShellHit> listed_;                     // of a block
-  std::vector<ShellHit> hits_;                       // some of them
-  std::size_t most_found_ = 0, most_intervals_ = 0;  // before they are put together
+  std::vector<ShellHit> listed_;                     // hits of a block
+  std::vector<ShellHit> hits_;                       // the hits that are integrated together
+  std::size_t most_found_ = 0, most_intervals_ = 0;  // sizes at which the results are joined
   ContactImpulse impulse_;
   bool crosses_ = false;
   double path_error_ = 0.0;   // [m]
-  bool is_doubtful_ = false;  // what is inside the role's field's body
+  bool is_doubtful_ = false;  // the inside of the role's field body is doubtful
   double certain_depth_ = 0.0;
   std::vector<ShellHit> bearing_hits_;
   ContactImpulse bearing_impulse_;

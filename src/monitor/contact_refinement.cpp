@@ -6,7 +6,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kMostPieces = 20000;  // some tens of milliseconds
+constexpr int kMostPieces = 20000;  // takes some tens of milliseconds
 
 bool canBeMeasured(const Body& body) {
   return body.triangles && !body.triangles->solids.empty();
@@ -20,19 +20,19 @@ std::vector<SolidPart> partsOf(const Body& body) {
   return parts;
 }
 
-/// No point of one body goes farther against the other from one time to a later one [m].
+/// Upper bound of the relative displacement of the bodies' points between two times [m].
 double travelBetween(const RelativeMotion& motion, double from, double to) {
   double travel = 0.0;
   for (std::size_t step = 0; step < motion.steps(); ++step) {
     const TwoBodyMotion along = motion.motion(step);
     const double share = (std::min(to, along.t_end) - std::max(from, along.t_start)) / (along.t_end - along.t_start);
-    // A step's bound is for all of it; no part of it is twice as fast (see relativeMotionBounds()).
+    // A step's bound is for the whole step, and no part of it is more than twice as fast (see relativeMotionBounds()).
     if (share > 0.0) travel += std::min(1.0, 2.0 * share) * motion.bounds(step).travel;
   }
   return travel;
 }
 
-/// The times of an interval that holds the time; of none of them that time alone, which is one then.
+/// Sets the point's interval to the one that contains its time; adds an interval of zero length if none does.
 void setTimes(std::vector<Interval>& intervals, ContactPoint& point) {
   for (const Interval& interval : intervals) {
     if (point.time < interval.enter || point.time > interval.exit) continue;
@@ -71,7 +71,7 @@ void ContactRefinement::run(const SweptBodies& bodies, SurfacePair& surfaces, do
   findDeepest(bodies, motion_error + surfaces.deviation(), memory, result);
 }
 
-/// Contact begins where the surfaces first touch, if no body is inside the other then.
+/// Contact begins where the surfaces first touch, unless a body is inside the other then.
 void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfaces, PairResult& result) const {
   const RelativeMotion& motion = surfaces.motion();
   std::vector<Interval>& intervals = result.intervals;
@@ -86,13 +86,14 @@ void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfa
     result.deepest.time = std::max(result.deepest.time, intervals.front().enter);
   }
   if (!(touch.exit < intervals.front().enter)) return;
-  // What the shells see goes on from there, if the bodies can come no farther apart meanwhile than the shells see.
+  // The contact continues until the first interval of the shells, if the bodies cannot separate meanwhile by more than
+  // the error of the shells.
   const bool goes_on = travelBetween(motion, touch.exit, intervals.front().enter) <= result.contact_error.total();
   intervals.insert(intervals.begin(), {touch.exit, goes_on ? intervals.front().enter : touch.exit});
   mergeIntervals(intervals, 0.0);
 }
 
-/// @param error  of places, but for what the search leaves [m].
+/// @param error  of positions, without that of the search [m].
 void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const {
   DeepestSearch& search = memory.search;
   search.restart(resolution_);
@@ -115,7 +116,7 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
     const Isometry3d X_WF = motion.X_WF.pose(found.s);
     point.time = found.s == 1.0 ? motion.t_end : motion.t_start + found.s * (motion.t_end - motion.t_start);
     point.p_W = X_WF * found.p_F;
-    // Out of the solid: from A to B if that is A's.
+    // Outward from the solid: this is from A to B if the solid is A.
     point.normal_W = (direction->f == result.body_a ? 1.0 : -1.0) * (X_WF.linear() * found.out_F);
   }
   point.depth = search.deepest().depth;

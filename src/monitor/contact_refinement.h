@@ -8,32 +8,32 @@
 
 namespace sdf_ccd {
 
-/// Measures a contact of two bodies on their triangles: what fields and shells found is the place to begin with.
+/// Measures a contact on the triangles of both bodies, starting from what fields and shells found.
 class ContactRefinement {
  public:
-  /// What it needs while it runs.
+  /// Scratch memory of run().
   struct Memory {
     DeepestSearch search;
     std::array<std::vector<RelativeMotionBounds>, 2> bounds;  // per direction
     SeparationMemory separation;
   };
 
-  /// Whether a pair that hasTriangles() has what depths are measured on.
+  /// Whether both bodies of a pair that hasTriangles() have the solids in which depths are measured.
   static bool isPossible(const Scene& scene, const PlannedPair& pair);
 
-  /// Of a pair for which it isPossible().
+  /// The pair must satisfy isPossible().
   ContactRefinement(const Scene& scene, const PlannedPair& pair, double resolution);
 
-  /// Writes the deepest point and the first touch, and CONTACT where a depth proves it.
-  /// @param surfaces      have taken the motion.
-  /// @param motion_error  the bodies are no farther than this from where the motion has them, both together [m].
+  /// Sets the deepest point and the first touch, and the verdict CONTACT if a depth proves it.
+  /// @param surfaces      must have the motion.
+  /// @param motion_error  upper bound of the error of the bodies' relative position [m].
   void run(const SweptBodies& bodies, SurfacePair& surfaces, double motion_error, Memory& memory,
            PairResult& result) const;
 
  private:
-  /// One body's surface in the other body.
+  /// The surface of body p, which penetrates the solid of body f.
   struct Direction {
-    int f, p;  // the solid's body, the surface's
+    int f, p;
     EnteringSurface surface;
     std::vector<SolidPart> solid;
   };

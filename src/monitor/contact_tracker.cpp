@@ -25,14 +25,14 @@ bool proves(const PairResult& pair, const ContactPoint& point, const Interval& i
   return isWithin(point, interval) && pair.contact_error.provesContact(point.depth, point.depth_error);
 }
 
-/// Whether some point that the result lists proves that the pair touches within the interval.
+/// Whether a listed point proves that the pair touches within the interval.
 bool isProved(const PairResult& pair, const Interval& interval) {
   return proves(pair, pair.deepest, interval) ||
          std::any_of(pair.points.begin(), pair.points.end(),
                      [&](const ContactPoint& point) { return proves(pair, point, interval); });
 }
 
-/// The deepest point that the result lists within the interval; null if it lists none.
+/// The deepest listed point within the interval; null if none is listed.
 const ContactPoint* deepestWithin(const PairResult& pair, const Interval& interval) {
   if (isWithin(pair.deepest, interval)) return &pair.deepest;
   const auto found = std::find_if(pair.points.begin(), pair.points.end(),
@@ -40,7 +40,7 @@ const ContactPoint* deepestWithin(const PairResult& pair, const Interval& interv
   return found == pair.points.end() ? nullptr : &*found;
 }
 
-/// Mean force while the pair touched: results hold the mean over the span [N].
+/// Mean force while the pair touched [N]; results hold the mean over the whole span.
 double forceWhileTouching(const ObservedCycle& cycle, const PairResult& pair) {
   double touching = 0.0;
   for (const Interval& interval : pair.intervals) touching += interval.exit - interval.enter;
@@ -48,8 +48,8 @@ double forceWhileTouching(const ObservedCycle& cycle, const PairResult& pair) {
   return touching > 0.0 ? pair.on_a_W.force.norm() * length / touching : 0.0;
 }
 
-/// What follows the first character is the name: of a body, or of the map that it is a tile of. A body may be called as
-/// the map is.
+/// Identity of a body, or of the map that it is a tile of: the name after a letter that tells the two apart, because a
+/// body and a map may share a name.
 std::string keyOf(const Body& body) {
   return body.map.empty() ? "b" + body.name : "m" + body.map;
 }
@@ -92,7 +92,7 @@ ContactTracker::Change ContactTracker::prepare(const Scene& next) const {
   change.groups = groupsOf(next);
   change.groups_now = findPairs(groups_.keys, change.groups.keys);
   change.last.assign(change.groups.keys.size(), -1);
-  // At most one contact of each, and those that end with the pairs until now.
+  // At most one contact per group, and those that end with the present groups.
   change.listed.reserve(change.groups.keys.size() + 2 * groups_.keys.size());
   return change;
 }
@@ -116,7 +116,7 @@ void ContactTracker::adopt(Change& change) {
       change.last[static_cast<std::size_t>(contact.group)] = static_cast<int>(i);
       continue;
     }
-    // The pair is not checked any more.
+    // The next world does not have the pair.
     if (contact.is_open) {
       close(contact, true);
       list(static_cast<int>(i));
@@ -155,7 +155,7 @@ void ContactTracker::lose() {
   for (const int slot : listed_) {
     if (contacts_[slot].is_open) close(contacts_[slot], true);
   }
-  // Nothing that comes joins them.
+  // Later contacts do not join these.
   std::fill(last_.begin(), last_.end(), -1);
   for (const int slot : listed_) {
     contacts_[slot].group = -1;
@@ -205,7 +205,7 @@ void ContactTracker::takeStay(const ObservedCycle& cycle, const Stay& stay) {
   contact.contact_error = std::max(contact.contact_error, pair.contact_error.total());
   contact.seen_at_samples |= holdsSample(interval, cycle.samples);
   contact.max_force = std::max(contact.max_force, forceWhileTouching(cycle, pair));
-  // Where no point proves it, as where surfaces are known to cross, it may be any of the intervals.
+  // If no interval has a proving point, as when surfaces are known to cross, each may be the contact.
   const auto isProvedWithin = [&](const Interval& other) { return isProved(pair, other); };
   const bool is_contact =
       pair.verdict == Verdict::kContact &&
@@ -223,11 +223,11 @@ void ContactTracker::takeStay(const ObservedCycle& cycle, const Stay& stay) {
   contact.deepest.depth_error = std::max(contact.deepest.depth_error, slot.reach - contact.deepest.depth);
 }
 
-/// Where one of its pairs is not known and none is seen to touch, it is lost.
+/// Ends the contact as lost if a pair of its group is not checked and none was seen to touch in this cycle.
 void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
   const auto group = static_cast<std::size_t>(slot.group);
   bool is_delayed = false;
-  Time until = Time::max();  // all of them are checked
+  Time until = Time::max();  // time up to which all pairs of the group are checked
   for (int i = groups_.begin[group]; i < groups_.begin[group + 1]; ++i) {
     const PairResult& pair = cycle.result.pairs[groups_.pairs[i]];
     if (pair.span.empty()) {
@@ -241,7 +241,7 @@ void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
   if (!is_delayed && slot.said.end + kJoin < until) close(slot, false);
 }
 
-/// The contact that a stay belongs to: the pair's last one, or a new one.
+/// The contact of an interval: the group's last one if they meet, otherwise a new one.
 ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Time end) {
   if (last_[group] >= 0) {
     Slot& last = contacts_[last_[group]];

@@ -10,29 +10,29 @@
 
 namespace sdf_ccd {
 
-/// What one pair did without a break, over however many cycles. Times are since the clock's epoch. Of tiles of a map
+/// One contact of a pair of bodies, over however many cycles. Times are since the clock's epoch. For tiles of a map
 /// that changes (see VoxelMap) the other body is the map.
 struct TrackedContact {
   using Time = std::chrono::nanoseconds;
 
-  std::uint64_t id = 0;  ///< from 1, in the order in which contacts begin; never used again
+  std::uint64_t id = 0;  ///< from 1, in the order in which contacts begin; never reused
   std::string body_a, body_b;
-  bool begins = false;                    ///< in the last cycle
-  bool ends = false;                      ///< the same; both if it lasted for a part of it
-  bool is_lost = false;                   ///< it ends as nothing is known of the pair any more: it may go on
-  Verdict verdict = Verdict::kUncertain;  ///< kContact if the pair's was, in a cycle, for this
-  Time begin{0};                          ///< from when on it was seen
-  Time end{0};                            ///< up to when, until now
-  ContactPoint deepest;                   ///< of all cycles; its times count from `deepest_origin`
+  bool begins = false;   ///< it began in the last cycle
+  bool ends = false;     ///< it ended in the last cycle; both if it lasted for a part of the cycle
+  bool is_lost = false;  ///< it ended because the pair's state became unknown: the bodies may still touch
+  Verdict verdict = Verdict::kUncertain;  ///< kContact if the pair was in CONTACT during it, in any cycle
+  Time begin{0};                          ///< first time at which it was seen
+  Time end{0};                            ///< last time at which it was seen, up to now
+  ContactPoint deepest;                   ///< of all cycles; its times are relative to `deepest_origin`
   Time deepest_origin{0};
-  double error_bound = 0.0;    ///< of the verdict, largest of its cycles [m]
-  double contact_error = 0.0;  ///< of times and depths, largest of its cycles [m]
-  double max_force = 0.0;      ///< largest of its cycles' mean forces while it touched [N]; 0 if wrenches are not known
-  std::uint32_t cycles = 0;    ///< in which it was seen
-  bool seen_at_samples = false;  ///< by a check at the recorded poses alone
+  double error_bound = 0.0;      ///< of the verdict, largest of its cycles [m]
+  double contact_error = 0.0;    ///< of times and depths, largest of its cycles [m]
+  double max_force = 0.0;        ///< largest mean force of a cycle while it touched [N]; 0 if wrenches are not known
+  std::uint32_t cycles = 0;      ///< number of cycles in which it was seen
+  bool seen_at_samples = false;  ///< a check of the recorded poses alone would have seen it
 };
 
-/// A cycle, as contacts are followed through it.
+/// A cycle through which contacts are tracked.
 struct ObservedCycle {
   const CycleResult& result;
   const CycleMotion& motion;
@@ -40,66 +40,66 @@ struct ObservedCycle {
   std::chrono::nanoseconds origin;     ///< t₀
 };
 
-/// Whether an interval holds one of the samples.
+/// Whether the interval contains one of the samples.
 bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 
-/// Contacts over time: makes one of what cycles cut, with an id that stays as long as the contact does.
+/// Tracks contacts over time: joins what cycles have cut, under an id that stays as long as the contact does.
 ///
-/// A contact is a stay of a pair's distance at or below zero. It goes on as long as breaks are no longer than kJoin
-/// (shorter ones are of rounding, or of a field's cells), whatever the cycles' ends; also over cycles that are delayed,
-/// and if the world changes, as pairs are known by their bodies' names. It ends when the pair was checked for
-/// longer than that and not seen to touch. If the pair is not checked over some time, or not any more, it ends as lost.
+/// A contact lasts while the pair's distance is at or below zero. It continues across breaks up to kJoin (rounding and
+/// field cells cause shorter ones) and across the ends of cycles, also across delayed cycles and changes of the world,
+/// because pairs are identified by their bodies' names. It ends when the pair has been checked for longer than kJoin
+/// without touching. If the pair is not checked for some time, or no longer, it ends as lost.
 ///
-/// A body and all tiles of a map are one pair here: what slides from one tile over another, and what touches a tile
-/// that is made anew, is one contact. It goes on as long as one of them is touched.
+/// A body and all tiles of a map count as one pair: sliding from one tile to another, or touching a tile that is
+/// replaced, is one contact. It continues as long as one of the tiles is touched.
 ///
-/// Where a cycle checks earlier times again, as transforms came late, what it finds there joins the pair's last contact
-/// if it meets it, even if that had ended. What was said before is not taken back.
+/// If a cycle checks earlier times again, because transforms came late, a contact found there joins the pair's last one
+/// if the two meet, even if that had ended. Earlier messages are not corrected.
 ///
-/// A cycle costs what touches: of a cycle that is CLEAR only contacts that were there are looked at. Nothing is
-/// allocated unless a pair touches for the first time, or more do at a time than ever before.
+/// The cost of a cycle grows with its contacts: in a CLEAR cycle only existing contacts are visited. Memory is
+/// allocated only if a pair touches for the first time, or more pairs touch at a time than ever before.
 class ContactTracker {
  public:
   static constexpr std::chrono::nanoseconds kJoin{1000000};
 
   explicit ContactTracker(const Scene& scene) { adopt(scene); }
 
-  /// Pairs that are one here.
+  /// Groups of pairs that are tracked as one.
   struct Groups {
-    std::vector<std::pair<std::string, std::string>> keys;  ///< per group: what tells its bodies, or map, from others
-    std::vector<int> of_pair;                                ///< per pair of the scene
-    std::vector<int> begin;                                  ///< per group, and one more: in `pairs`
-    std::vector<int> pairs;                                  ///< of one group after the other
+    std::vector<std::pair<std::string, std::string>> keys;  ///< per group: keys of its bodies, or body and map
+    std::vector<int> of_pair;                               ///< per pair of the scene
+    std::vector<int> begin;                                 ///< per group, plus one: first index in `pairs`
+    std::vector<int> pairs;                                 ///< group by group
   };
 
-  /// What another world needs, to be made beside running cycles.
+  /// What the tracker needs for another world; prepared while cycles run.
   struct Change {
     Groups groups;
     std::vector<int> last, listed;
-    std::vector<int> groups_now;  ///< per group until now; -1 if the next world does not hold it
+    std::vector<int> groups_now;  ///< per present group: its index in the next world; -1 if it has none
   };
   Change prepare(const Scene& next) const;
 
-  /// Takes another world over between two cycles. Contacts of pairs that it holds too go on; others end as lost, and
-  /// are listed with the next cycle. Costs what touches; frees and allocates nothing.
-  /// @param change  that prepare() made since the last call; afterwards what was before.
+  /// Switches to another world between two cycles. Contacts of pairs that it has too continue; others end as lost, and
+  /// are listed with the next cycle. The cost grows with the contacts; nothing is freed or allocated.
+  /// @param change  from prepare(), called since the last adopt(); receives the data of the previous world.
   void adopt(Change& change);
   void adopt(const Scene& scene);
 
-  /// Takes the next cycle of the adopted scene, all contacts computed (CycleRequest::contacts).
+  /// Processes the next cycle of the adopted scene; all contacts must be computed (CycleRequest::contacts).
   void update(const ObservedCycle& cycle);
 
-  /// No cycle has come since: nothing begins or ends.
+  /// To be called if no cycle has come since: clears the begin and end flags of the last one.
   void settle();
 
-  /// Nothing goes on from here, as when time jumps back: all contacts end as lost.
+  /// Ends all contacts as lost, as when time jumps back.
   void lose();
 
-  /// All that were there in the last cycle, those included that ended in it. Holds until the next call.
+  /// The contacts of the last cycle, including those that ended in it. Valid until the next call.
   std::size_t size() const { return listed_.size(); }
   const TrackedContact& operator[](std::size_t i) const { return contacts_[static_cast<std::size_t>(listed_[i])].said; }
 
-  /// How many go on.
+  /// Number of contacts that have not ended.
   std::size_t open() const { return open_; }
 
  private:
@@ -107,16 +107,16 @@ class ContactTracker {
 
   struct Slot {
     TrackedContact said;
-    int group = -1;        // of pairs; −1: free
-    bool is_open = false;  // it goes on
+    int group = -1;        // group of pairs; −1: free
+    bool is_open = false;  // it has not ended
     bool is_listed = false;
     bool is_unsaid = false;  // it ended with its world, and no cycle has come since
     bool has_deepest = false;
-    double reach = 0.0;       // where refined: no place gets deeper [m]
-    std::uint64_t cycle = 0;  // in which it was seen last
+    double reach = 0.0;       // where refined: upper bound of the depth [m]
+    std::uint64_t cycle = 0;  // last cycle in which it was seen
   };
 
-  struct Stay {  // of a pair in a cycle
+  struct Stay {  // one interval of a pair in a cycle
     int group;
     double enter;  // [s]
     int pair, interval;

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kAtEnd = 1e-9;  // of a piece: so near its end an interval goes on in the next one
+constexpr double kAtEnd = 1e-9;  // relative to a piece: an interval this close to its end continues in the next piece
 
 ContactPoint later(ContactPoint point, double start) {
   point.enter += start;
@@ -17,7 +17,7 @@ ContactPoint later(ContactPoint point, double start) {
   return point;
 }
 
-/// The same about an origin that lies elsewhere. @param shift  from the new one to the old one.
+/// The wrench about another origin. @param shift  from the new origin to the old one.
 Wrench shifted(Wrench wrench, const Vector3d& shift) {
   wrench.torque += shift.cross(wrench.force);
   return wrench;
@@ -89,7 +89,7 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   pair.on_b_W += length * piece.on_b_W;
 }
 
-/// What is not CLEAR may touch from the piece's start on, if nothing else is known of it.
+/// A piece that is not CLEAR and has no first touch may touch from its start on.
 void ResultJoiner::addFirstTouch(double start, const PairResult& piece, PairResult& pair, Known& known) {
   const std::optional<Interval>& touch = piece.first_touch;
   if (!known.apart_until && piece.verdict != Verdict::kClear) known.apart_until = start + (touch ? touch->enter : 0.0);
@@ -97,7 +97,7 @@ void ResultJoiner::addFirstTouch(double start, const PairResult& piece, PairResu
   if (touch && !is_known) pair.first_touch = Interval{known.apart_until.value_or(start), start + touch->exit};
 }
 
-/// From the body's origin at the piece's end to that at its start.
+/// From the body's origin at the end of this piece to that at its start.
 Vector3d ResultJoiner::shift(int body, const CycleMotion& motion) const {
   const std::vector<Isometry3d>& poses = motion.X_WB[body];
   if (poses.empty()) return Vector3d::Zero();

@@ -7,31 +7,30 @@
 
 namespace sdf_ccd {
 
-/// Puts together what a monitor found on one piece of a motion after the other, so that long motions need not be held,
-/// nor checked, as a whole.
+/// Joins the results of consecutive pieces of a motion, so that a long motion need not be held or checked as a whole.
 ///
-/// Of each pair it keeps the worst verdict, the largest error bound, all intervals (those that go on over the end of a
-/// piece as one), the deepest contact, the deepest of the points, and the wrench as an average over the whole.
+/// Of each pair it keeps the worst verdict, the largest error bound, all intervals (merged where one continues across
+/// the end of a piece), the deepest contact, the deepest of the points, and the wrench averaged over the whole motion.
 class ResultJoiner {
  public:
-  /// @param max_points  listed per pair.
+  /// @param max_points  upper bound of the contact points listed per pair.
   explicit ResultJoiner(int max_points) : max_points_(max_points) {}
 
-  /// @param motion  the piece, which begins where the last one ended; all pairs were checked over all of it.
+  /// @param motion  the piece; it begins where the last one ended, and every pair was checked over all of it.
   void add(const CycleMotion& motion, const CycleResult& result);
 
-  /// Of the whole: its pairs' spans are {0, 1}, the first and the last time of motion(). Complete once at least one
-  /// piece was added.
+  /// Result of the whole motion: the pairs' spans are {0, 1}, the first and last time of motion(). Valid once a piece
+  /// was added.
   CycleResult result() const;
 
-  /// The whole, by its two ends.
+  /// The whole motion, as its first and last poses.
   const CycleMotion& motion() const { return ends_; }
 
  private:
-  /// Of a pair, over all pieces.
+  /// State of a pair over all pieces.
   struct Known {
-    std::optional<double> apart_until;  // start of the first piece that is not CLEAR, or when bodies first touch in it
-    double reach = 0.0;                 // no place gets deeper, where refined [m]
+    std::optional<double> apart_until;  // start of the first piece that is not CLEAR, or the first touch in it
+    double reach = 0.0;                 // upper bound of the depth, where refined [m]
   };
 
   void addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair, Known& known) const;
@@ -39,7 +38,7 @@ class ResultJoiner {
   Vector3d shift(int body, const CycleMotion& motion) const;
 
   int max_points_;
-  CycleResult joined_;  // wrenches are impulses, times from the whole's start
+  CycleResult joined_;  // wrenches hold impulses; times are from the start of the motion
   std::vector<Known> known_;
   CycleMotion ends_;
 };

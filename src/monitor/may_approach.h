@@ -5,8 +5,8 @@
 
 namespace sdf_ccd {
 
-/// False only if the true distance of every shell point exceeds `distance` [m] along the whole path. Asks the field's
-/// lower bounds only, so it holds at any distance, also beyond the band in which isosurfaces can be found.
+/// False only if every shell point's true distance exceeds `distance` [m] along the whole path. Uses only the field's
+/// lower bounds, so it holds for any distance, also beyond the band in which isosurfaces can be found.
 inline bool mayApproach(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
                         const ChordPath& path, double distance) {
   struct Walk {

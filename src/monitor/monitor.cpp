@@ -38,7 +38,7 @@ std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
   return siblings;
 }
 
-/// As after a test that finds nothing, but without one. @param clearance  that the pair has at least [m].
+/// Sets the result of a pair that is clear without a test. @param clearance  lower bound of its distance [m].
 void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
   clear(result);
   result.verdict = Verdict::kClear;
@@ -49,8 +49,8 @@ void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
 
 }  // namespace
 
-/// Taken for some pairs and given back, so there are as many as threads check pairs at a time; the last one given back
-/// is taken first.
+/// Scratch memory, taken for a few pairs and given back, so that there is one per thread that checks pairs at the same
+/// time. The last one given back is taken first.
 struct MonitorMemory {
   std::unique_ptr<PairMemory> take() {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -95,12 +95,12 @@ struct Monitor::Impl {
   MotionShape shape;
   CycleResult result;
   std::vector<int> last_due;                // pairs
-  std::vector<DuePair> in_line;             // due ones, those that have waited longest first
-  std::vector<std::uint32_t> waited;        // per pair: cycles in which it was postponed, up to now
+  std::vector<DuePair> in_line;             // due pairs, those that have waited longest first
+  std::vector<std::uint32_t> waited;        // per pair: number of consecutive cycles in which it was postponed
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
-  bool are_of_cycle = false;  // what results say of pairs that are not due is of the last cycle, and of no later one
-  std::atomic<std::size_t> last_waypoint{0};  // that all results' spans end at; 0 if they differ
+  bool are_of_cycle = false;  // results of pairs that are not due hold the clearance and error of the last cycle
+  std::atomic<std::size_t> last_waypoint{0};  // last index of all results' spans; 0 if they differ
 };
 
 Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
@@ -131,7 +131,7 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
   }
 }
 
-/// A monitor of the next scene, and what it takes over of the one before.
+/// The monitor of the next scene, and what it takes over from the present one.
 struct MonitorChange::Impl {
   std::unique_ptr<Monitor::Impl> monitor;
   std::shared_ptr<const Scene> before;
@@ -185,7 +185,7 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
   return impl_->result;
 }
 
-/// Results of pairs that are not due have their spans from the cycle before, if these are the same.
+/// Results of pairs that are not due keep their spans if these are the same as in the last cycle.
 void Monitor::Impl::takeSpans(const CycleMotion& motion) {
   const WaypointSpan whole{0, motion.times.size() - 1};
   const bool all_whole = schedule->isAllWhole();
@@ -194,8 +194,8 @@ void Monitor::Impl::takeSpans(const CycleMotion& motion) {
   last_waypoint = all_whole ? whole.last : 0;
 }
 
-/// Pairs that were due in the cycle before and are not in this one, and all that are not due if that is asked for, or
-/// was in the cycle before and is no longer.
+/// Sets the results of pairs that were due in the last cycle and are not in this one. Sets those of all pairs that are
+/// not due if the request wants them, or if the last one did.
 void Monitor::Impl::takeSkipped(const CycleRequest& request) {
   ++cycle;
   for (const DuePair& due : schedule->due()) due_in_cycle[static_cast<std::size_t>(due.pair)] = cycle;
@@ -215,7 +215,7 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
   }
 }
 
-/// Of a pair that is not due.
+/// For a pair that is not due.
 ErrorBound Monitor::Impl::errorOf(int pair) const {
   ErrorBound error = checkers[static_cast<std::size_t>(pair)].bound();
   error.chord += schedule->motionError(pair);
@@ -242,17 +242,17 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
     for (std::size_t k = first; k < last; ++k) check(due[k], motion, request, *taken);
     memory->giveBack(std::move(taken));
   };
-  // A few that were clear the last time take less than to hand them to other threads.
+  // A few pairs that were clear the last time take less time than handing them to other threads.
   constexpr std::size_t kFew = 8;
   const auto near = std::count_if(due.begin(), due.end(), [&](const DuePair& next) {
     return result.pairs[static_cast<std::size_t>(next.pair)].verdict >= Verdict::kUncertain;
   });
   if (due.size() == 1 || (due.size() <= kFew && near <= 1)) return checkRange(0, due.size());
-  // A pair has its own state, so its result is the same whichever thread it meets.
+  // Each pair has its own state, so its result does not depend on the thread.
   parallelRanges(std::size_t{0}, due.size(), checkRange);
 }
 
-/// One after the other, by as many threads as there are, so that at any time the most urgent ones are done.
+/// All threads take pairs from one queue, so that the most urgent pairs are done first.
 void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
   in_line = schedule->due();
   const auto waitedFor = [&](const DuePair& due) { return waited[static_cast<std::size_t>(due.pair)]; };
@@ -311,7 +311,7 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
       MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, *monitor.scene}, {}});
   change->kept.bodies = change->difference.bodyRuns();
   const std::vector<int>& pairs_now = change->difference.pairsNow();
-  // Those that stay and are not tested in the next cycle are clear; all others are set by their tests.
+  // Common pairs that are not tested in the next cycle are clear; all others are set by their tests.
   const std::size_t last = impl_->last_waypoint;
   monitor.last_waypoint = last;
   for (PairResult& result : monitor.result.pairs)
@@ -331,7 +331,7 @@ void Monitor::adopt(MonitorChange& change) {
   if (made.before != impl_->scene) throw std::logic_error("monitor: a scene prepared of another one");
   Impl& next = *made.monitor;
   next.schedule->take(*impl_->schedule, made.kept);
-  // What a pair that is not due knows beside its clearance only makes its next test quicker.
+  // For pairs that are not due, the checker's other data would only make the next test faster.
   for (const int pair : impl_->last_due) {
     const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];
     if (now < 0) continue;
@@ -347,7 +347,7 @@ void Monitor::adopt(MonitorChange& change) {
     next.last_due.push_back(now);
   }
   impl_.swap(made.monitor);
-  made.before.reset();  // it is not prepared for again
+  made.before.reset();  // prevents a second adopt()
 }
 
 void Monitor::reset() {

@@ -8,7 +8,7 @@ namespace sdf_ccd {
 NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) {
   NearestBody nearest;
   nearest.distance = std::numeric_limits<double>::infinity();
-  double low = nearest.distance;  // no body is nearer
+  double low = nearest.distance;  // lower bound of all distances
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     if (!scene.bodies[b].failure.empty()) continue;
     const Matrix3d& R_WB = X_WB[b].linear();
@@ -23,7 +23,7 @@ NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB,
     }
   }
   if (nearest.body < 0) return {};
-  // Another one whose own error is larger may be nearer in truth.
+  // Another body with a larger error may in truth be nearer.
   nearest.error = std::max(nearest.error, nearest.distance - low);
   return nearest;
 }

@@ -14,8 +14,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kNamed = 3;    // bodies
-constexpr double kRounding = 1.001;  // of a share that is just reached
+constexpr std::size_t kNamed = 3;    // at most so many bodies are named
+constexpr double kRounding = 1.001;  // factor on a share, so that one that is exactly met is not listed
 
 std::string millimetres(double metres) {
   return fmt::format("{:.2f}", 1e3 * metres);
@@ -31,13 +31,13 @@ double ownGap(const Body& body) {
   return body.shell->size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
 }
 
-/// A body and a source of error, and what to say of them.
+/// A body, a source of error, and the text about them.
 struct Reason {
   std::pair<std::string, std::string> key;
   std::string text;
 };
 
-/// Why the points of a pair leave a gap of more than their share.
+/// Why the gap between the points of a pair exceeds its share.
 Reason gapReason(const Scene& scene, const PlannedPair& pair, double gap, double share) {
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
   const std::string much = " of " + millimetres(gap) + " mm between points";
@@ -50,7 +50,7 @@ Reason gapReason(const Scene& scene, const PlannedPair& pair, double gap, double
   return {{name, "gap"}, name + " is only a field, so gaps" + much + " of faces count" + not_share};
 }
 
-/// The reasons why a pair's bound is more than asked for.
+/// Why a pair's bound exceeds the required one.
 std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const ErrorBudget& budget) {
   const ErrorBound bound = pairBound(scene, pair);
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];

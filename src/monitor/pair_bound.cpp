@@ -32,7 +32,7 @@ ErrorBound pairBound(const Scene& scene, const PlannedPair& pair) {
   ErrorBound bound;
   if (a_to_b) bound.field = fieldError(b);
   if (b_to_a) bound.field = std::max(bound.field, fieldError(a));
-  // What a field says of witnesses is off by its error too.
+  // The field's error applies to witness points too.
   if (pair.a_witnesses_b_field) bound.field = std::max(bound.field, fieldError(b));
   if (pair.b_witnesses_a_field) bound.field = std::max(bound.field, fieldError(a));
   if (a_to_b && b_to_a) {

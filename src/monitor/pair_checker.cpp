@@ -11,16 +11,16 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kRootTolerance = 1e-9;  // of the path, as segmentIntervals() guarantees
+constexpr double kRootTolerance = 1e-9;  // relative to the path; guaranteed by segmentIntervals()
 
 void setNotChecked(const std::string& reason, PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason = reason;
 }
 
-/// What a role's impulse counts for, beside the others of the pair (design §3.7): the same, but for shells whose points
-/// are more than twice as far apart as the finest. A wrench errs by how few points touch, so these count as many as
-/// stand for an area.
+/// Relative weight of a role's impulse among the roles of its pair (design §3.7): equal, except for shells whose
+/// spacing is more than twice the finest. The error of a wrench comes from how few points touch, so such points count
+/// by their number per area.
 double forceWeight(const PairRole& role, double finest) {
   constexpr double kAlike = 2.0;
   if (!role.bearsForce()) return 0.0;
@@ -72,7 +72,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
   bound_ = pairBound(scene, pair);
 }
 
-/// Else the result says why not.
+/// If false, the result holds the reason.
 bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bodies, PairResult& result) {
   const auto because = [&](const std::string& reason) {
     setNotChecked(reason, result);
@@ -130,9 +130,9 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   outside_ = false;
 }
 
-/// How far the bodies' balls stay apart all over the span, at least [m]; below zero how far they overlap at most. Along
-/// a constant twist a ball's centre has the same speed all the time, so it is no farther than half its way from where
-/// it is halfway.
+/// Lower bound of the distance of the bodies' balls over the whole span [m]; if negative, its amount bounds their
+/// overlap. With a constant twist the speed of a ball's centre is constant, so the centre is always within half of its
+/// path from its position at half time.
 double PairChecker::ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = span.first; k < span.last; ++k) {
@@ -170,7 +170,7 @@ void PairChecker::take(const PairChecker& other) {
   if (surfaces_) surfaces_->take(*other.surfaces_);
 }
 
-/// Takes the motion, and what it may have used up of the clearance.
+/// Sets the motion, and subtracts from the clearance what it may have used up.
 void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span) {
   if (surfaces_) {
     surfaces_->setMotion(bodies, span, memory_->bounds);
@@ -186,7 +186,7 @@ void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span)
   X_FP_last_ = motion.end();
 }
 
-/// The same for the roles.
+/// Sets the motion of the roles.
 void PairChecker::setRoles(const SweptBodies& bodies, const WaypointSpan& span) {
   travel_ = std::numeric_limits<double>::infinity();
   double pose_error = 0.0;
@@ -199,7 +199,7 @@ void PairChecker::setRoles(const SweptBodies& bodies, const WaypointSpan& span) 
   motion_error_ = pose_error;
 }
 
-/// What the motion is said to be off by, for both bodies together [m].
+/// The motion error given with the motion, for both bodies together [m].
 double PairChecker::givenError(const CycleMotion& motion) const {
   if (motion.motion_error.empty()) return 0.0;
   const double error_a = motion.motion_error[pair_.body_a], error_b = motion.motion_error[pair_.body_b];
@@ -209,7 +209,7 @@ double PairChecker::givenError(const CycleMotion& motion) const {
   return role.fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
 }
 
-/// @param bound  but for the motion's. @throws std::runtime_error if it is not finite.
+/// @param bound  without the motion's error. @throws std::runtime_error if the sum is not finite.
 void PairChecker::setError(const ErrorBound& bound, double root, PairResult& result) const {
   result.error = bound;
   result.error.chord = motion_error_;
@@ -253,7 +253,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     if (!crossing) doubt(result);
     return setSurfaceError(by_surfaces.is_near, surface_error, result);
   }
-  // Both shells' points know the distance of the surfaces to the gap; each alone to its covering radius.
+  // With both shells the surfaces' distance is known up to the gap; with one, up to its covering radius.
   double clearance = std::numeric_limits<double>::infinity();
   for (const PairRole& role : roles_) clearance = std::min(clearance, role.pointClearanceAtEnd(0.5 * near));
   setClear(clearance - bound_.gap, result);
@@ -262,7 +262,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   setSurfaceError(false, surface_error, result);
 }
 
-/// Fields do not know what is inside a body where that is doubtful.
+/// Sets UNCERTAIN if the verdict rests on fields of a body whose inside is doubtful.
 void PairChecker::doubt(PairResult& result) {
   if (result.verdict == Verdict::kNotChecked || isCertain(result)) return;
   result.verdict = Verdict::kUncertain;
@@ -270,14 +270,14 @@ void PairChecker::doubt(PairResult& result) {
   forgetClearance();
 }
 
-/// Whether a verdict by fields stands, for all that is doubtful about the bodies.
+/// Whether a verdict from fields holds although the outside or inside of a body may be doubtful.
 bool PairChecker::isCertain(const PairResult& result) const {
   const bool is_clear = result.verdict == Verdict::kClear;
   if (surfaces_) return !(is_clear ? surfaces_->isOutsideDoubtful() : surfaces_->isInsideDoubtful());
-  if (!is_clear) return true;  // of contacts fields say themselves what is certain
+  if (!is_clear) return true;  // fields report by themselves what is certain of a contact
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const Body& other = scene_.bodies[body == pair_.body_a ? pair_.body_b : pair_.body_a];
-    const bool is_bounded = other.shell->size() > 0 || other.witnesses->size() > 0;  // half-spaces lie in no body
+    const bool is_bounded = other.shell->size() > 0 || other.witnesses->size() > 0;  // half-spaces lie inside no body
     if (!scene_.bodies[body].doubtful || !is_bounded) continue;
     const auto role =
         std::find_if(roles_.begin(), roles_.end(), [&](const PairRole& role) { return role.fieldBody() == body; });
@@ -286,14 +286,14 @@ bool PairChecker::isCertain(const PairResult& result) const {
   return true;
 }
 
-/// @param clearance  lower bound of the distance at the span's end, of bodies at the given poses [m].
+/// @param clearance  lower bound of the distance at the span's end, for the bodies at the given poses [m].
 void PairChecker::setClear(double clearance, PairResult& result) {
   clearance_ = clearance;
   result.verdict = Verdict::kClear;
   result.clearance = clearance - motion_error_;
 }
 
-/// A contact of which no more is known than that surfaces cross there.
+/// Sets a contact of which only a crossing of the surfaces is known.
 void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) {
   forgetClearance();
   result.verdict = Verdict::kContact;
@@ -301,13 +301,13 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
   result.deepest = crossing;
 }
 
-/// The verdict's error where both bodies are triangles: of these and of the motion, also where fields decided. For they
-/// call a pair CLEAR if no point of a shell, whose surface is no farther than the gap from its points, comes nearer by
-/// the field than field + gap + chord + root: then the surfaces stay apart though all of these are as wrong as they may
-/// be. They call it CONTACT if a point is deeper, by what the field surely knows there, than chord + root. None of the
-/// errors that were taken off is left; only the motion's, which no check removes, and what the triangles that stand for
-/// a curved surface deviate by. What is UNCERTAIN is so to the triangles' resolution if they found the surfaces near,
-/// else to what the fields know.
+/// The verdict's error if both bodies have triangles: that of the triangles and of the motion, also if fields decided.
+/// For fields call a pair CLEAR only if no point of a shell, whose surface is within the gap of its points, comes
+/// closer in the field than field + gap + chord + root: the surfaces then stay apart even if all of these errors reach
+/// their bounds. They call it CONTACT if a point is certainly deeper in the field than chord + root. So these errors
+/// are already accounted for. What remains is the motion's error, which no check removes, and the deviation of the
+/// triangles that stand for a curved surface. An UNCERTAIN pair is so up to the triangles' resolution if these found
+/// the surfaces near, otherwise up to the errors of the fields.
 /// @param error  of the triangles and the motion.
 void PairChecker::setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const {
   if (!surfaces_ || (result.verdict == Verdict::kUncertain && !is_near)) return;
@@ -315,7 +315,7 @@ void PairChecker::setSurfaceError(bool is_near, const ErrorBound& error, PairRes
   if (result.verdict == Verdict::kUncertain) result.error.gap += 2.0 * surfaces_->resolution();
 }
 
-/// Whether the triangles show that the bodies stay apart. @param answer  gets what they say otherwise.
+/// Whether the triangles prove that the bodies stay apart. @param answer  set if not.
 bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& result) {
   const RelativeMotion& motion = surfaces_->motion();
   double clearance = surfaces_->ballClearance(motion.end());
@@ -332,7 +332,7 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
   return true;
 }
 
-/// Whether one role's ball alone shows that the bodies stay apart.
+/// Whether the ball of one role's shell alone proves that the bodies stay apart.
 bool PairChecker::clearFromAfar(double margin, PairResult& result) {
   for (const PairRole& role : roles_) {
     const RelativeMotion& motion = role.motion();
@@ -350,7 +350,7 @@ void PairChecker::cutRoles(PairResult& result) {
   }
 }
 
-/// Where the bodies' surfaces cross at one of the recorded times, the last first.
+/// A crossing of the bodies' surfaces at one of up to 8 recorded times, searched backwards from the last.
 std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const {
   const bool b_has_fields = !scene_.bodies[pair_.body_b].parts.empty();
   const int a = b_has_fields ? pair_.body_a : pair_.body_b, b = b_has_fields ? pair_.body_b : pair_.body_a;
@@ -370,7 +370,7 @@ std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& moti
   return std::nullopt;
 }
 
-/// @param known  where the surfaces are known to cross.
+/// @param known  a known crossing of the surfaces, if any.
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request,
                                const std::optional<ContactPoint>& known, PairResult& result) {
   const std::optional<ContactPoint> crossing = known   ? known
@@ -388,10 +388,11 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
                   request.wrenches && role.bearsForce());
   }
   collector.finish(request, result);
-  // Of a crossing between the points fields know nothing: so it is no deeper than what they may miss.
+  // A crossing between shell points is not seen by fields, so it is no deeper than their error bound.
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;
   if (crossing && result.intervals.empty()) return setCrossing(*crossing, result);
-  // Whatever lies between the points, and wherever in the band: one of the surface is deeper than the motion is off by.
+  // CONTACT is certain, whatever the gap between points and the field's error are: a point of the surface is deeper
+  // than the motion's error.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;
   result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;
 }

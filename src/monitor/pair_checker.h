@@ -12,61 +12,62 @@
 
 namespace sdf_ccd {
 
-/// What checking a pair needs meanwhile. It is used again for the next one, so that a cycle like the last allocates
-/// nothing, and memory does not grow with the number of pairs.
+/// Scratch memory for checking a pair. It is reused for the next pair, so that a cycle like the last one allocates
+/// nothing and the memory does not grow with the number of pairs.
 struct PairMemory {
   std::array<RoleMemory, 4> roles;
   ContactCollector collector;
-  std::vector<RelativeMotionBounds> bounds;  ///< of the surfaces' motion
+  std::vector<RelativeMotionBounds> bounds;  ///< of the motion of SurfacePair
   SeparationMemory separation;
   ContactRefinement::Memory refinement;
 };
 
-/// As new, but with its memory and its span.
+/// Resets the result, but keeps its span and its allocated memory.
 void clear(PairResult& result);
 
-/// Checks one pair, cycle after cycle, and knows between them how far apart it was.
+/// Checks one pair, cycle after cycle, and stores a bound of its distance in between.
 class PairChecker {
  public:
   PairChecker(const Scene& scene, const PlannedPair& pair, const std::vector<ContactCollector::Siblings>& siblings,
               const MonitorOptions& options);
 
-  /// Checks the pair over `result.span`, and keeps what it knows if that is empty. Never throws for a motion that
-  /// cannot be followed: the pair is NOT_CHECKED then.
-  /// @param bodies  have taken the motion.
-  /// @param memory  this call's alone.
+  /// Checks the pair over `result.span`; if that is empty, what is stored stays. Does not throw if a body's poses
+  /// cannot be followed: the pair is then NOT_CHECKED.
+  /// @param bodies  must have the motion.
+  /// @param memory  used by this call alone.
   void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
            PairResult& result);
 
-  /// Leaves the pair untested, over a span that is not empty: it is UNCERTAIN, or CLEAR if the bodies' balls do not meet.
-  /// @param clearance  lower bound of the distance of the bodies all over the span, below zero how far they may overlap
-  /// at most [m]; −∞ if nothing is known.
-  /// @param memory  this call's alone.
+  /// Leaves the pair untested, over a span that is not empty: UNCERTAIN, or CLEAR if the bodies' balls stay apart.
+  /// @param clearance  lower bound of the bodies' distance over the whole span [m]; if negative, its amount bounds
+  /// their overlap; −∞ if nothing is known.
+  /// @param memory  used by this call alone.
   void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
                 PairResult& result);
 
-  /// Forgets how far apart the bodies were, and all else of earlier cycles.
+  /// Discards the clearance and all other data of earlier cycles.
   void forget() {
     forgetClearance();
     if (surfaces_) surfaces_->forget();
   }
 
-  /// What is known since the last cycle, where others kept it.
-  /// @param clearance  lower bound of the distance [m], of bodies at these poses.
+  /// Sets the clearance at the end of the last cycle, if the caller has kept it.
+  /// @param clearance  lower bound of the distance [m] of the bodies at these poses.
   void remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB);
 
-  /// Takes over what another checker knows of the same pair, in a scene that has its bodies too.
+  /// Takes over the stored data of another checker of the same pair, in a scene that has the same bodies.
   void take(const PairChecker& other);
 
-  /// Whether the pair is known to be clear, and by how much at the last run's end [m].
+  /// Whether the pair is known to be clear; clearance() then bounds its distance at the last run's end from below [m].
   bool isKnown() const { return clearance_ != kUnknown; }
   double clearance() const { return clearance_; }
 
-  /// Error of its verdicts where it is clear, but for the motion's.
+  /// Error bound of the pair's verdict while it is clear, without the motion's error.
   ErrorBound bound() const { return surfaces_ ? ErrorBound{0.0, 0.0, 0.0, surfaces_->deviation()} : bound_; }
 
-  /// Farther than this, but for the motion's error, a test could not find anything: what it finds is off by field and
-  /// chord error at most [m]. What triangles are off by, their clearance has lost already.
+  /// Distance beyond which a test cannot find anything, without the motion's error [m]: what it finds has at most the
+  /// field and chord errors. For triangles it is zero, because their deviation has already been subtracted from their
+  /// clearance.
   double margin() const { return surfaces_ ? 0.0 : bound_.total() + bound_.field + 2.0 * options_.chords.tolerance; }
 
  private:
@@ -101,17 +102,17 @@ class PairChecker {
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
   std::vector<PairRole> roles_;                  // one to four
-  bool balls_hold_;                              // the bodies' balls hold all of them
-  bool open_;                                    // a place inside some field may be none inside its body
-  std::optional<SurfacePair> surfaces_;          // if both bodies are all triangles
-  std::optional<ContactRefinement> refinement_;  // if depths can be measured on these
-  bool outside_ = false;                         // neither had a part wholly inside the other at the last cycle's end
-  ErrorBound bound_;                             // of field and gap
-  double clearance_ = kUnknown;                  // lower bound of the surfaces' distance at the last cycle's end [m]
-  Isometry3d X_FP_last_;  // of the surfaces or the first role, at the last cycle's end; valid if the clearance is known
-  double travel_ = 0.0;   // no point of either body goes farther against the other in this cycle [m]
-  double motion_error_ = 0.0;     // of the modelled motion, and of computing with its poses [m]
-  PairMemory* memory_ = nullptr;  // during a check
+  bool balls_hold_;                              // the bodies' balls contain all of them
+  bool open_;                                    // a point inside some field may be outside its body
+  std::optional<SurfacePair> surfaces_;          // if both bodies have triangles
+  std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles
+  bool outside_ = false;         // neither body had a component wholly inside the other at the last cycle's end
+  ErrorBound bound_;             // of field and gap
+  double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
+  Isometry3d X_FP_last_;  // of surfaces_ or the first role, at the last cycle's end; valid if the clearance is known
+  double travel_ = 0.0;   // upper bound of the relative displacement of the bodies' points in this cycle [m]
+  double motion_error_ = 0.0;     // of the given motion, and of computing with its poses [m]
+  PairMemory* memory_ = nullptr;  // during a call
 };
 
 }  // namespace sdf_ccd

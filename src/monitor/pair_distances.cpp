@@ -14,10 +14,11 @@
 namespace sdf_ccd {
 namespace {
 
-/// What the distance of triangles may be off by, over the size of the bodies: see surfaceDistance().
+/// Bound of the rounding error of a distance between triangles, relative to the size of the bodies: see
+/// surfaceDistance().
 constexpr double kTriangleError = 1e-7;
 
-constexpr double kSameTime = 1e-8;  // that stamps are rounded to, some times [s]
+constexpr double kSameTime = 1e-8;  // some times the rounding of time stamps [s]
 
 bool isOneHalfSpace(const Body& body) {
   if (body.parts.size() != 1) return false;
@@ -25,13 +26,13 @@ bool isOneHalfSpace(const Body& body) {
   return primitive && isHalfSpace(*primitive);
 }
 
-/// Whether the bodies touch at the end of the span, as far as the cycle tells.
+/// Whether the result has the bodies touching at the end of the span.
 bool touchesAtEnd(const PairResult& pair, double end) {
   constexpr double kJoin = std::chrono::duration<double>(ContactTracker::kJoin).count();
   return pair.verdict == Verdict::kContact && !pair.intervals.empty() && pair.intervals.back().exit + kJoin >= end;
 }
 
-/// How far points of the ball at most get against the direction n of F, from one pose to the next.
+/// Upper bound of the displacement of the ball's points along −n, from one pose to the next; n in F.
 double closingAlong(const Vector3d& n_F, const Isometry3d& X_from, const Isometry3d& X_to, const BoundingBall& ball) {
   const double middle = -n_F.dot(X_to * ball.center - X_from * ball.center);
   return middle + ball.radius * ((X_to.linear() - X_from.linear()).transpose() * n_F).norm();
@@ -80,7 +81,7 @@ const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion
     const PairResult& pair = result.pairs[i];
     Pair& known = pairs_[i];
     if (pair.span.empty()) {
-      if (known.is_near) known.last.time -= later;  // told from this cycle's start on
+      if (known.is_near) known.last.time -= later;  // times count from this cycle's start
       has_unknown_ |= !known.is_near && known.known_within < range;
     } else if (pair.verdict == Verdict::kNotChecked) {
       known.is_near = known.is_known = false;
@@ -94,7 +95,7 @@ const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion
   return near_;
 }
 
-/// Whether the pair surely is farther apart than the range: by what is known of it, without looking.
+/// Whether the pair is certainly farther apart than the range, from stored bounds alone.
 bool PairDistances::isFar(std::size_t i, const PairResult& result, const Isometry3d& X_FP, double range) {
   if (result.verdict == Verdict::kClear && result.clearance > range) return true;
   const Pair& pair = pairs_[i];
@@ -118,7 +119,8 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
   const bool touches = touchesAtEnd(result, found.time);
   const bool is_exact = scene_->bodies[result.body_a].triangles && scene_->bodies[result.body_b].triangles;
   const bool is_within = (is_exact || !touches) && findNearest(i, X_WA, X_WB, range, found);
-  // What touched may be gone a little later; of triangles it is known. Farther than that they are of a body inside.
+  // Bodies that touched may have separated before the end of the span; triangles tell that exactly. They can have moved
+  // `gone` apart at most: a larger distance of the surfaces means that one body is inside the other.
   const double gone =
       touches ? result.contact_error.total() + travelSince(result.intervals.back().exit, motion, result) : 0.0;
   if (touches && !(is_within && found.distance > 0.0 && found.distance - found.error <= gone)) {
@@ -129,7 +131,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
     found.normal_W = result.deepest.normal_W;
     pair.is_known = false;
   } else {
-    pair.is_known = ballHolds(scene_->bodies[result.body_b]);  // what is known of it is told of from here on
+    pair.is_known = ballHolds(scene_->bodies[result.body_b]);  // stored for isFar(), which moves body B's ball
     pair.at_least = is_within ? found.distance - found.error : range;
     pair.X_FP = X_AB;
     if (!is_within) return;
@@ -150,7 +152,8 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
   const PlannedPair& pair = scene_->pairs[i];
   const Body &a = scene_->bodies[pair.body_a], &b = scene_->bodies[pair.body_b];
   if (a.triangles && b.triangles) return nearestOfSurfaces(i, X_WA, X_WB, range, found);
-  // Of a body without a shell, points of its components tell little: where only these are, the other one's shell is.
+  // A body without a shell has only one point per component, which gives no useful distance: the other body has a
+  // shell.
   bool is_within = false;
   found.distance = std::numeric_limits<double>::infinity();
   if (a.shell->size() > 0 && !b.parts.empty())
@@ -179,7 +182,7 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   return true;
 }
 
-/// Takes the nearest point of the shell, if it is nearer than what was found before.
+/// Updates `found` with the nearest point of the shell, if it is nearer.
 bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF,
                                    const Isometry3d& X_WP, double range, PairDistance& found) {
   const Body &p = scene_->bodies[shell_body], &f = scene_->bodies[field_body];
@@ -213,7 +216,7 @@ bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is
   return is_within;
 }
 
-/// Where a ball does not hold its body, as that of a half-space, the other body moves against it.
+/// Motion over the last step. P is the body whose ball contains it: the ball of a half-space does not.
 PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const {
   const bool f_is_a = ballHolds(scene_->bodies[body_b]);
   const auto &X_WF = motion.X_WB[f_is_a ? body_a : body_b], &X_WP = motion.X_WB[f_is_a ? body_b : body_a];
@@ -221,7 +224,7 @@ PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t
           scene_->bodies[f_is_a ? body_b : body_a].ball};
 }
 
-/// How far the bodies at most get apart from a time on until the end of the span [m].
+/// Upper bound of how far the bodies separate between a time and the end of the span [m].
 double PairDistances::travelSince(double time, const CycleMotion& motion, const PairResult& result) const {
   double travel = 0.0;
   for (std::size_t last = result.span.last; last > result.span.first && motion.times[last] > time; --last) {
@@ -245,8 +248,8 @@ void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& spa
 
   const auto [f_is_a, X_then, X_now, ball] = stepOf(motion, span.last, found.body_a, found.body_b);
   found.any.closing = maxDisplacement(X_then, X_now, ball) / over;
-  // Poses between two recorded ones are interpolated, so that is a mean over all of the time between these: of each
-  // body over its own, and if these are not the step itself, their errors add up.
+  // Poses between recorded ones are interpolated, so the mean speed is one over the whole time between recorded poses:
+  // for each body over its own interval. If that is not this step, the errors of both bodies add up.
   found.any.over = over;
   if (record.gaps) {
     const double a = (*record.gaps)[found.body_a], b = (*record.gaps)[found.body_b];

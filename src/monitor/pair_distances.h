@@ -9,73 +9,73 @@
 
 namespace sdf_ccd {
 
-/// How wide a gap between two bodies is, and how fast it closes: two ways to look at a pair.
+/// Width of the gap between two bodies and the speed at which it closes, as measured in one of two ways.
 struct ClosingGap {
-  double width = 0.0;  ///< lower bound of the bodies' distance [m]
+  double width = 0.0;  ///< lower bound of the distance of the bodies [m]
   double closing =
-      0.0;            ///< upper bound of the mean speed at which that becomes less over `over` [m/s]; may be negative
-  double over = 0.0;  ///< up to the time of the distance [s]; not less than what lies between two recorded poses
+      0.0;            ///< upper bound of the mean speed at which `width` decreases over `over` [m/s]; may be negative
+  double over = 0.0;  ///< period that ends at the distance's time [s]; at least the time between two recorded poses
 };
 
-/// What a cycle's motion does not tell itself.
+/// Facts about a cycle that its motion does not contain.
 struct CycleRecord {
-  std::chrono::nanoseconds origin{0};  ///< its time 0, since the clock's epoch
-  /// Per body: longest time between two recorded poses, summed over all that these are made of; null: none [s].
+  std::chrono::nanoseconds origin{0};  ///< the cycle's time 0, since the clock's epoch
+  /// Per body: the longest time between two recorded poses, summed over the transforms of its chain [s]; null: unknown.
   const std::vector<double>* gaps = nullptr;
 };
 
-/// How far two bodies are apart at one time: the end of what is known of them in the cycle.
+/// Distance of two bodies at one time: the last time at which both are known in the cycle.
 struct PairDistance {
   int pair = -1;  ///< in Scene::pairs
   int body_a = -1, body_b = -1;
-  double time = 0.0;      ///< [s] from t₀ of the last cycle; before it for a pair that is delayed
-  double distance = 0.0;  ///< [m]; 0 of bodies that touch at that time
-  double error = 0.0;     ///< the true distance is nowhere farther off than this [m]
-  Vector3d p_A_W = Vector3d::Zero(), p_B_W = Vector3d::Zero();  ///< the witness points: on A and on B [m]
-  Vector3d normal_W = Vector3d::Zero();  ///< unit, from A to B; zero if bodies touch and it is not known
+  double time = 0.0;      ///< [s] from t₀ of the last cycle; negative for a delayed pair
+  double distance = 0.0;  ///< [m]; 0 if the bodies touch at that time
+  double error = 0.0;     ///< upper bound of the error of `distance` [m]
+  Vector3d p_A_W = Vector3d::Zero(), p_B_W = Vector3d::Zero();  ///< witness points on A and on B [m]
+  Vector3d normal_W = Vector3d::Zero();  ///< unit, from A to B; zero if the bodies touch and it is not known
   double closing_speed = 0.0;            ///< of the witness points along the normal, mean over the last step [m/s]
-  ClosingGap any;                        ///< by the fastest point of either body, as seen from the other
-  std::optional<ClosingGap> slab;        ///< along the normal, where a slab between the bodies is known
+  ClosingGap any;  ///< in any direction: bounded by the fastest point of either body relative to the other
+  std::optional<ClosingGap> slab;  ///< along the normal, if a separating slab between the bodies is known
 };
 
-/// Distances of pairs that are near each other, over cycles, each with witness points: where it is nearest on both
-/// bodies. Of bodies that are all triangles exact, but for Body::triangles' deviation; of others by the points of one's
-/// shell and the other's field, with the field's error and the gap between points.
+/// Distances of nearby pairs over cycles, each with the witness points at which the bodies are nearest. If both bodies
+/// have triangles, the distance is exact up to Body::triangles' deviation; otherwise it is measured from the points of
+/// one body's shell to the other body's field, with the error of the field and the gap between points.
 ///
-/// Pairs that cannot have come near since they were looked at last cost some nanoseconds a cycle each, others some
-/// microseconds. Nothing is allocated per cycle but for more pairs near each other than ever before.
+/// A pair that cannot have come within range since it was last measured costs some nanoseconds per cycle, another one
+/// some microseconds. Memory is allocated only if more pairs are near each other than ever before.
 class PairDistances {
  public:
   explicit PairDistances(std::shared_ptr<const Scene> scene);
 
-  /// Takes a cycle of the scene. @param range  pairs that surely are farther apart are not listed [m].
-  /// @param result  with the clearances of all pairs (CycleRequest::skipped_pairs).
-  /// @param record  of the motion; cycles may overlap, as pairs are caught up on.
+  /// Processes a cycle of the scene. @param range  pairs that are certainly farther apart are not listed [m].
+  /// @param result  must hold the clearances of all pairs (CycleRequest::skipped_pairs).
+  /// @param record  of the motion. Cycles may overlap in time, when delayed pairs are checked later.
   const std::vector<PairDistance>& update(const CycleMotion& motion, const CycleResult& result, double range,
                                           const CycleRecord& record);
 
-  /// In the order of Scene::pairs; pairs that are not checked are not listed, those that are delayed as they were.
+  /// In the order of Scene::pairs. Pairs that are not checked are not listed; delayed pairs keep their last entry.
   const std::vector<PairDistance>& near() const { return near_; }
 
-  /// Whether some pair is delayed of which it was not known before whether it is within the range: it is not listed,
-  /// and may be anywhere.
+  /// Whether a pair is delayed that was not known to be beyond the range before: it is not listed, and its distance is
+  /// unknown.
   bool hasUnknown() const { return has_unknown_; }
 
-  /// As where cycles are left out. Costs nothing if nothing is known.
+  /// Discards all measurements, as when cycles were left out. Costs nothing if there are none.
   void forget();
 
-  /// Goes on from another scene's, between two cycles, and leaves it empty: what was near there, and is the same pair
-  /// here, stays known until it is measured. Only pairs that are delayed need it.
-  /// @param pairs_now  per pair there: the same pair here; −1 if there is none.
+  /// Continues from the distances of another scene between two cycles, and leaves those empty: a nearby pair that both
+  /// scenes have stays listed until it is measured again. Only delayed pairs need it.
+  /// @param pairs_now  per pair of the other scene: its index in this one; −1 if it has none.
   void take(PairDistances& before, const std::vector<int>& pairs_now);
 
  private:
   static constexpr double kNowhere = -1.0;  // below any range
 
   struct Pair {
-    double known_within = kNowhere;  // range of the last measurement [m]
+    double known_within = kNowhere;  // range of the last measurement [m]; kNowhere: not measured
     bool is_known = false;
-    double at_least = 0.0;  // the distance at X_FP [m]
+    double at_least = 0.0;  // lower bound of the distance at X_FP [m]; valid if is_known
     Isometry3d X_FP = Isometry3d::Identity();
     SeparationWitness witness;
     PairDistance last;  // valid if is_near
@@ -91,7 +91,7 @@ class PairDistances {
   bool nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
                       double range, PairDistance& found);
 
-  /// How P moves against F from one waypoint to the next, `last`.
+  /// Motion of P relative to F from the waypoint before `last` to `last`.
   struct Step {
     bool f_is_a;
     Isometry3d X_then, X_now;
@@ -107,7 +107,7 @@ class PairDistances {
   std::vector<PairDistance> near_;
   std::chrono::nanoseconds origin_{0};  // of the last cycle
   bool has_unknown_ = false;
-  bool is_empty_ = true;  // nothing is known
+  bool is_empty_ = true;  // nothing is stored
   SeparationMemory memory_;
   std::vector<int> pending_;
 };

@@ -33,7 +33,7 @@ void PairRole::cut(const ChordOptions& options) {
   path.chords.clear();
   path.error = 0.0;
   for (std::size_t step = 0; step < motion_.steps(); ++step) {
-    checkCancelled();  // an interval may have a thousand
+    checkCancelled();  // an interval may have a thousand chords
     addChords(motion_.motion(step), options, static_cast<int>(step), path);
   }
 }

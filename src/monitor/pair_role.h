@@ -6,14 +6,14 @@
 
 namespace sdf_ccd {
 
-/// What a shell's points stand for in a role.
+/// What the points of a role's shell are tested for.
 enum class ShellPurpose {
-  kSurface,    ///< where the surface touches, and how hard
-  kEdges,      ///< where it touches; another role's impulse stands for the pair
-  kWitnesses,  ///< whether a component of the surface lies wholly inside (design §3.15)
+  kSurface,    ///< contacts of the surface, with their forces
+  kEdges,      ///< contacts of the edges; another role gives the pair's force
+  kWitnesses,  ///< whether a component of the surface lies wholly inside the field's body (design §3.15)
 };
 
-/// What following a role's motion needs while its pair is checked, and nobody afterwards.
+/// Scratch memory for a role while its pair is checked.
 struct RoleMemory {
   std::vector<RelativeMotionBounds> bounds;
   ChordPath path;
@@ -32,39 +32,40 @@ class PairRole {
   int fieldBody() const { return motion_.f(); }
   bool bearsForce() const { return purpose_ == ShellPurpose::kSurface; }
 
-  /// Whether the shell's body's ball holds all of it: not of a half-space, which may have witnesses beside it. Only
-  /// then motion() and ballClearance() tell of all of its surface, else of the witnesses alone.
+  /// Whether the ball of the shell's body contains all of it; false for a body with a half-space, which may have
+  /// witnesses of its other elements. If false, motion() and ballClearance() hold for the witnesses only.
   bool ballHoldsBody() const { return ball_holds_body_; }
 
-  /// Takes the relative motion over a part of a cycle, of bodies that can be followed.
-  /// @param memory  this role's alone as long as it has the motion.
+  /// Sets the relative motion over a part of a cycle; SweptBodies::problem() must be empty for both bodies.
+  /// @param memory  used by this role alone as long as it has the motion.
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory);
 
   const RelativeMotion& motion() const { return motion_; }
 
-  /// How many times the motion error of the field's body's ball its surface strays where the shell is: more than one of
-  /// a half-space, whose ball does not hold all of it. Bounds of motion grow no faster than the distance.
+  /// Factor from the motion error of the field's body, which holds within its ball, to the error of its surface where
+  /// the shell is. It exceeds 1 for a half-space, which reaches beyond its ball: motion errors grow at most in
+  /// proportion to the distance.
   double fieldErrorScale() const;
 
   /// Cuts the motion into chords, for path() and partPath().
   void cut(const ChordOptions& options);
   const ChordPath& path() const { return memory_->path; }
 
-  /// The same path seen from a part's frame G. The reference is good until the next call.
+  /// The path in a part's frame G. The reference is valid until the next call.
   const ChordPath& partPath(const BodyPart& part);
 
-  /// Lower bound of the distance of the bodies' surfaces [m], from the shell's body's ball alone.
+  /// Lower bound of the distance of the bodies' surfaces [m], from the ball of the shell's body alone.
   double ballClearance(const Isometry3d& X_FP) const;
 
-  /// Lower bound of the distance of the shell's points from the field's surfaces [m] at the end, within `slack` [m] of
-  /// what the fields know.
+  /// Lower bound of the distance of the shell's points from the field's surfaces at the end [m]. It is at most `slack`
+  /// [m] below the best bound that the fields give.
   double pointClearanceAtEnd(double slack) const;
 
-  /// Whether the shell's points are surely outside the field's body at the end, given that they are by its fields:
-  /// these are not enough where it is doubtful what is inside the body.
+  /// Whether the shell's points are certainly outside the field's body at the end, given that its fields say so: that
+  /// is not enough if the body's inside is doubtful.
   bool isOutsideAtEnd() const;
 
-  /// False only if no point of the shell comes nearer than `distance` [m] to any part: conservative at any distance.
+  /// False only if every point of the shell stays farther than `distance` [m] from all parts; holds for any distance.
   bool mayComeNearer(double distance);
 
  private:

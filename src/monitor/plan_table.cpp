@@ -12,9 +12,9 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-constexpr std::size_t kNamed = 4;  // examples named per reason
+constexpr std::size_t kNamed = 4;  // at most so many examples are named per reason
 
-/// Characters, not bytes, of UTF-8.
+/// Number of characters, not bytes, of UTF-8.
 std::size_t width(const std::string& text) {
   return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
 }

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{64} << 20;  // of bodies kept out of use
+constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{64} << 20;  // limits of the unused bodies that are kept
 
 }  // namespace
 
@@ -26,7 +26,7 @@ PreparedNeeds PreparedNeeds::operator|(const PreparedNeeds& other) const {
   all.of_body.field = of_body.field || other.of_body.field;
   all.of_body.shell = of_body.shell || other.of_body.shell;
   all.of_body.witnesses = of_body.witnesses || other.of_body.witnesses;
-  // Only the edges are wanted if all who want a shell want these.
+  // Edges suffice only if everyone who needs a shell needs only its edges.
   all.of_body.edges_only = all.of_body.shell && (!of_body.shell || of_body.edges_only) &&
                            (!other.of_body.shell || other.of_body.edges_only);
   all.of_body.decides = (of_body.shell && of_body.decides) || (other.of_body.shell && other.of_body.decides);
@@ -63,7 +63,7 @@ void PreparedBodies::dropUnused(std::uint64_t version) {
   std::vector<std::pair<std::uint64_t, std::string>> unused;
   for (const auto& [key, prepared] : bodies_)
     if (prepared.used < version) unused.emplace_back(prepared.used, key);
-  std::sort(unused.rbegin(), unused.rend());  // the last ones first
+  std::sort(unused.rbegin(), unused.rend());  // the most recent first
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < unused.size(); ++i) {
     const BodyReport& report = bodies_[unused[i].second].report;

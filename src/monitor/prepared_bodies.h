@@ -12,40 +12,40 @@
 
 namespace sdf_ccd {
 
-/// What of a body is needed by its pairs.
+/// The data of a body that its pairs need.
 struct PreparedNeeds {
   BodyNeeds of_body;
   bool triangles = false;
   bool surface = false;
 
-  /// Whether a body that was made with these has all that the other ones ask for.
+  /// Whether a body that was prepared with these needs also has all that `other` requires.
   bool cover(const PreparedNeeds& other) const;
   PreparedNeeds operator|(const PreparedNeeds& other) const;
 };
 
-/// A body that was made, without a name and a place.
+/// A prepared body, without name and pose.
 struct PreparedBody {
   PreparedNeeds needs;
   std::shared_ptr<const Body> body;
   BodyReport report;
-  std::uint64_t used = 0;  ///< in which version last
+  std::uint64_t used = 0;  ///< version of the world that last used it
 };
 
-/// Bodies by their geometry's key. Of those out of use the last few are kept.
+/// Prepared bodies by the key of their geometry. The most recent of those no longer used are kept.
 class PreparedBodies {
  public:
-  /// Null if there is none with all that is needed.
+  /// Null if there is none that has all of `needs`.
   PreparedBody* find(const std::string& key, const PreparedNeeds& needs);
 
-  /// Makes one, with what an earlier one of the same geometry was made with, too.
+  /// Prepares a body with `needs` and those of an existing body of the same geometry, which it replaces.
   /// @throws std::invalid_argument with the body's name if it cannot be made.
   PreparedBody& make(const std::string& key, const BodyDescription& description, const PreparedNeeds& needs,
                      const BodyOptions& options, MeshPool& pool);
 
-  /// One that is there already.
+  /// Adds a body that is prepared already.
   PreparedBody& add(const std::string& key, const PreparedNeeds& needs, const Body& body, const BodyReport& report);
 
-  /// Drops what no version since that one has used, but for the last few.
+  /// Removes bodies last used before that version, except the most recent ones.
   void dropUnused(std::uint64_t version);
 
  private:

@@ -2,21 +2,21 @@
 
 namespace sdf_ccd {
 
-/// How near anything is, by two thresholds.
+/// Distance level of a scene, from two thresholds.
 enum class Proximity { kNotWatched, kFree, kWarning, kStop };
 
 struct ProximityThresholds {
-  double warning = 0.0;     ///< nearer than this is kWarning [m]; 0: there is no such level
-  double stop = 0.0;        ///< nearer than this is kStop [m]; 0: there is no such level
-  double hysteresis = 0.0;  ///< a level is left only this much beyond its threshold [m]
+  double warning = 0.0;     ///< closer than this is kWarning [m]; 0: no warning level
+  double stop = 0.0;        ///< closer than this is kStop [m]; 0: no stop level
+  double hysteresis = 0.0;  ///< a level is left only at its threshold plus this [m]
 
   bool any() const { return warning > 0.0 || stop > 0.0; }
 
-  /// Pairs that surely are farther apart than this change nothing [m].
+  /// Pairs that are certainly farther apart than this cannot change the level [m].
   double range() const { return any() ? (warning > stop ? warning : stop) + hysteresis : 0.0; }
 };
 
-/// Follows the level over cycles. It rises at once, and falls behind the hysteresis.
+/// Follows the level over cycles. It rises at once, and falls with hysteresis.
 class ProximityWatch {
  public:
   /// @param distance  lower bound of all distances [m]; 0 where bodies touch, may touch, or are not checked.

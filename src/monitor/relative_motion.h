@@ -7,7 +7,8 @@
 
 namespace sdf_ccd {
 
-/// How body P moves against body F over a part of a cycle: step by step, each with its bounds (design §3.12).
+/// Motion of body P relative to body F over a part of a cycle: one step per recorded interval, each with its bounds
+/// (design §3.12).
 class RelativeMotion {
  public:
   RelativeMotion(const Scene& scene, int f, int p) : ball_(&scene.bodies[p].ball), f_(f), p_(p) {}
@@ -15,29 +16,29 @@ class RelativeMotion {
   int f() const { return f_; }
   int p() const { return p_; }
 
-  /// Takes the motion of bodies that can be followed.
-  /// @param bounds  gets those of each step; this motion's alone as long as it is used.
+  /// Sets the motion; SweptBodies::problem() must be empty for both bodies.
+  /// @param bounds  receives the bounds of each step; no one else may use it as long as this motion is in use.
   void take(const SweptBodies& bodies, const WaypointSpan& span, std::vector<RelativeMotionBounds>& bounds);
 
-  /// From one recorded time to the next, the span's first at 0.
+  /// Step k lasts from recorded time k of the span to the next; k = 0 is the first.
   std::size_t steps() const { return bounds_->size(); }
   const RelativeMotionBounds& bounds(std::size_t step) const { return (*bounds_)[step]; }
   TwoBodyMotion motion(std::size_t step) const;
 
-  /// X_FP at both ends.
+  /// X_FP at the first and last time.
   const Isometry3d& start() const { return X_FP_start_; }
   const Isometry3d& end() const { return X_FP_end_; }
 
-  /// No point of P's ball goes farther than this in F [m].
+  /// Upper bound of the displacement of P's ball's points in F [m].
   double travel() const { return travel_; }
 
-  /// Nor is it ever farther from F's origin [m].
+  /// Upper bound of the distance of P's ball's points from F's origin, at any time [m].
   double reach() const;
 
-  /// What computing with the poses adds to the error of a distance [m].
+  /// Error that the rounding of the poses adds to a distance [m].
   double poseError() const { return pose_error_; }
 
-  /// No point of P's ball is farther from where it was at another pose than this, at the start [m].
+  /// Upper bound of the displacement of P's ball's points from another pose to start() [m].
   double jumpFrom(const Isometry3d& X_FP) const { return maxDisplacement(X_FP, X_FP_start_, *ball_); }
 
  private:

@@ -20,20 +20,20 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kSecondsPerPoint = 3.5e-5;  // of a shell, on one thread; measured on robots' links
-constexpr double kBytesPerPoint = 72.0;      // with its share of the sphere tree
-constexpr double kFinestOfSize = 2e-3;       // gap that a curved primitive is tessellated for, over its size
-constexpr double kUncertain = 0.35;          // two such standard errors are less than a factor of two
-constexpr double kHopeless = 2.0;            // affordableCost() refuses what is this much too large
+constexpr double kSecondsPerPoint = 3.5e-5;  // on one thread; measured on shells of robot links
+constexpr double kBytesPerPoint = 72.0;      // including its share of the sphere tree
+constexpr double kFinestOfSize = 2e-3;       // gap for which a curved primitive is tessellated, relative to its size
+constexpr double kUncertain = 0.35;          // relative standard error; twice this is less than a factor of two
+constexpr double kHopeless = 2.0;            // excess over the limit from which affordableCost() refuses a field
 
-/// On the threads of the caller's TBB arena, as far as there may be so many.
+/// Time on the threads available in the caller's TBB arena.
 double onThreads(double one_thread) {
   using tbb::global_control;
   const auto most = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
   return one_thread / std::max(1, std::min(most, tbb::this_task_arena::max_concurrency()));
 }
 
-/// Of a field that the cache has; 0 if it has not [bytes].
+/// Size of the field's cache file [bytes]; 0 if there is none.
 double cachedBytes(const BodyOptions& options, const TriangleMesh& mesh, const FieldOptions& field) {
   if (options.cache_directory.empty()) return 0.0;
   std::error_code missing;
@@ -79,7 +79,7 @@ class CostEstimate {
     const SolidSource source(mesh.mesh, mesh.made);
     FieldCost expected = expectedCost(source, field);
     cost.largest_field = std::max(cost.largest_field, expected.bytes);
-    // What is too large ends when it is, and a coarser one is made.
+    // A build that exceeds the limit ends there, and a coarser field is built instead.
     const auto most = static_cast<double>(field.max_bytes);
     double one_thread = 0.0;
     constexpr int kMostCoarser = 40;
@@ -94,8 +94,8 @@ class CostEstimate {
     cost.addField(expected);
   }
 
-  /// A finely tessellated curve would cost more than its shell: points of a coarser one stand for it, and grow as they
-  /// do on such surfaces.
+  /// Tessellating a curved primitive finely would cost more than its shell. So points are counted on a coarser shell
+  /// and extrapolated: they grow with the square of the fineness, or the power 1.5 if rims dominate.
   void addShell(const Primitive& primitive, const BodyNeeds& needs, BodyCost& cost) {
     const double size = boundingBox(primitive).sizes().norm();
     const bool is_box = std::holds_alternative<Box>(primitive);
@@ -166,7 +166,7 @@ SceneCost expectedCost(const SceneDescription& description, const ScenePlan& pla
       scene.add(
           estimate.of(body, {plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], decides[i] != 0, false}));
     } catch (const std::exception&) {
-      // Building the body will say what is wrong with it.
+      // Building the body will report the error.
     }
   }
   scene.meshes = estimate.meshes();

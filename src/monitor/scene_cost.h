@@ -12,51 +12,51 @@ namespace sdf_ccd {
 
 class MeshPool;
 
-/// What building a body is expected to cost.
+/// Expected cost of building a body.
 struct BodyCost {
   std::string name;
   double field_bytes = 0.0;
-  double largest_field = 0.0;  ///< of the meshes' fields that are built [bytes]
+  double largest_field = 0.0;  ///< of the fields to be built, one per mesh [bytes]
   double shell_points = 0.0;
-  double largest_shell = 0.0;  ///< of the elements' shells [points]
+  double largest_shell = 0.0;  ///< of the shells, one per element [points]
   double shell_bytes = 0.0;
-  double seconds = 0.0;        ///< on the threads of the caller's TBB arena; 0 for what the cache has
-  double field_seconds = 0.0;  ///< of these, for fields
-  bool uncertain = false;      ///< a field may take more than twice, or less than half, of what is expected
-  bool in_cache = false;       ///< all of its meshes' fields
+  double seconds = 0.0;        ///< on the threads of the caller's TBB arena; 0 for cached data
+  double field_seconds = 0.0;  ///< the part of `seconds` for fields
+  bool uncertain = false;      ///< a field may differ from its estimate by more than a factor of two
+  bool in_cache = false;       ///< the fields of all of its meshes are cached
 
-  /// A field that is built, and a shell of so many points.
+  /// Adds the cost of a field to be built, and of a shell with that many points.
   void addField(const FieldCost& field);
   void addShell(double points);
 };
 
 struct SceneCost {
-  std::vector<BodyCost> bodies;  ///< those of which something is built
+  std::vector<BodyCost> bodies;  ///< those for which something is built
   double bytes = 0.0;
   double seconds = 0.0;
-  std::shared_ptr<MeshPool> meshes;  ///< made ready, for the first buildScene() that has them
+  std::shared_ptr<MeshPool> meshes;  ///< prepared; the first buildScene() that gets them uses them
 
   void add(const BodyCost& body);
 };
 
-/// Per body: whether a verdict rests on its shell, as a pair's other body has no triangles to decide by.
+/// Per body: whether a verdict depends on its shell, because the other body of a pair has no triangles.
 std::vector<char> shellsThatDecide(const SceneDescription& description, const ScenePlan& plan);
 
-/// Expects the cost of buildScene() with the same arguments: of fields by building a sample of their cells (see the
-/// fields' expectedCost()), of shells from areas and edges. Meshes of equal content count once. What buildScene() would
-/// refuse costs nothing here.
+/// Estimates the cost of buildScene() with the same arguments: of fields by building a sample of their cells (see
+/// expectedCost() of a field), of shells from areas and edges. Meshes of equal content count once. Bodies that
+/// buildScene() would refuse cost nothing.
 SceneCost expectedCost(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options);
 
-/// @throws std::length_error if a field or shell is expected to be over twice what the options allow for one (a little
-/// more makes it coarser), where these have a max_error, or all of them together more than this machine's memory. The
-/// message names max_error, the cost and the limit.
+/// @throws std::length_error if a field or shell is expected to exceed twice its limit in the options, for options that
+/// share out a max_error (a smaller excess makes it coarser), or the total exceeds this machine's memory. The message
+/// names max_error, the cost and the limit.
 void requireAffordable(const SceneCost& cost, const BodyOptions& options);
 
-/// expectedCost(), where it can be meant.
-/// @throws std::invalid_argument if max_error is larger than every body; as requireAffordable().
+/// expectedCost() of a scene that can be built.
+/// @throws std::invalid_argument if max_error is larger than every body; std::length_error as requireAffordable().
 SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options);
 
-/// One line: "about 9 MB and 4 s; most for link5: 2 MB, 1 s".
+/// One line: "about 9 MB and 4 s to build; most for link5: about 2 MB and 1 s".
 std::string summary(const SceneCost& cost);
 
 }  // namespace sdf_ccd

@@ -68,7 +68,7 @@ std::vector<std::pair<std::string, std::string>> pairNames(const Scene& scene) {
 
 std::vector<int> findPairs(const std::vector<std::pair<std::string, std::string>>& pairs,
                            const std::vector<std::pair<std::string, std::string>>& others) {
-  std::unordered_map<std::string, int> bodies;  // numbered as they come
+  std::unordered_map<std::string, int> bodies;  // numbered in the order of appearance
   const auto keyOfNames = [&](const std::pair<std::string, std::string>& names) {
     const int a = bodies.try_emplace(names.first, static_cast<int>(bodies.size())).first->second;
     const int b = bodies.try_emplace(names.second, static_cast<int>(bodies.size())).first->second;

@@ -9,18 +9,18 @@
 
 namespace sdf_ccd {
 
-/// What two scenes have in common: bodies that are the same object, and pairs of such that are tested in the same way.
+/// Common parts of two scenes: bodies that are the same object, and pairs of such bodies that need the same tests.
 class SceneDifference {
  public:
   SceneDifference(const Scene& before, const Scene& now);
 
-  /// Per body now: its index before; -1 if it is new, or has changed.
+  /// Per body of `now`: its index in `before`; -1 if it is new or has changed.
   const std::vector<int>& bodiesBefore() const { return bodies_before_; }
 
-  /// Per pair before: its index now; -1 if it is gone, or has changed.
+  /// Per pair of `before`: its index in `now`; -1 if it was removed or has changed.
   const std::vector<int>& pairsNow() const { return pairs_now_; }
 
-  /// Bodies that stay, in rows of both scenes.
+  /// The common bodies, as ranges of consecutive indices in both scenes.
   std::vector<BodyRun> bodyRuns() const;
 
  private:
@@ -30,7 +30,7 @@ class SceneDifference {
 /// Names of the bodies of each pair, A's first.
 std::vector<std::pair<std::string, std::string>> pairNames(const Scene& scene);
 
-/// Per pair of names, either way round: its index in the others; -1 if it is not there.
+/// Per pair of names, in either order: its index in `others`; -1 if it is not there.
 std::vector<int> findPairs(const std::vector<std::pair<std::string, std::string>>& pairs,
                            const std::vector<std::pair<std::string, std::string>>& others);
 

@@ -12,10 +12,10 @@
 namespace sdf_ccd {
 namespace {
 
-/// Size of what a body must be held against to tell whether another one could hold it [m].
+/// Sizes that tell whether one body can lie inside another one [m].
 struct Extent {
-  double longest_side = 0.0;  ///< of the box around a lone primitive; 0 for other bodies
-  double diagonal = 0.0;      ///< no two points of the body are farther apart
+  double longest_side = 0.0;  ///< of the box around a single primitive; 0 for other bodies
+  double diagonal = 0.0;      ///< upper bound of the distance between two points of the body
 };
 
 Extent extentOf(const BodyDescription& body) {
@@ -24,8 +24,8 @@ Extent extentOf(const BodyDescription& body) {
   for (const GeometryDescription& geometry : body.geometry) {
     const auto* primitive = std::get_if<Primitive>(&geometry.shape);
     const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
-    if (mesh && !*mesh) continue;  // a failure that building the body will name
-    if (geometry.watertight_voxels) return {0.0, std::numeric_limits<double>::infinity()};  // only a field itself
+    if (mesh && !*mesh) continue;  // building the body will report this failure
+    if (geometry.watertight_voxels) return {0.0, std::numeric_limits<double>::infinity()};  // never has a shell
     const AlignedBox3d box = primitive ? boundingBox(*primitive) : boundingBox(**mesh);
     if (!box.sizes().allFinite()) return {0.0, std::numeric_limits<double>::infinity()};
     for (int k = 0; k < 8; ++k) all.extend(geometry.X_BG * box.corner(AlignedBox3d::CornerType(k)));
@@ -35,7 +35,7 @@ Extent extentOf(const BodyDescription& body) {
   return extent;
 }
 
-/// Whether a body is one primitive that would need very many points.
+/// Whether a body is a single primitive that would need very many points.
 bool isLarge(const BodyDescription& body, const PlanOptions& options) {
   if (body.geometry.size() != 1 || options.shell_spacing <= 0.0) return false;
   const auto* primitive = std::get_if<Primitive>(&body.geometry.front().shape);
@@ -63,7 +63,7 @@ std::map<NamePair, std::string> disabledPairs(const SceneDescription& descriptio
   return reasons;
 }
 
-/// A map's tile that cannot be checked is one that is awaited: what it will need is prepared.
+/// A map's tile that cannot be checked is expected to come later, so what it needs is prepared.
 bool isPlanned(const BodyDescription& body) {
   return body.failure.empty() || !body.map.empty();
 }
@@ -98,7 +98,8 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
     is_large[i] = isLarge(description.bodies[i], options);
     extents[i] = extentOf(description.bodies[i]);
   }
-  // Without its shell, a body that lay all inside the other's would not be seen: so it must be too long for that.
+  // Without a shell of the large body, it would not be noticed wholly inside the small one. So it must be too long for
+  // that.
   const auto isOnlyAField = [&](int large, int small) {
     return is_large[large] && !is_large[small] && extents[large].longest_side > extents[small].diagonal;
   };

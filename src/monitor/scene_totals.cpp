@@ -24,7 +24,7 @@ void setBounds(Scene& scene) {
   for (BodyReport& report : scene.reports) report.bound = {};
   for (const PlannedPair& pair : scene.pairs) {
     ErrorBound of_contacts = pairBound(scene, pair), bound = verdictBound(scene, pair);
-    if (of_contacts.total() == 0.0) continue;  // of a body that was not built
+    if (of_contacts.total() == 0.0) continue;  // one of the bodies was not built
     of_contacts.chord = scene.motion_margin;
     bound.chord = hasTriangles(scene, pair) ? scene.motion_error : scene.motion_margin;
     if (isLarger(of_contacts, scene.contact_bound)) scene.contact_bound = of_contacts;

@@ -4,10 +4,10 @@
 
 namespace sdf_ccd {
 
-/// Sets how many pairs each body is in: BodyReport::pairs.
+/// Sets BodyReport::pairs, the number of pairs of each body.
 void countPairs(Scene& scene);
 
-/// Sets the largest error bounds of each body's pairs and of all, of verdicts and of contacts.
+/// Sets the largest error bounds of verdicts and of contacts, for each body and for the scene.
 void setBounds(Scene& scene);
 
 }  // namespace sdf_ccd

@@ -5,7 +5,11 @@
 namespace sdf_ccd {
 
 Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
-    : scene_(scene), bodies_(scene), table_(scene.pairs), is_paired_(scene.bodies.size(), 0), is_whole_(scene.bodies.size(), 0) {
+    : scene_(scene),
+      bodies_(scene),
+      table_(scene.pairs),
+      is_paired_(scene.bodies.size(), 0),
+      is_whole_(scene.bodies.size(), 0) {
   for (std::size_t i = 0; i < checkers.size(); ++i)
     table_.setMargin(static_cast<int>(i), checkers[i].margin(), checkers[i].bound().total());
   due_.reserve(checkers.size());
@@ -50,7 +54,7 @@ const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, std::vecto
   return due_;
 }
 
-/// What the table knows of a pair, as of the end of the last cycle.
+/// Passes on the clearance in the table, which is that at the end of the last cycle.
 void Schedule::handOver(const CycleMotion& motion, int pair, PairChecker& checker) const {
   if (!table_.isKnown(pair)) return;
   const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];

@@ -41,7 +41,7 @@ void CycleSummary::addSkipped(int count, const ErrorBound& error) {
 }
 
 void CycleSummary::finish() {
-  // Of the time that delayed pairs have not been checked over nothing is known.
+  // Delayed pairs have not been checked over some of the time.
   const bool is_open = !any_ || result_.delayed > 0;
   if (is_open && result_.verdict == Verdict::kClear) result_.verdict = Verdict::kNotChecked;
 }

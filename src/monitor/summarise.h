@@ -5,18 +5,18 @@
 
 namespace sdf_ccd {
 
-/// Puts together what a result says of all its pairs from what it says of each: verdict, error bound and counts.
+/// Accumulates a cycle's verdict, error bound and counts from its pairs.
 class CycleSummary {
  public:
-  /// @param result  whose summary is set; its pairs are not read.
+  /// @param result  receives the summary; its pairs are not read.
   explicit CycleSummary(CycleResult& result);
 
   void add(const PairResult& pair);
 
-  /// Pairs that are clear without a test. @param error  the largest of theirs.
+  /// Adds pairs that are clear without a test. @param error  the largest of their error bounds.
   void addSkipped(int count, const ErrorBound& error);
 
-  /// Call it last.
+  /// Must be called last.
   void finish();
 
  private:
@@ -26,10 +26,10 @@ class CycleSummary {
   bool any_ = false;
 };
 
-/// The same from all of its pairs.
+/// Summarises a result from all of its pairs.
 void summarise(CycleResult& result);
 
-/// Lists the pairs as NOT_CHECKED behind those of the scene: what would be CLEAR as a whole is not.
+/// Appends the pairs as NOT_CHECKED; a result that was CLEAR as a whole becomes NOT_CHECKED.
 void addUnchecked(const std::vector<UncheckedPair>& pairs, CycleResult& result);
 
 }  // namespace sdf_ccd

@@ -11,14 +11,14 @@
 namespace sdf_ccd {
 namespace {
 
-/// Walks along one point's path, from a place where it meets the field's surface.
+/// Walks along one point's path, starting where it meets the field's surface.
 class PointWalk {
  public:
   PointWalk(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, double path_error)
       : field_(field), path_(path), p_P_(p_P), path_error_(path_error) {}
 
-  /// Whether the walk comes, without passing near a cap, to where the point surely is outside (side 1) or inside (−1).
-  /// @param s  on the chord, where it begins.
+  /// Whether the walk reaches a point that is certainly outside (side 1) or inside (−1) without passing near a cap.
+  /// @param s  start position on the chord, from 0 to 1.
   /// @param direction  of time, 1 or −1.
   bool reaches(int side, int chord, double s, int direction) {
     setChord(chord);
@@ -28,7 +28,7 @@ class PointWalk {
       const FieldSample sample = field_.sample(p);
       const double error = sample.error + path_error_, beyond = side * sample.value;
       if (beyond > error) return true;
-      // The path's next piece is no nearer to a cap than the path's error.
+      // A step of this length stays farther than the path's error from all caps.
       const double room = 0.9 * (field_.openingDistance(p) - path_error_);
       if (!(room > 0.0)) return false;
       if (!advance(std::min(room, std::max(error - beyond, 0.25 * error)), direction, chord, s)) return false;
@@ -43,7 +43,7 @@ class PointWalk {
     length_ = way_.norm();
   }
 
-  /// Goes on by `step` [m], or to the chord's end; false at the path's.
+  /// Advances by `step` [m], at most to the chord's end; false at the path's end.
   bool advance(double step, int direction, int& chord, double& s) {
     const double end = direction > 0 ? 1.0 : 0.0;
     if (s != end) {
@@ -66,7 +66,7 @@ class PointWalk {
   double length_ = 0.0;
 };
 
-/// Whether a ball of A meets a surface of B's fields, for all that these say.
+/// Whether a ball of A may meet a surface of B, according to B's fields.
 bool mayMeet(const Body& b, const Vector3d& center_B, double radius) {
   return std::any_of(b.parts.begin(), b.parts.end(), [&](const BodyPart& part) {
     const DistanceBounds bounds = part.field.bounds(part.X_BG.inverse() * center_B);
@@ -87,7 +87,7 @@ bool passesThroughMesh(const DistanceField& field, const ChordPath& path, const 
 std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const Isometry3d& X_BA, double pose_error) {
   if (!a.surface || !b.surface) return std::nullopt;
   const AlignedBox3d box_a = boundingBox(a.surface->mesh), box_b = boundingBox(b.surface->mesh);
-  // Rounding: of coordinates, and of a pose between them.
+  // Includes the rounding of coordinates and of a pose between them.
   const double size =
       box_a.min().norm() + box_a.sizes().norm() + box_b.min().norm() + box_b.sizes().norm() + X_BA.translation().norm();
   const double error = pose_error + a.surface->deviation + b.surface->deviation + 1e-12 * size;

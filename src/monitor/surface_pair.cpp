@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Whether a point is surely outside the tree's first box; in the tree's frame.
+/// Whether a point is certainly outside the tree's root box; in the tree's frame.
 bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
   const BoxTree::Node& root = tree.node(tree.root().node);
   const Vector3d q = p - tree.origin() - Vector3d(root.center[0][0], root.center[1][0], root.center[2][0]);
@@ -20,7 +20,7 @@ bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
   return false;
 }
 
-/// Whether a point is surely outside the solid of the body, frame B.
+/// Whether a point is certainly outside the body's solid, frame B.
 bool isOutsideSolid(const Body& body, const Vector3d& p) {
   if (isOutsideBox(body.triangles->closedTree(), p)) return true;
   if (body.doubtful) return body.doubtful->seesOutside(p);
@@ -29,7 +29,7 @@ bool isOutsideSolid(const Body& body, const Vector3d& p) {
   });
 }
 
-/// Whether no component of one body lies inside the other, where surfaces are apart.
+/// Whether no component of `inner` lies inside `outer`, given that their surfaces are apart.
 bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d& X_OI) {
   const auto& components = inner.triangles->components;
   return std::all_of(components.begin(), components.end(), [&](const std::vector<Vector3d>& corners) {
@@ -57,11 +57,11 @@ SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& m
   const BodyTriangles &f = *field_->triangles, &p = *shell_->triangles;
   const double margin = motion_error + deviation_;
   if (f.closed || p.closed) {
-    // Apart also from what closes them: nothing has come in by an opening.
+    // Apart including the caps that close openings: nothing has entered through an opening.
     const Answer closed = decideBy(f.closedTree(), p.closedTree(), margin, closed_witness_, memory);
     if (closed.state == SeparationState::kApart) return closed;
     Answer open = decideBy(f.tree, p.tree, margin, witness_, memory);
-    if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;  // not near
+    if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;  // perhaps inside
     return open;
   }
   return decideBy(f.tree, p.tree, margin, witness_, memory);
@@ -89,7 +89,7 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
       return answer;
     }
     const bool now = found.state == SeparationState::kApart;
-    // A motion of many steps that stay open takes no longer than one.
+    // A motion of many undecided steps takes no longer than a single one.
     if (!now) options.max_tests -= found.tests;
     answer.is_near |= found.is_near;
     if (options.max_tests <= 0) return answer;
@@ -125,7 +125,7 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) c
       found.s == 1.0 ? motion.t_end : motion.t_start + found.s * (motion.t_end - motion.t_start);
   contact.p_W = X_WF * found.p_A;
   contact.normal_W = X_WF.linear() * found.normal_A;
-  // From body A to body B: as far as one triangle tells, on the side where the other body mostly is.
+  // From body A to body B. A single triangle does not tell the side: take the one where the other ball's centre lies.
   const Vector3d to_p = X_WP * shell_->ball.center - contact.p_W;
   if ((contact.normal_W.dot(to_p) > 0.0) != f_is_a_) contact.normal_W = -contact.normal_W;
   return contact;
@@ -136,7 +136,7 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
   constexpr int kMostHalvings = 60;
   const BoxTree &f = field_->triangles->tree, &p = shell_->triangles->tree;
   SeparationOptions options;
-  // Poses on a part of a step differ from the step's by rounding.
+  // Poses within a step differ from the step's own by rounding.
   options.margin = motion_error + deviation_ + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
   options.resolution = resolution_;
   const auto over = [&](std::size_t step, double start, double end) {
@@ -155,7 +155,7 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
   for (std::size_t step = 0; step < motion_.steps(); ++step) {
     const Separation found = over(step, 0.0, 1.0);
     if (found.state == SeparationState::kApart) continue;
-    double apart = 0.0, end = 1.0, crossing = kInfinity;  // apart until, not known to be apart at, surely crossing at
+    double apart = 0.0, end = 1.0, crossing = kInfinity;  // apart until; not known apart at; crossing at
     if (found.state == SeparationState::kCrossing) end = crossing = found.s;
     for (int i = 0; !touch && i < kMostHalvings && (end - apart) * motion_.bounds(step).travel > resolution_; ++i) {
       const double middle = 0.5 * (apart + end);

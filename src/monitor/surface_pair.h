@@ -9,39 +9,39 @@
 
 namespace sdf_ccd {
 
-/// Decides a pair by the triangles of both bodies, exactly but for what motions are known to (design §3.17): whether
-/// their surfaces stay apart or surely cross.
+/// Decides a pair by the triangles of both bodies, exactly up to the errors of the motions (design §3.17): whether
+/// their surfaces stay apart or certainly cross.
 class SurfacePair {
  public:
-  /// Of a pair that hasTriangles().
-  /// @param resolution  surfaces nearer to each other than this may be left open [m].
+  /// The pair must satisfy hasTriangles().
+  /// @param resolution  surfaces closer than this may remain undecided [m].
   SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution);
 
-  /// Takes the motion over a part of a cycle, of bodies that can be followed.
+  /// Sets the motion over a part of a cycle; SweptBodies::problem() must be empty for both bodies.
   /// @param bounds  see RelativeMotion::take().
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span, std::vector<RelativeMotionBounds>& bounds) {
     motion_.take(bodies, span, bounds);
   }
 
-  /// Of the smaller body against the larger one.
+  /// Of the smaller body relative to the larger one.
   const RelativeMotion& motion() const { return motion_; }
 
-  /// What the triangles are off by from the surfaces [m].
+  /// Upper bound of the distance between the triangles and the true surfaces, both bodies together [m].
   double deviation() const { return deviation_; }
 
-  /// What is nearer than this, beyond the errors of triangles and motion, may be left open [m].
+  /// Surfaces closer than this, beyond the errors of triangles and motion, may remain undecided [m].
   double resolution() const { return resolution_; }
 
-  /// Of the ball around the smaller body: what is farther away than that need not be known well [m].
+  /// Radius of the smaller body's ball [m]: distances beyond it need not be accurate.
   double size() const { return shell_->ball.radius; }
 
-  /// Lower bound of the surfaces' distance at a pose, by balls around them alone [m].
+  /// Lower bound of the surfaces' distance at a pose, from the bodies' balls alone [m].
   double ballClearance(const Isometry3d& X_FP) const;
 
-  /// Forgets where the last motion was looked at first: answers depend on what is asked alone then.
+  /// Removes the witnesses of the last query, so that answers depend on the arguments alone.
   void forget() { witness_ = closed_witness_ = {}; }
 
-  /// Looks where another one did first, of the same bodies.
+  /// Takes over the witnesses of another pair of the same bodies.
   void take(const SurfacePair& other) {
     witness_ = other.witness_;
     closed_witness_ = other.closed_witness_;
@@ -49,25 +49,25 @@ class SurfacePair {
 
   struct Answer {
     SeparationState state = SeparationState::kOpen;
-    double clearance = 0.0;                ///< where apart: lower bound of the distance at the motion's end [m]
-    std::optional<ContactPoint> crossing;  ///< where crossing
-    bool is_near = false;  ///< where open: the surfaces come as near as all errors and twice the resolution
+    double clearance = 0.0;                ///< if apart: lower bound of the distance at the motion's end [m]
+    std::optional<ContactPoint> crossing;  ///< if crossing
+    bool is_near = false;  ///< if open: the distance falls to at most all errors plus twice the resolution
   };
 
-  /// @param motion_error  the bodies are no farther than this from where the motion has them, both together [m].
+  /// @param motion_error  upper bound of the error of the bodies' relative position [m].
   Answer decide(double motion_error, SeparationMemory& memory);
 
-  /// When the surfaces first touch: apart before `enter`, and surely crossing at `exit`, which is infinite where no
-  /// crossing is certain. `exit` is no later than `enter` by more than the surfaces take to go the resolution, but
-  /// where they graze. Nothing if they are apart all along, as also of a body that is wholly inside the other [s].
+  /// The first touch of the surfaces [s]: they are apart before `enter` and certainly cross at `exit`, which is
+  /// infinite if no crossing is certain. Unless they graze, they move by no more than the resolution between the two.
+  /// Empty if the surfaces are apart all the time, also if one body is wholly inside the other.
   std::optional<Interval> firstTouch(double motion_error, SeparationMemory& memory);
 
-  /// Whether neither body has a component wholly inside the other (design §3.15) at a pose at which the surfaces are
+  /// Whether neither body has a component wholly inside the other (design §3.15), at a pose at which the surfaces are
   /// apart. False also if that is not known.
   bool isOutside(const Isometry3d& X_FP) const;
 
-  /// Whether it is doubtful what is outside of one of the bodies, or inside: then only surfaces tell, that are apart
-  /// from what is outside, or that cross.
+  /// Whether it is doubtful which points lie outside, or inside, one of the bodies. Then only the surfaces prove CLEAR
+  /// (they are apart, and seen from the outside) or CONTACT (they cross).
   bool isOutsideDoubtful() const { return field_->doubtful || shell_->doubtful; }
   bool isInsideDoubtful() const { return field_->inside_is_doubtful || shell_->inside_is_doubtful; }
 
@@ -78,7 +78,7 @@ class SurfacePair {
                   SeparationWitness& witness, SeparationMemory& memory, Separation& found) const;
   ContactPoint contactAt(const Separation& found, std::size_t step) const;
 
-  const Body *field_, *shell_;  // F, which the other moves against, and P
+  const Body *field_, *shell_;  // bodies F and P; P is the smaller one
   bool f_is_a_;
   RelativeMotion motion_;
   double deviation_;

@@ -10,7 +10,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Throws if a body is so far away that its coordinates are too coarse.
+/// Throws if a body is so far away that doubles round its coordinates too coarsely.
 void requireNear(const std::string& name, const Isometry3d& X_WB) {
   const double distance = X_WB.translation().lpNorm<Eigen::Infinity>();
   if (distance <= kFarthestPose) return;

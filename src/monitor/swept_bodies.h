@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// How bodies of a scene move during one cycle, exactly: each worked out once, for all of its pairs that are tested.
+/// Exact motion of a scene's bodies during one cycle, computed once per body for all of its pairs that are tested.
 /// Between two times a body moves with a constant twist in the world.
 class SweptBodies {
  public:
@@ -17,21 +17,21 @@ class SweptBodies {
     taken_.reserve(scene.bodies.size());
   }
 
-  /// Takes a cycle's motion: of each body the times that the spans of its pairs need, of those that are due.
-  /// @param pairs  all of the scene's.
+  /// Sets a cycle's motion, for the bodies of due pairs and the times that the spans of these pairs need.
+  /// @param pairs  all pairs of the scene.
   void take(const CycleMotion& motion, const std::vector<PairResult>& pairs, const std::vector<DuePair>& due);
 
-  /// Why a body's motion cannot be followed: a pose that is not finite, no rotation, or too far away. Empty if it can.
+  /// Why a body's motion cannot be followed: a pose is not finite, not a rotation, or too far away. Empty if it can.
   const std::string& problem(int body) const { return bodies_[body].problem; }
 
   const std::vector<double>& times() const { return *times_; }
 
-  /// Between times `waypoint` and waypoint + 1, of a body that can be followed.
+  /// Motion between times `waypoint` and waypoint + 1; problem() must be empty.
   const ScrewMotion& screw(int body, std::size_t waypoint) const { return at(body, waypoint).screw; }
   const WorldTwist& twist(int body, std::size_t waypoint) const { return at(body, waypoint).twist; }
 
-  /// What computing with the body's poses adds to the error of a point [m]: by rotations that are none to rounding
-  /// (at a distance `lever` [m] from the body's origin), and by the size of its coordinates.
+  /// Error of a point from computing with the body's poses [m]: the deviation of the rotations from orthonormal ones
+  /// (times the distance `lever` [m] from the body's origin), and the rounding of the coordinates.
   double poseError(int body, double lever) const { return bodies_[body].defect * lever + bodies_[body].rounding; }
 
  private:
@@ -40,12 +40,12 @@ class SweptBodies {
     WorldTwist twist;
   };
   struct SweptBody {
-    bool is_taken = false;            ///< some pair needs it
-    std::size_t first = 0, last = 0;  ///< times that are needed
-    std::vector<Interval> intervals;  ///< from `first` on
+    bool is_taken = false;            ///< a due pair needs it
+    std::size_t first = 0, last = 0;  ///< range of the times needed
+    std::vector<Interval> intervals;  ///< from time `first` on
     std::string problem;
-    double defect = 0.0;    ///< largest |RᵀR − 1| of its poses
-    double rounding = 0.0;  ///< of its coordinates [m]
+    double defect = 0.0;    ///< largest |RᵀR − 1| of its poses, with rounding
+    double rounding = 0.0;  ///< of the poses' translations [m]
   };
 
   void sweep(const CycleMotion& motion, int body);

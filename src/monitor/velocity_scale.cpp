@@ -25,12 +25,12 @@ void validate(const StoppingPromise& promise) {
 double allowedClosing(const ClosingGap& gap, double age, const StoppingPromise& promise) {
   const double a = promise.deceleration, P = promise.period, T = age + promise.reaction_time;
   const double now = gap.closing + 0.5 * promise.max_acceleration * gap.over;
-  // Nothing closes faster than V; what opens may close by the time.
+  // No gap closes faster than V; one that opens may start to close within T.
   const double fastest = std::clamp(now + promise.max_acceleration * T, 0.0, promise.max_speed);
   const double left = gap.width - promise.stop_distance - fastest * T;
   const double braking = fastest * fastest / (2.0 * a);
   if (left < fastest * P + braking) return std::max(0.0, (left - braking) / P);
-  return 2.0 * left / (P + std::sqrt(P * P + 2.0 * left / a));  // of u P + u²/2a = left, without cancellation
+  return 2.0 * left / (P + std::sqrt(P * P + 2.0 * left / a));  // solves u P + u²/2a = left without cancellation
 }
 
 double scaleRange(const StoppingPromise& promise) {

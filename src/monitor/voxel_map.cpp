@@ -19,15 +19,15 @@ namespace {
 
 constexpr int kTile = VoxelGrid::kTile;
 constexpr int kCells = 1 << 16;      // voxels along a side of the whole tree
-constexpr int kOrigin = kCells / 2;  // the voxel that begins at the map's origin
-constexpr int kLevels = 17;          // of the tree, from one voxel to all of it
+constexpr int kOrigin = kCells / 2;  // index of the voxel that begins at the map's origin
+constexpr int kLevels = 17;          // levels of the tree, from a single voxel to the whole tree
 static_assert(VoxelBlock::kSide == kTile + 2, "a tile and one voxel around it");
 
 std::size_t indexOf(int x, int y, int z) {
   return (static_cast<std::size_t>(z) * kTile + static_cast<std::size_t>(y)) * kTile + static_cast<std::size_t>(x);
 }
 
-/// By its place, counted in tiles from the map's origin.
+/// Name of a tile, by its indices counted from the map's origin.
 std::string nameOf(const std::string& map, const Vector3i& tile) {
   const auto place = [&](int axis) {
     return std::to_string(static_cast<int>(std::floor(double(kTile * tile[axis] - kOrigin) / kTile)));
@@ -40,7 +40,7 @@ Vector3d cornerOf(const Vector3i& voxel, double size) {
   return size * (voxel.array() - kOrigin).cast<double>().matrix();
 }
 
-/// The cube of a level of the octree that holds a voxel.
+/// Key of the octree's cube at a level that contains a voxel.
 std::uint64_t cubeAt(const Vector3i& voxel, int level) {
   const auto place = [&](int axis) { return static_cast<std::uint64_t>(voxel[axis] >> level); };
   return static_cast<std::uint64_t>(level) << 48 | place(2) << 32 | place(1) << 16 | place(0);
@@ -117,13 +117,13 @@ std::optional<VoxelGrid::Key> VoxelGrid::largeFreeAt(const Vector3i& voxel) cons
   return std::nullopt;
 }
 
-/// What of a tile is known.
+/// Voxels of a tile whose state is known.
 VoxelGrid::Bits VoxelGrid::known(const Vector3i& tile) const {
   const auto found = tiles_.find(keyOf(tile));
   Bits bits = found == tiles_.end() ? Bits() : found->second.known;
   if (large_free_.empty()) return bits;
   checkCancelled();
-  // Such a leaf is larger than a tile, so it holds a corner of each that it meets.
+  // Such a leaf is larger than a tile, so it contains a corner of each tile that it meets.
   std::array<std::optional<Key>, 8> corners;
   for (int i = 0; i < 8; ++i)
     corners[i] = largeFreeAt(kTile * tile + (kTile - 1) * Vector3i(i & 1, i >> 1 & 1, i >> 2));
@@ -149,9 +149,9 @@ void VoxelGrid::addOctree(const std::int8_t* data, std::size_t bytes, const std:
   });
 }
 
-/// A tile as it was made.
+/// A tile as it was built.
 struct VoxelMap::Built {
-  VoxelGrid::Bits own;  // without the voxels around it
+  VoxelGrid::Bits own;  // without the voxels around the tile
   VoxelBlock block;
 };
 
@@ -163,7 +163,7 @@ namespace {
 using Bits = VoxelGrid::Bits;
 using BitsOfTiles = std::unordered_map<std::uint64_t, Bits>;
 
-/// Calls with each voxel of a tile that is set and whose centre is nearer to a point than that.
+/// Calls `visit` for each voxel of a tile whose centre is within `reach` of a point.
 template <class Visit>
 void visitNear(const Vector3i& tile, double size, const Vector3d& center, double reach, const Visit& visit) {
   const Vector3d corner = cornerOf(kTile * tile, size);
@@ -210,7 +210,7 @@ VoxelBlock blockOf(const Vector3i& tile, const BitsOfTiles& all,
     around[i] = found == all.end() ? nullptr : &found->second;
   }
   VoxelBlock block;
-  const auto part = [](int v, int& in_tile) {  // of -1 to kTile: which of three tiles, and where in that
+  const auto part = [](int v, int& in_tile) {  // v from -1 to kTile: which of three tiles, and the index in it
     in_tile = v < 0 ? kTile - 1 : v >= kTile ? 0 : v;
     return v < 0 ? 0 : v >= kTile ? 2 : 1;
   };
@@ -229,7 +229,7 @@ VoxelBlock blockOf(const Vector3i& tile, const BitsOfTiles& all,
 VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& masks) {
   const double size = grid.size();
   Change change;
-  // What counts as occupied.
+  // The occupied voxels, including unknown ones if the options count these.
   BitsOfTiles occupied;
   occupied.reserve(grid.tiles_.size());
   for (const auto& [key, tile] : grid.tiles_)
@@ -259,7 +259,7 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
       });
     }
   }
-  // What the robot itself fills.
+  // Remove what the robot itself fills.
   const double pad = options_.padding + 0.5 * size;
   for (const VoxelMask& mask : masks) {
     checkCancelled();
@@ -275,7 +275,7 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
     }
   }
 
-  // What differs from the last map, by the blocks that tiles are made of.
+  // Find the tiles that differ from the last map, by the blocks that they are made of.
   const bool is_another = size != size_;
   std::vector<std::uint64_t> keys;
   for (const auto& [key, bits] : occupied) {
@@ -304,7 +304,7 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
   struct Made {
     std::shared_ptr<const Built> built;
     BodyDescription body;
-    std::optional<DistanceField> field;  // if it is new
+    std::optional<DistanceField> field;  // if the tile is new
   };
   std::vector<Made> made(keys.size());
   const CancelPoint cancel;

@@ -10,7 +10,7 @@ namespace {
 struct Solid {
   Isometry3d X_GM;  // pose of the map's frame in the part's
   const Primitive* primitive;
-  const DistanceField* field;  // if it is no primitive
+  const DistanceField* field;  // if it is not a primitive
 
   double distance(const Vector3d& p_M) const {
     if (primitive) return signedDistance(*primitive, X_GM * p_M);

@@ -26,7 +26,7 @@ std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& 
   return body;
 }
 
-/// The description of a built scene, with the failures and pairs that building has left out.
+/// The description of a built scene, with the failures and the pairs that were left out during building.
 SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan, const Scene& scene) {
   for (std::size_t b = 0; b < description.bodies.size(); ++b) description.bodies[b].failure = scene.bodies[b].failure;
   std::set<std::pair<int, int>> stay;
@@ -61,7 +61,7 @@ struct WorldEditor::Impl {
   void provideFields(const BodyDescription& body, MeshPool& pool) const;
   void forgetFields();
 
-  /// Of a mesh, made elsewhere.
+  /// The field of a mesh, made elsewhere.
   struct Provided {
     std::weak_ptr<const TriangleMesh> mesh;
     DistanceField field;
@@ -100,13 +100,13 @@ void WorldEditor::Impl::provideFields(const BodyDescription& body, MeshPool& poo
     if (const DistanceField* field = fieldOf(part)) pool.find(part).field = *field;
 }
 
-/// Of meshes that are gone.
+/// Removes fields whose meshes no longer exist.
 void WorldEditor::Impl::forgetFields() {
   for (auto field = fields.begin(); field != fields.end();)
     field = field->second.mesh.expired() ? fields.erase(field) : std::next(field);
 }
 
-/// But for surfaces, which fields that are built tell of.
+/// The needs of all bodies except BodySurface, which depends on the fields once these are built.
 std::vector<PreparedNeeds> WorldEditor::Impl::needsOf(const SceneDescription& description,
                                                       const ScenePlan& plan) const {
   std::vector<PreparedNeeds> needs(description.bodies.size());
@@ -125,7 +125,7 @@ std::vector<PreparedNeeds> WorldEditor::Impl::needsOf(const SceneDescription& de
   return needs;
 }
 
-/// Of what is not there yet.
+/// Checks the cost of the bodies that are not prepared yet.
 void WorldEditor::Impl::requireAffordable(const SceneDescription& description, const ScenePlan& plan,
                                           const std::vector<std::string>& keys,
                                           const std::vector<PreparedNeeds>& needs) {
@@ -139,7 +139,7 @@ void WorldEditor::Impl::requireAffordable(const SceneDescription& description, c
           return !std::holds_alternative<Primitive>(part.shape) && !fieldOf(part);
         });
     const bool is_large_primitive = !has_mesh && plan.needs_shell[b] && !plan.edges_only[b];
-    if (!has_mesh && !is_large_primitive) continue;  // they cost next to nothing
+    if (!has_mesh && !is_large_primitive) continue;  // their cost is negligible
     missing.bodies.push_back(body);
     missing_plan.needs_field.push_back(plan.needs_field[b]);
     missing_plan.needs_shell.push_back(plan.needs_shell[b]);
@@ -149,7 +149,7 @@ void WorldEditor::Impl::requireAffordable(const SceneDescription& description, c
   if (!missing.bodies.empty()) sdf_ccd::requireAffordable(expectedCost(missing, missing_plan, options), options);
 }
 
-/// Names the bodies, counts what there is, and makes it the last version.
+/// Assigns body ids and stores the version's bodies by name.
 void WorldEditor::Impl::finish(WorldSnapshot& snapshot, const std::vector<std::shared_ptr<const Body>>& prepared) {
   std::unordered_map<std::string, Named> now;
   const BodyList& list = snapshot.scene->bodies;
@@ -217,7 +217,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
     ++snapshot->prepared;
   };
   for (std::size_t b = 0; b < count; ++b) prepare(b);
-  for (std::size_t b = 0; b < count; ++b) prepare(b);  // what one of equal content has got since
+  for (std::size_t b = 0; b < count; ++b) prepare(b);  // a body of equal geometry may have replaced one since
   const auto isOpen = [&](int b) { return prepared[b] && mayHoldNothing(*prepared[b]->body); };
   for (const PlannedPair& pair : plan.pairs) {
     if (!isOpen(pair.body_a) && !isOpen(pair.body_b)) continue;

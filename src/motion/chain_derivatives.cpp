@@ -3,8 +3,8 @@
 namespace sdf_ccd {
 namespace {
 
-/// With R = exp(q [a]): R' = q' [a] R, R'' = (q'' [a] + q'² [a]²) R, R''' = (q''' [a] + 3 q' q'' [a]² + q'³ [a]³) R,
-/// and |[a]| = 1.
+/// With R = exp(q [a]): R' = q' [a] R, R'' = (q'' [a] + q'² [a]²) R,
+/// R''' = (q''' [a] + 3 q' q'' [a]² + q'³ [a]³) R, and |[a]| = 1.
 DerivativeSeries turnSeries(const DerivativeBounds& angle) {
   const double q1 = angle.first;
   return {1.0, q1, q1 * q1 + angle.second, q1 * q1 * q1 + 3.0 * q1 * angle.second + angle.third};

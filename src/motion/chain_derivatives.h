@@ -49,14 +49,14 @@ class ChainDerivatives {
 };
 
 /// The same bounds in the opposite order: from the frame of reference down to the frames that carry the points, so that
-/// a tree of frames is traversed once for all bodies. A chain of frames maps the series D of a point, with its distance
-/// from the last frame's origin as the value, to A D + B.
+/// a tree of frames is traversed once for all bodies. A chain of frames maps the series D of a point, whose value is
+/// its distance from the last frame's origin, to A D + B.
 class CarriedDerivatives {
  public:
-  /// Of a further frame that moves in the last one, as ChainDerivatives::addFrame().
+  /// The chain with a further frame that moves in the last one, as ChainDerivatives::addFrame().
   CarriedDerivatives carrying(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide) const;
 
-  /// Of a further frame in which the last one moves, as ChainDerivatives::addInverse().
+  /// The chain with a further frame in which the last one moves, as ChainDerivatives::addInverse().
   CarriedDerivatives carryingInverse(double reach, const DerivativeBounds& angle, const DerivativeBounds& slide) const;
 
   /// For points at rest in the last frame, at most this far from its origin [m].

@@ -55,7 +55,7 @@ class MotionSampler::Run {
   }
 
  private:
-  /// Between the last sample and the next one.
+  /// Bound of a body's deviation from the screw between the last sample and the next one [m].
   double deviation(std::size_t body, const Isometry3d& X_middle, const Isometry3d& X_end) const {
     const Isometry3d& X_start = motion_.X_WB[body].back();
     const double jerk = memory_.jerk_[body];

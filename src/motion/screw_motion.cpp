@@ -21,7 +21,7 @@ void requirePose(const Isometry3d& X, const std::string& what) {
 
 namespace {
 
-/// Arithmetic only for good rotations: most are far more accurate than required.
+/// Accepts good rotations by arithmetic alone: most are far more accurate than required.
 void requirePoses(const Isometry3d& start, const Isometry3d& end) {
   constexpr double kSurely = 1e-20;  // the squared deviation of RᵀR; false for NaN
   for (const Isometry3d* X : {&start, &end}) {
@@ -71,8 +71,9 @@ Isometry3d exponential(const Vector3d& omega, const Vector3d& velocity) {
   return X;
 }
 
-/// The pose halfway to X along its twist: by half of the rotation, whose quaternion is halfway from 1. On an arc of
-/// angle θ about the axis a, the chord up to the middle is 1/(2 cos θ/4) of the whole one and lies θ/4 behind it:
+/// The pose halfway to X along its twist: half of the rotation, whose quaternion is halfway between 1 and that of X. On
+/// an arc of angle θ about the axis a, the chord up to the middle is 1/(2 cos θ/4) of the whole one and lies θ/4
+/// behind it:
 /// t(½) = ½ (t − tan(θ/4) a × t).
 Isometry3d halfway(const Isometry3d& X) {
   Quaterniond q(X.linear());

@@ -1,4 +1,4 @@
-/// Rotating bodies: the study `chord`.
+/// The study `chord`: time of impact of rotating bodies.
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr int kCells = 128;
-constexpr double kSpacing = 0.015;  // of the side
+constexpr double kSpacing = 0.015;  // of the shell's points [box sides]
 
-/// When the first point of a shell on its arc meets the mesh, in [0, 1]; 2 if none does. Points move at a constant
-/// speed (the twist is constant), so no point moves farther than its distance to the surface in a step (conservative
-/// advancement), and a point that begins outside stays there, as all do here.
+/// Time of impact in [0, 1] of the shell's points, on their arcs, with the mesh; 2 if there is none. By conservative
+/// advancement: a point's speed is constant, as the twist is, so no step moves it farther than its distance to the
+/// surface. All points must start outside.
 double exactImpact(const ExactSurface& mesh, const PointShell& shell, const ScrewMotion& motion, double tolerance) {
   double first = 2.0;
   for (const Vector3d& p : shell.points) {
@@ -40,11 +40,11 @@ double exactImpact(const ExactSurface& mesh, const PointShell& shell, const Scre
 
 struct ExactMotion {
   Motion motion;
-  double impact;  ///< when, in (0, 1)
-  double travel;  ///< upper bound for all points [m]
+  double impact;  ///< time of impact, in (0, 1)
+  double travel;  ///< upper bound of the travel of all points [m]
 };
 
-/// Copies of the body that rotate into it: by 0.3 to 1.5 rad, starting a twentieth of the side apart.
+/// Random motions of copies of the body that rotate into it by 0.3 to 1.5 rad, starting 0.02 to 0.1 of the side apart.
 std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& field, const TreeShell& shell,
                                  const BoundingBall& ball, int count) {
   const double side = field.surfaceBox().sizes().maxCoeff();
@@ -69,7 +69,7 @@ std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& 
   return found;
 }
 
-/// Like the check of a pair of bodies: chords, hits, the earliest of them.
+/// Time of impact as a check of a pair of bodies finds it: cuts the motion into chords, returns the earliest hit.
 class ChordSystem {
  public:
   ChordSystem(const DistanceField& field, const TreeShell& shell, const BoundingBall& ball, double tolerance)

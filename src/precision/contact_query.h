@@ -8,15 +8,15 @@
 #include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
 
-/// Moving shells against fields, as used by the studies of contact.
+/// Moving shells against fields, for the studies of contact.
 namespace sdf_ccd::precision {
 
-/// A shell with its tree.
+/// A point shell with its sphere tree.
 struct TreeShell {
   PointShell shell;
   SphereTree tree;
 
-  /// @param spacing  [m]; mesh vertices closer together than this are left out too.
+  /// @param spacing  point spacing [m]; of mesh vertices closer together than this, some are left out too.
   TreeShell(const TriangleMesh& mesh, double spacing);
 };
 
@@ -25,25 +25,27 @@ struct Motion {
   Isometry3d X_FP_start, X_FP_end;
 };
 
-/// The distance along u between the centres of field and shell at which the shell comes close to the field's surface:
-/// within the field's error and a thousandth of `side` [m].
+/// Distance [m] along u between the centres of field and shell at which the shell almost touches the field's surface:
+/// the clearance is at most 1.2 times the field's error bound plus a thousandth of `side`. Found by conservative
+/// advancement from a distance of 3 `side`.
 double touchingDistance(const DistanceField& field, const TreeShell& shell, const Matrix3d& R_FP, const Vector3d& u,
                         double side);
 
-/// Copies of a body pressed into it, from `shallow` to `deep` [m] at the start, that then move by `travel` [m] and
-/// rotate by 0.02 rad. All are in contact.
+/// Random motions of copies of a body that start between `shallow` and `deep` [m] deep in it, move deeper by `travel`
+/// [m] and rotate by 0.02 rad. All have contact.
 std::vector<Motion> presses(const DistanceField& field, const TreeShell& shell, int count, double shallow, double deep,
                             double travel);
 
-/// Hits on a straight motion from start to end.
+/// The shell query and contact impulse of one motion, taken as a single chord.
 struct ContactQuery {
   ContactQuery(const DistanceField& field, const TreeShell& shell, const Motion& motion);
 
-  /// Finds hits.
+  /// Finds the hits.
   void find();
-  /// Integrates them.
+  /// Integrates the contact impulse over the hits of find().
   const ContactImpulse& integrate(const ContactOptions& options);
 
+  /// Largest depth found by integrate() [m].
   double deepest() const;
 
   const DistanceField& field;

@@ -5,7 +5,7 @@
 
 namespace sdf_ccd::precision {
 
-/// Errors of many queries in three numbers.
+/// Median, 99th percentile and maximum of the errors of many queries.
 struct ErrorSummary {
   double median = 0.0;
   double p99 = 0.0;
@@ -13,8 +13,8 @@ struct ErrorSummary {
   std::size_t count = 0;
 };
 
-/// The smallest value that at least the share q of all values does not exceed; q in [0, 1]. Reorders the values.
-/// @throws std::invalid_argument if there are none.
+/// The q-quantile, q in [0, 1]: the smallest value such that at least the fraction q of all values is not above it.
+/// Reorders the values. @throws std::invalid_argument if there are none.
 double quantile(std::vector<double>& values, double q);
 
 /// @throws std::invalid_argument if there are no errors.

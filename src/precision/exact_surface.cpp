@@ -7,11 +7,11 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr double kEdge = 1e-12;  // of a triangle's edges
+constexpr double kEdge = 1e-12;  // tolerance of barycentric coordinates
 
 using Triangle = std::array<Vector3d, 3>;
 
-/// Where the line from `start` crosses a triangle, as a share of `direction` (Möller & Trumbore 1997).
+/// Parameter t at which the line start + t direction crosses a triangle (Möller & Trumbore 1997).
 std::optional<double> crossing(const Vector3d& start, const Vector3d& direction, const Triangle& triangle) {
   const Vector3d ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
   const Vector3d h = direction.cross(ac);
@@ -38,7 +38,7 @@ std::optional<double> ExactSurface::firstHit(const Segment& segment) const {
   for (double at = 0.0; length > 0.0 && at <= 1.0;) {
     const double free = unsignedDistance(segment.start + at * direction);
     if (free > near_) {
-      at += (1.0 - 1e-9) * free / length;  // so that rounding does not step over a surface that is hit head-on
+      at += (1.0 - 1e-9) * free / length;  // less, so that rounding cannot step over a surface hit head-on
       continue;
     }
     const double end = std::min(at + 2.0 * near_ / length, 1.0), middle = 0.5 * (at + end);

@@ -8,30 +8,31 @@
 
 namespace sdf_ccd::precision {
 
-/// Answers of the mesh itself, in double precision: the reference for fields.
+/// Exact queries on the mesh in double precision, the reference for fields.
 class ExactSurface {
  public:
   /// @param mesh  oriented (see orientOutward()).
   explicit ExactSurface(const TriangleMesh& mesh);
 
-  /// The solid's boundary; the nearest triangle is one of its triangles.
+  /// The solid's boundary, on which all queries work.
   const TriangleMesh& mesh() const { return surface_.solid().boundary(); }
   const SignedSurface& surface() const { return surface_; }
 
   /// Signed distance [m]: closest triangle, sign from the winding number.
   double distance(const Vector3d& p) const { return surface_.signedDistance(p); }
 
-  /// The same without a sign.
+  /// Unsigned distance [m].
   double unsignedDistance(const Vector3d& p) const { return surface_.tree().closestPoint(p).distance; }
 
-  /// Parameter in [0, 1] of the segment's first crossing of a triangle. Far from the surface it steps through empty
-  /// spheres, else it tests every triangle close to the next piece. Coplanar triangles are left to their neighbours;
-  /// edges are widened by rounding, so that no segment passes between two triangles.
+  /// Parameter in [0, 1] of the segment's first crossing of a triangle; none if there is none. Steps through empty
+  /// spheres far from the surface, and tests all triangles near the next piece of the segment close to it. Triangles
+  /// coplanar with the segment are skipped, as it crosses their neighbours; triangles are enlarged by the rounding
+  /// error, so that no segment passes between two of them.
   std::optional<double> firstHit(const Segment& segment) const;
 
  private:
   SignedSurface surface_;
-  double near_;  ///< half of the longest piece whose triangles are all tested [m]
+  double near_;  ///< half the length of a piece whose triangles are tested [m]
 };
 
 }  // namespace sdf_ccd::precision

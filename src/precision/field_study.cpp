@@ -1,4 +1,4 @@
-/// Fields against the exact mesh: the studies `cell` and `max-error`.
+/// The studies `cell` and `max-error`: fields against the exact mesh.
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr double kDeepest = 0.005;  ///< of the points [box sides]
-constexpr double kFree = 0.06;      ///< minimum distance of starts from the surface: outside the coarsest field too
+constexpr double kDeepest = 0.005;  ///< maximum depth of the points [box sides]
+constexpr double kFree = 0.06;      ///< minimum distance of starts [box sides], so that they are outside in any field
 
 double sideOf(const TriangleMesh& mesh) {
   return boundingBox(mesh).sizes().maxCoeff();
@@ -45,7 +45,7 @@ struct ExactHits {
   }
 };
 
-/// Points just inside the mesh, with their distance.
+/// Points just inside the mesh, with their signed distances.
 struct ExactDepths {
   std::vector<Vector3d> points;
   std::vector<double> distances;
@@ -87,7 +87,7 @@ void measureHits(const ExactHits& exact, const std::vector<HitSystem>& systems, 
       secondsPerQuery(tasks, exact.segments.size(), [&](double share) { input.progress(0.8 + 0.1 * share); });
   for (std::size_t k = 0; k < systems.size(); ++k) {
     Measurement row = labelled(systems[k].label, "time of impact (length along the path)");
-    row.bound = Measurement::kNone;  // on the location of the surface, not on the time of impact
+    row.bound = Measurement::kNone;  // it bounds the surface's location, not the time of impact
     row.seconds = seconds[k];
     std::vector<double> errors;
     for (std::size_t i = 0; i < exact.segments.size(); ++i) {
@@ -153,7 +153,7 @@ void append(std::vector<System>& systems, std::vector<System> more) {
   for (System& system : more) systems.push_back(std::move(system));
 }
 
-/// All fields are built before anything is timed, so that all systems alternate.
+/// Builds all fields before anything is timed, so that the systems can be timed in turn.
 class FieldStudy {
  public:
   explicit FieldStudy(const StudyInput& input) : input_(input), side_(sideOf(input.mesh)) {}
@@ -203,7 +203,7 @@ StudyResult cellStudy(const StudyInput& input) {
   FieldStudy study(input);
   std::vector<int> counts{16, 32, 64, 128};
   if (!input.quick) counts.push_back(256);
-  // A field's cost grows with the square of its cells along a side: the last one is three quarters of all.
+  // The cost of a field grows with the square of the cells along a side, so the last field takes three quarters of all.
   double before = 0.0, all = 0.0;
   for (const int cells : counts) all += double(cells) * cells;
   for (const int cells : counts) {

@@ -10,7 +10,7 @@ bool haveGnuplot();
 /// Runs gnuplot. @throws std::runtime_error if it fails.
 void runGnuplot(const std::string& script);
 
-/// A text in single quotes, as gnuplot reads it.
+/// A text as a gnuplot string in single quotes.
 std::string quoted(const std::string& text);
 
 }  // namespace sdf_ccd::precision

@@ -8,15 +8,15 @@
 
 namespace sdf_ccd::precision {
 
-/// One method at one setting: its cost and its error. Its texts contain no comma.
+/// Cost and error of one system at one setting. Its texts contain no comma, as they are written to CSV.
 struct Measurement {
-  std::string quantity;    ///< the queried quantity; each has a panel of the plot
+  std::string quantity;    ///< that is queried; each quantity has a panel of the plot
   std::string unit;        ///< of the errors
-  std::string system;      ///< that answers
-  std::string setting;     ///< for display; empty for a system without one
-  double value = kNone;    ///< the setting's number, in the study's unit
-  double seconds = 0.0;    ///< per query: median over the rounds of the mean over the queries
-  ErrorSummary error;      ///< of the queries that were answered
+  std::string system;      ///< that is measured
+  std::string setting;     ///< for display; empty for a system without settings
+  double value = kNone;    ///< the setting as a number, in the study's unit
+  double seconds = 0.0;    ///< time per query: mean over the queries, median over the rounds
+  ErrorSummary error;      ///< over the queries with an answer
   double bound = kNone;    ///< the system's own error bound
   std::size_t missed = 0;  ///< queries without an answer although one exists
 
@@ -24,7 +24,7 @@ struct Measurement {
 };
 
 struct StudyResult {
-  std::string study;    ///< its name
+  std::string study;    ///< name of the study
   std::string title;    ///< of the plot
   std::string setting;  ///< name of Measurement::value, with its unit
   std::string query;    ///< the query that is timed

@@ -7,10 +7,10 @@
 #include "measurement.h"
 #include "sdf_ccd/query/segment_query.h"
 
-/// The systems that studies compare: this package, and other libraries if a program provides them.
+/// The systems that studies compare: this package, and other libraries if the calling program provides them.
 namespace sdf_ccd::precision {
 
-/// The name of a system in a row.
+/// Name, setting and error bound of a system in a row of the results.
 struct Label {
   std::string system;
   std::string setting;
@@ -18,25 +18,25 @@ struct Label {
   double bound = Measurement::kNone;
 };
 
-/// Parameters in [0, 1] at which segments first meet the surface, negative where they do not.
+/// Computes the parameters in [0, 1] at which segments first meet the surface; negative for those that do not.
 struct HitSystem {
   Label label;
   std::function<void(const std::vector<Segment>&, std::vector<double>&)> first_hits;
 };
 
-/// Signed distances at points [m].
+/// Computes the signed distance at a point [m].
 struct DistanceSystem {
   Label label;
   std::function<double(const Vector3d&)> distance;
 };
 
-/// First time in [0, 1] at which a body that moves with a constant twist touches one at rest, negative if it does not.
+/// Computes the time of impact in [0, 1] of a body moving with a constant twist with a body at rest; negative if none.
 struct ImpactSystem {
   Label label;
   std::function<double(const Isometry3d& X_FP_start, const Isometry3d& X_FP_end)> impact;
 };
 
-/// Other libraries. Empty functions are left out.
+/// Factories of the systems of other libraries. An empty function means that there are none.
 struct Peers {
   std::function<std::vector<HitSystem>(const TriangleMesh&)> mesh_hits;
   std::function<std::vector<HitSystem>(const TriangleMesh&, int cells)> grid_hits;

@@ -12,7 +12,7 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr int kPanelWidth = 520, kPanelHeight = 440, kTitleHeight = 50, kKeyHeight = 18;  // [pixels]
-constexpr double kSmallest = 1e-12;  // smaller errors, zero too, are drawn here
+constexpr double kSmallest = 1e-12;  // smaller errors, also zero, are drawn at this value
 const char* const kColors[] = {"#4c72b0", "#dd8452", "#55a868", "#c44e52", "#8172b3", "#937860",
                                "#da8bc3", "#8c8c8c", "#ccb974", "#64b5cd", "#1b4f72", "#7d6608"};
 
@@ -24,7 +24,7 @@ std::vector<std::string> distinct(const StudyResult& result, std::string Measure
   return found;
 }
 
-/// A system's points in one panel.
+/// The points of a system in one panel.
 std::vector<Measurement> pointsOf(const StudyResult& result, const std::string& quantity, const std::string& system) {
   std::vector<Measurement> points;
   for (const Measurement& row : result.rows) {
@@ -33,7 +33,7 @@ std::vector<Measurement> pointsOf(const StudyResult& result, const std::string& 
   return points;
 }
 
-/// Systems with several settings in a panel.
+/// Number of systems with several settings in a panel; they are drawn as lines.
 int linesIn(const StudyResult& result, const std::string& quantity) {
   int lines = 0;
   for (const std::string& system : distinct(result, &Measurement::system)) {
@@ -42,7 +42,7 @@ int linesIn(const StudyResult& result, const std::string& quantity) {
   return lines;
 }
 
-/// The range of a panel along an axis, with a margin; with space for the names of settings on the right.
+/// The range of a panel along an axis, with a margin; for times the upper one is wider, for the names of settings.
 struct Range {
   double low = 1e300, high = 0.0;
 
@@ -59,12 +59,12 @@ struct Range {
     high *= std::pow(10.0, of_time ? 3.0 * margin : margin);
   }
 
-  /// Position of a value between low, 0, and high, 1.
+  /// Position of a value on the logarithmic axis: 0 at `low`, 1 at `high`.
   double share(double value) const { return std::log(value / low) / std::log(high / low); }
 
   std::string text() const { return fmt::format("[{:.3g}:{:.3g}]", low, high); }
 
-  /// Powers of ten, and numbers between them if they are few.
+  /// Tics at powers of ten, and between them if the range is short.
   std::string tics() const {
     std::string text;
     const int last = static_cast<int>(std::ceil(std::log10(high)));
@@ -80,12 +80,12 @@ struct Range {
   }
 };
 
-/// The names of settings in one panel, where there is space for them.
+/// The names of settings placed so far in a panel.
 class PlacedNames {
  public:
   PlacedNames(const Range& times, const Range& errors) : times_(times), errors_(errors) {}
 
-  /// Whether a name that begins at this point covers no other name; then it is added.
+  /// Adds the name at this point if it would cover no other name. @return whether it was added.
   bool add(const Measurement& point) {
     const Position at{times_.share(1e6 * point.seconds), errors_.share(std::max(point.error.median, kSmallest))};
     for (const Position& other : placed_) {
@@ -104,7 +104,7 @@ class PlacedNames {
   std::vector<Position> placed_;
 };
 
-/// Lines with microseconds, median, 99th percentile, maximum and the setting's name, which is empty if it is not shown.
+/// Data lines: microseconds, median, 99th percentile, maximum, and the setting's name (empty if it is not shown).
 /// @param ends_only  show only the names of the first and the last setting.
 std::string dataLines(const std::vector<Measurement>& points, bool ends_only, PlacedNames& names) {
   std::string lines;

@@ -1,4 +1,4 @@
-/// How impulses are integrated: the study `quadrature`.
+/// The study `quadrature`: rules for integrating contact impulses.
 
 #include <cmath>
 #include <string>
@@ -12,7 +12,7 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr int kCells = 64;
-constexpr double kSpacing = 0.05;  // of the side
+constexpr double kSpacing = 0.05;  // of the shell's points [box sides]
 constexpr int kReferencePoints = 10'000;
 
 struct Rule {

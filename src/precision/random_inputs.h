@@ -5,21 +5,22 @@
 
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
-/// Repeatable random inputs of studies.
+/// Repeatable random inputs for studies.
 namespace sdf_ccd::precision {
 
 using Random = std::mt19937_64;
 
+/// Uniform in [low, high).
 double uniform(Random& random, double low, double high);
 Vector3d uniformIn(Random& random, const AlignedBox3d& box);
 
 /// A unit vector, uniform over the sphere.
 Vector3d direction(Random& random);
 
-/// Uniform over all orientations (Shoemake 1992).
+/// A rotation, uniform over all orientations (Shoemake 1992).
 Matrix3d rotation(Random& random);
 
-/// Points of a mesh's surface, uniform by area, independent of each other.
+/// Draws independent points on a mesh's surface, uniform by area.
 class SurfacePlaces {
  public:
   /// @param mesh  must outlive this.
@@ -27,7 +28,9 @@ class SurfacePlaces {
 
   Vector3d operator()(Random& random) const { return place(random, triangle(random)); }
 
+  /// Index of a triangle, with a probability proportional to its area.
   int triangle(Random& random) const;
+  /// A point in the triangle, uniform by area.
   Vector3d place(Random& random, int triangle) const;
 
  private:

@@ -4,18 +4,19 @@
 
 #include "measurement.h"
 
-/// A study's result as text.
+/// Results of studies as text.
 namespace sdf_ccd::precision {
 
 /// A header line, and a line per row: study, quantity, error_unit, system, setting, value, seconds_per_query,
 /// error_median, error_p99, error_max, bound, missed, queries. Unknown values are empty.
 std::string csvText(const StudyResult& result);
 
-/// For display: a block of aligned columns per quantity.
+/// A table for display: a block of aligned columns per quantity.
 std::string tableText(const StudyResult& result);
 
 /// A script for gnuplot that draws a panel per quantity into an SVG file: time per query on x, error on y, both
-/// logarithmic; per system its medians joined by a line, a tick at the 99th percentile, a bar to the maximum.
+/// logarithmic; for each system its medians joined by a line, a cross at the 99th percentile, and a bar up to the
+/// maximum.
 std::string plotScript(const StudyResult& result, const std::string& svg_path);
 
 }  // namespace sdf_ccd::precision

@@ -1,4 +1,4 @@
-/// How dense a shell must be: the study `spacing`.
+/// The study `spacing`: force and depth over the spacing of a shell's points.
 
 #include <cmath>
 #include <memory>
@@ -14,7 +14,7 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr int kCells = 128;
-constexpr double kReference = 0.004;  // spacing of the shell that represents the surface, of the side
+constexpr double kReference = 0.004;  // spacing of the reference shell [box sides]
 
 }  // namespace
 

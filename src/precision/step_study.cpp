@@ -1,4 +1,5 @@
-/// Time steps: the study `step`. Both scenes have closed forms: a point of 1 kg and a half-space, ω = √(k/m) = 1000 /s.
+/// The study `step`: error over the time step. Both scenes have closed forms: a point of 1 kg and a half-space, with
+/// ω = √(k/m) = 1000 /s.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr double kOmega = 1000.0;                       // [rad/s]
 constexpr double kPeriod = 6.283185307179586 / kOmega;  // [s]
 constexpr int kPeriods = 5;
 constexpr int kScenes = 20;
-constexpr double kUseless = 10.0;  // errors beyond this are those of a scheme that explodes
+constexpr double kUseless = 10.0;  // errors are clamped to this: the scheme is unstable
 
 RigidWorld pointOnGround(double zeta) {
   RigidBody ground, point;
@@ -39,7 +40,7 @@ RigidWorld pointOnGround(double zeta) {
   return world;
 }
 
-/// A point at height z that moves at v [m/s].
+/// The point at height z [m] with vertical velocity v [m/s]; the ground at rest.
 std::vector<BodyState> pointAt(double z, double v) {
   std::vector<BodyState> states(2);
   states[1].X_OB.translation() = Vector3d(0.0, 0.0, z);
@@ -49,10 +50,10 @@ std::vector<BodyState> pointAt(double z, double v) {
 
 struct Scene {
   double zeta;   ///< damping ratio
-  double start;  ///< resting: height above rest, in resting depths. Impact: when in the step it begins, [0, 1)
+  double start;  ///< resting: height above equilibrium, in resting depths. Impact: its phase within a step, [0, 1)
 };
 
-/// A contact that persists: the largest deviation from the damped oscillation over five periods, in amplitudes.
+/// Persistent contact: the largest deviation from the damped oscillation over five periods, relative to the amplitude.
 double restingError(Scheme scheme, double step, const Scene& scene) {
   RigidWorld world = pointOnGround(scene.zeta);
   const double rest = world.gravity.z() / (kOmega * kOmega), amplitude = scene.start * std::abs(rest);
@@ -71,7 +72,7 @@ double restingError(Scheme scheme, double step, const Scene& scene) {
   return worst;
 }
 
-/// An impact at 1 m/s, no gravity, no damping: how much the rebound's speed differs from it.
+/// An impact at 1 m/s without gravity and damping: the error of the rebound's speed, which is 1 m/s exactly.
 double impactError(Scheme scheme, double step, const Scene& scene) {
   RigidWorld world = pointOnGround(0.0);
   world.gravity.setZero();

@@ -7,16 +7,16 @@
 #include "measurement.h"
 #include "peers.h"
 
-/// Studies of error against run time. Each runs the same queries on every system at every setting, one after the other,
-/// on one thread, and compares the answers with the exact values.
+/// Studies of error against run time. Each runs the same queries on every system at every setting, in turn, on one
+/// thread, and compares the answers with exact values.
 namespace sdf_ccd::precision {
 
 struct StudyInput {
   TriangleMesh mesh;   ///< closed and oriented (see orientOutward())
-  int queries = 2000;  ///< segments and points; for motions of bodies a twentieth to a fortieth
-  bool quick = false;  ///< without the finest settings
+  int queries = 2000;  ///< number of segments and points; of motions of bodies a twentieth to a fortieth
+  bool quick = false;  ///< leave out the finest settings
   Peers peers;         ///< other libraries
-  std::function<void(double)> progress = [](double) {};  ///< the share done
+  std::function<void(double)> progress = [](double) {};  ///< called with the fraction done
 };
 
 struct Study {
@@ -25,7 +25,7 @@ struct Study {
   StudyResult (*run)(const StudyInput&);
 };
 
-/// All studies, in the order for reading.
+/// All studies, in the order in which to read them.
 const std::vector<Study>& studies();
 
 StudyResult cellStudy(const StudyInput& input);

@@ -12,7 +12,7 @@ namespace sdf_ccd::precision {
 namespace {
 
 constexpr int kRounds = 7;
-constexpr double kShortest = 2e-3;  // [s] of a task in a round
+constexpr double kShortest = 2e-3;  // minimum time of a task in a round [s]
 
 double threadSeconds() {
   timespec now;

@@ -10,8 +10,8 @@ struct ValueSlope {
   double slope;
 };
 
-/// Root of a continuous f in [lo, hi], where f(lo) and f(hi) lie on different sides of zero: Newton's steps where
-/// they stay in the bracket and shrink it, halving where they do not. To the last bits of the parameter.
+/// Root of a continuous f in [lo, hi], where f(lo) and f(hi) lie on different sides of zero: by Newton's method as long
+/// as its steps stay in the bracket and shrink it, else by bisection. Accurate to the last bits of the parameter.
 /// @param f         returns ValueSlope at a parameter.
 /// @param rising    true if f(lo) < 0 < f(hi).
 template <class Function>

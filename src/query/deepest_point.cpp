@@ -11,14 +11,14 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kNear = 2.5;  // radius around a piece, over its size, in which the solid's triangles are considered
+constexpr double kNear = 2.5;  // radius of the triangles considered around a piece, relative to the piece's size
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The depth of one point [m], in the element's frame.
 struct PartDepth {
   double depth = -kInfinity;
-  int triangle = -1;                // the nearest, of a mesh
-  Vector3d out = Vector3d::Zero();  // unit, or zero where there is none
+  int triangle = -1;                // the nearest one; -1 for a primitive
+  Vector3d out = Vector3d::Zero();  // outward normal: unit, or zero where there is none
 };
 
 Vector3d unitOf(const Vector3d& v) {
@@ -47,7 +47,7 @@ PartDepth depthIn(const SolidPart& part, const Vector3d& p_G) {
   return {inside ? nearest.distance : -nearest.distance, nearest.triangle, unitOf(out)};
 }
 
-/// The depth in the deepest of all elements.
+/// The largest of a point's depths in all elements, in the body's frame.
 PartDepth depthIn(const std::vector<SolidPart>& solid, const Vector3d& p) {
   PartDepth deepest;
   for (const SolidPart& part : solid) {
@@ -81,7 +81,7 @@ class DeepestSearch::Look {
       const Vector3d center = tree.origin() + Vector3d(node.center[0][i], node.center[1][i], node.center[2][i]);
       const double reach = node.reach[i];
       if (isHidden(center, reach)) continue;
-      // No point is farther than half of the travel from where it is halfway.
+      // All points stay within half of the travel of their positions halfway.
       const double bound = boundAround(entry_.X_middle * center, reach + 0.5 * entry_.travel);
       if (BoxTree::isTriangle(node.below[i])) {
         const RoundedTriangle& triangle = tree.triangle(BoxTree::triangleOf(node.below[i]));
@@ -144,7 +144,7 @@ class DeepestSearch::Look {
   /// Upper bound of the depth within the hull of a triangle's corners at both ends.
   struct PartBound {
     double bound = -kInfinity;
-    Corners6 deepest = {};  // of each corner itself, unless it surely is no deeper than the deepest known point
+    Corners6 deepest = {};  // bounds at the corners themselves; zero if no deeper point than the known one is possible
   };
 
   /// Tightens a piece's bound and keeps the piece if it may contain a deeper point than the deepest known one.
@@ -195,7 +195,7 @@ class DeepestSearch::Look {
     if (!part.solid && depth.out.isZero()) return found;
     std::array<Vector3d, 6> corners;
     for (int k = 0; k < 6; ++k) corners[k] = part.X_GB * corners_F[k];
-    std::array<Corners6, 5> sides;  // bounds at the corners, each convex between them
+    std::array<Corners6, 5> sides;  // per bound: its values at the corners, between which it is convex
     std::size_t count = 0;
     double least = kInfinity;
     std::size_t best = 0;
@@ -249,10 +249,10 @@ class DeepestSearch::Look {
 
   /// Bounds by a plane with normal n that has all of the nearby solid behind it; none if there is no such plane.
   ///
-  /// Within a ball about c no triangle extends farther along n than h: the part of the ball beyond h is all inside or
-  /// outside, which one query decides. If it is outside, the ray along n from an inner point x of the hull leaves the
-  /// solid at the plane or earlier, within h − n·x, as long as that is still in the ball. Points beyond the plane are
-  /// bounded by their distance from the solid, or from points outside the ball.
+  /// Within a ball about c no triangle extends farther along n than h: the part of the ball beyond h is entirely inside
+  /// or entirely outside the solid, which one query decides. If it is outside, the ray along n from a point x of the
+  /// hull that is inside leaves the solid at the plane or earlier, within h − n·x, as long as that is still in the
+  /// ball. Points beyond the plane are bounded by their distance from the solid, or from points outside the ball.
   std::optional<Corners6> behindPlane(const SolidPart& part, const Vector3d& c, const Vector3d& n, double size,
                                       const std::array<Vector3d, 6>& corners) const {
     const double radius = kNear * size;

@@ -13,7 +13,7 @@ namespace sdf_ccd {
 /// One element of the body in which depths are measured. G is the element's frame, B the body's.
 struct SolidPart {
   Isometry3d X_GB;
-  const DistanceField* field;  ///< gives bounds that spare exact measurements
+  const DistanceField* field;  ///< gives bounds, so that fewer exact distances are computed
   const Solid* solid;          ///< of a closed mesh; null for a primitive, which is convex and whose field is exact
 };
 
@@ -31,20 +31,21 @@ struct DeepestPoint {
   Vector3d out_F = Vector3d::Zero();  ///< unit: the solid's outward normal at its nearest surface point
 };
 
-/// Finds the deepest point of moving surfaces inside a solid, and its time (design §3.17), by branch and bound over the
-/// surfaces' boxes, then over parts of their triangles and of the motions, in the order of their upper bounds.
+/// Finds the deepest point of moving surfaces inside a solid, and its time (design §3.17), by branch and bound over
+/// the surfaces' boxes, then over parts of their triangles and of the motions, in the order of their upper bounds.
 ///
 /// Why the bounds hold. Over an interval of s of length h, a point is within e = a h²/8 of the chord between its
 /// positions at both ends, where a bounds its acceleration. Depth is 1-Lipschitz: within R of c it is at most D(c) + R.
-/// The distance from a convex set is convex, and the depth in a mesh no more than the distance from any of its
-/// triangles: over the hull of a triangle's corners at both ends it is no more than the largest of these six corners'
-/// from the triangle nearest to c. The depth in a convex solid is no more than that behind a plane that holds it, which
-/// is linear. Of two such bounds the lesser is no more than any mean of them, which is convex too: it tells what no
-/// single one does, halfway between two sides. A plane that has all of the nearby solid behind it bounds the depth of
-/// parts that stick out. If a body has several elements, a point's depth is the largest of its depths in them.
+/// The distance from a convex set is convex, and the depth in a mesh is at most the distance from any of its triangles:
+/// over the hull of a triangle's corners at both ends it is at most the largest distance of these six corners from the
+/// mesh's triangle nearest to c. The depth in a convex solid is at most the depth behind a plane that has the solid on
+/// one side, which is linear. The smaller of two such bounds is at most any weighted mean of them. This mean is convex
+/// too, and tighter than either bound halfway between two sides of a solid. A plane that has all of the nearby solid
+/// behind it bounds the depth of parts that stick out. If a body has several elements, a point's depth is the largest
+/// of its depths in them.
 ///
-/// A point that is inside the surface's own body by more than the resolution is not on its surface. Depths are exact up
-/// to rounding.
+/// Points that are inside the surface's own body by more than the resolution are not on its surface and do not count.
+/// Depths are exact up to rounding.
 class DeepestSearch {
  public:
   /// Removes all motions and results.

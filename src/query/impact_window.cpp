@@ -6,7 +6,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr int kSteps = 64;       ///< upper bound; stopping early only widens the window
-constexpr double kClose = 1e-2;  ///< of the error: a distance this close to its bound counts as at the bound
+constexpr double kClose = 1e-2;  ///< relative to the error: the advance ends where the empty sphere is smaller
 
 class Path {
  public:
@@ -25,7 +25,8 @@ class Path {
   double length_;
 };
 
-/// Advances from a time before which there is no contact through empty spheres; beyond 1 if they reach the end.
+/// Advances through empty spheres, from a time before which there is no contact, to a later such time; above 1 if there
+/// is no contact up to the end.
 double freeUntil(const Path& path, double t) {
   for (int i = 0; i < kSteps && t <= 1.0; ++i) {
     const FieldSample at = path.sample(t);
@@ -36,7 +37,8 @@ double freeUntil(const Path& path, double t) {
   return t;
 }
 
-/// A time at which the point surely is inside, close to the first one in [t, end]: steps double, then halve.
+/// A time in [t, end] at which the point surely is inside, close to the first such time: found with doubling steps,
+/// then bisection. std::nullopt if none is found.
 std::optional<double> insideAfter(const Path& path, double t, double end) {
   const auto outside = [&](double s) {
     const FieldSample at = path.sample(s);

@@ -27,9 +27,9 @@ struct LowerFunction {
   }
 };
 
-/// Minimises the distance along the path by lower bounds: the next sample is where the path's lower bound is least,
-/// until that is close to the least value found (Piyavskii and Shubert's method for Lipschitz functions). The cone of a
-/// uniform grid's sample far up the gradient is nearly as flat across as the distance is, so few samples are needed.
+/// Minimises the distance along the path by lower bounds: the next sample is where the path's lower bound is smallest,
+/// until that is close to the smallest value found (Piyavskii and Shubert's method for Lipschitz functions). Across the
+/// gradient, the cone of a grid's sample far up it is nearly as flat as the distance, so few samples are needed.
 class LeastSearch {
  public:
   LeastSearch(const DistanceField& field, const Segment& segment)
@@ -81,7 +81,7 @@ class LeastSearch {
     if (grid_ && field_.box().contains(p)) {
       const FieldValue at = field_.interpolate(p);
       cone = sampleCone(*grid_, p, at.gradient);
-      // An upper bound of the distance is computed only at the least value so far.
+      // An upper bound of the distance is computed only where the value is the smallest so far.
       if (cone && at.value >= best_.value) return add({t, p, {*cone, Vector3d::Zero(), false}, at.value - (*cone)(p)});
     }
     const FieldSample at = field_.sample(p);
@@ -100,7 +100,8 @@ class LeastSearch {
     return static_cast<int>(samples_.size()) - 1;
   }
 
-  /// Cones fall to either side, so that their chords are below them; the upper chord is least where the two cross.
+  /// Along the path cones are concave, so their chords between the two samples are lower bounds; the larger of the two
+  /// chords is smallest where they intersect.
   void push(int from, int to) {
     const Sample &a = samples_[from], &b = samples_[to];
     const double a_from = a.lower(a.p), a_to = a.lower(b.p), b_from = b.lower(a.p), b_to = b.lower(b.p);
@@ -119,7 +120,7 @@ class LeastSearch {
   }
 
   const DistanceField& field_;
-  const SparseGrid* grid_;  // null unless its samples are distances
+  const SparseGrid* grid_;  // null if the field is no uniform grid
   const Vector3d start_, displacement_;
   const double length_;
   std::vector<Sample> samples_;
@@ -128,8 +129,8 @@ class LeastSearch {
   double best_error_ = 0.0;
 };
 
-/// From the leaves that the path crosses. `low` exceeds the band if the minimum is unknown: the path is deeper than any
-/// leaf, or never comes near the surface.
+/// The least distance in the leaves that the path crosses. `low` exceeds the band if the minimum is unknown, because
+/// the path goes deeper than any leaf or never comes near the surface.
 LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
   GridWalk walk = walkThrough(grid, segment);
   const BallExit ball_exit(segment);

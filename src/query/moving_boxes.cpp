@@ -35,7 +35,7 @@ Floats sum(const Floats& a, const Floats& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-/// The same box in its own frame.
+/// The box of a slot, in its tree's own frame.
 PlacedBox boxAt(const BoxTree& tree, BoxTree::Slot slot) {
   const BoxTree::Node& node = tree.node(slot.node);
   const int i = slot.lane;
@@ -59,7 +59,7 @@ Matrix3d halfway(const Matrix3d& from, const Matrix3d& to) {
 }
 
 /// Upper bound of a tree's extent along a direction; infinite if it exceeds the limit, or takes too many steps to find.
-/// @param reachOf  upper bound of a triangle's extent.
+/// @param reachOf  returns an upper bound of a triangle's extent.
 template <typename ReachOf>
 double support(const BoxTree& tree, const Floats& direction, const BoxMotion& motion, double limit,
                const ReachOf& reachOf) {

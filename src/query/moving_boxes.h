@@ -5,8 +5,8 @@
 
 namespace sdf_ccd {
 
-/// Boxes of two trees while B moves against A, from one pose to another along chords: as seen halfway, each from the
-/// other's frame. See separation() for what that proves.
+/// Tests boxes of two trees while B moves relative to A, from one pose to another along chords: at the pose halfway,
+/// each box in the other tree's frame. See separation() for the proof.
 class MovingBoxes {
  public:
   /// @param error  upper bound of the points' deviation from their chords and of all other errors [m].
@@ -16,7 +16,7 @@ class MovingBoxes {
   void gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) const;
   void gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const;
 
-  /// An axis that boxGaps() tries on all boxes, unit.
+  /// Sets a unit axis that boxGaps() tests on all boxes.
   void setDirection(const Vector3d& n_A);
 
   /// Upper bounds of A's extent along the direction, and of B's against it, from A's origin [m]; infinite above
@@ -29,10 +29,10 @@ class MovingBoxes {
   PlacedBox boxInB(BoxTree::Slot box_a) const;
 
   const BoxTree &a_, &b_;
-  std::array<std::array<float, 3>, 3> R_AB_;          ///< halfway, by rows
+  std::array<std::array<float, 3>, 3> R_AB_;          ///< rotation halfway, by rows
   std::array<float, 3> b_from_a_, a_from_b_;          ///< B's origin from A's, A's axes; A's from B's, B's axes
-  BoxMotion still_, moving_;                          ///< of boxes of A; of B, in B's frame
-  std::array<std::array<float, 3>, 3> difference_A_;  ///< of moving_, but displacements in A's axes, by rows
+  BoxMotion still_, moving_;                          ///< of A's boxes (errors only); of B's boxes, in B's frame
+  std::array<std::array<float, 3>, 3> difference_A_;  ///< as moving_'s, but displacements in A's axes, by rows
   std::array<float, 3> shift_A_;
   EndPoses poses_;
   double error_;

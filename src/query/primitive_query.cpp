@@ -22,8 +22,8 @@ struct ConvexLine {
   }
 };
 
-/// A parameter where the function is not positive (up to rounding), found by cutting planes between two falling and
-/// rising tangents; a negative number if the tangents prove that there is none.
+/// A parameter where the function is not positive (up to rounding), found by intersecting a falling and a rising
+/// tangent (cutting planes); negative if the tangents prove that there is none.
 double nonPositiveParameter(const ConvexLine& f, double touch) {
   double lo = 0.0, hi = 1.0;
   ValueSlope at_lo = f(lo), at_hi = f(hi);

@@ -7,7 +7,7 @@
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/query/segment_query.h"
 
-/// The segment query for each kind of field that a DistanceField can hold. Options only tell them where to stop early;
+/// The segment query for each kind of field that a DistanceField can hold. The options only say where to stop early;
 /// segmentIntervals() removes any further intervals.
 namespace sdf_ccd {
 

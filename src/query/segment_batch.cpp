@@ -25,7 +25,7 @@ using Hits = std::vector<SegmentHit>;
                               " is not finite, or reaches farther than 1e12 m");
 }
 
-/// Segments [first, last), one by one.
+/// Queries segments [first, last) one by one.
 void querySingly(const DistanceField& field, const Segment* segments, std::size_t first, std::size_t last,
                  const SegmentOptions& options, Hits& hits) {
   thread_local Intervals intervals;
@@ -57,7 +57,7 @@ class Chunk {
   }
 
  private:
-  /// Converts a ray's parameter to the segment's own.
+  /// Converts a ray's parameter (within the grid's box) to that of the segment.
   float time(std::size_t id, float t) const {
     const float begin = work_.begin[id], end = work_.end[id];
     return t < 1.0F ? begin + t * (end - begin) : end;

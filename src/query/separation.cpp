@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCut = 0.6;            // of the smallest known gap: pairs with a larger gap are not refined
-constexpr std::size_t kManyNear = 192;  // pairs of triangles; above, the interval is halved and all boxes are tested
-constexpr int kMaxTestsWhenOpen = 512;  // upper bound for a crossing, when nothing else can be proved any more
+constexpr std::size_t kManyNear = 192;  // with more near pairs the interval is halved and all boxes are tested again
+constexpr int kMaxTestsWhenOpen = 512;  // upper bound of the tests for a crossing once kApart cannot be proved
 
 /// Part of the motion.
 struct Times {
@@ -71,8 +71,9 @@ class SeparationQuery {
     return t;
   }
 
-  /// Upper bound of the extent of A or B, whichever is nearer, along the segment of this length between two features of
-  /// A and B. If A and B overlap, the surface of one of them is there, inside the other one.
+  /// How far along the segment between the closest points of the two triangles, from A's to B's, the first of the two
+  /// rounded triangles ends. If they overlap, this point is on the surface of one of them, inside the other one.
+  /// @param distance  length of the segment [m].
   double borderAlong(double distance, const Triangles& pair) const {
     return std::min(a_.triangle(pair.a).radius, distance + b_.triangle(pair.b).radius);
   }
@@ -120,7 +121,7 @@ class SeparationQuery {
     memory_.filter.size = memory_.exact.size = 0;
   }
 
-  /// Tests all triangles.
+  /// Tests all triangles over an interval.
   void testBoxes(const Times& times, const EndPoses& poses) {
     setInterval(times, poses);
     MovingBoxes boxes(a_, b_, poses, chord_error_);
@@ -148,7 +149,7 @@ class SeparationQuery {
     memory_.near.resize(known);
   }
 
-  /// For the triangles near[first] to near[last - 1], in each half of the interval.
+  /// Tests the pairs near[first] to near[last - 1] again, over each half of the interval.
   void refine(std::size_t first, std::size_t last, const Times& times, const EndPoses& poses) {
     halve(times, poses, [=](const Times& half, const EndPoses& ends) {
       setInterval(half, ends);
@@ -166,7 +167,7 @@ class SeparationQuery {
     cancel_.check();
     const double middle = times.middle();
     const Isometry3d X_middle = poseAt(middle);
-    // The later half first: surfaces that touch at its end mostly touch in the next query too.
+    // The later half first: surfaces that touch at its end usually touch in the next query too.
     if (!isDone()) test(Times{middle, times.end}, EndPoses{X_middle, poses.X_AB_end});
     if (!isDone()) test(Times{times.start, middle}, EndPoses{poses.X_AB_start, X_middle});
   }
@@ -190,14 +191,14 @@ class SeparationQuery {
       memory_.stack.push_back(into_a ? SeparationMemory::Boxes{{below_a, i}, at.b, gap}
                                      : SeparationMemory::Boxes{at.a, {below_b, i}, gap});
     }
-    if (least < memory_.stack.size()) std::swap(memory_.stack[least], memory_.stack.back());  // looked at next
+    if (least < memory_.stack.size()) std::swap(memory_.stack[least], memory_.stack.back());  // visited next
   }
 
   /// Finds triangles near each other by descending to the nearest boxes.
   void findNear(const MovingBoxes& boxes) {
     memory_.stack.clear();
     memory_.stack.push_back({a_.root(), b_.root(), 0.0F});
-    cut_ = 1e29;  // the last is the nearest
+    cut_ = 1e29;  // no box is pruned; descend() leaves the nearest one at the end
     const double lowest = lowest_;
     while (true) {
       const SeparationMemory::Boxes at = memory_.stack.back();
@@ -213,8 +214,8 @@ class SeparationQuery {
     cut_ = options_.margin;
   }
 
-  /// Chooses the cut distance and the direction to test by the nearest triangles. @return whether a plane through them
-  /// proves that all other triangles are farther apart.
+  /// Chooses the cut distance and the direction to test from the witness's nearest triangles. @return whether a plane
+  /// between them proves that the surfaces are farther apart than the margin.
   bool testWitness(MovingBoxes& boxes) {
     const Triangles pair{witness_.near_a, witness_.near_b};
     TrianglePairs& single = memory_.single;
@@ -228,7 +229,7 @@ class SeparationQuery {
     if (!(gap > options_.margin)) return false;
     nearest_ = gap;
     cut_ = std::max(options_.margin, kCut * gap);
-    // The plane may have any offset in the gap; the slack that it needs is divided evenly.
+    // The plane may lie anywhere in the gap: either surface may extend into it by half of what the cut distance leaves.
     const double slack = 0.5 * (gap - cut_);
     double begin = -kInfinity;
     for (const Vector3d& p : a_.triangle(pair.a).corners) begin = std::max(begin, direction_.dot(p - a_.origin()));
@@ -302,7 +303,8 @@ class SeparationQuery {
     }
   }
 
-  /// A pair that is then not known to be apart is nearer than the resolution, so the time is not halved further.
+  /// Whether B's triangle moves less than the resolution. A pair that is then not known to be apart is closer than the
+  /// resolution, so the time is not halved further.
   bool hardlyMoves(const Triangles& pair) const {
     double moved = 0.0;
     for (const Vector3d& p : b_.triangle(pair.b).corners)
@@ -310,7 +312,7 @@ class SeparationQuery {
     return moved + chord_error_ <= options_.resolution;
   }
 
-  /// CLEAR can no longer be proved; a crossing still may be.
+  /// kApart can no longer be proved; a crossing still can.
   void leaveOpen() {
     if (open_) return;
     open_ = found_.is_near = true;

@@ -9,7 +9,7 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
                             const Isometry3d& X_FP, double max_distance, std::vector<int>& pending) {
   ShellDistance nearest;
   nearest.value = std::numeric_limits<double>::infinity();
-  double low = std::numeric_limits<double>::infinity();  // no point of those looked at is nearer
+  double low = std::numeric_limits<double>::infinity();  // lower bound of the distances of the points examined
   const auto cut = [&] { return std::min(max_distance, nearest.value); };
   pending.clear();
   if (!tree.nodes.empty()) pending.push_back(0);
@@ -38,8 +38,8 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
     }
   }
   if (nearest.point < 0 || low > max_distance) return {};
-  // Another point with a larger error may truly be nearer; a point whose lower bound exceeded the value
-  // cannot be.
+  // Another point with a larger error may in truth be nearer. Points that were skipped, as their lower bound exceeded
+  // the value, cannot be.
   nearest.error = std::max(nearest.error, nearest.value - low);
   return nearest;
 }

@@ -12,7 +12,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// A node's points, or some of them.
+/// Points [begin, end) of the shell: those of a node, or some of them.
 struct PointRange {
   std::int32_t begin, end;
 };
@@ -70,7 +70,7 @@ class ShellSearch {
   }
 
  private:
-  /// Whether a node's points cost less than the spheres below it.
+  /// Whether testing a node's points costs less than testing the spheres below it.
   bool isSmall(const SphereTree::Node& node) const {
     constexpr std::int32_t kFewPoints = 16;
     return node.first_child < 0 || (sides_.inVectors() && node.end - node.begin <= kFewPoints);
@@ -138,7 +138,7 @@ class ShellSearch {
     for (std::int32_t p = range.begin; p < range.end && !done(); ++p) points_.query(p);
   }
 
-  /// Points of several ranges: tested as spheres of radius zero first, so that only those near the surface are queried.
+  /// Tests points of several ranges as spheres of radius zero first, to query only those near the surface.
   void sortPoints() {
     SphereGroup& group = sides_.group();
     group.size = 0;
@@ -208,8 +208,8 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
 
 double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,
                  double slack) {
-  double nearest = std::numeric_limits<double>::infinity();  // of the points visited
-  double bound = nearest;                                    // of all points
+  double nearest = std::numeric_limits<double>::infinity();  // smallest lower bound of the points visited
+  double bound = nearest;                                    // of the points in nodes that were skipped
   if (tree.nodes.empty()) return bound;
   std::vector<std::int32_t>& stack = searchWork().stack;
   stack.push_back(0);

@@ -4,8 +4,8 @@
 
 namespace sdf_ccd {
 
-/// On which side of a field's surface spheres of a shell surely are all along a chord, as sweptSide() with the radius
-/// added to the margins.
+/// Finds the side of a field's surface on which a shell's spheres surely stay along a whole chord: sweptSide() with the
+/// spheres' radii added to the margins.
 class SphereSides {
  public:
   /// @param margins  added to the spheres' radii.
@@ -21,7 +21,7 @@ class SphereSides {
   /// Whether groups are tested in vectors: each sphere of a group then costs a few times less.
   bool inVectors() const { return vectors_ != nullptr; }
 
-  /// Whether it is faster to test points in groups too: not on long paths, which take a new sphere every few units.
+  /// Whether it is faster to test points in groups too: not on long paths, which need an empty sphere every few units.
   bool sortsPoints() const;
 
   /// This thread's group: fill it, then call testGroup().

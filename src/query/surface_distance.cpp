@@ -38,7 +38,7 @@ class DistanceQuery {
     const ClosestPair closest = closestPoints(t_a.corners, in_a);
     const double length = std::sqrt(closest.distance2);
     const double distance = std::max(0.0, length - t_a.radius - t_b.radius);
-    // Corners of crossing triangles may be far from each other.
+    // The closest points of corners and edges of triangles that cross may be far from each other.
     const std::optional<Vector3d> crossing =
         mayCross(t_a.corners, in_a) ? crossingPoint(t_a.corners, in_a, 0.0) : std::optional<Vector3d>();
     if (!crossing && !(distance < best_)) return;
@@ -52,12 +52,12 @@ class DistanceQuery {
     best_ = distance;
     const Vector3d displacement = closest.on_b - closest.on_a;
     const Vector3d n = length > 0.0 ? Vector3d(displacement / length) : Vector3d(Vector3d::UnitZ());
-    boxes_.setDirection(n);  // the direction along which boxes are mostly farthest apart
+    boxes_.setDirection(n);  // the direction along which most boxes are farthest apart
     const double from_a = std::min(t_a.radius, length), from_b = std::min(t_b.radius, length - from_a);
     found_ = SurfaceDistance{distance, closest.on_a + from_a * n, closest.on_b - from_b * n};
   }
 
-  /// False only if a plane along a face of one of them surely separates them.
+  /// False only if the plane of one of the triangles separates them.
   static bool mayCross(const Corners& a, const Corners& b) {
     const auto isBeside = [](const Corners& face, const Corners& other) {
       const Vector3d n = (face[1] - face[0]).cross(face[2] - face[0]);

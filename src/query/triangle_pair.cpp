@@ -16,7 +16,7 @@ double clamped(double x) {
   return std::min(std::max(x, 0.0), 1.0);
 }
 
-/// Of an edge of A and one of B.
+/// Offers the closest points of an edge of A and an edge of B.
 void offerEdges(const Vector3d& a, const Vector3d& u, const Vector3d& b, const Vector3d& v, ClosestPair& best) {
   const Vector3d w = a - b;
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);

@@ -7,12 +7,11 @@
 /// Queries about two triangles. Degenerate triangles (a segment, a point) are allowed.
 namespace sdf_ccd {
 
-/// The closest points of two triangles that do not cross; for triangles that cross, points
-/// of their borders.
+/// The closest points of two triangles that do not cross; for triangles that cross, points of their borders.
 ///
 /// Source: Ericson 2005, Real-Time Collision Detection, §5.1.9 to 5.1.10: of triangles that do not cross, either two
-/// edges are nearest or a corner and a face. Rounding may miss the nearest by some 1e-8 of the triangles' size where
-/// edges are nearly parallel: use gapAlong() for proofs.
+/// edges are nearest or a corner and a face. Where edges are nearly parallel, rounding may miss the closest points by
+/// about 1e-8 of the triangles' size: use gapAlong() for proofs.
 struct ClosestPair {
   Vector3d on_a, on_b;
   double distance2;  ///< [m²]
@@ -20,18 +19,18 @@ struct ClosestPair {
 ClosestPair closestPoints(const Corners& a, const Corners& b);
 
 /// The gap of B beyond A along the axis [m]: if positive, a lower bound of the distance of A and B. (Two convex sets
-/// that do not meet have a plane between them.) Off by less than 8 ε of the corners' largest distance from the frame's
-/// origin, by rounding.
+/// that do not meet have a plane between them.) The rounding error is less than 8 ε of the corners' largest distance
+/// from the frame's origin.
 /// @param axis  of any length; -inf if it has none.
 double gapAlong(const Vector3d& axis, const Corners& a, const Corners& b);
 
-/// The point where the edge pq crosses the triangle, if it does so however they are displaced relative to each other by
+/// The point where the edge pq crosses the triangle; std::nullopt unless they cross for every relative displacement of
 /// up to `error` [m].
 ///
 /// The proof. Let L be the edge's length, s and t the distances of p and q from the triangle's plane, on different
-/// sides and both above the error m. However both are displaced, the edge still crosses the plane, within m
-/// of one point of pq that is within m of the plane; so within m (1 + L / (s + t)) of where pq crosses it. The
-/// triangle must extend at least this far around that point.
+/// sides and both above the error m. However both are displaced, the edge still crosses the plane. It does so within m
+/// of a point of pq that is within m of the plane, hence within m (1 + L / (s + t)) of the point where pq crosses it.
+/// The triangle must extend at least this far around that point.
 std::optional<Vector3d> piercedPoint(const Corners& triangle, const Vector3d& p, const Vector3d& q, double error);
 
 /// Where an edge of one triangle crosses the other one, as above.

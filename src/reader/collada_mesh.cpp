@@ -26,7 +26,7 @@ const XMLElement* inputOf(const XMLElement& parent, const char* semantic) {
   return nullptr;
 }
 
-/// Which of an accessor's parameters are x, y and z: the first three if it does not say.
+/// Indices of an accessor's parameters X, Y and Z; 0, 1 and 2 if they are not named. Sets `parameters` to their count.
 std::array<std::size_t, 3> coordinatesOf(const XMLElement& accessor, std::size_t& parameters) {
   std::array<std::size_t, 3> offsets = {0, 1, 2};
   parameters = 0;
@@ -50,7 +50,7 @@ std::vector<Vector3d> positionsOf(const XMLElement& source) {
   std::size_t parameters = 0;
   const std::array<std::size_t, 3> offsets = coordinatesOf(*accessor, parameters);
   const bool is_whole = parameters <= stride && stride > *std::max_element(offsets.begin(), offsets.end());
-  // Divided, as a product of what strangers wrote may not fit.
+  // Divides instead of multiplying: the product of two numbers of an untrusted file may overflow.
   if (!is_whole || offset > length || (count > 0 && (length - offset) / count < stride)) {
     throw std::runtime_error(describe(*accessor) + " reads beyond the " + std::to_string(length) + " numbers of \"#" +
                              attributeOf(array, "id") + "\"");
@@ -63,7 +63,7 @@ std::vector<Vector3d> positionsOf(const XMLElement& source) {
   return positions;
 }
 
-/// Adds the polygons of one `<triangles>`, `<polylist>`, …
+/// Adds the polygons of one `<triangles>`, `<polylist>`, … to a PolygonList.
 class PrimitiveReader {
  public:
   PrimitiveReader(const XMLElement& element, PolygonList& polygons) : element_(element), polygons_(polygons) {
@@ -97,7 +97,7 @@ class PrimitiveReader {
   }
 
  private:
-  /// The vertices of one `<p>`, without the indices of normals, colours and textures between them.
+  /// The vertex indices of one `<p>`, without the interleaved indices of normals, colours and textures.
   std::vector<std::int64_t> cornersOf(const XMLElement& p) const {
     const std::vector<std::int64_t> indices = indicesOf(p);
     if (indices.size() % stride_ != 0) throw std::runtime_error(describe(p) + " ends within a corner");

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// The triangles of a COLLADA `<mesh>`, in its own units.
+/// The triangles of a COLLADA `<mesh>`, in the file's units.
 /// @throws std::runtime_error with the reason.
 TriangleMesh colladaMesh(const tinyxml2::XMLElement& mesh);
 

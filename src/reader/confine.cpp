@@ -57,7 +57,7 @@ constexpr unsigned kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr unsigned kArchitecture = 0;
 #endif
 
-/// Memory, files that are already open, time, and ending the process itself.
+/// Calls for memory, for files that are already open, for time, and for ending this process.
 constexpr unsigned kAllowed[] = {
     SYS_read,       SYS_write,          SYS_readv,         SYS_writev,         SYS_lseek,        SYS_close,
     SYS_mmap,       SYS_munmap,         SYS_mremap,        SYS_mprotect,       SYS_madvise,      SYS_brk,
@@ -80,7 +80,7 @@ void filterSystemCalls() {
   ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0);
 }
 
-// The address space of a program with these sanitizers is terabytes from its start.
+// These sanitizers reserve terabytes of address space at start-up, so RLIMIT_AS cannot be set.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kSanitized = true;
 #elif defined(__has_feature)
@@ -98,7 +98,7 @@ constexpr bool kSanitized = false;
 void leaveHost() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
   struct pollfd answer = {STDOUT_FILENO, 0, 0};
-  if (::poll(&answer, 1, 0) > 0 && (answer.revents & POLLERR)) ::_exit(0);  // the host was gone before that held
+  if (::poll(&answer, 1, 0) > 0 && (answer.revents & POLLERR)) ::_exit(0);  // the host ended before the prctl() call
   closeAllAbove(STDERR_FILENO);
   preferToDie();
 }

@@ -4,17 +4,20 @@
 
 namespace sdf_ccd {
 
-/// Gives up, before this process looks at untrusted data, all privileges that reading does not need.
+/// Drops all privileges that reading does not need. Call it, after leaveHost(), before this process looks at untrusted
+/// data.
 ///
-/// Gone are: all open files but stdin, stdout and stderr; more memory, computing time and stack than the limits say;
-/// new files, sockets, processes, threads and programs; written files and core dumps; privileges by setuid. It ends
-/// with the thread that started it, and is the first to go where the computer's memory is short.
+/// Afterwards the process has only stdin, stdout and stderr open; it cannot exceed the memory, CPU time and stack of
+/// the limits; it cannot open files or sockets, start processes, threads or programs, write to regular files, dump
+/// core, or gain privileges by setuid. It is killed when the thread that started it ends, and is the first that the
+/// kernel kills when memory is short.
 ///
-/// System calls are filtered (seccomp) on x86_64 and arm64: all but some twenty that work on memory and on what is open
-/// fail with EPERM. Elsewhere, and where the kernel has no seccomp, the resource limits alone hold.
+/// System calls are filtered (seccomp) on x86_64 and arm64: all but some twenty that work on memory and on open files
+/// fail with EPERM. On other processors, and if the kernel has no seccomp, only the resource limits apply.
 void confine(const ReadLimits& limits);
 
-/// The part of it that needs no limits, to be done first: closes files, and ends with the host.
+/// The part of the confinement that needs no limits, to be called first: closes all files but stdin, stdout and stderr,
+/// and lets this process be killed with the host, and first when memory is short.
 void leaveHost();
 
 }  // namespace sdf_ccd

@@ -17,7 +17,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr int kMaxNodes = 20'000;  // once instances are followed
+constexpr int kMaxNodes = 20'000;  // after instances are expanded
 constexpr int kMaxDepth = 1000;
 
 /// The next element in document order, below `root`.
@@ -46,7 +46,7 @@ Eigen::Affine3d lookAt(const std::vector<double>& n) {
   return X;
 }
 
-/// What one child of a node adds to its transform; nothing if it is none.
+/// The transform of one child of a node; identity if the child is no transform.
 Eigen::Affine3d transformOf(const XMLElement& element) {
   const std::string_view name = element.Name();
   Eigen::Affine3d X = Eigen::Affine3d::Identity();
@@ -69,7 +69,7 @@ Eigen::Affine3d transformOf(const XMLElement& element) {
   return X;
 }
 
-/// Gathers the meshes of a scene's nodes.
+/// Collects the meshes of a scene's nodes.
 class SceneReader {
  public:
   explicit SceneReader(const XMLElement& root) {
@@ -95,7 +95,7 @@ class SceneReader {
     throw std::runtime_error(describe(from) + " refers to \"#" + id.substr(0, 80) + "\", which is no <" + kind + ">");
   }
 
-  /// @param X  the parent's pose.
+  /// @param X  transform of the parent node.
   void addNode(const XMLElement& node, Eigen::Affine3d X) {
     if (!open_.insert(&node).second) {
       throw std::runtime_error("the node \"" + attributeOf(node, "id") + "\" contains itself");
@@ -106,7 +106,7 @@ class SceneReader {
     if (open_.size() > kMaxDepth) {
       throw std::runtime_error("nodes are more than " + std::to_string(kMaxDepth) + " deep");
     }
-    // A node's transforms come first; they hold for all of its other children.
+    // A node's transforms apply to all of its other children, so they are gathered first.
     for (const XMLElement* child = node.FirstChildElement(); child; child = child->NextSiblingElement()) {
       X = X * transformOf(*child);
     }
@@ -146,12 +146,12 @@ class SceneReader {
 
   std::map<std::string, const XMLElement*> by_id_;
   std::map<const XMLElement*, TriangleMesh> meshes_;  // of geometries, each read once
-  std::set<const XMLElement*> open_;                  // nodes that are being added
+  std::set<const XMLElement*> open_;                  // nodes from the root to the one being added
   int nodes_ = 0;
   TriangleMesh result_;
 };
 
-/// Metres per unit; 1 where it says nothing.
+/// Metres per unit; 1 if the file has no `<unit meter>`.
 double meterOf(const XMLElement& root) {
   const XMLElement* asset = root.FirstChildElement("asset");
   const XMLElement* unit = asset ? asset->FirstChildElement("unit") : nullptr;

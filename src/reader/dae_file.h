@@ -6,12 +6,12 @@
 
 namespace sdf_ccd {
 
-/// Reads COLLADA 1.4 and 1.5: the meshes of the scene's nodes and of the nodes they instance, skins in the shape that
-/// they are drawn in. As rviz draws it: the unit is applied, the up-axis is not.
+/// Reads COLLADA 1.4 and 1.5: the meshes of the scene's nodes and of the nodes they instantiate, skins in their bind
+/// shape. The result lies where rviz draws it: the unit is applied, the up-axis is not.
 ///
-/// Of `<mesh>` are read triangles, polylist, polygons (without holes), trifans and tristrips; lines are passed over.
-/// @throws std::runtime_error with the reason: what is not well-formed or refers to what is not there, nodes that
-/// contain themselves, and more than 20,000 nodes once instances are followed.
+/// Reads triangles, polylist, polygons (without holes), trifans and tristrips of a `<mesh>`; lines are skipped.
+/// @throws std::runtime_error with the reason: XML that is not well-formed, a reference to a missing element, a node
+/// that contains itself, more than 20,000 nodes after instances are expanded.
 TriangleMesh parseDae(const std::string& bytes);
 
 }  // namespace sdf_ccd

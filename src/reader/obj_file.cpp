@@ -13,7 +13,7 @@ namespace {
   throw std::runtime_error("line " + std::to_string(line) + ": " + what);
 }
 
-/// Coordinates, and a weight or a colour after them.
+/// Parses the coordinates of a `v` line, which a weight or a colour may follow.
 Vector3d vertexOn(std::string_view words, std::size_t line) {
   std::vector<double> numbers;
   while (const std::optional<double> number = takeNumber(words)) numbers.push_back(*number);
@@ -22,7 +22,8 @@ Vector3d vertexOn(std::string_view words, std::size_t line) {
   return vertexOf(numbers[0] / weight, numbers[1] / weight, numbers[2] / weight);
 }
 
-/// `vertex`, `vertex/texture`, `vertex//normal` or all three; counted from 1, or back from the newest with -1.
+/// Index from 0 of the vertex in `v`, `v/vt`, `v//vn` or `v/vt/vn`. The file counts from 1, or backwards from the
+/// latest vertex with -1.
 std::int64_t cornerOf(std::string_view word, std::size_t vertices, std::size_t line) {
   std::int64_t index = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
@@ -31,7 +32,7 @@ std::int64_t cornerOf(std::string_view word, std::size_t vertices, std::size_t l
   return index > 0 ? index - 1 : static_cast<std::int64_t>(vertices) + index;
 }
 
-/// Takes a line, which a backslash at its end makes go on with the next.
+/// Takes a line off the front, without its comment. A backslash at the end of a line continues it on the next.
 std::string takeLogicalLine(std::string_view& text, std::size_t& line) {
   std::string whole;
   for (;;) {

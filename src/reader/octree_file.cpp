@@ -27,7 +27,7 @@ T readAt(const std::string& bytes, std::size_t offset) {
   return value;
 }
 
-/// int32 3, double resolution, uint32 nodes.
+/// Layout: int32 with the value 3, double resolution, uint32 number of nodes.
 OctreeFile readLegacyHead(const std::string& bytes) {
   OctreeFile file;
   file.format = OctreeFile::Format::kLegacyBinary;
@@ -38,7 +38,7 @@ OctreeFile readLegacyHead(const std::string& bytes) {
   return file;
 }
 
-/// Lines `id OcTree`, `size 123`, `res 0.1` and comments, up to the line `data`.
+/// Reads the lines `id OcTree`, `size 123`, `res 0.1` and comments, up to the line `data`.
 OctreeFile readHead(const std::string& bytes, OctreeFile::Format format) {
   OctreeFile file;
   file.format = format;
@@ -63,11 +63,11 @@ OctreeFile readHead(const std::string& bytes, OctreeFile::Format format) {
 }
 
 struct Children {
-  std::size_t all;      ///< they are counted
-  std::size_t written;  ///< they follow as nodes of their own
+  std::size_t all;      ///< that the header's number of nodes counts
+  std::size_t written;  ///< that follow in the file as nodes
 };
 
-/// Two bytes, two bits per child: 00 unknown, 01 and 10 leaves, 11 a node that follows.
+/// A node has two bytes, two bits per child: 00 unknown, 01 and 10 a leaf, 11 a node that follows in the file.
 Children childrenInBinary(const unsigned char* node) {
   Children children{0, 0};
   for (int i = 0; i < 8; ++i) {
@@ -78,7 +78,7 @@ Children childrenInBinary(const unsigned char* node) {
   return children;
 }
 
-/// The last byte has a bit per child; all children follow.
+/// A node's last byte has one bit per child; all children follow in the file.
 Children childrenInFull(const unsigned char* node, std::size_t node_bytes) {
   const std::size_t count = std::bitset<8>(node[node_bytes - 1]).count();
   return {count, count};
@@ -89,7 +89,7 @@ void walk(const std::string& bytes, const OctreeFile& file) {
   const std::size_t node_bytes = !full ? 2 : file.type == "ColorOcTree" ? 4 + 3 + 1 : 4 + 1;
   std::size_t offset = file.data_offset;
   std::size_t nodes = 1;
-  std::vector<std::size_t> to_come = {1};  // per level: nodes that are still to come
+  std::vector<std::size_t> to_come = {1};  // per level: nodes not yet read
   while (!to_come.empty()) {
     if (to_come.back() == 0) {
       to_come.pop_back();

@@ -5,24 +5,24 @@
 
 namespace sdf_ccd {
 
-/// What the head of an OctoMap file says.
+/// Header of an OctoMap file.
 struct OctreeFile {
   enum class Format { kBinary, kLegacyBinary, kFull };  ///< `.bt`, `.bt` of 2010 without a header, `.ot`
   Format format = Format::kBinary;
   std::string type = "OcTree";
   std::size_t nodes = 0;
   double resolution = 0.0;      ///< voxel size [m]
-  std::size_t data_offset = 0;  ///< where the nodes begin
+  std::size_t data_offset = 0;  ///< offset of the first node [bytes]
 };
 
-/// Reads the head of an OctoMap file and walks over its nodes, so that OctoMap's reader can be given it: that one
-/// descends as deep as a damaged file says, and where the file ends it goes on with bytes that were never read.
+/// Reads the header of an OctoMap file and checks its nodes, so that OctoMap's reader may safely read the file: that
+/// reader recurses as deep as a damaged file says, and at the end of a truncated file goes on with uninitialised bytes.
 /// @throws std::runtime_error with the reason: not an OctoMap file, truncated, deeper than 16 levels, a wrong number
-/// of nodes, a resolution that is not positive, a type of tree that holds no plain occupancy.
+/// of nodes, a resolution that is not positive, a tree of another type than OcTree and ColorOcTree.
 OctreeFile checkOctreeFile(const std::string& bytes);
 
-/// The same file under a head that can be parsed in one way only: OctoMap divides heads into words, not lines, so it
-/// might take other bytes for the nodes than those that were checked.
+/// The same file with an unambiguous header: OctoMap parses headers by words, not by lines, so with the original one it
+/// might start reading nodes at another offset than the one that was checked.
 std::string withPlainHead(const OctreeFile& file, const std::string& bytes);
 
 }  // namespace sdf_ccd

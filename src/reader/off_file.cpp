@@ -14,7 +14,7 @@ struct Counts {
   std::uint64_t vertices = 0, faces = 0;
 };
 
-/// Takes what a keyword may begin with.
+/// Removes the prefix if the keyword begins with it.
 void takePrefix(std::string_view& keyword, std::string_view prefix) {
   if (keyword.substr(0, prefix.size()) == prefix) keyword.remove_prefix(prefix.size());
 }
@@ -32,7 +32,7 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// `OFF`, with the counts on the same line or the next; the keyword may be missing.
+/// Takes the keyword `OFF`, which may be missing, and the counts on the same line or the next.
 Counts takeHeader(std::string_view& text, std::size_t bytes) {
   std::string_view line = takeLine(text);
   std::string_view rest = line;
@@ -64,7 +64,7 @@ Vector3d takeVertex(std::string_view line, const Counts& counts, std::uint64_t i
   return vertexOf(p.x(), p.y(), p.z());
 }
 
-/// How many corners, then their vertices; what follows on the line is a colour.
+/// Parses the number of corners and the index of each; a colour may follow on the line. @return false if it is invalid.
 bool takeFace(std::string_view line, std::vector<std::int64_t>& corners) {
   corners.clear();
   const std::optional<std::uint64_t> count = takeCount(line);

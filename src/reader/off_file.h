@@ -6,9 +6,9 @@
 
 namespace sdf_ccd {
 
-/// Reads OFF as text, with or without colours, normals and texture coordinates. Not: binary OFF, vertices of other than
-/// three coordinates.
-/// @throws std::runtime_error with the reason, also if there is less than the header announces.
+/// Reads text OFF, with or without colours, normals and texture coordinates. Binary OFF, and vertices of other than
+/// three coordinates, are refused.
+/// @throws std::runtime_error with the reason, also if the file holds fewer elements than its header announces.
 TriangleMesh parseOff(const std::string& bytes);
 
 }  // namespace sdf_ccd

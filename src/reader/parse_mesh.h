@@ -6,8 +6,8 @@
 
 namespace sdf_ccd {
 
-/// Reads a mesh in this very process: for the program sdf_ccd_read, which is confined, and for fuzzing. All else calls
-/// parseMesh(), which has that program do it.
+/// Reads a mesh in the calling process, unprotected: only for the confined program sdf_ccd_read and for fuzzing. All
+/// other code calls parseMesh(), which runs that program.
 /// @param format  `stl`, `obj`, `off`, `ply` or `dae`.
 /// @throws std::exception with the reason.
 TriangleMesh parseMeshHere(const std::string& bytes, const std::string& format);

@@ -25,7 +25,7 @@ constexpr std::int64_t kCells = std::int64_t{1} << kDepth;  // voxels along a si
 template <class Tree>
 class SurfaceFinder {
  public:
-  /// @param surface  null: the faces are counted and not made.
+  /// @param surface  receives the faces; if null, they are only counted.
   SurfaceFinder(const Tree& tree, VoxelSurface* surface) : tree_(tree), surface_(surface) {}
 
   double faces() const { return faces_; }
@@ -42,7 +42,8 @@ class SurfaceFinder {
   }
 
  private:
-  /// Adds what is free on one side of a cube of 2^level voxels. Goes down only where the other side is divided too.
+  /// Adds the faces of a cube of 2^level voxels, on one side, whose neighbours are not occupied. Descends only if the
+  /// neighbouring node of the same size is divided.
   void addSide(const Cell& cube, int level, int axis, bool upper) {
     const std::int64_t size = std::int64_t{1} << level;
     Cell beyond = cube;

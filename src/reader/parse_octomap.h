@@ -7,9 +7,9 @@
 
 namespace sdf_ccd {
 
-/// Makes the surface of an OctoMap in this very process: for the program sdf_ccd_read, which is confined, and for
-/// fuzzing. All else calls loadOctomapSurface(), which has that program do it.
-/// @param max_memory  that the surface may take [bytes]; it is counted before it is made.
+/// Extracts the surface of an OctoMap in the calling process, unprotected: only for the confined program sdf_ccd_read
+/// and for fuzzing. All other code calls loadOctomapSurface(), which runs that program.
+/// @param max_memory  upper bound of the surface's memory [bytes]; the faces are counted before they are created.
 /// @throws std::exception with the reason.
 ReadMesh parseOctomapHere(const std::string& bytes, std::uint64_t max_memory);
 

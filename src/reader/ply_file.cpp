@@ -31,13 +31,13 @@ double valueOf(const PlyType& type, const unsigned char* bytes) {
   }
 }
 
-/// The body's numbers, one after the other.
+/// Reads the numbers of a file's body one after the other.
 class PlyNumbers {
  public:
   PlyNumbers(const std::string& bytes, const PlyHeader& header)
       : rest_(std::string_view(bytes).substr(header.end)), format_(header.format) {}
 
-  /// None at the end, or if there is no number.
+  /// The next number; none at the end of the file, or if the next word is no number.
   std::optional<double> take(const PlyType& type) {
     if (format_ == PlyHeader::Format::kAscii) return takeNumber(rest_);
     if (rest_.size() < type.bytes) return std::nullopt;
@@ -57,7 +57,7 @@ class PlyNumbers {
   PlyHeader::Format format_;
 };
 
-/// Takes an element's properties: coordinates into `point`, the list of vertices into `corners`.
+/// Reads the properties of one element: coordinates into `point`, the list of vertex indices into `corners`.
 class ElementReader {
  public:
   ElementReader(const PlyElement& element, PlyNumbers& numbers) : element_(element), numbers_(numbers) {}
@@ -65,7 +65,7 @@ class ElementReader {
   Vector3d point = Vector3d::Zero();
   std::vector<std::int64_t> corners;
 
-  /// False if the file ends within it, or it is damaged.
+  /// Reads the next instance. @return false if the file ends within it or it is damaged.
   bool read() {
     corners.clear();
     for (const PlyProperty& property : element_.properties) {
@@ -103,7 +103,7 @@ class ElementReader {
   PlyNumbers& numbers_;
 };
 
-/// Every corner after the second makes a triangle, with alternating orientation; -1 ends a strip.
+/// Adds a triangle for every corner after the second of a strip, with alternating orientation; -1 ends a strip.
 void addStrips(const std::vector<std::int64_t>& strips, PolygonList& faces) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < strips.size(); ++i) {

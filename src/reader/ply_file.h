@@ -6,9 +6,9 @@
 
 namespace sdf_ccd {
 
-/// Reads PLY as text and binary in either byte order: the elements `vertex` (x, y, z), `face` and `tristrips`
+/// Reads PLY, text or binary in either byte order: the elements `vertex` (x, y, z), `face` and `tristrips`
 /// (vertex_indices or vertex_index); others are skipped.
-/// @throws std::runtime_error with the reason, also if there is less than the header announces.
+/// @throws std::runtime_error with the reason, also if the file holds fewer elements than its header announces.
 TriangleMesh parsePly(const std::string& bytes);
 
 }  // namespace sdf_ccd

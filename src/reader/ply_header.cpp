@@ -49,7 +49,7 @@ PlyProperty propertyOf(std::string_view words, std::string_view line) {
   return property;
 }
 
-/// Takes a line off the front, without the space at its end.
+/// Takes a line off the front, without white space at its end.
 std::string_view takeHeaderLine(std::string_view& text) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) throw std::runtime_error("truncated: the PLY header has no end_header");

@@ -16,7 +16,7 @@ struct PlyProperty {
   std::string name;
   PlyType type;
   bool is_list = false;
-  PlyType count_type;  ///< of a list
+  PlyType count_type;  ///< type of a list's length
 };
 
 struct PlyElement {
@@ -25,16 +25,16 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
-/// What a PLY file announces.
+/// Header of a PLY file.
 struct PlyHeader {
   enum class Format { kAscii, kLittleEndian, kBigEndian };
   Format format = Format::kAscii;
   std::vector<PlyElement> elements;
-  std::size_t end = 0;  ///< where the body begins
+  std::size_t end = 0;  ///< offset of the body [bytes]
 };
 
-/// @throws std::runtime_error if the header has no end, a line that is not known, or announces more elements than the
-/// file has bytes.
+/// @throws std::runtime_error if the header has no end, holds an unknown line, or announces more elements than the file
+/// has bytes.
 PlyHeader parsePlyHeader(const std::string& bytes);
 
 }  // namespace sdf_ccd

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kMaxCorners = 10'000;  // cutting off ears takes their square, at worst their cube
+constexpr std::size_t kMaxCorners = 10'000;  // ear clipping takes time of their square, at worst of their cube
 
 void append(const std::int64_t* corners, std::size_t count, TriangleMesh& mesh) {
   std::vector<Vector3d> positions;

@@ -7,23 +7,25 @@
 
 namespace sdf_ccd {
 
-/// The polygons of a file, whose vertices may be known only later.
+/// Polygons of a file, whose vertices may be read later.
 class PolygonList {
  public:
-  /// @param corners  indices of vertices. Fewer than three are left out: points and lines.
+  /// Adds a polygon. Polygons of fewer than three corners (points and lines) are ignored.
+  /// @param corners  vertex indices; checked by appendTo().
+  /// @throws std::runtime_error if there are more corners than a polygon may have.
   void add(const std::vector<std::int64_t>& corners);
 
-  /// Appends their triangles to a mesh that has the vertices.
-  /// @throws std::runtime_error for an index that is none, and for more corners than a polygon may have.
+  /// Triangulates the polygons and appends the triangles to a mesh that already has the vertices.
+  /// @throws std::runtime_error for an index without a vertex.
   void appendTo(TriangleMesh& mesh) const;
 
  private:
-  std::vector<std::int64_t> corners_;  // of all, one after the other
+  std::vector<std::int64_t> corners_;  // of all polygons, concatenated
   std::vector<std::size_t> ends_;
 };
 
-/// A vertex of a text file. Rounded to float as rviz draws it, so that corners which differ by their last digit are
-/// one.
+/// A vertex of a text file, rounded to float as rviz does, so that corners that differ only in a double's last digits
+/// become equal and are welded.
 inline Vector3d vertexOf(double x, double y, double z) {
   return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }

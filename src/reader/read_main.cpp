@@ -1,5 +1,5 @@
-// Reads a mesh or an OctoMap from stdin, in a process of its own: sdf_ccd_read FORMAT < FILE. For the library, see
-// process/read_apart.h; its answer is that of process/read_answer.h.
+// Helper program of the library (import/read_apart.h): sdf_ccd_read FORMAT < FILE. Reads a mesh or an OctoMap from
+// stdin in a confined process, and writes the answer described in import/read_answer.h to stdout.
 
 #include <malloc.h>
 #include <sys/stat.h>
@@ -65,12 +65,13 @@ std::string readInput(std::size_t size) {
   return bytes;
 }
 
-/// Not left to the libraries, of which some take it for an error of the file.
+/// The new handler: ends the process at once, as some libraries would report std::bad_alloc as an error of the file.
 void endOutOfMemory() {
   ::_exit(kExitOutOfMemory);
 }
 
-/// Memory is taken in large pieces and never given back: the process is short, and each new page costs.
+/// Makes malloc() take memory in large pieces and never return it: the process is short-lived, and system calls for
+/// memory cost time.
 void takeMemoryInLargePieces() {
   ::mallopt(M_TOP_PAD, kMemoryPiece);
   ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
@@ -99,5 +100,5 @@ void answer(const std::string& format) {
 int main(int argc, char** argv) {
   if (argc != 2) return sdf_ccd::kExitUsage;
   sdf_ccd::answer(argv[1]);
-  ::_exit(0);  // no destructors: they cost time, and may crash on what a damaged file has left
+  ::_exit(0);  // no destructors: they cost time, and may crash after reading a damaged file
 }

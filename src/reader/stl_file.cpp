@@ -21,7 +21,8 @@ bool startsAsText(const std::string& bytes) {
   return word == "solid" || word == "SOLID" || word == "Solid";
 }
 
-/// Text holds no zero byte; the attribute bytes, the count and most coordinates of a binary file do.
+/// True if the file begins with `solid`, holds a facet and has no zero byte in its first 4 KiB. Binary files have zero
+/// bytes in their attributes, their count and most coordinates.
 bool isText(const std::string& bytes) {
   const std::string head = bytes.substr(0, 4096);
   return startsAsText(head) && head.find('\0') == std::string::npos &&
@@ -45,7 +46,7 @@ TriangleMesh parseText(const std::string& bytes) {
   std::vector<std::int64_t> corners;
   bool is_whole = false;
   std::string_view text = bytes;
-  // The name of a solid may be any words; it ends with its line.
+  // The name of a solid may hold any words, so the rest of its line is skipped.
   for (std::string_view word = takeWord(text); !word.empty(); word = takeWord(text)) {
     const bool begins = isWord(word, "solid"), ends = isWord(word, "endsolid");
     if (begins || ends) text.remove_prefix(std::min(text.find('\n'), text.size()));

@@ -6,9 +6,9 @@
 
 namespace sdf_ccd {
 
-/// Reads STL: binary also where it begins with `solid` or has bytes after its last triangle, and text.
-/// @throws std::runtime_error with the reason: neither, shorter than the triangles it announces, or text that ends
-/// before its last `endsolid`.
+/// Reads text and binary STL. A binary file may begin with `solid`, and may have bytes after its last triangle.
+/// @throws std::runtime_error with the reason: neither text nor binary, shorter than the announced triangles need, or
+/// text that ends before its last `endsolid`.
 TriangleMesh parseStl(const std::string& bytes);
 
 }  // namespace sdf_ccd

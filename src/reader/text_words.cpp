@@ -10,7 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
-constexpr std::size_t kShown = 80;  // of a line
+constexpr std::size_t kShown = 80;  // characters of a line in messages
 
 }  // namespace
 

@@ -10,20 +10,22 @@ namespace sdf_ccd {
 /// Takes the next word off the front; empty at the end.
 std::string_view takeWord(std::string_view& text);
 
-/// Takes the next line off the front that holds more than a comment (`#` to its end); empty at the end.
+/// Takes the next line off the front, without its comment (from `#` on); skips lines that are blank then. Empty at the
+/// end.
 std::string_view takeLine(std::string_view& text);
 
 /// Takes the next word off the front as a number. None if it is no number, or there is no word.
-/// @param text  of something that ends with a byte 0, as a std::string does.
+/// @param text  a view into a buffer that is terminated by a zero byte, such as a std::string.
 std::optional<double> takeNumber(std::string_view& text);
 
-/// The same as a whole number from 0 on.
+/// Takes the next word off the front as a non-negative integer. None if it is none, or there is no word.
 std::optional<std::uint64_t> takeCount(std::string_view& text);
 
-/// @throws std::runtime_error that so many elements are announced and no more than `whole` of them are there.
+/// @throws std::runtime_error always: `announced` elements are announced, but only `whole` of them are complete.
 [[noreturn]] void failTruncated(const std::string& element, std::uint64_t announced, std::uint64_t whole);
 
-/// Refuses a count that cannot be: every element takes a byte at the least. @throws std::runtime_error.
+/// Returns the count as an integer. @throws std::runtime_error, with the header's line, if it is no non-negative
+/// integer or exceeds the file's size: every element takes at least one byte.
 std::uint64_t requireRoom(double count, std::size_t bytes, std::string_view line);
 
 }  // namespace sdf_ccd

@@ -11,14 +11,15 @@ namespace sdf_ccd {
 /// Collects faces of voxels as triangles with shared vertices.
 class VoxelSurface {
  public:
-  static constexpr std::size_t kBytesPerFace = 256;  ///< while it is made, at most: vectors double as they grow
+  static constexpr std::size_t kBytesPerFace = 256;  ///< upper bound of the peak: vectors double as they grow
 
-  using Cell = std::array<std::int64_t, 3>;  ///< of a voxel, or of its lower corner
+  using Cell = std::array<std::int64_t, 3>;  ///< indices of a voxel, or of its lower corner
 
-  /// @param origin  cell at the frame's origin.
+  /// @param resolution  voxel size [m].
+  /// @param origin      index, along each axis, of the corner at the frame's origin.
   VoxelSurface(double resolution, std::int64_t origin) : resolution_(resolution), origin_(origin) {}
 
-  /// The face of `cell` across `axis`, on its upper or lower side; the outside is away from the cell.
+  /// Adds the face of `cell` normal to `axis`, on its upper or lower side, with its normal pointing out of the cell.
   void addFace(const Cell& cell, int axis, bool upper) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;

@@ -10,9 +10,10 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr const char* kSpace = " \t\r\n\v\f";
-constexpr std::size_t kShown = 20;  // upper bound of the characters shown of an invalid number
+constexpr std::size_t kShown = 20;  // characters shown of an invalid number, upper bound
 
-/// Calls take(text, end) at each word, which sets `end` to where its number ends.
+/// Calls take(text, end) for each word of the element's text; take() parses a number and sets `end` behind it.
+/// @throws std::runtime_error if a word is not wholly a number.
 template <class Take>
 void forEachWord(const XMLElement& element, const Take& take) {
   for (const tinyxml2::XMLNode* node = element.FirstChild(); node; node = node->NextSibling()) {

@@ -14,8 +14,8 @@ std::string attributeOf(const tinyxml2::XMLElement& element, const char* name);
 /// A reference `#id` to the same document. @throws std::runtime_error if there is none.
 std::string referenceOf(const tinyxml2::XMLElement& element, const char* name);
 
-/// A number from 0 on. @param otherwise  if there is no such attribute. @throws std::runtime_error if it is no such
-/// number.
+/// An attribute as a non-negative integer. @param otherwise  the result if there is no such attribute.
+/// @throws std::runtime_error if it is no such integer of up to 15 digits.
 std::uint64_t countOf(const tinyxml2::XMLElement& element, const char* name, std::uint64_t otherwise);
 
 /// The numbers within an element. @throws std::runtime_error, with the line, if anything else is there.

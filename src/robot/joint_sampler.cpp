@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint64_t kAtLimits = 4;  // one in so many states
+constexpr std::uint64_t kAtLimits = 4;  // every fourth state
 
 }  // namespace
 
@@ -33,7 +33,7 @@ bool JointSampler::isUnbounded(const RobotModel& robot, const urdf::Joint& joint
 
 std::string JointSampler::unboundedBetween(const RobotModel& robot, int link_a, int link_b) {
   while (link_a != link_b) {
-    int& lower = link_a > link_b ? link_a : link_b;  // depth-first order: the greater one is no ancestor of the other
+    int& lower = link_a > link_b ? link_a : link_b;  // depth-first order: the greater index is no ancestor
     const urdf::Joint& joint = robot.jointAbove(lower);
     if (joint.type != urdf::Joint::FIXED && isUnbounded(robot, joint)) return joint.name;
     lower = robot.parent(lower);

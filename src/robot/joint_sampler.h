@@ -29,7 +29,7 @@ class JointSampler {
   /// Whether the joint, or the one that it mimics, is not sampled although it moves.
   static bool isUnbounded(const RobotModel& robot, const urdf::Joint& joint);
 
-  /// The first of those between two links, given by their indices; empty if there is none.
+  /// The first such joint between two links, given by their indices; empty if there is none.
   static std::string unboundedBetween(const RobotModel& robot, int link_a, int link_b);
 
  private:

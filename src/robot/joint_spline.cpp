@@ -11,7 +11,7 @@ namespace sdf_ccd {
 
 JointSpline::JointSpline(JointSplineOrder order, const JointKnot& start, const JointKnot& end, double duration)
     : duration_(duration) {
-  // In time over duration, velocities are times the duration, accelerations times its square.
+  // Time is relative to the duration: velocities are multiplied by the duration, accelerations by its square.
   const double T = duration, p0 = start.position, p1 = end.position;
   const double v0 = T * start.velocity, v1 = T * end.velocity;
   const double a0 = T * T * start.acceleration, a1 = T * T * end.acceleration;

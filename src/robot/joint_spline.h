@@ -17,8 +17,8 @@ enum class JointSplineOrder { kLinear, kCubic, kQuintic };
 /// The motion of a joint between two times, as in joint_trajectory_controller: the polynomial of lowest degree with the
 /// values given at both ends.
 ///
-/// Source: ros_controllers, joint_trajectory_controller, quintic_spline_segment.h. It takes cubic splines where only
-/// velocities are given, quintic ones where accelerations are too.
+/// Source: ros_controllers, joint_trajectory_controller, quintic_spline_segment.h. It uses cubic splines if only
+/// velocities are given, quintic ones if accelerations are given too.
 class JointSpline {
  public:
   /// @param duration  positive [s].
@@ -34,9 +34,9 @@ class JointSpline {
   double duration_;
 };
 
-/// Number of equal pieces of linear motion so that it deviates from the spline by no more than the tolerance: |q(t) −
+/// Number of equal pieces of linear motion that deviate from the spline by no more than the tolerance: |q(t) −
 /// linear| ≤ max |q̈| h² / 8 on a piece of length h.
-/// @throws std::invalid_argument if these are more than a million.
+/// @throws std::invalid_argument if it exceeds a million.
 int piecesWithin(const JointSpline& spline, double duration, double tolerance);
 
 }  // namespace sdf_ccd

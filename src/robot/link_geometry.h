@@ -33,7 +33,7 @@ class LinkGeometryLoader {
   std::vector<std::string>& warnings_;
   std::map<std::string, Mesh> unscaled_;
   std::map<std::string, std::string> failures_;  ///< reason by URI
-  std::set<std::string> renamed_;                ///< URIs of files that have another name
+  std::set<std::string> renamed_;                ///< URIs whose file has another name
   std::map<std::pair<std::string, std::vector<double>>, Mesh> scaled_;
 };
 

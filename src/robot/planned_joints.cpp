@@ -56,7 +56,7 @@ class Planner {
   }
 
  private:
-  /// Itself, or its leader.
+  /// Whether the plan names the joint or its leader.
   bool isNamed(const urdf::Joint& joint) const {
     const RobotState& state = plan_.trajectory.states.front();
     const bool is_named = state.positions.count(joint.name) || state.poses.count(joint.name);

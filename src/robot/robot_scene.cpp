@@ -27,7 +27,7 @@ class PairFilter {
   PairFilter(const RobotModel& robot, const Srdf& srdf, const RobotSceneOptions& options)
       : robot_(robot), options_(options), srdf_(srdf) {}
 
-  /// @param ball_a  around A's geometry; none if its size is not known.
+  /// @param ball_a  contains A's geometry; empty if its size is not known. The same for ball_b.
   std::string reason(const BodyDescription& a, const std::optional<ExtentBall>& ball_a, const BodyDescription& b,
                      const std::optional<ExtentBall>& ball_b) const {
     if (robot_.rigidlyJoined(a.name, b.name)) return kRigidlyJoined;
@@ -80,7 +80,7 @@ bool outOfReach(const RobotModel& robot, const BodyDescription& object, const Is
   return distanceBelow(object.geometry, p_B) > from_root.farthest + ball.radius;
 }
 
-/// All pairs are looked at, along the joints between them.
+/// describeRobot() visits all pairs, and the joints between their links.
 void requireFewPairs(const RobotModel& robot, std::size_t links) {
   constexpr std::size_t kMostPairs = 300000;
   const std::size_t pairs = links * (links - std::min<std::size_t>(links, 1)) / 2;

@@ -26,7 +26,7 @@ std::string attribute(const XMLElement& element, const char* name) {
   return value;
 }
 
-/// The number in a joint's value; nothing if it holds several, as those of planar and floating joints do.
+/// The number in a joint's value; empty if it has several, as for planar and floating joints.
 std::optional<double> jointValue(const XMLElement& joint) {
   const std::string text = attribute(joint, "value");
   std::istringstream stream(text);

@@ -185,7 +185,7 @@ std::vector<double> TrajectoryMotion::waypoints() const {
 std::vector<double> TrajectoryMotion::jointErrors() const {
   std::vector<double> errors(bodies_.size(), 0.0);
   if (trajectory_.joint_error == 0.0) return errors;
-  std::vector<double> farthest(robot_.links().size(), 0.0);  // per link: of its origin from its joint's frame [m]
+  std::vector<double> farthest(robot_.links().size(), 0.0);  // per link: from its origin to its joint [m]
   std::vector<FrameMove> moves;
   for (std::size_t i = 1; i < trajectory_.times.size(); ++i) {
     moveAlong(i, moves);

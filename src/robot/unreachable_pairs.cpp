@@ -19,7 +19,7 @@ BoundingBall ballOf(const BodyDescription& body) {
   return {ball.center, ball.radius};
 }
 
-/// Empty if all assumptions hold.
+/// Why a prismatic joint's assumed range does not hold in a state; empty if it does.
 std::string beyond(const RobotModel& robot, const RobotState& state, const RobotModel::Slide& slide) {
   const urdf::Joint& joint = *robot.urdf().getJoint(slide.joint);
   const auto pose = state.poses.find(slide.joint);

@@ -25,7 +25,7 @@ struct MotionCheck::Impl {
   CycleRequest request;
   ResultJoiner joiner;
   CycleMotion piece;
-  std::size_t done;  // waypoint
+  std::size_t done;  // index of the waypoint up to which the motion is checked
 };
 
 MotionCheck::MotionCheck(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,

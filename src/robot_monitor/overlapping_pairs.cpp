@@ -13,7 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kNamed = 6;  // pairs named in a warning
+constexpr std::size_t kNamed = 6;  // at most so many pairs are named in a warning
 
 /// "l_wheel - base (46.3 mm), r_wheel - base (46.3 mm) and 4 more".
 std::string listOf(const std::vector<OverlappingPair>& pairs, const Scene& scene) {

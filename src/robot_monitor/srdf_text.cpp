@@ -42,7 +42,7 @@ std::string commentText(const LearnedPairs& pairs) {
   return text + " ";
 }
 
-/// A comment may not hold two hyphens.
+/// XML comments must not contain two hyphens in a row.
 std::string asComment(std::string text) {
   for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at)) text.replace(at, 2, "- ");
   return text;

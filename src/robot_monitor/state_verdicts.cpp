@@ -12,12 +12,12 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kAnyTime = 1.0;  // nothing moves meanwhile [s]
+constexpr double kAnyTime = 1.0;  // duration of the resting motion [s]
 
 /// Tests states, one at a time.
 class StateTester {
  public:
-  /// @param scene  in which all pairs are of links.
+  /// @param scene  all of its pairs must be of links.
   StateTester(const RobotModel& robot, const std::shared_ptr<const Scene>& scene)
       : robot_(robot), monitor_(scene, {}), bound_(scene->contact_bound.total()) {
     for (const Body& body : scene->bodies) {
@@ -40,7 +40,7 @@ class StateTester {
     return monitor_.run(motion_, request).pairs;
   }
 
-  /// UNCERTAIN also for pairs that are CLEAR, but within the bound.
+  /// The pair's verdict; UNCERTAIN also if it is CLEAR, but closer than the bound.
   Verdict verdict(const PairResult& pair) const {
     const bool is_close = pair.verdict == Verdict::kClear && pair.clearance <= bound_;
     return is_close ? Verdict::kUncertain : pair.verdict;

@@ -4,21 +4,21 @@
 
 namespace sdf_ccd {
 
-/// Upper bound of the distance from a point of either shell to the other surface if the surfaces touch or cross [m]; at
-/// a distance D of the surfaces, D more.
+/// If the surfaces of two shells touch or cross, a point of one of the shells is at most this far from the other
+/// surface [m]. If the surfaces are a distance D apart, add D.
 ///
-/// A mesh's surface is the boundary of its solid (see Solid): faces within it have no points and need none, as nothing
-/// touches them before the boundary. Seams, where the faces of overlapping parts meet, are borders of triangles without
-/// a neighbour, and so are among the edges below.
+/// A mesh's surface is the boundary of its solid (see Solid): faces inside the solid have no points and need none, as
+/// other bodies touch the boundary first. Seams, where the faces of overlapping parts meet, are borders of triangles
+/// without a neighbour, and so are among the edges below.
 ///
-/// Gaps between points of faces do not count, because faces alone never touch first. Let E be the edges of a
-/// surface's flat pieces: away from E a surface is a plane nearby. Of the locations where surfaces A and B meet, take
-/// an extreme point x of their convex hull. Were x neither on E_A nor on E_B, two planes would meet there, along a line
-/// through x, and x not be extreme. So x lies on an edge of one of them, say A, and on B; a point of A's shell is
-/// within A's edge radius of it. (Disjoint surfaces: of the nearest locations the extreme one, by the same argument.)
-/// Where pieces deviate from planes by `flatness`, the planes do not meet but pass each other within the sum of both,
-/// and point and field are off by as much again: twice the sum in all. One body wholly inside the other has a point
-/// inside it.
+/// The gaps between points on faces do not count, because a contact never begins between two faces alone. Let E be the
+/// edges of a surface's flat pieces: near a point that is not on E, the surface is a plane. Take an extreme point x of
+/// the convex hull of the intersection of surfaces A and B. If x were neither on E_A nor on E_B, two planes would
+/// intersect there, along a line through x, and x would not be extreme. So x lies on an edge of one of them, say A, and
+/// on B; a point of A's shell is within A's edge radius of x. (For disjoint surfaces the same argument holds for an
+/// extreme one of the nearest points.) Where pieces deviate from planes by `flatness`, the planes may miss each other
+/// by the sum of both flatnesses, and point and field deviate by as much again: twice the sum in total. If one body is
+/// wholly inside the other, its points are inside.
 ///
 /// Without a shell of B, A's points must cover all of A, unless B is a plane, which has no edges.
 double contactGap(const PointShell& a, const PointShell& b);

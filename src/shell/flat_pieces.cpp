@@ -9,10 +9,10 @@
 namespace sdf_ccd {
 namespace {
 
-/// A projection that rotates a triangle's normal by more than 60 degrees is no flat piece, whatever its heights.
+/// A flat piece has no triangle whose normal is more than 60 degrees from that of the plane, however small its heights.
 constexpr double kLeastFacing = 0.5;
 
-/// The triangle beyond each side, or -1 unless there is exactly one.
+/// The triangle across each side; -1 unless there is exactly one, with a consistent orientation.
 std::vector<Vector3i> neighbours(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   std::vector<Vector3i> beyond(mesh.triangles.size(), Vector3i::Constant(-1));
   const auto set = [&](const EdgeUse& use, std::int32_t other) {

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// An edge of the surface, with the normal that a point on it gets.
+/// An edge of the surface, and the normal of points on it.
 struct SurfaceEdge {
   Vector3d from, to;  ///< [m]
   Vector3d normal;    ///< unit: between those of its triangles
@@ -18,7 +18,7 @@ struct SurfaceEdge {
 /// @param mesh  welded.
 std::vector<SurfaceEdge> edgesOfFlatPieces(const TriangleMesh& mesh, double flatness);
 
-/// Of all triangles: unit, or zero for a degenerate one.
+/// The normals of all triangles: unit, or zero for a degenerate one.
 std::vector<Vector3d> triangleNormals(const TriangleMesh& mesh);
 
 }  // namespace sdf_ccd

@@ -11,7 +11,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Triangles that one task works through alone. Fixed, so that results do not depend on the number of threads.
+/// Triangles per task. Fixed, so that results do not depend on the number of threads.
 constexpr std::size_t kChunk = 64;
 
 /// Calls work(chunk, first triangle, last triangle) for all chunks, in parallel.
@@ -49,7 +49,7 @@ void shareOut(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& piec
       shares.emplace_back(candidate.index, cell.area());
       sum += shares.back().second;
     });
-    // Up to rounding, the cells fill the piece; normalised, as the rounding would accumulate.
+    // Up to rounding, the cells fill the piece. Normalised, so that rounding does not accumulate.
     const double area = contested.piece.area();
     for (std::size_t share = first; share < shares.size(); ++share) {
       shares[share].second *= sum > 0 ? area / sum : 0;
@@ -65,13 +65,13 @@ double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double 
   const CancelPoint cancel;
   const Vector3d any = Vector3d::Zero();
   std::vector<double> reached2(chunks(mesh), 0.0);
-  // One location of each triangle first: the better the lower bound, the fewer pieces need cutting.
+  // First one location per triangle: the better the lower bound of the radius, the fewer pieces must be cut.
   forEachChunk(mesh, [&](std::size_t chunk, int first, int last) {
     for (int i = first; i < last; ++i) {
       reached2[chunk] = std::max(reached2[chunk], nearest.find(SurfacePiece::of(mesh, i).centroid(), any).distance2);
     }
   });
-  // Shared by all tasks, in any order: what one skips is below a radius that another has found.
+  // Shared by all tasks, in any order: a task skips only pieces that are covered by a radius already found.
   std::atomic<double> bound2{*std::max_element(reached2.begin(), reached2.end())};
   forEachChunk(mesh, [&](std::size_t, int first, int last) {
     const auto isBelow = [&](const ContestedPiece& contested) {

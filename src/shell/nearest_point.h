@@ -19,8 +19,8 @@ class NearestPoint {
     Vector3d point = Vector3d::Zero();
   };
 
-  /// Nearest point whose normal does not point against `facing`; a zero vector takes all. Of equally near points
-  /// the one with the least index.
+  /// The nearest point whose normal does not oppose `facing`; with a zero vector, of all points. Of equally near points
+  /// the one with the smallest index.
   Hit find(const Vector3d& p, const Vector3d& facing) const;
 
   /// Calls visit(index, point) for all such points within `radius` of p.

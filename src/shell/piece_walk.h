@@ -13,16 +13,20 @@
 
 namespace sdf_ccd {
 
-/// Cuts triangles into pieces with few candidates each for the nearest point.
+/// Cuts triangles into pieces, each with few candidates for the nearest point.
 class PieceWalk {
  public:
   /// @param scale   approximate distance between points [m].
   /// @param cancel  stops the walk.
   PieceWalk(const NearestPoint& nearest, double scale, const CancelPoint& cancel)
-      : nearest_(nearest), cancel_(cancel), scale_(scale), scale2_(scale * scale), gather2_(kGather * kGather * scale2_) {}
+      : nearest_(nearest),
+        cancel_(cancel),
+        scale_(scale),
+        scale2_(scale * scale),
+        gather2_(kGather * kGather * scale2_) {}
 
-  /// Calls visit(contested) for pieces that cover `whole`, each with at most kMaxCells candidates, whose normals are
-  /// not against `facing`. Before that, settle(contested) may finish a piece by returning true.
+  /// Calls visit(contested) for pieces that cover `whole`, each with at most kMaxCells candidates, whose normals do not
+  /// oppose `facing`. Before that, settle(contested) may finish a piece by returning true.
   template <typename Settle, typename Visit>
   void walk(const SurfacePiece& whole, const Vector3d& facing, Settle settle, Visit visit) {
     forEachCompactPiece(whole, scale_, [&](const SurfacePiece& piece) { walkPiece(piece, facing, settle, visit); });
@@ -44,7 +48,7 @@ class PieceWalk {
       cancel_.check();
       const Entry current = stack_.back();
       stack_.pop_back();
-      // Candidates above belong to pieces that are finished; those below, to the pieces that contain this one.
+      // Candidates beyond this piece's belong to finished pieces; those before, to the pieces that contain this one.
       candidates_.resize(current.end);
       const double length2 = current.piece.longestEdge().second;
       if (length2 > gather2_) {
@@ -65,14 +69,14 @@ class PieceWalk {
         halve(narrowed);
         continue;
       }
-      // A piece this small with more candidates has all of them at one distance: any few are sufficient.
+      // All candidates of so small a piece are at the same distance, so any kMaxCells of them suffice.
       contested.end = std::min(contested.end, contested.begin + kMaxCells);
       visit(contested);
     }
   }
 
-  /// All points that may be nearest to some location of the piece. A location's distance from the point that is nearest
-  /// to the centre is at most that of some corner, so its nearest point is no farther from it.
+  /// Gathers all points that may be nearest to a location of the piece. Let q be the point nearest to the centre: a
+  /// location's nearest point is at most as far from it as q, which is at most as far as q is from its farthest corner.
   void gather(const SurfacePiece& piece, const Vector3d& facing) {
     const Vector3d center = piece.centroid();
     const NearestPoint::Hit hit = nearest_.find(center, facing);
@@ -90,9 +94,9 @@ class PieceWalk {
     keepContestants(entry.piece);
   }
 
-  /// Adds those gathered to the candidates that no other is nearer than at all corners: what is nearer there is nearer
-  /// in the whole piece, as a plane divides what is nearer to the one from what is nearer to the other. Held against
-  /// those nearest to the corners and the centre.
+  /// Adds the gathered points to the candidates, except those that another point beats: one that is nearer to all
+  /// corners. It is nearer to the whole piece then, because a plane divides the locations nearer to the one from those
+  /// nearer to the other. Only the points nearest to the corners and to the centre are tried as such rivals.
   void keepContestants(const SurfacePiece& piece) {
     constexpr double kSurely = 1 - 1e-12;
     const std::size_t count = gathered_.size();
@@ -104,7 +108,7 @@ class PieceWalk {
       Vector3d& to2 = to_corners2_[i];
       for (int k = 0; k < 3; ++k) to2[k] = (piece.corners[k] - gathered_[i].point).squaredNorm();
       const std::array<double, 4> values{to2[0], to2[1], to2[2],
-                                         to2.sum()};  // the last, as the centre's, but for a constant
+                                         to2.sum()};  // the sum orders points as the distance from the centre does
       for (std::size_t k = 0; k < 4; ++k) {
         if (values[k] < least[k]) {
           least[k] = values[k];
@@ -129,11 +133,11 @@ class PieceWalk {
   const NearestPoint& nearest_;
   const CancelPoint cancel_;
   double scale_, scale2_;
-  double gather2_;  ///< pieces with a longer edge, squared, are halved before points are looked for
+  double gather2_;  ///< squared edge length above which pieces are halved before points are searched [m²]
   std::vector<Entry> stack_;
   std::vector<Candidate> candidates_;
   std::vector<Candidate> gathered_;
-  std::vector<Vector3d> to_corners2_;  // of those gathered
+  std::vector<Vector3d> to_corners2_;  // of gathered_: squared distances from the piece's corners
 };
 
 }  // namespace sdf_ccd

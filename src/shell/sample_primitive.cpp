@@ -51,10 +51,11 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
   EdgeSampling edges(options);
   double deviation = 0;
   if (curved) {
-    // From the surface to the tessellation, along it, and back with the point: spacing + 2 deviations.
+    // A surface location is at most a deviation from the tessellation, whose location is at most flat.spacing from a
+    // point, and lifting moves the point by at most another deviation.
     deviation = kDeviation * options.spacing;
     if (hasEdges(options)) deviation = std::min(deviation, kEdgeDeviation * edges.flatness);
-    edges.radius -= deviation;  // its points are lifted
+    edges.radius -= deviation;  // lifting moves the points
     edges.flatness -= deviation;
     edges.covering -= 2 * deviation;
     flat.spacing = options.spacing - 2 * deviation;

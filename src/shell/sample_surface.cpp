@@ -34,13 +34,13 @@ double facePoints(double area, double spacing) {
   return 0.7 * area / (spacing * spacing);
 }
 
-/// The same along edges: two radii apart, but nearer on short ones, and none where edges meet; measured on robots'
-/// links.
+/// Approximate number of points along edges, measured on robots' links: two radii apart, but closer on short edges, and
+/// none where edges meet.
 double edgePoints(double length, double radius) {
   return length / (2.0 * radius);
 }
 
-constexpr double kEdgesAreMore = 1.3;  ///< on finely curved surfaces, than edgePoints() says
+constexpr double kEdgesAreMore = 1.3;  ///< factor of edgePoints() on finely curved surfaces
 
 double length(const std::vector<SurfaceEdge>& edges) {
   double sum = 0.0;
@@ -48,12 +48,12 @@ double length(const std::vector<SurfaceEdge>& edges) {
   return sum;
 }
 
-/// Points that slivers need though they have no area, or as many as their slices take time for; 0 where faces take
-/// more.
-/// @param on_faces  points that those take.
+/// Number of points that slivers need although they have no area, or of points that take as much time as their slices,
+/// whichever is larger; 0 if there are not more slices than points on faces.
+/// @param on_faces  number of points on faces.
 double sliverPoints(const TriangleMesh& mesh, double spacing, double on_faces) {
   constexpr double kSlicesInTimeOfAPoint = 16.0;
-  constexpr double kPointsPerSpacing = 0.62;  // along strips narrower than that, measured on folded sheets and rods
+  constexpr double kPointsPerSpacing = 0.62;  // along strips narrower than a spacing; measured on folded sheets, rods
   double slices = 0.0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const double count = SurfacePiece::of(mesh, static_cast<int>(i)).slices(spacing);
@@ -66,21 +66,22 @@ double sliverPoints(const TriangleMesh& mesh, double spacing, double on_faces) {
   return std::max(kPointsPerSpacing * length(edges) / spacing, slices / kSlicesInTimeOfAPoint);
 }
 
-/// On all of a surface.
+/// Approximate number of points on a whole surface.
 double surfacePoints(const TriangleMesh& mesh, double spacing) {
   const double on_faces = facePoints(surfaceArea(mesh), spacing);
   return std::max(on_faces, sliverPoints(mesh, spacing, on_faces));
 }
 
-/// What is to be sampled, for requireRoom().
+/// The surface and edges to be sampled, for requireRoom().
 struct Extent {
   double area = 0.0;            ///< [m²]
-  double surface_points = 0.0;  ///< expected on it
-  double edges = 0.0;           ///< [m]
+  double surface_points = 0.0;  ///< expected number on the surface
+  double edges = 0.0;           ///< total length [m]
   double edge_radius = 0.0;     ///< [m]
 };
 
-/// Refuses what is expected to end in a refusal: that can take a minute of sampling to turn out.
+/// Throws std::length_error if more than options.max_points are expected; without this the refusal could come after a
+/// minute of sampling.
 void requireRoom(const Extent& extent, const ShellOptions& options) {
   const double on_edges = extent.edges > 0.0 ? edgePoints(extent.edges, extent.edge_radius) : 0.0;
   if (extent.surface_points + on_edges <= static_cast<double>(options.max_points)) return;
@@ -106,7 +107,7 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) 
 PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
   ShellOptions thinned = options;
   if (solid.seam() > 0.0) {
-    // Along seams vertices are dense, of which a few points suffice; more would take very long to separate.
+    // Vertices are dense along seams. A few points suffice there; more would take very long to separate.
     constexpr double kApart = 0.1;
     const double finest = hasEdges(options) ? options.edge_gap : options.spacing;
     thinned.vertex_spacing = std::max(options.vertex_spacing, kApart * finest);
@@ -138,7 +139,7 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested
   PointShell shell = filler.take();
   const std::vector<double> areas = nearestAreas(surface, shell, options.spacing);
   shell.areas.assign(areas.begin(), areas.end());
-  // The filler has certified the spacing; the measured radius is an upper bound too.
+  // Both are upper bounds: the filler guarantees the spacing, and the radius is measured.
   shell.covering_radius = std::min(options.spacing, coveringRadius(surface, shell, options.spacing));
   if (!edges.empty()) {
     shell.edge_radius = sampling.radius;

@@ -6,7 +6,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Version of the options' meaning.
+/// Version of the options' meaning: incremented when the same options give another shell.
 constexpr double kMeaning = 3;
 
 }  // namespace

@@ -11,7 +11,7 @@ struct CachedShell {
   CacheOutcome outcome;
 };
 
-/// As sampleSurface(), but loaded from the cache if possible: by the mesh's content and the options.
+/// As sampleSurface(), but loaded from the cache if possible; the key is the mesh's content and the options.
 CachedShell cachedShell(const FileCache& cache, const SolidSource& source, const ShellOptions& options);
 
 }  // namespace sdf_ccd

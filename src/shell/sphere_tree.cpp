@@ -50,7 +50,7 @@ class Builder {
     return {ball.center, ball.radius, begin, end, -1, 0};
   }
 
-  /// Halves the points along the longest side of their box; equal coordinates are told apart by their order.
+  /// Halves the points along the longest side of their box; ties between equal coordinates are broken by the index.
   std::int32_t split(std::int32_t begin, std::int32_t end) {
     AlignedBox3d box;
     for (std::int32_t i = begin; i < end; ++i) box.extend(point(i));
@@ -75,8 +75,8 @@ class Builder {
     return best;
   }
 
-  /// Start: the smallest of the balls about the box's centre, the centroid and of Ritter 1990. Then steps towards
-  /// the farthest point, ever shorter (Bădoiu & Clarkson 2003); the smallest ball found is kept.
+  /// Starts from the smallest of three balls: about the box's centre, about the centroid, and that of Ritter 1990. Then
+  /// moves the centre towards the farthest point in ever shorter steps (Bădoiu & Clarkson 2003); keeps the smallest.
   Ball boundingBall(std::int32_t begin, std::int32_t end) const {
     AlignedBox3d box;
     Vector3d sum = Vector3d::Zero();
@@ -96,7 +96,7 @@ class Builder {
       if (radius < best.radius) best = {center, radius};
       center += (point(index) - center) / (step + 3);
     }
-    best.radius *= 1 + 1e-14;  // distances measured elsewhere round differently
+    best.radius *= 1 + 1e-14;  // distances computed elsewhere round differently
     return best;
   }
 

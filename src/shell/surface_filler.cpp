@@ -32,12 +32,12 @@ std::vector<Vector3d> vertexNormals(const TriangleMesh& mesh, const std::vector<
   }
   for (std::size_t v = 0; v < sums.size(); ++v) {
     const double norm = sums[v].norm();
-    sums[v] = norm > 1e-6 ? Vector3d(sums[v] / norm) : fallback[v];  // the sides of a sheet cancel
+    sums[v] = norm > 1e-6 ? Vector3d(sums[v] / norm) : fallback[v];  // the normals of a sheet's two sides cancel
   }
   return sums;
 }
 
-/// Which parts of a segment, from 0 to its length, are within a radius of points.
+/// The parts of a segment, by arc length, that are within a radius of given points.
 class CoveredParts {
  public:
   CoveredParts(const SurfaceEdge& edge, double radius)
@@ -121,7 +121,7 @@ void SurfaceFiller::addVertices() {
 void SurfaceFiller::fillEdges(const std::vector<SurfaceEdge>& edges, double edge_radius) {
   if (edges.empty()) return;
   const double radius = edge_radius * (1.0 - 1e-9);  // neighbouring parts must overlap in spite of rounding
-  PointGrid near(1.2 * radius);                      // from locations that far apart, all points within it of an edge
+  PointGrid near(1.2 * radius);                      // queries every radius find all points within a radius of an edge
   for (const Vector3d& p : shell_.points) near.insert(p);
   for (const SurfaceEdge& edge : edges) {
     cancel_.check();
@@ -151,7 +151,7 @@ void SurfaceFiller::throwDarts() {
     area += areaNormal(mesh_, static_cast<int>(i)).norm() / 2;
     area_below.push_back(area);
   }
-  // A full Poisson-disk sampling has about 0.7 points per spacing²; with ten darts for each, few gaps are left.
+  // A full Poisson-disk sampling has about 0.7 points per spacing²; ten darts per point leave few gaps.
   const auto darts = static_cast<std::int64_t>(std::ceil(7 * area / (options_.spacing * options_.spacing)));
   std::mt19937_64 random(options_.seed);
   for (std::int64_t dart = 0; dart < darts; ++dart) {
@@ -176,7 +176,7 @@ void SurfaceFiller::fillGaps() {
 
 void SurfaceFiller::fillGaps(const SurfacePiece& whole, const Vector3d& normal) {
   const double spacing2 = options_.spacing * options_.spacing;
-  // Pieces this small that no single point covers lie on the rim of several balls; their own point ends it.
+  // A piece this small that no single point covers lies on the rim of several balls; a point at its centre covers it.
   constexpr double kSmallest2 = 0.05 * 0.05;
   pieces_.assign(1, whole);
   while (!pieces_.empty()) {

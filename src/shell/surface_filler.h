@@ -13,8 +13,8 @@
 
 namespace sdf_ccd {
 
-/// Adds points to a shell until no location of the mesh is farther than options.spacing from a point whose normal is
-/// not against the location's, or until that is cancelled.
+/// Adds points to a shell until no location of the mesh is farther than options.spacing from a point whose normal does
+/// not oppose the location's, or throws Cancelled on request.
 class SurfaceFiller {
  public:
   /// @param mesh  welded.
@@ -43,7 +43,7 @@ class SurfaceFiller {
   std::vector<Vector3d> triangle_normals_;  // unit, or zero
   PointGrid grid_;
   PointShell shell_;
-  std::vector<SurfacePiece> pieces_;  // of a triangle, still to be filled
+  std::vector<SurfacePiece> pieces_;  // the current triangle's pieces that are still to be filled
 };
 
 }  // namespace sdf_ccd

@@ -33,7 +33,7 @@ struct SurfacePiece {
     return longest;
   }
 
-  /// Both halves, cut from the longest edge's middle to the opposite corner.
+  /// The two halves, cut from the middle of the longest edge to the opposite corner.
   std::pair<SurfacePiece, SurfacePiece> halves() const {
     const int corner = longestEdge().first, next = (corner + 1) % 3, last = (corner + 2) % 3;
     std::pair<SurfacePiece, SurfacePiece> result{*this, *this};
@@ -46,8 +46,8 @@ struct SurfacePiece {
     return std::max({(corners[0] - q).squaredNorm(), (corners[1] - q).squaredNorm(), (corners[2] - q).squaredNorm()});
   }
 
-  /// How many slices across the piece are about as long as wide, or `least` [m] long if that is more; 1 for a piece
-  /// that is not far longer than both.
+  /// The number of slices across the piece that are about as long as wide, but at least `least` [m] long; 1 for a piece
+  /// that is not much longer than both.
   double slices(double least) const {
     constexpr double kFarLonger = 8;
     const double longest = std::sqrt(longestEdge().second);
@@ -57,7 +57,7 @@ struct SurfacePiece {
   }
 };
 
-/// Calls visit(piece) for the pieces of so many slices across a triangle, from its corner 0 on.
+/// Cuts a triangle into `count` slices, from its corner 0 on, and calls visit(piece) for the triangles of each.
 template <typename Visit>
 void forEachSlice(const SurfacePiece& triangle, double count, Visit visit) {
   const auto& [tip, left_end, right_end] = triangle.corners;
@@ -72,8 +72,8 @@ void forEachSlice(const SurfacePiece& triangle, double count, Visit visit) {
   }
 }
 
-/// Calls visit(piece) for pieces that cover a triangle: the triangle itself, or its slices. Halves of a sliver lie
-/// beside each other as well as behind each other, so that for pieces of 1/n of its length n^1.6 of them are needed.
+/// Calls visit(piece) for pieces that cover a triangle: the triangle itself, or the slices of a sliver. Halving a
+/// sliver instead cuts it lengthwise too, so that pieces of 1/n of its length would be n^1.6 in number.
 template <typename Visit>
 void forEachCompactPiece(const SurfacePiece& triangle, double least, Visit visit) {
   const double slices = triangle.slices(least);

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// A shell's point that may be nearest to some location of a piece of surface.
+/// A point of a shell that may be the nearest one to a location of a surface piece.
 struct Candidate {
   Vector3d point;
   std::int32_t index;
@@ -32,7 +32,7 @@ class CellPolygon {
  public:
   explicit CellPolygon(const SurfacePiece& piece);
 
-  /// Keeps the part nearer to p than to q; all or nothing if they are at the same location, according to `wins_ties`.
+  /// Keeps the part nearer to p than to q. If p = q, keeps all of it if `wins_ties`, else nothing.
   void keepNearer(const Vector3d& p, const Vector3d& q, bool wins_ties);
 
   bool empty() const { return size_ == 0; }
@@ -41,7 +41,7 @@ class CellPolygon {
   double farthest2(const Vector3d& p) const;
 
  private:
-  std::array<Vector3d, 3 + kMaxCells> corners_;  // a cut by a plane adds at most one
+  std::array<Vector3d, 3 + kMaxCells> corners_;  // a cut by a plane adds at most one corner
   int size_ = 3;
 };
 

@@ -31,7 +31,7 @@ bool isOfCache(const std::string& file) {
   return false;
 }
 
-/// As TemporaryFile names them: one ending more, of six characters or a process and a number.
+/// Named as by TemporaryFile: with an extra extension, six characters or the process and a number.
 bool isTemporary(const std::string& file) {
   const std::size_t dot = file.rfind('.');
   if (dot == std::string::npos || isOfCache(file) || !isOfCache(file.substr(0, dot))) return false;

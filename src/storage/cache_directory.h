@@ -16,8 +16,8 @@ void requireOwnFile(const std::string& path);
 /// Marks a file of the cache as used now.
 void markUsed(const std::string& path);
 
-/// Removes what was not used for longest until the cache's files hold no more than `max_bytes`, but for those of
-/// `name`, and temporary files that a process left an hour ago or earlier. Other files are left alone.
+/// Removes the least recently used files until the cache's files hold no more than `max_bytes`, except for files of
+/// `name`; and temporary files that a process left an hour ago or earlier. Other files are left alone.
 void trimCache(const std::string& directory, const std::string& name, std::size_t max_bytes);
 
 }  // namespace sdf_ccd

@@ -63,7 +63,7 @@ std::size_t aligned(std::size_t offset) {
 /// XXH3 (64 bits) of the XXH3 of each piece, so that pieces can be read at the same time.
 class Checksum {
  public:
-  /// @param piece  (from, bytes) of each piece: its data.
+  /// @param piece  called with (from, bytes) for each piece; returns its data.
   template <class Piece>
   static std::uint64_t of(std::size_t bytes, Piece piece) {
     std::vector<std::uint64_t> pieces((bytes + kPiece - 1) / kPiece);
@@ -295,7 +295,7 @@ std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, co
   return std::shared_ptr<const CheckedFile>(new CheckedFile(path, std::move(memory), std::move(sections)));
 }
 
-/// Whole pages, large ones where the kernel has them.
+/// Allocates whole pages, huge ones where the kernel has them.
 CheckedFile::Memory CheckedFile::allocate(const std::string& path, std::size_t bytes) {
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) fail(path, "no memory for its " + std::to_string(bytes) + " bytes");

@@ -28,8 +28,8 @@ struct FileKind {
   std::string key = {};   ///< what the content was made from, up to 63 characters; empty: whatever that was
 };
 
-/// Writes sections as one little-endian file with kind, version, key and a checksum over everything. The file appears
-/// under `path` complete or not at all: it gets its name when it is written and synced.
+/// Writes sections as one little-endian file with kind, version, key and a checksum over all that follows the header.
+/// The file appears under `path` complete or not at all: it gets its name when it is written and synced.
 /// @throws std::runtime_error naming the path and the reason.
 void writeCheckedFile(const std::string& path, const FileKind& kind, const std::vector<FileSection>& sections);
 

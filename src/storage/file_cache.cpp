@@ -61,7 +61,7 @@ class FileLock {
 
 }  // namespace
 
-/// Identifies a file even if another takes its name. Equal to itself alone; none if there is no file.
+/// Identifies a file even if another one takes its name; `exists` is false if there is no file.
 struct FileCache::Identity {
   bool exists = false;
   dev_t device = 0;

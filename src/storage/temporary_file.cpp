@@ -58,7 +58,7 @@ void TemporaryFile::place() {
   name_.clear();
 }
 
-/// That of its target, or, as a link does not replace a file, one beside it.
+/// Gives it the target's name or, because a link does not replace an existing file, a name beside it.
 void TemporaryFile::giveName() {
   const auto link = [&](const std::string& name) {
     return ::linkat(AT_FDCWD, path_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;

@@ -16,10 +16,10 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  /// What this process, and others of the same user while it lives, open to write it.
+  /// The path by which this process, and others of the same user while it lives, open it for writing.
   const std::string& path() const { return path_; }
 
-  /// It itself, open for writing.
+  /// The file itself, open for writing.
   int descriptor() const { return descriptor_; }
 
   /// Gives the file its target's name, replacing an existing file. All writers must have closed it.

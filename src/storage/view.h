@@ -5,7 +5,7 @@
 
 namespace sdf_ccd {
 
-/// A run of values that somebody else owns.
+/// A range of values that somebody else owns.
 template <class T>
 struct View {
   const T* data = nullptr;

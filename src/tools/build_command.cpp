@@ -43,14 +43,15 @@ std::string readText(const std::string& path) {
   return loadLocalResource(path, nullptr, "").bytes;
 }
 
-/// File names of links' meshes, each used once: two links may differ by a slash only, or by a number.
+/// Assigns a unique file name to each mesh of each link. Links whose names differ only by a slash, or by a number at
+/// their end, would otherwise share a file.
 class FileNames {
  public:
   explicit FileNames(const std::vector<BodyDescription>& bodies) {
     for (const BodyDescription& body : bodies) links_.insert(asFileName(body.name));
   }
 
-  /// NAME for a link's first mesh, NAME_2 and so on for the others; numbers in use are skipped.
+  /// NAME for a link's first mesh, NAME_2 and so on for the others; names in use are skipped.
   std::string next(const std::string& link, bool first) {
     const std::string name = asFileName(link);
     if (first && used_.insert(name).second) return name;
@@ -89,7 +90,8 @@ Robot loadRobot(const Arguments& arguments) {
   return robot;
 }
 
-/// Fields and shells of one link's meshes; false, with a line on stderr, if one of them cannot be built.
+/// Builds the fields and shells of one link's meshes.
+/// @return false, after a line on stderr, if one of them cannot be built.
 bool buildLink(const BodyDescription& body, FileNames& names, FieldBuilder& builder) {
   try {
     if (!body.failure.empty()) throw std::runtime_error(body.failure);
@@ -112,7 +114,7 @@ bool buildLink(const BodyDescription& body, FileNames& names, FieldBuilder& buil
   }
 }
 
-/// Expected cost of all links, before the first is built. Errors of a link are reported when it is built.
+/// Estimates the cost of all links before the first is built. Errors of a link are reported when it is built.
 void expectLinks(const std::vector<BodyDescription>& bodies, FieldBuilder& builder) {
   for (const BodyDescription& body : bodies) {
     for (const GeometryDescription& element : body.geometry) {

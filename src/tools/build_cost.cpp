@@ -23,14 +23,14 @@ FieldOptions coarser(FieldOptions options, int times) {
   return options;
 }
 
-/// As on the command line.
+/// The resolution as a command line option.
 std::string asOption(const FieldOptions& options) {
   if (options.max_error) return "--max-error " + shortly(*options.max_error);
   if (options.cell_size) return "--cell " + shortly(*options.cell_size);
   return "--resolution " + std::to_string(*options.cells);
 }
 
-/// The limits for fields of these options.
+/// Body options with these field options, for the check against the cost limits.
 BodyOptions limits(const FieldOptions& field) {
   BodyOptions options;
   options.field = field;

@@ -10,23 +10,24 @@
 
 namespace sdf_ccd::tools {
 
-/// Point spacing of a shell whose field has this error bound: two cells of a uniform grid [m].
+/// Point spacing [m] of a shell whose field has this error bound [m]: two cells of a uniform grid.
 inline double shellSpacing(double error_bound) {
   return 2.3 * error_bound;
 }
 
-/// Expected cost of building fields and shells, in the words of the monitor and check-bag.
+/// Expected cost of building fields and shells. Checked against the same limits, and reported in the same form, as by
+/// the monitor and check-bag.
 class BuildCost {
  public:
-  /// @param spacing  of the shells [m]; none: from the field's error.
+  /// @param spacing  of the shells' points [m]; if not set, shellSpacing() of the field's error bound.
   explicit BuildCost(std::optional<double> spacing) : spacing_(spacing) {}
 
-  /// Input that cannot be built costs nothing here. The mesh must outlive this.
+  /// Adds a mesh. One that cannot be built adds no cost. The mesh must outlive this object.
   void add(const std::string& name, PooledMesh& mesh, const FieldOptions& options);
 
   const SceneCost& cost() const { return cost_; }
 
-  /// @throws as requireAffordable() for scenes, with the option that would fit.
+  /// @throws std::length_error as requireAffordable() for scenes; the message names an option that would fit.
   void requireAffordable() const;
 
  private:
@@ -37,7 +38,7 @@ class BuildCost {
   };
 
   BodyCost expected(const Wanted& wanted) const;
-  /// The option that makes it coarse enough to be affordable; empty if that is much coarser.
+  /// The resolution option, coarsened by a power of two, that is affordable; empty if 1024 times coarser is not.
   std::string whatFits() const;
 
   std::optional<double> spacing_;

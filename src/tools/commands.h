@@ -12,11 +12,11 @@ void addQueryCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 void addWorkPrecisionCommand(CLI::App& app);
 
-/// Those that need ROS; in the folder ros/.
+/// Subcommands that need ROS, in the folder ros/.
 void addCheckBagCommand(CLI::App& app);
 void addPlotBagCommand(CLI::App& app);
 
-/// Part of the work was done, the rest was reported: exit code 1.
+/// Thrown when part of the work failed and has been reported on stderr: exit code 1.
 struct PartlyDone {};
 
 }  // namespace sdf_ccd::tools

@@ -62,7 +62,7 @@ void FieldBuilder::expectMesh(const std::string& name, const std::shared_ptr<con
     cost_.add(name, pooled, resolution_.fieldOptions());
     seconds_ += secondsSince(start);
   } catch (const std::exception&) {
-    // addMesh() reports it.
+    // addMesh() reports the error.
   }
 }
 

@@ -17,38 +17,41 @@
 
 namespace sdf_ccd::tools {
 
-/// The mesh oriented outward. Warnings about its inside are printed to stderr, prefixed by `source`.
+/// Orients the mesh outward. Prints warnings about its inside to stderr, prefixed by `source`.
 OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& mesh);
 
-/// What was left out of a mesh's solid and what is ambiguous about it, one line each, beginning with `indent`; empty if
-/// nothing.
+/// Prints what was left out of a mesh's solid and what is ambiguous about it, a line each, prefixed by `indent`. Prints
+/// nothing if there is neither.
 void printSolid(const SolidReport& report, const std::string& indent);
 
-/// Builds the field of a solid with a progress bar of that title.
+/// Builds the field of a solid, with a progress bar of this title.
 DistanceField buildWithBar(const std::string& title, const Solid& solid, const FieldOptions& options);
 DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options);
 
 /// Builds fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {
  public:
-  /// @param spacing  of the shells [m]; none: 2.3 times the field's error bound, two cells of a uniform grid.
+  /// @param spacing  of the shells' points [m]; if not set, 2.3 times the field's error bound: two cells of a uniform
+  ///   grid.
   FieldBuilder(OutputDirectory& out, const ResolutionOptions& resolution, std::optional<double> spacing)
       : out_(out), resolution_(resolution), spacing_(spacing), cost_(spacing) {}
 
-  /// Adds the expected cost of addMesh() or addVoxels(). A mesh that cannot be built costs nothing; adding it reports
-  /// why.
+  /// Adds the expected cost of addMesh() or addVoxels(). A mesh that cannot be built adds no cost; addMesh() reports
+  /// the reason.
   void expectMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh);
   void expectVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh, double voxel_size);
 
-  /// Prints the expected cost of all, if it takes more than a second.
+  /// Prints the expected total cost if building takes more than a second.
   /// @throws std::length_error beyond the monitor's limits, with a setting that would fit.
   void requireAffordable() const;
 
-  /// A mesh of any quality: its parts are oriented outward first. Existing files are written again.
+  /// Builds and writes the field and shell of a mesh of any quality; its components are oriented outward first.
+  /// Existing files are overwritten.
   void addMesh(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh);
 
-  /// The boundary of whole voxels, which needs no orientation and has no shell. The default cell is half a voxel: the
-  /// field's error, √3/2 of a cell, is then less than the depth of a voxel's middle, so that no voxel is lost.
+  /// Builds and writes the field of a voxel surface, which needs no orientation and gets no shell. The default cell is
+  /// half a voxel: the field's error, √3/2 of a cell, is then less than the depth of a voxel's centre, so that no
+  /// voxel is lost.
   void addVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh, double voxel_size);
 
   void printTotals() const;

@@ -63,7 +63,7 @@ void printQuality(const MeshQuality& quality) {
             << "sign trusted         " << (quality.sign_trusted ? "yes" : "no") << std::endl;
 }
 
-/// Prints the contents of the file; returns its field if a slice of it is needed.
+/// Prints a summary of the file; returns its field if a slice is requested.
 std::optional<DistanceField> inspect(const Arguments& arguments) {
   const std::string& file = arguments.file;
   const bool wants_field = !arguments.slice.empty();

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kNamed = 10;  // of a list
+constexpr std::size_t kNamed = 10;  // printed items of a list
 
 struct Arguments {
   std::string urdf, srdf, out, bag, topic;

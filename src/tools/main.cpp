@@ -11,7 +11,7 @@ namespace {
 constexpr int kPartlyDone = 1;
 constexpr int kBadInput = 2;
 
-/// One line, also for a message with line breaks.
+/// Prints a message as one line on stderr, without its line breaks. @return the exit code of bad input.
 int refuse(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::cerr << "sdf_ccd: " << message << std::endl;

@@ -9,8 +9,7 @@
 namespace sdf_ccd::tools {
 
 /// A file that appears complete or not at all: it is written under a temporary name until commit(). Symbolic links are
-/// kept, and their targets are written. Devices, pipes and open files (/dev/stdout, /dev/fd/3) are appended to
-/// immediately.
+/// followed, not replaced. Devices, pipes and open files (/dev/stdout, /dev/fd/3) are appended to immediately.
 class OutputFile {
  public:
   /// @throws std::runtime_error if the path cannot be written, so that this is known before the work is done.
@@ -34,7 +33,7 @@ class OutputFile {
   std::ofstream stream_;
 };
 
-/// The same for writers that need a path: they write to part(), and have closed it before commit().
+/// The same for writers that need a path: they write to part(), and must close it before commit().
 class OutputPath {
  public:
   /// @throws std::runtime_error if the path cannot be written.
@@ -51,7 +50,7 @@ class OutputPath {
   std::unique_ptr<TemporaryFile> temporary_;
 };
 
-/// Creates a directory, and removes it at the end if it is new and empty.
+/// Creates a directory. The destructor removes it if it was created here and is empty.
 class OutputDirectory {
  public:
   /// @throws std::runtime_error if it cannot be created or written to.

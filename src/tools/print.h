@@ -26,7 +26,7 @@ std::string describe(const DistanceField& field);
 /// Points and covering radius of a shell, in one line.
 std::string describe(const PointShell& shell);
 
-/// "none", or the size of the caps that close the mesh, and the meaning of that.
+/// "none", or the area and reach of the caps that close the mesh, and what follows for inside and outside.
 std::string describeOpenings(const DistanceField& field);
 
 }  // namespace sdf_ccd::tools

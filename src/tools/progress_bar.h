@@ -5,8 +5,8 @@
 
 namespace sdf_ccd::tools {
 
-/// Shows progress on stderr, after the first second: a bar on a terminal, else a line every ten percent. Call it with
-/// the share done, from 0 to 1, from one thread at a time.
+/// Shows progress on stderr after the first second: a bar on a terminal, else a line every ten percent. Call it with
+/// the fraction done, from 0 to 1, from one thread at a time.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string what);

@@ -46,7 +46,7 @@ DistanceField fieldOf(const Arguments& arguments) {
   return buildWithBar("field", Solid(orientWithWarning(arguments.mesh, loadMesh(arguments.mesh)).mesh), options);
 }
 
-/// Calls `answer` with each segment's index, on all cores.
+/// Calls `answer` with the index of each segment, on all cores.
 void forEachSegment(std::size_t count, const std::function<void(std::size_t)>& answer) {
   ProgressBar bar("segments");
   std::mutex bar_mutex;
@@ -71,7 +71,7 @@ void writeIntervals(const DistanceField& field, const std::vector<Segment>& segm
   }
 }
 
-/// Time of impact of a point with the true surface, and its depth.
+/// Time of impact of a moving point with the true surface, and the depth it reaches.
 struct Impact {
   ImpactWindow window;
   LeastDistance depth;
@@ -88,7 +88,7 @@ void writeImpacts(const DistanceField& field, const std::vector<Segment>& segmen
   out << "segment,t_earliest,t,t_latest,depth,depth_low,depth_high\n";
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     if (!impacts[i]) continue;
-    // Points may be inside only because of caps.
+    // A point may be inside only because a cap closes an opening: no latest time and no minimum depth are known then.
     const bool is_certain = !field.openings();
     const auto& [window, depth] = *impacts[i];
     out << i << ',' << cell(window.earliest) << ',' << cell(window.time) << ','

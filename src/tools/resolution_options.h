@@ -22,7 +22,9 @@ struct ResolutionOptions {
   /// @throws std::invalid_argument, naming the option and the reason, if one was given although no field is built.
   void requireNone(const std::string& reason) const;
 
-  /// The chosen options; else `default_cell` [m], or 64 cells along the longest side.
+  /// The options given on the command line; without any, cells of `default_cell` [m], or 64 cells along the longest
+  /// side.
+  /// @throws std::invalid_argument if a value is invalid.
   FieldOptions fieldOptions(std::optional<double> default_cell = std::nullopt) const;
 
  private:

@@ -31,7 +31,7 @@ std::optional<double> number(const std::string& word) {
   return has_digits && *end == '\0' ? std::make_optional(value) : std::nullopt;
 }
 
-/// Only a line with the names of the columns: any other line without numbers is data of another format.
+/// True only for the exact names of the columns: any other line without numbers means another format of data.
 bool isHeader(const std::string& line) {
   std::string names;
   for (const unsigned char c : line) {

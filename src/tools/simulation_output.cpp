@@ -47,7 +47,7 @@ SimulationOutput::~SimulationOutput() = default;
 
 void SimulationOutput::add(const Simulation& simulation) {
   writeStep(simulation.last());
-  // A rounding of the time must not lose a frame.
+  // The tolerance keeps a frame whose time is rounded down.
   if (simulation.last().time * frames_ < double(frame_) - 1e-6) return;
   writePoses(simulation);
   bag_->add(simulation);

@@ -17,7 +17,7 @@ class SimulationOutput {
   SimulationOutput(const std::string& directory, const SimulationSetup& setup, double frames);
   ~SimulationOutput();
 
-  /// Writes the last step, and the poses if a frame is due.
+  /// Writes the simulation's last step, and the poses if the next frame is due.
   void add(const Simulation& simulation);
 
   void commit(const std::string& summary);
@@ -32,7 +32,7 @@ class SimulationOutput {
   OutputFile steps_, poses_, summary_;
   std::unique_ptr<Bag> bag_;
   double frames_;
-  long frame_ = 0;  // the next one
+  long frame_ = 0;  // index of the next frame
 };
 
 }  // namespace sdf_ccd::tools

@@ -27,7 +27,7 @@ using Color = Vector3d;  // red, green, blue, 0 to 255
 const Color kBlack(0, 0, 0), kGrey(120, 120, 120);
 const Color kCap(255, 140, 0);  // where the surface closes an opening of the mesh
 
-/// Blue for −band, white for 0, red for +band; beyond the band, where only a bound is known, paler.
+/// Blue at −band, white at 0, red at +band. Paler beyond the band, where only a bound of the distance is known.
 Color colorOf(double distance, double band) {
   static const Color kBlue(33, 102, 172), kWhite(247, 247, 247), kRed(178, 24, 43);
   const double share = std::abs(distance) <= band ? std::abs(distance) / band : 0.35;
@@ -84,7 +84,7 @@ class Picture {
   std::unique_ptr<cairo_t, Destroy> cairo_;
 };
 
-/// The plane cut out of the field's box, as a raster.
+/// The slice of the field's box, as a raster.
 struct Raster {
   Vector3d corner;  ///< lower left [m]
   int right;        ///< axis of the columns
@@ -119,7 +119,7 @@ Raster rasterOf(const DistanceField& field, const Slice& slice) {
   return raster;
 }
 
-/// True where the value crosses `level` between this pixel's corner and the next ones'.
+/// True if the values at the four corners of pixel `i` lie on both sides of `level`.
 bool crosses(const std::vector<double>& corners, int stride, std::size_t i, double level) {
   const double v[4] = {corners[i], corners[i + 1], corners[i + stride], corners[i + stride + 1]};
   return (*std::min_element(v, v + 4) <= level) && (*std::max_element(v, v + 4) > level);
@@ -154,7 +154,7 @@ void drawField(Picture& picture, const DistanceField& field, const Raster& raste
 void drawLegend(Picture& picture, const DistanceField& field, const Raster& raster) {
   const int left = 2 * kMargin + raster.width;
   const double band = field.band();
-  const double top = 1.25 * band;  // the pale ends show what lies beyond the band
+  const double top = 1.25 * band;  // the pale ends stand for distances beyond the band
   for (int y = 0; y < raster.height; ++y) {
     const double distance = top * (1.0 - 2.0 * y / (raster.height - 1));
     picture.fill({left, kMargin + y, kMargin, 1}, colorOf(distance, band));
@@ -169,7 +169,7 @@ void drawLegend(Picture& picture, const DistanceField& field, const Raster& rast
   }
 }
 
-/// The axes' names: of the columns below the right end, of the rows beside the upper end.
+/// Draws the names of the axes: the horizontal one below the right end, the vertical one beside the upper end.
 void drawAxisNames(Picture& picture, const Raster& raster) {
   const int letter = static_cast<int>(0.6 * kFont), height = static_cast<int>(0.7 * kFont);
   picture.write(kMargin + raster.width - letter, kMargin + raster.height + 4 + height,
@@ -178,7 +178,7 @@ void drawAxisNames(Picture& picture, const Raster& raster) {
 }
 
 void drawLengthScale(Picture& picture, const Raster& raster, const Slice& slice) {
-  // 1, 2 or 5 times a power of ten, at most a third of the picture.
+  // 1, 2 or 5 times a power of ten, at most a third of the raster's width.
   const double longest = raster.pixel * raster.width / 3.0;
   double length = std::pow(10.0, std::floor(std::log10(longest)));
   for (const double factor : {5.0, 2.0}) {

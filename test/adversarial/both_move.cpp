@@ -4,12 +4,13 @@
 #include "adversarial/duel.h"
 #include "oracle/shapes.h"
 
-/// Two bodies of which each follows its own constant twist in the world: dual arms, spins, fast approaches.
+/// The family `both_move`: two bodies that each follow their own constant twist in the world, as dual arms, spinning
+/// and fast approaching bodies do.
 namespace sdf_ccd::test {
 namespace {
 
-constexpr double kLargestAngle = 3.0;  // [rad]; poses do not tell more than π
-constexpr int kShifts = 4;             // cases made of one aimed motion
+constexpr double kLargestAngle = 3.0;  // [rad]; two poses do not determine rotations above π
+constexpr int kShifts = 4;             // cases per aimed motion
 
 TriangleMesh tetrahedron(double size) {
   return {{{size, size, size}, {-size, -size, size}, {-size, size, -size}, {size, -size, -size}},
@@ -36,12 +37,12 @@ std::vector<Duel> duels() {
   all.emplace_back(ballActor(0.05), boxActor(arm, reach), coarse, options);
   all.emplace_back(ballActor(0.2), boxActor({0.05, 0.04, 0.03}), coarse, options);
   all.emplace_back(ballActor(0.2), ballActor(0.15), coarse, options);
-  options.chords = {1e-6, 3};  // too few: the error that is left counts
+  options.chords = {1e-6, 3};  // too few chords for the tolerance: the remaining error counts
   all.emplace_back(boxActor(arm, reach), convexActor("tetrahedron", tetrahedron(0.1)), coarse, options);
   return all;
 }
 
-/// How a body is to move.
+/// A screw motion of a body.
 struct Move {
   Vector3d point, rotation, shift;
 
@@ -52,7 +53,7 @@ Isometry3d anyPose(Random& random) {
   return pose(random, 3.0, 0.3);
 }
 
-/// One step of both bodies, and poses to begin with.
+/// Initial poses of both bodies, and one step of each.
 struct Start {
   Isometry3d X_WA, X_WB;
   Move a, b;
@@ -66,23 +67,23 @@ Start randomStart(Random& random, double size) {
   start.a = {start.X_WA.translation(), a * direction(random), Vector3d::Zero()};
   start.b = {start.X_WB.translation(), b * direction(random), Vector3d::Zero()};
   switch (random() % 6) {
-    case 0:  // two arms about axes of their own
+    case 0:  // two arms about different axes
       break;
-    case 1:  // about parallel axes, against each other
+    case 1:  // about parallel axes, in opposite directions
       start.a.rotation = a * axis;
       start.b.rotation = -b * axis;
       break;
-    case 2:  // about one axis, together up to six radians against each other
+    case 2:  // about a common axis in opposite directions, relatively up to six radians
       start.a = {Vector3d::Zero(), a * axis, Vector3d::Zero()};
       start.b = {Vector3d::Zero(), -b * axis, Vector3d::Zero()};
       break;
-    case 3:  // fast spins that approach
+    case 3:  // approaching bodies that spin fast
       start.a.rotation = uniform(random, 2.0, kLargestAngle) * direction(random);
       start.b.rotation = uniform(random, 2.0, kLargestAngle) * direction(random);
       start.a.shift = size * direction(random);
       start.b.shift = -start.a.shift;
       break;
-    case 4:  // carried along, as by a base, with a small motion of their own
+    case 4:  // carried by a common base, with a small relative motion
       start.a = {size * direction(random), a * axis, 0.1 * size * direction(random)};
       start.b = {start.a.point, a * axis + 0.1 * direction(random), start.a.shift};
       break;
@@ -106,13 +107,13 @@ CycleMotion randomMotion(Random& random, double size) {
   return pairCycle(std::move(X_WA), std::move(X_WB));
 }
 
-/// Twists that are constant between given poses.
+/// Plays motions with constant twists between given poses.
 void playScrews(Duel& duel, Random& random, Tally& tally) {
   CycleMotion motion = randomMotion(random, duel.size());
   const Vector3d axis = duel.aim(0.0, motion);
   for (int i = 0; i < kShifts; ++i) {
     CycleMotion shifted = motion;
-    // So little now and then that no point of a shell touches.
+    // Sometimes shifted so little that the contact lies between the points of a shell.
     const double few = random() % 4 == 0 ? 0.02 : 1.0;
     shiftB(few * uniform(random, -3.0, 3.0) * duel.bound() * axis, shifted);
     duel.play(shifted, tally);
@@ -124,7 +125,7 @@ void playScrews(Duel& duel, Random& random, Tally& tally) {
   }
 }
 
-/// Joints with laws of their own.
+/// Plays motions of joint chains.
 void playChains(Duel& duel, Random& random, Tally& tally) {
   ChainPair pair(random);
   const Vector3d axis = duel.aim(

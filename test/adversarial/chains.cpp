@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMostJoints = 7;
 
-/// Upwards, so that the bounds hold.
+/// Rounded up, so that it stays an upper bound.
 double raised(Real x) {
   return double(x) * (1.0 + 1e-15);
 }
@@ -54,7 +54,7 @@ Real ChainJoint::derivative(int order) const {
 ChainPair::Chain ChainPair::randomChain(Random& random) {
   Chain chain(1 + random() % kMostJoints);
   const double largest = logUniform(random, 0.05, 3.0);
-  const int laws = int(random() % 4);  // three: each joint one of its own
+  const int laws = int(random() % 4);  // three: each joint has a random law
   for (ChainJoint& joint : chain) {
     joint.X_parent_joint = LongPose(test::pose(random, 3.0, 0.15));
     joint.axis = direction(random).cast<Real>().normalized();

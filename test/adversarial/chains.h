@@ -4,35 +4,36 @@
 
 #include "adversarial/duel.h"
 
-/// Two bodies at the ends of chains of joints, as a planned motion moves them.
+/// Two bodies at the ends of joint chains, moved along a planned motion.
 namespace sdf_ccd::test {
 
-/// A joint that turns about, or slides along, an axis: q(t) = amount · law(t) from time 0 to 1 [s].
+/// A revolute or prismatic joint with the position q(t) = amount · law(t), t from 0 to 1 s.
 struct ChainJoint {
   enum class Law { kEven, kQuintic, kSwing };
 
-  LongPose X_parent_joint;  ///< at rest
+  LongPose X_parent_joint;  ///< at q = 0
   Vector3l axis = Vector3l::UnitZ();
   bool turns = true;
   Law law = Law::kEven;
   Real amount = 0;     ///< [rad] or [m]
-  Real frequency = 1;  ///< of a swing [rad/s]
+  Real frequency = 1;  ///< of the law kSwing [rad/s]
 
   LongPose pose(Real time) const;
-  /// No derivative of the order is greater: the law's first three are known in full.
+  /// Largest magnitude of the position's derivative of order 1, 2 or 3 over the whole motion.
   Real derivative(int order) const;
 };
 
 class ChainPair {
  public:
-  /// One to seven joints each.
+  /// Two random chains of one to seven joints.
   explicit ChainPair(Random& random);
 
   void shiftB(const Vector3d& by) { joints_[1].front().X_parent_joint.p += by.cast<Real>(); }
 
+  /// The exact motion of both bodies.
   PairMotion truth(const Duel& duel) const;
 
-  /// Samples the motion, checks it, and judges the verdict by the joints' motion.
+  /// Samples the motion, checks it with the monitor, and judges the verdict by the exact motion.
   void play(Duel& duel, Tally& tally) const;
 
  private:
@@ -42,7 +43,7 @@ class ChainPair {
   static LongPose pose(const Chain& chain, Real time);
   static Real speed(const Chain& chain, const Pieces& pieces);
 
-  Chain joints_[2];  ///< of A and of B
+  Chain joints_[2];  ///< of bodies A and B
   std::vector<double> waypoints_;
 };
 

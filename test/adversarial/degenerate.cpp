@@ -5,17 +5,17 @@
 #include "oracle/integer_sweep.h"
 #include "oracle/shapes.h"
 
-/// Coplanar slides, parallel edges, corner on corner, touch at one instant only: after the scenes of Erleben (2018) and
-/// the benchmark of Wang et al. (2021, Tight-Inclusion). All coordinates are multiples of a step, and the truth is
-/// exact.
+/// The family `degenerate`: coplanar slides, parallel edges, corner on corner, touch at a single instant, after the
+/// scenes of Erleben (2018) and the benchmark of Wang et al. (2021, Tight-Inclusion). All coordinates are multiples of
+/// a step, so the truth is computed exactly.
 namespace sdf_ccd::test {
 namespace {
 
 constexpr double kStep = 0x1.0p-16;  // [m]
-constexpr int kLattice = 1 << 10;    // steps between places that meet face to face
+constexpr int kLattice = 1 << 10;    // steps per lattice cell
 constexpr double kCell = kStep * kLattice;
 
-/// An actor made of convex parts with whole coordinates.
+/// An actor made of convex parts with integer coordinates.
 struct WholeActor {
   Actor actor;
   std::vector<TriangleMesh> parts;
@@ -26,7 +26,7 @@ TriangleMesh blockMesh(const Vector3i& low, const Vector3i& high) {
   return translated(boxMesh(0.5 * (b - a)), 0.5 * (a + b));
 }
 
-/// A polygon in x and z, extruded along y; or, with one apex, a pyramid.
+/// A pyramid with a square base and its apex on the z axis.
 TriangleMesh spike(int half_width, int height) {
   const double w = kCell * half_width, h = kCell * height;
   return {{{-w, -w, 0}, {w, -w, 0}, {w, w, 0}, {-w, w, 0}, {0, 0, h}},
@@ -48,7 +48,7 @@ WholeActor wholeActor(const std::string& kind, std::vector<TriangleMesh> parts) 
   return whole;
 }
 
-/// The same as an exact field.
+/// A block as a primitive, with an exact field.
 WholeActor exactBlock(const Vector3i& half) {
   const Vector3d half_size = kCell * half.cast<double>();
   return {boxActor(half_size), {boxMesh(half_size)}};
@@ -76,7 +76,7 @@ std::vector<WholeConvex> wholeParts(const WholeActor& actor) {
   return parts;
 }
 
-/// A duel with the whole coordinates of its bodies.
+/// A duel with the integer coordinates of its bodies.
 struct WholeDuel {
   std::vector<WholeConvex> a, b;
   Duel duel;
@@ -124,7 +124,7 @@ std::vector<WholeConvex> moved(const std::vector<WholeConvex>& parts, const Isom
   return result;
 }
 
-/// Exact, of all parts.
+/// The exact result over all pairs of parts.
 Sweep truth(const WholeDuel& whole, const CycleMotion& motion) {
   const Isometry3d &X_WA = motion.X_WB[0][0], &X_WB = motion.X_WB[1][0];
   const Vector3w path = steps((motion.X_WB[1][1].translation() - X_WB.translation()) -
@@ -147,13 +147,13 @@ Vector3d latticePoint(Random& random, int reach) {
   return p;
 }
 
-/// Straight paths of both bodies between lattice places; some a step beside them.
+/// Translations of both bodies between lattice points, some of them offset by one step or by the error bound.
 CycleMotion slide(Random& random, double bound) {
   Isometry3d X_WA = cubePose(random), X_WB = cubePose(random);
   X_WA.translation() = latticePoint(random, 4);
   X_WB.translation() = X_WA.translation() + latticePoint(random, 12);
   Vector3d a = latticePoint(random, 4), b = a + latticePoint(random, 12);
-  const int zeros = int(random() % 4);  // along an edge, in a face's plane, or anywhere
+  const int zeros = int(random() % 4);  // the relative path is along an axis, in a plane, or arbitrary
   for (int k = 0; k < zeros && k < 2; ++k) b[(k + int(zeros == 3)) % 3] = a[(k + int(zeros == 3)) % 3];
   const double far = kStep * std::ceil(bound / kStep);
   const double beside[] = {0.0, 0.0, kStep, -kStep, far, -far, 2.0 * far};
@@ -190,7 +190,7 @@ void playSlide(WholeDuel& whole, Random& random, Tally& tally) {
   }
 }
 
-/// Exact touch at one end of the motion; from there away, or about the place that touches, with any twist.
+/// Plays motions with arbitrary twists that start or end with exact touch.
 void playInstant(WholeDuel& whole, Random& random, Tally& tally) {
   CycleMotion rest = slide(random, whole.duel.bound());
   for (auto& poses : rest.X_WB) poses[1] = poses[0];
@@ -213,7 +213,7 @@ void playInstant(WholeDuel& whole, Random& random, Tally& tally) {
   tally.fail(whole.duel.name() + ": CLEAR", at_end ? "they touch at the end" : "they touch at the start");
 }
 
-/// Blocks face to face, apart or deep by the bound that is reported, and one rounding more or less.
+/// Plays motions of parallel faces whose gap or depth is exactly the reported error bound, or one ulp more or less.
 void playUlp(WholeDuel& whole, Random& random, Tally& tally) {
   Duel& duel = whole.duel;
   const double heights[] = {duel.bound(), duel.monitor().run(slide(random, 0.0), {false, 0}).error_bound};

@@ -39,7 +39,7 @@ const TriangleMesh& meshOf(const Actor& body) {
   return *std::get<std::shared_ptr<const TriangleMesh>>(body.geometry.at(0).shape);
 }
 
-/// Walls of a box with outer and inner half sizes.
+/// The walls between an outer and an inner box, given by half sizes.
 Pieces walls(const Vector3d& outer, const Vector3d& inner, bool has_lid = true) {
   Pieces pieces;
   for (int k = 0; k < 3; ++k) {
@@ -71,13 +71,13 @@ Actor ofFaces(const std::string& kind, const std::vector<Corners>& faces, bool f
   return actor(kind, welded(joined(meshes)), std::move(pieces));
 }
 
-/// Of a half-space below z = 0 what bodies get to: its middle is nearer to the plane than to the other faces.
+/// The part of the half-space z < 0 that bodies can reach, as a pyramid: within reach, the plane is its nearest face.
 TriangleMesh solidBelow() {
   return {{{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}, {0, 0, -30}},
           {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}}};
 }
 
-/// A part of its own.
+/// Adds a box as another part of the body.
 void addBox(const Vector3d& half, const Vector3d& place, Actor& body) {
   Isometry3d X_BG = Isometry3d::Identity();
   X_BG.translation() = place;
@@ -147,7 +147,7 @@ Actor wheel() {
   return actor("wheel", welded(joined(meshes)), std::move(pieces));
 }
 
-/// The lid is missing.
+/// Faces of a box without its lid.
 std::vector<Corners> binFaces() {
   const double x = 0.2, y = 0.15, z = 0.1;
   return {{{-x, -y, -z}, {-x, y, -z}, {x, y, -z}, {x, -y, -z}},
@@ -169,7 +169,7 @@ Actor paddedBin() {
 }
 
 Actor thickBin() {
-  // The outer box and the inner one turned inside out, without their lids, and a rim between them.
+  // The outer box and the inner one inside out, both without their lids, and a rim between them.
   const Vector3d inner(kInner.x(), kInner.y(), kOuter.z());
   TriangleMesh cavity = boxMesh(inner);
   for (Vector3d& v : cavity.vertices) v.z() = v.z() < 0 ? -kInner.z() : kOuter.z();
@@ -180,7 +180,7 @@ Actor thickBin() {
     if (!on_top(t[0]) || !on_top(t[1]) || !on_top(t[2])) kept.push_back(t);
   }
   mesh.triangles = kept;
-  const int ring[] = {4, 5, 7, 6};  // the top's corners, counterclockwise
+  const int ring[] = {4, 5, 7, 6};  // corners of the top, counterclockwise
   for (int k = 0; k < 4; ++k) {
     const int a = ring[k], b = ring[(k + 1) % 4];
     mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 8}, {a, b + 8, a + 8}});
@@ -190,7 +190,7 @@ Actor thickBin() {
 }
 
 Actor coveredBlock() {
-  // Half in a bin that lies on its rim, whose faces look inward.
+  // A block, half inside a bin that lies on its rim and whose faces face inward.
   std::vector<Corners> faces = binFaces();
   for (Corners& corners : faces) {
     for (Vector3d& p : corners) p.tail<2>() *= -1.0;
@@ -237,7 +237,7 @@ Actor voxels() {
   const double s = 0.05;
   const TriangleMesh all[] = {block({0, 0, 0}, {s, s, s}), block({s, 0, 0}, {2 * s, s, s}),
                               block({0, s, 0}, {s, 2 * s, s})};
-  // The boundary alone: walls between two voxels are no part of it.
+  // Only the boundary: faces between two voxels are removed.
   TriangleMesh mesh = welded(joined({all[0], all[1], all[2]}));
   std::vector<Vector3i> kept;
   for (const Vector3i& t : mesh.triangles) {

@@ -4,36 +4,36 @@
 
 #include "adversarial/duel.h"
 
-/// Bodies as people draw them: hollow, inside out, of membranes, without a lid.
+/// Bodies with the shapes and defects of meshes found in practice: hollow, inside out, without thickness, open.
 namespace sdf_ccd::test {
 
-Actor hollowBox();    ///< with a cavity that nothing leads into
-Actor nestedBoxes();  ///< the same, but with the inner box drawn outward too: what is within may be solid
+Actor hollowBox();    ///< with a closed cavity
+Actor nestedBoxes();  ///< the same, but the inner box faces outward too: its inside may be solid
 Actor invertedBox();
 Actor bowTie();          ///< two prisms that share an edge, the small one inside out
-Actor overlaidLobe();    ///< of a surface that crosses itself, the one inside out, with a block over it
-Actor coveredBlock();    ///< half within a bin that is turned over, whose faces look inward
-Actor membrane();        ///< one square, drawn from one side
-Actor doubleMembrane();  ///< drawn from both
-Actor wheel();           ///< an open rim, with a web drawn from both sides whose border lies on the rim's triangles
-Actor openBin();         ///< five walls without thickness, no lid
-Actor paddedBin();       ///< the same in two parts: with a pad on its floor, which is a box
-Actor thickBin();        ///< a closed mesh
-Actor sharedEdge();      ///< two boxes of one mesh with an edge in common
-Actor sharedFace();      ///< two boxes of one mesh, each with a wall where they meet
-Actor overlapping();     ///< two boxes of one mesh that overlap
-Actor fins();            ///< three squares that share an edge
-Actor voxel();           ///< 5 cm; only a field
-Actor voxels();          ///< three of them, in an L
-Actor clusters();        ///< two voxels, far from each other; only a field
-Actor beads();           ///< two beads of one mesh, far from each other
+Actor overlaidLobe();    ///< a self-intersecting surface; its inside-out lobe is covered by a block
+Actor coveredBlock();    ///< a block, half inside an upturned bin whose faces face inward
+Actor membrane();        ///< a square, faces on one side
+Actor doubleMembrane();  ///< a square, faces on both sides
+Actor wheel();           ///< an open rim, and a web with faces on both sides whose border lies on the rim's triangles
+Actor openBin();         ///< five walls without thickness; no lid
+Actor paddedBin();       ///< an open bin, and a box on its floor as a second part
+Actor thickBin();        ///< a bin with walls of some thickness, as a closed mesh
+Actor sharedEdge();      ///< two boxes in one mesh with a common edge
+Actor sharedFace();      ///< two boxes in one mesh, each with a wall at the common face
+Actor overlapping();     ///< two overlapping boxes in one mesh
+Actor fins();            ///< three rectangles that share an edge
+Actor voxel();           ///< a voxel of 5 cm; only a field
+Actor voxels();          ///< three voxels in an L; only a field
+Actor clusters();        ///< two voxels far apart; only a field
+Actor beads();           ///< two beads far apart, in one mesh
 Actor ground();          ///< a half-space
 Actor groundAndPost();   ///< a half-space and a small box far above it in one body; only a field
 Actor mapAndPost();      ///< a voxel and a small box in one body; only a field
-Actor groove();          ///< two half-spaces, with a right angle between them; only a field
-Actor sleeve();          ///< a mesh, a box half in it and another one wholly in it, in three parts
-Actor link();            ///< 40 cm, a mesh
-Actor bead();            ///< 2 cm
+Actor groove();          ///< two half-spaces at a right angle; only a field
+Actor sleeve();          ///< three parts: a mesh, a box half inside it and a box wholly inside it
+Actor link();            ///< a box of 40 cm, as a mesh
+Actor bead();            ///< a ball of radius 2 cm, as a mesh
 Actor rod();
 
 std::vector<Actor> drawnActors();

@@ -11,9 +11,9 @@
 namespace sdf_ccd::test {
 namespace {
 
-constexpr Real kUnseen = 1e-9L;       ///< of both sizes: less than this the oracle does not tell
-constexpr int kSharp = 200;           ///< failures whose depth is found to a thousandth of the bound
-constexpr double kComparable = 10.0;  ///< clearances of so many bounds are from points, and compared
+constexpr Real kUnseen = 1e-9L;       ///< resolution of the oracle [sizes of the bodies]
+constexpr int kSharp = 200;           ///< number of failures whose depth is computed to a thousandth of the bound
+constexpr double kComparable = 10.0;  ///< only clearances below so many error bounds are compared
 
 BodyDescription described(const std::string& name, const Actor& actor) {
   BodyDescription body;
@@ -70,7 +70,7 @@ Duel::Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& mon
   SceneDescription description{{described("a", a_), described("b", b_)}, {}};
   if (in_company_) {
     const Actor box = boxActor({0.1, 0.1, 0.1});
-    // In front, as the first pair is tested first of those that are as urgent.
+    // In front, as of equally urgent pairs the first is tested first.
     description.bodies.insert(description.bodies.begin(), {described("c", box), described("d", box)});
     for (const char* other : {"c", "d"})
       for (const char* own : {"a", "b"}) description.disabled.push_back({own, other, "far away"});
@@ -139,7 +139,7 @@ void Duel::judge(const PairMotion& solid, const PairMotion& outer, const PairRes
   }
 }
 
-/// What long doubles, and the last bits of rotations given as doubles, leave open.
+/// Error of the oracle: of long doubles, and of rotations given as doubles [m].
 Real Duel::rounding(const PairMotion& motion) const {
   return kUnseen * size_ + 1e-17L * motion.poseA(0).p.norm();
 }
@@ -165,7 +165,7 @@ void Duel::judgeClear(const PairMotion& solid, const PairResult& result, const s
     addRatio(result.error.total(), std::abs(truth - result.clearance), tally);
 }
 
-/// Of a pair that was not tested the error says how deep the bodies overlap at most.
+/// For a pair that was not tested, the reported error must be an upper bound of the overlap.
 void Duel::judgePostponed(const PairMotion& solid, const PairResult& result, const std::string& what,
                           Tally& tally) const {
   const Real deep = result.error.total() + rounding(solid);
@@ -175,7 +175,8 @@ void Duel::judgePostponed(const PairMotion& solid, const PairResult& result, con
   tally.fail(what + ": postponed", text("%.3g m deep, reported %.3g m", double(-least.high), result.error.total()));
 }
 
-/// Where triangles leave a pair open, its surfaces come as near as the error says where the monitor was told they are.
+/// If the triangles leave a pair UNCERTAIN, the surfaces must come within the reported error of each other, at the
+/// poses given to the monitor.
 void Duel::judgeNear(const PairMotion& outer, const PairResult& result, Real off, const std::string& what,
                      Tally& tally) const {
   const bool by_triangles = result.error.total() < 1.1 * MonitorOptions().max_error + result.error.chord;
@@ -197,12 +198,12 @@ void Duel::judgeContact(const PairMotion& outer, const PairResult& result, const
   tally.fail(what + ": CONTACT", text("%.3g m deep, but %.3g m apart", result.deepest.depth, double(least.high)));
 }
 
-/// The deepest point is on one surface and `depth` inside the other; where surfaces cross and no point tells a depth,
-/// it is in both.
+/// The deepest point must lie on one surface and `depth` deep inside the other. If surfaces intersect but no point has
+/// a depth, it must lie in both bodies.
 void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const std::string& what, Tally& tally) const {
   if (result.intervals.empty() || !a_.is_convex || !b_.is_convex) return;
   const ContactPoint& deepest = result.deepest;
-  const bool by_fields = result.contact_error.total() > 0.0;  // else triangles show the place
+  const bool by_fields = result.contact_error.total() > 0.0;  // else the location comes from triangles
   const ErrorBound& told = by_fields ? result.contact_error : result.error;
   const Real time = deepest.time;
   const auto in = [&](const Convex& piece, const LongPose& X) {
@@ -219,7 +220,7 @@ void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const s
   const Real depth = deepest.depth;
   const Real error =
       std::min(std::max(std::abs(in_a + depth), std::abs(in_b)), std::max(std::abs(in_b + depth), std::abs(in_a)));
-  // The place is off by the chord error too.
+  // The chord error displaces the point too.
   const Real bound = deepest.depth_error + told.root + 2.0 * told.chord;
   addRatio(double(bound), error, tally);
   if (error <= bound + rounding(solid)) return;

@@ -12,14 +12,14 @@ namespace {
 
 class Families : public ::testing::TestWithParam<Family> {};
 
-/// A share of the study `truth`.
+/// A small part of the study `truth`.
 TEST_P(Families, NeverMakeAVerdictUntrue) {
   const Family& family = GetParam();
   const Tally tally = family.run(1, family.fast_cases);
   for (const auto& [what, failure] : tally.failures)
     ADD_FAILURE() << failure.count << " of " << tally.cases << ": " << what << ", the first " << failure.first;
   EXPECT_TRUE(tally.holds());
-  // Cases that are all plain, or all open, prove nothing.
+  // The cases must be mixed: if all were clear, or all uncertain, they would prove nothing.
   EXPECT_GE(tally.cases, family.fast_cases);
   EXPECT_GT(tally.clear, tally.cases / 50);
   EXPECT_GT(tally.contact, tally.cases / 50);
@@ -44,7 +44,7 @@ TEST(Oracle, ScrewsEndWhereTheyShould) {
     const LongScrew screw(start, end);
     const Vector3l p(0.3L, -0.2L, 0.5L);
     EXPECT_LT(double((screw.pose(1) * p - LongPose(end) * p).norm()), 1e-15);
-    // The speed is that of the path, by a difference of poses.
+    // The speed equals a difference quotient of poses.
     const Real h = 1e-6L;
     const Real speed = (screw.pose(0.3L + h) * p - screw.pose(0.3L - h) * p).norm() / (2 * h);
     EXPECT_NEAR(double(speed), double(screw.speed(p)), 1e-8);

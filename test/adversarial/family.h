@@ -5,32 +5,32 @@
 #include <string>
 #include <vector>
 
-/// Adversaries of the verdicts: families of motions whose truth is known from elsewhere (test/oracle/).
+/// Adversarial families of motions, whose truth is computed independently (test/oracle/).
 namespace sdf_ccd::test {
 
-/// What became of a family's cases.
+/// Results of a family's cases.
 struct Tally {
   long cases = 0;
   long clear = 0, contact = 0, uncertain = 0, not_checked = 0;
-  long false_clear = 0;       ///< CLEAR, and the bodies certainly meet
-  long false_contact = 0;     ///< CONTACT, and the bodies certainly stay apart
-  long false_bound = 0;       ///< a clearance or depth that is wrong by more than the error reported with it
-  long opposite = 0;          ///< CLEAR in one telling of a case and CONTACT in another
-  long near = 0, placed = 0;  ///< of the cases whose true distance is known (placed): less than three error bounds
-  double deepest = 0.0;       ///< true depth while CLEAR [m]
+  long false_clear = 0;       ///< CLEAR although the bodies certainly have contact
+  long false_contact = 0;     ///< CONTACT although the bodies certainly stay apart
+  long false_bound = 0;       ///< clearances or depths that are wrong by more than the reported error
+  long opposite = 0;          ///< CLEAR in one variant of a case and CONTACT in another
+  long near = 0, placed = 0;  ///< cases with a known true distance (placed), and those below three error bounds
+  double deepest = 0.0;       ///< largest true depth while CLEAR [m]
   std::vector<float> bound_over_error;  ///< reported error / |reported depth or clearance − truth|
 
   struct Failure {
     long count = 0;
-    std::string first;  ///< with figures
+    std::string first;  ///< text of the first one, with numbers
   };
-  std::map<std::string, Failure> failures;  ///< by what failed
+  std::map<std::string, Failure> failures;  ///< by kind of failure
 
   Tally& operator+=(const Tally& other);
 
   void fail(const std::string& what, const std::string& figures);
 
-  /// Of all cases: no false verdict and no false bound.
+  /// Whether no case has a false verdict or a false bound.
   bool holds() const { return false_clear == 0 && false_contact == 0 && false_bound == 0 && opposite == 0; }
 
   double uncertainShare() const { return cases > 0 ? double(uncertain) / double(cases) : 0.0; }
@@ -40,9 +40,9 @@ struct Tally {
 
 struct Family {
   const char* name;
-  /// Equal seeds give equal cases.
+  /// Runs at least `cases` cases. Equal seeds give equal cases.
   Tally (*run)(std::uint64_t seed, long cases);
-  long fast_cases;  ///< that take a few seconds
+  long fast_cases;  ///< number of cases that takes a few seconds
 };
 
 Tally bothMove(std::uint64_t seed, long cases);
@@ -52,7 +52,7 @@ Tally metamorphic(std::uint64_t seed, long cases);
 Tally search(std::uint64_t seed, long cases);
 Tally parts(std::uint64_t seed, long cases);
 
-/// All that need no ROS.
+/// All families that need no ROS.
 std::vector<Family> families();
 
 }  // namespace sdf_ccd::test

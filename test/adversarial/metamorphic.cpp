@@ -4,8 +4,8 @@
 #include "adversarial/duel.h"
 #include "oracle/shapes.h"
 
-/// One case told in many ways: elsewhere, larger, flatter, coarser, backwards. Verdicts may get less certain, but never
-/// become the opposite.
+/// The family `metamorphic`: variants of one case, such as translated, scaled, with another field, reversed in time.
+/// Verdicts may become less certain, but never the opposite.
 namespace sdf_ccd::test {
 namespace {
 
@@ -44,7 +44,7 @@ Shapes shapesOf(int which, double scale) {
       return {box, boxActor(scale * Vector3d(0.02, 0.15, 0.02), scale * Vector3d(0.0, 0.15, 0.0))};
     case 1:
       return {convexActor("tetrahedron", tetrahedron(0.1 * scale)), box};
-    default:  // a millionth as thick as wide
+    default:  // a plate whose thickness is a millionth of its width
       return {boxActor(scale * Vector3d(0.1, 0.1, 1e-7)),
               convexActor("box", boxMesh(scale * Vector3d(0.03, 0.03, 0.03)))};
   }
@@ -58,7 +58,7 @@ Duel makeDuel(int which, double scale, Grid grid, bool swapped = false) {
   return Duel(std::move(shapes.a), std::move(shapes.b), optionsFor(grid, scale), monitor);
 }
 
-/// All tellings of one pair of shapes.
+/// Duels for all variants of one pair of shapes.
 struct Tellings {
   explicit Tellings(int which) : swapped(makeDuel(which, 1.0, Grid::kAdaptive, true)) {
     for (const double scale : kScales) scaled.push_back(makeDuel(which, scale, Grid::kAdaptive));
@@ -89,7 +89,8 @@ bool opposite(Verdict a, Verdict b) {
   return (a == Verdict::kClear && b == Verdict::kContact) || (a == Verdict::kContact && b == Verdict::kClear);
 }
 
-/// Rotations that are so only nearly: true is what the matrices say, or what the nearest rotations do.
+/// Plays the motion with nearly orthonormal rotations. The result must be true for these matrices or for the nearest
+/// rotations.
 void playSkewed(Duel& duel, const CycleMotion& motion, Random& random, Tally& tally) {
   const CycleMotion skewed = changed(motion, [&](Isometry3d& X) {
     for (int k = 0; k < 9; ++k) X.linear()(k / 3, k % 3) += uniform(random, -kSkew, kSkew);
@@ -116,7 +117,7 @@ class Telling {
   void tell(Duel& duel, const CycleMotion& motion, const char* how) {
     const Verdict verdict = duel.play(motion, tally_).verdict;
     if (!opposite(first_, verdict)) return;
-    // Both are true only of what lies between the roundings of both poses.
+    // Opposite verdicts are allowed only if the separation is within the rounding of the poses.
     const LeastValue least = tellings_.scaled[0].least(motion_, {0, 1}, {1e-9L});
     if (std::abs(least.high) < 1e-7L) return;
     ++tally_.opposite;

@@ -5,12 +5,12 @@
 #include "adversarial/duel.h"
 #include "oracle/shapes.h"
 
-/// Boxes of one mesh that people have put side by side, into and over each other, each tessellated by itself, some of
-/// them inside out, some beside a loose sheet; against a bead in every cell of the lattice that they lie on.
+/// The family `parts`: boxes of one mesh beside, inside and overlapping each other, each tessellated independently,
+/// some inside out, some with a loose sheet. A bead is checked in every cell of the lattice on which the boxes lie.
 namespace sdf_ccd::test {
 namespace {
 
-constexpr int kCells = 4;      // along each axis, that boxes may take
+constexpr int kCells = 4;      // lattice cells along each axis
 constexpr double kCell = 0.1;  // [m]
 
 struct LatticeBox {
@@ -30,9 +30,10 @@ struct LatticeBox {
 
 enum class Truth { kSolid, kEmpty, kOpinion };
 
-/// What whoever looks at the boxes says of a cell. One that is inside out is a cavity or a mistake: a cavity only if
-/// others hold all of it, and surely one if it lies in the middle of a single one and touches no other. Where all that
-/// others do not hold are inside out, the file may be.
+/// Random boxes, and whether each cell is solid, empty or ambiguous (kOpinion). A box that is inside out is a cavity or
+/// a mistake. It can be a cavity only if the other boxes cover all of it, and certainly is one if it lies strictly
+/// inside a single box and touches no other. If all boxes that are not covered by others are inside out, the whole file
+/// may be.
 class Drawing {
  public:
   explicit Drawing(Random& random) : boxes_(2 + random() % 3) {
@@ -42,7 +43,7 @@ class Drawing {
         box.high[k] = box.low[k] + 1 + static_cast<int>(random() % (kCells - box.low[k]));
       }
     }
-    // The last one flush with the first one's faces.
+    // Some faces of the last box are flush with faces of the first.
     for (int k = 0; k < 3; ++k) {
       LatticeBox& last = boxes_.back();
       const bool low = random() % 4 == 0, high = random() % 4 == 0;
@@ -64,7 +65,7 @@ class Drawing {
   }
 
  private:
-  /// @param is_turned  everything is drawn inside out.
+  /// @param is_turned  whether the whole file is taken as inside out.
   Truth reading(const Vector3i& cell, bool is_turned) const {
     bool solid = false, perhaps_cavity = false, surely_cavity = false;
     int around = 0;
@@ -110,7 +111,7 @@ class Drawing {
   bool may_be_inside_out_ = true;
 };
 
-/// Each face as a grid of its own, with any diagonals.
+/// Tessellates each face as a separate grid with random diagonals.
 TriangleMesh tessellatedApart(const LatticeBox& box, Random& random) {
   TriangleMesh mesh;
   const bool by_cells = random() % 3 == 0;
@@ -142,7 +143,8 @@ TriangleMesh tessellatedApart(const LatticeBox& box, Random& random) {
   return box.inside_out ? flipped(mesh) : mesh;
 }
 
-/// As it comes from a file: in any order and anywhere, in doubles or floats, a sheet beside it or not.
+/// The mesh as a file may hold it: triangles in random order, at a pose, in doubles or floats, with or without a loose
+/// sheet.
 TriangleMesh meshOf(const Drawing& drawing, const Isometry3d& X_WM, Random& random) {
   TriangleMesh mesh;
   for (const LatticeBox& box : drawing.boxes()) mesh = merged(std::move(mesh), tessellatedApart(box, random));
@@ -159,7 +161,7 @@ TriangleMesh meshOf(const Drawing& drawing, const Isometry3d& X_WM, Random& rand
   return mesh;
 }
 
-/// A bead in a cell, which it does not leave.
+/// Checks a bead that moves within one cell.
 void play(Duel& duel, const Isometry3d& X_WM, const Vector3i& cell, Truth truth, Tally& tally) {
   Isometry3d X_WB = X_WM;
   X_WB.translation() = X_WM * (kCell * (cell.cast<double>() + Vector3d::Constant(0.5)));
@@ -194,7 +196,7 @@ Tally parts(std::uint64_t seed, long cases) {
   while (tally.cases < cases) {
     const Drawing drawing(random);
     const Isometry3d X_WM = random() % 2 ? pose(random, 3.0, 0.5) : Isometry3d::Identity();
-    Actor mesh = convexActor("parts", boxMesh(Vector3d::Constant(kCell)));  // its solid is not asked for
+    Actor mesh = convexActor("parts", boxMesh(Vector3d::Constant(kCell)));  // its solid is not used
     mesh.geometry[0].shape = std::make_shared<const TriangleMesh>(meshOf(drawing, X_WM, random));
     Actor bead = boxActor(Vector3d::Constant(0.1 * kCell));
     if (random() % 4 == 0) {

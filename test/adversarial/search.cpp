@@ -6,23 +6,24 @@
 #include "adversarial/duel.h"
 #include "oracle/shapes.h"
 
-/// Hill climbing for the deepest true overlap while the monitor says CLEAR, over runs of cycles with skips, frames that
-/// come late, jumps, partial spans, spin and approach, motions that are off, and cycles that have no time for the pair.
+/// The family `search`: hill climbing for the deepest true overlap while the verdict is CLEAR, over runs of cycles with
+/// skipped pairs, late frames, jumps, partial spans, spins and approaches, inexact motions, and cycles that have no
+/// time for the pair.
 namespace sdf_ccd::test {
 namespace {
 
-constexpr int kCycles = 5;    // of a run
-constexpr int kSteps = 3;     // between given poses, of a cycle
-constexpr int kPerStep = 12;  // numbers: the twists of both bodies
-constexpr int kErrors = 6;    // numbers: how far the bodies are from where the motion has them
+constexpr int kCycles = 5;    // per run
+constexpr int kSteps = 3;     // between given poses, per cycle
+constexpr int kPerStep = 12;  // numbers per step: the twists of both bodies
+constexpr int kErrors = 6;    // numbers: displacements of the bodies from the motion's poses
 constexpr int kNumbers = 12 + kCycles * kSteps * kPerStep + kErrors;
-constexpr int kPatience = 60;  // tries without gain before the search begins anew
+constexpr int kPatience = 60;  // tries without improvement before the search restarts
 constexpr double kLargestAngle = 3.0;
 
 /// How a cycle's transforms arrive.
 enum class Arrival { kAll, kNone, kFirstStep, kLastSteps, kJump };
 
-/// What the search changes.
+/// The variables of the search.
 struct Genes {
   std::vector<double> numbers;    ///< both poses at the start, twists, and errors
   std::vector<Arrival> arrivals;  ///< per cycle
@@ -52,7 +53,7 @@ struct Genes {
   }
 };
 
-/// All cycles of a run, as a tracker would hand them on: what comes late is in the next cycle's span.
+/// All cycles of a run as a tracker would pass them on: poses that arrive late are in the next cycle's span.
 std::vector<CycleMotion> cyclesOf(const Genes& genes, double reach) {
   const double* next = genes.numbers.data();
   const auto vector = [&](double scale) {
@@ -70,7 +71,7 @@ std::vector<CycleMotion> cyclesOf(const Genes& genes, double reach) {
     X = screwed(X, Vector3d::Zero(), turn, vector(reach));
   }
   std::vector<CycleMotion> cycles;
-  std::vector<std::vector<Isometry3d>> late(2);  // poses of spans that are not yet known, the first known one in front
+  std::vector<std::vector<Isometry3d>> late(2);  // the last pose covered by a span, and the later ones
   for (const Arrival arrival : genes.arrivals) {
     std::vector<std::vector<Isometry3d>> poses{{now[0]}, {now[1]}};
     if (arrival == Arrival::kJump) late[0].clear();
@@ -78,7 +79,7 @@ std::vector<CycleMotion> cyclesOf(const Genes& genes, double reach) {
     for (int step = 0; step < kSteps; ++step) {
       for (int b = 0; b < 2; ++b) {
         const Vector3d turn = rotation(), shift = vector(0.5 * reach);
-        // About the frame's origin, where an arm's joint is.
+        // Rotates about the frame's origin, where an arm's joint is.
         now[b] = screwed(now[b], now[b].translation(), turn, shift);
         poses[b].push_back(now[b]);
       }
@@ -99,7 +100,7 @@ std::vector<CycleMotion> cyclesOf(const Genes& genes, double reach) {
   return cycles;
 }
 
-/// Where the bodies are all the time from where the motion has them [m].
+/// Constant displacement of each body from the motion's poses [m].
 std::array<Vector3d, 2> errorsOf(const Genes& genes) {
   constexpr double kLargest = 3e-3;
   std::array<Vector3d, 2> errors;
@@ -114,7 +115,8 @@ class Climb {
  public:
   Climb(Duel& duel, Tally& tally) : duel_(duel), tally_(tally) {}
 
-  /// The deepest overlap of a run while CLEAR, or the least distance, negative [m].
+  /// The value to maximise [m]: the deepest overlap of a run while CLEAR; without overlap, the negative minimum
+  /// distance.
   Real value(const Genes& genes) {
     Real deepest = -std::numeric_limits<Real>::infinity();
     duel_.monitor().reset();
@@ -129,7 +131,7 @@ class Climb {
       const long before = tally_.false_clear;
       duel_.judge(motion, result, duel_.name(), tally_);
       if (result.verdict != Verdict::kClear) continue;
-      const LeastOptions options{0.1L * duel_.bound(), -deepest};  // farther apart than the nearest one does not matter
+      const LeastOptions options{0.1L * duel_.bound(), -deepest};  // only smaller separations matter
       const LeastValue least = duel_.least(motion, result.span, options);
       if (tally_.false_clear == before) {
         ++tally_.placed;

@@ -5,12 +5,13 @@
 #include "oracle/files.h"
 #include "oracle/shapes.h"
 
-/// Bodies as people draw them, in every pairing: wholly inside, through thin walls, near the surface.
+/// The family `topology`: all pairs of the bodies in drawn.h, one wholly inside the other, passing through thin walls,
+/// or near the surface.
 namespace sdf_ccd::test {
 namespace {
 
-constexpr long kCasesPerPair = 150;  // scenes take longer to build than that many cases to run
-constexpr double kReach = 0.5;       ///< of places in a body that is larger, and of ways [m]
+constexpr long kCasesPerPair = 150;  // as building a scene takes longer than running so many cases
+constexpr double kReach = 0.5;       ///< of positions within larger bodies, and of travel [m]
 constexpr std::size_t kSurePairs = 16;
 constexpr std::array<double, 3> kCoarse = {1.0, 2.0, 4.0};
 
@@ -18,7 +19,7 @@ struct Pairing {
   std::size_t a, b;
 };
 
-/// All pairings that can be checked; first those that broke verdicts, then the others, shuffled.
+/// All pairs that can be checked: first those that once gave wrong verdicts, then the others, shuffled.
 std::vector<Pairing> pairings(const std::vector<Actor>& actors, Random& random) {
   std::vector<Pairing> all{{1, 0},  {3, 2},  {4, 2},  {5, 6},   {1, 7},   {8, 0},  {1, 18}, {1, 19},
                            {23, 6}, {1, 24}, {1, 25}, {27, 26}, {27, 24}, {20, 2}, {21, 2}, {22, 2}};
@@ -29,7 +30,7 @@ std::vector<Pairing> pairings(const std::vector<Actor>& actors, Random& random) 
   return all;
 }
 
-/// @param coarse  1: as fine as a robot is checked; more: larger errors, which are as hard to keep and cheaper.
+/// @param coarse  factor of the errors; 1 as for a robot. Larger errors are as hard to keep, and cheaper.
 Duel makeDuel(const Actor& a, const Actor& b, double coarse, const std::string& cache) {
   BodyOptions scene;
   scene.field.max_error = coarse * 2e-3;
@@ -48,11 +49,11 @@ Vector3d anywhereIn(const Actor& actor, Random& random) {
   return uniformIn(random, box.intersection({Vector3d::Constant(-kReach), Vector3d::Constant(kReach)}));
 }
 
-/// Both at rest or both moving a little; the middle of B somewhere within A's box.
+/// A motion with little or no movement, and the centre of B within A's bounding box.
 CycleMotion within(const Duel& duel, Random& random) {
   const Isometry3d X_WA = pose(random, 3.0, 0.5);
   Isometry3d X_WB = random() % 2 ? X_WA : pose(random, 3.0, 0.0);
-  // B's own middle, or that of one of its pieces.
+  // The centre of B, or of one of its pieces.
   const Convex& piece = duel.b().solid[random() % duel.b().solid.size()];
   X_WB.translation() = X_WA * anywhereIn(duel.a(), random) - X_WB.linear() * piece.center.cast<double>();
   const double angle = random() % 3 == 0 ? 0.0 : 0.3, way = random() % 2 ? 0.0 : 0.12;
@@ -61,7 +62,7 @@ CycleMotion within(const Duel& duel, Random& random) {
                    {X_WB, screwed(X_WB, X_WB.translation(), b, way * direction(random))});
 }
 
-/// Past each other, from afar or near.
+/// A motion in which the bodies pass each other.
 CycleMotion past(const Duel& duel, Random& random) {
   CycleMotion motion = within(duel, random);
   const Vector3d way = std::min(duel.size(), kReach) * uniform(random, 0.1, 1.5) * direction(random);
@@ -97,7 +98,7 @@ Tally topology(std::uint64_t seed, long cases) {
   const std::vector<Actor> actors = drawnActors();
   const std::vector<Pairing> all = pairings(actors, random);
   const long used = std::min(long(all.size()), std::max(1L, cases / kCasesPerPair));
-  const TemporaryDirectory cache;  // for the fields and shells of a body that meets many others
+  const TemporaryDirectory cache;  // so that the fields and shells of a body are built once
   Tally tally;
   for (long i = 0; i < used; ++i) {
     const auto [a, b] = all[std::size_t(i)];

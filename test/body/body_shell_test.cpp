@@ -29,11 +29,11 @@ struct Element {
   Isometry3d X_BG;
 };
 
-/// A body of several elements: its shell, and how far a place is from all of it.
+/// A body of several elements, with its shell and its exact distance.
 struct Union {
   std::vector<Element> elements;
   PointShell shell;
-  std::vector<Vector3d> places;  ///< of its surface, others than the shell's
+  std::vector<Vector3d> places;  ///< on its surface, sampled independently of the shell
 
   explicit Union(const std::vector<Element>& all) : elements(all) {
     std::vector<DistanceField> fields;
@@ -66,7 +66,7 @@ double nearest(const Union& shell, const Isometry3d& X_FP, const Union& field) {
   return least;
 }
 
-/// Sharp edges, round edges and a bead that is covered all over, one in the other.
+/// Elements with sharp edges, with round edges, and a bead whose points cover all of it, joined.
 Union tool() {
   return Union({{Box{{0.04, 0.02, 0.01}}, Isometry3d::Identity()},
                 {Cylinder{0.008, 0.05}, pose({0.07, 0, 0}, 1.5707963, {0, 1, 0})},
@@ -81,12 +81,12 @@ TEST(UnionShell, KeepsTheGapOfItsElements) {
   const PointShell plate = sampleSurface(Primitive(Box{{0.2, 0.2, 0.01}}), options());
   EXPECT_LE(contactGap(whole.shell, plate), kGap * (1 + 1e-9));
   EXPECT_LE(contactGapToPlane(whole.shell), kGap * (1 + 1e-9));
-  EXPECT_GT(whole.shell.covering_radius, 5.0 * kGap);  // faces have kept their few points
+  EXPECT_GT(whole.shell.covering_radius, 5.0 * kGap);  // faces keep their few points
 }
 
 TEST(UnionShell, GapHoldsWhereverUnionsMeet) {
   const Union a = tool();
-  // Two crossing plates: concave seams, which are no edges of either.
+  // Two crossing plates meet in concave seams, which are edges of neither.
   const Union b({{Box{{0.05, 0.05, 0.004}}, Isometry3d::Identity()},
                  {Box{{0.05, 0.05, 0.004}}, pose({0, 0, 0.01}, 1.2, {1, 0, 0})}});
   Random random(5);

@@ -35,7 +35,7 @@ TEST(PrepareBody, PassesThroughATable) {
   EXPECT_EQ(through.verdict, Verdict::kContact);
   ASSERT_EQ(through.pairs.size(), 1u);
   ASSERT_EQ(through.pairs[0].intervals.size(), 1u);
-  // At 0.2 m/s they touch while the part's middle is within 0.03 m of the table's.
+  // At 0.2 m/s they touch while the part's centre is within 0.03 m of the table's.
   EXPECT_NEAR(through.pairs[0].intervals[0].enter, 0.85, 0.01);
   EXPECT_NEAR(through.pairs[0].intervals[0].exit, 1.15, 0.01);
 }
@@ -133,7 +133,7 @@ TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
   };
   BodyOptions options = optionsForContacts(0.01);
   options.is_shared = true;
-  const auto build = [&](const std::string& name) {  // each by a monitor of its own
+  const auto build = [&](const std::string& name) {  // each by its own monitor
     MeshPool pool(options);
     BuiltBody built = buildBody(describe(name), {}, options, pool, {});
     built.body.triangles = trianglesOf(describe(name), pool);
@@ -187,7 +187,7 @@ TEST(SharedBodies, OfOneSceneAreHeldOnceInAnyCase) {
   EXPECT_GT(other.report.shell_bytes, 0u);
 }
 
-/// Two bodies that differ in one thing, one after the other.
+/// Bodies that differ from the first one in a single respect.
 TEST(SharedBodies, AreOfTheSameContentAndOptions) {
   BodyOptions options;
   options.field.cell_size = 0.02;
@@ -211,7 +211,7 @@ TEST(SharedBodies, AreOfTheSameContentAndOptions) {
   };
 
   BodyOptions other = options;
-  other.field.cells = 0;  // is refused, not the same as none
+  other.field.cells = 0;  // is refused, unlike an absent number
   EXPECT_FALSE(expectOther(body, other, "no cells").body.failure.empty());
   other = options;
   other.max_error = 0.0;

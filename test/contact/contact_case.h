@@ -23,7 +23,7 @@ inline Isometry3d randomPose(std::mt19937& random, double extent) {
               Vector3d(u(random), u(random), u(random) + 2.0));
 }
 
-/// Points in a spiral on a sphere, each for the same area: evenly spaced in z, so sums over z are midpoint sums.
+/// Points in a spiral on a sphere, all of the same area, at equal steps in z, so that sums over z are midpoint sums.
 inline PointShell spiralSphere(double radius, int count) {
   PointShell shell;
   for (int i = 0; i < count; ++i) {
@@ -37,7 +37,7 @@ inline PointShell spiralSphere(double radius, int count) {
   return shell;
 }
 
-/// The face z = 0 of a body above it, [-half, half]², as count × count points.
+/// The face [-half, half]² at z = 0 of a body above it, as count × count points.
 inline PointShell bottomFace(double half, int count) {
   PointShell shell;
   const double side = 2.0 * half / count;
@@ -55,7 +55,7 @@ inline PointShell onePoint(const Vector3d& p, const Vector3d& normal) {
   return {{p}, {normal.cast<float>()}, {1.0F}, 0.0};
 }
 
-/// One shell against one field over chords, every point tested.
+/// One shell against one field over chords; every point is tested.
 struct ContactCase {
   DistanceField field;
   PointShell shell;

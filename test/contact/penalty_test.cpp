@@ -79,7 +79,7 @@ TEST(Penalty, OffCentreContactTurnsTheBody) {
   const Isometry3d X_FP = translation({0.5, 0.0, -0.001});
   const ContactCase pressed{DistanceField(ground()), onePoint(Vector3d::Zero(), -Vector3d::UnitZ()),
                             oneChord(1.0, X_FP, X_FP)};
-  // Pushed up at +x: turns about -y.
+  // An upward force at +x has a torque about -y.
   EXPECT_NEAR(pressed.run(perArea()).on_shell_body.torque.y(), -0.5 * kStiffness * 0.001, 1e-9);
 }
 
@@ -104,7 +104,7 @@ TEST(Penalty, HundredMetresPerSecondThroughOneMillimetre) {
                             oneChord(T, translation({0, 0, 0.43}), translation(Vector3d(0, 0, 0.43) + T * velocity))};
   ContactOptions options = perArea();
   options.normal = NormalSource::kShell;
-  // The depth rises to half the thickness and falls again: a triangle thickness / v long.
+  // The depth rises linearly to half the thickness and falls again: a triangle of duration thickness / v.
   const double one_way = kStiffness * thickness * thickness / (4.0 * v);
   EXPECT_NEAR(passing.run(options).on_shell_body.force.z(), one_way, 1e-6 * one_way);
   // The field pushes out on the nearer side, so that the two halves cancel.
@@ -118,7 +118,7 @@ TEST(Penalty, HundredMetresPerSecondThroughOneMillimetre) {
 }
 
 TEST(Penalty, DepthSaysWhatItMayBeWrongBy) {
-  // A cube of side 0.4 in cells of 0.00625; deep inside, the field keeps one value per brick's corner.
+  // A cube of side 0.4 m in cells of 0.00625 m; deep inside, the field stores one value per brick corner.
   FieldOptions sampling;
   sampling.cells = 64;
   const DistanceField cube = buildField(boxMesh(Vector3d::Constant(0.2)), sampling);
@@ -132,7 +132,7 @@ TEST(Penalty, DepthSaysWhatItMayBeWrongBy) {
 }
 
 TEST(Penalty, DepthIsFoundBetweenTheNodes) {
-  // Past a sphere at distance b from its centre: deepest nearest to it, R − b. It starts inside, off the middle.
+  // A point passes a sphere's centre at the distance b: the largest depth is R − b. It starts inside, off the middle.
   const double R = 0.1, b = 0.08;
   const ContactCase passing{DistanceField(Sphere{R}), onePoint({0, b, 0}, -Vector3d::UnitY()),
                             oneChord(1.0, translation({-0.0317, 0, 0}), translation({0.37, 0, 0}))};
@@ -197,7 +197,7 @@ TEST(Penalty, ExactRuleIntegratesTheInterpolatedField) {
     exact_error += (a.force - reference.force).norm() + (a.torque - reference.torque).norm();
     midpoint_error += (b.force - reference.force).norm() + (b.torque - reference.torque).norm();
   }
-  EXPECT_LT(exact_error, 1e-7 * size);  // what is left is the reference's own error
+  EXPECT_LT(exact_error, 1e-7 * size);  // mostly the error of the reference
   EXPECT_GT(midpoint_error, 1e-4 * size);
   EXPECT_LT(midpoint_error, 1e-2 * size);
 }
@@ -247,7 +247,7 @@ TEST(Penalty, FrameOfTheShellDoesNotMatter) {
 }
 
 TEST(Penalty, TurningBodiesTurnTheForceWithThem) {
-  // Pressed together while both turn a quarter about y: the force's average over the turn is 2/π along both axes.
+  // Pressed together while both rotate by a quarter revolution about y: the mean force is 2/π along both axes.
   const Isometry3d X_FP = translation({0, 0, -0.001});
   const ContactCase turning{DistanceField(ground()),
                             onePoint(Vector3d::Zero(), -Vector3d::UnitZ()),
@@ -273,7 +273,7 @@ TEST(Penalty, DampingTakesEnergyFromEveryMotion) {
 }
 
 TEST(Penalty, DampingSeesRelativeMotionOnly) {
-  // Both bodies race and turn together: nothing rubs.
+  // Both bodies move together, so that there is no relative velocity.
   const Isometry3d X_FP = translation({0, 0, -0.001});
   const ContactCase riding{DistanceField(ground()),
                            bottomFace(0.05, 4),
@@ -283,12 +283,12 @@ TEST(Penalty, DampingSeesRelativeMotionOnly) {
 }
 
 TEST(Penalty, OverlappingPartsOfABodyCountOnce) {
-  // Two overlapping boxes of one body, against a face pressed into both: as the one box they make up together.
+  // Two overlapping boxes of one body and a face that is pressed into both: the result is that of their union, a box.
   const double top = 0.1;
   const DistanceField left(Box{{0.3, 0.3, top}}), right(Box{{0.3, 0.3, top}}), both(Box{{0.4, 0.3, top}});
   const Isometry3d X_BL = translation({-0.1, 0, 0}), X_BR = translation({0.1, 0, 0});
   const PointShell face = bottomFace(0.05, 20);
-  // Deeper than the distance to the parts' own ends, so that ownership decides.
+  // Deeper than the distance to the boxes' end faces, so that ownership decides.
   const Isometry3d X_BP = translation({0, 0, top - 0.03});
   const ContactCase whole{both, face, oneChord(1.0, X_BP, X_BP)};
   const ContactCase in_left{left,
@@ -313,7 +313,7 @@ TEST(Penalty, OverlappingPartsOfABodyCountOnce) {
 }
 
 TEST(Penalty, OwnershipChangesInTheMiddleOfAPath) {
-  // Slides from one box's half of the overlap to the other's, deep inside: the deeper part has it at each time.
+  // A point slides from one box's half of the overlap to the other's, deep inside: the deeper box owns the contact.
   const DistanceField left(Box{{0.3, 0.3, 0.3}}), right(Box{{0.3, 0.3, 0.3}});
   const Isometry3d X_LR = translation({0.2, 0, 0}), X_RL = X_LR.inverse();
   const Isometry3d from = translation({-0.05, 0, 0}), to = translation({0.25, 0, 0});

@@ -40,7 +40,7 @@ TEST(Integrator, ImplicitIsStableAtAnyStep) {
 }
 
 TEST(Integrator, ImplicitDampsAsItsDocumentationSays) {
-  // ζ = 0: each step shrinks the amplitude by √(1 + s²), as a damping ratio of s/2 would where s is small.
+  // ζ = 0: each step reduces the amplitude by √(1 + s²), like a damping ratio of s/2 if s is small.
   const double s = 0.1;
   RigidWorld world;
   world.bodies = {groundBody(), pointBody("point", 1.0)};
@@ -86,7 +86,7 @@ TEST(Integrator, FreeFallIsExactForOursAndFirstOrderForTheOthers) {
   }
 }
 
-/// Two uneven bodies that meet off centre in free space.
+/// Two irregular bodies that collide off centre in free space.
 Simulation collision(Scheme scheme, double step) {
   RigidWorld world;
   world.gravity.setZero();
@@ -114,7 +114,8 @@ TEST(Integrator, ActionEqualsReactionAndMomentumStays) {
     const Wrench after = simulation.last().momentum;
     const double scale = before.force.norm();
     EXPECT_LT((after.force - before.force).norm(), 1e-10 * scale) << toString(scheme);
-    // Ours applies a moment as it is at the step's end, so angular momentum holds to first order in the step.
+    // The implicit scheme applies a moment at the step's end, so it conserves angular momentum to first order in the
+    // step.
     const double tolerance = scheme == Scheme::kImplicit ? 2e-3 : 1e-10;
     EXPECT_LT((after.torque - before.torque).norm(), tolerance * before.torque.norm()) << toString(scheme);
   }

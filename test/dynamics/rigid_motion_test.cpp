@@ -35,7 +35,7 @@ TEST(RigidMotion, SpinAboutAPrincipalAxisIsExact) {
 }
 
 TEST(RigidMotion, DiscPrecessesAtItsClosedFormRate) {
-  // I = (A, A, C): the symmetry axis goes round L at |L| / A.
+  // I = (A, A, C): the symmetry axis precesses about L at |L| / A.
   const Matrix3d disc = Vector3d(1.0, 1.0, 2.0).asDiagonal();
   Matrix3d R = Matrix3d::Identity();
   Vector3d spin(0.3, 0.0, 4.0);
@@ -43,7 +43,7 @@ TEST(RigidMotion, DiscPrecessesAtItsClosedFormRate) {
   const double T = 1.7;
   const Vector3d expected = Eigen::AngleAxisd(L.norm() * T, L.normalized()) * Vector3d::UnitZ();
   turnFreely(disc, T, R, spin);
-  EXPECT_LT((R.col(2) - expected).norm(), 2e-3);  // second order in the tenth of a radian of a substep
+  EXPECT_LT((R.col(2) - expected).norm(), 2e-3);  // second order in the 0.1 rad of a substep
 }
 
 TEST(RigidMotion, FastSpinsAreCutSoThatNoPieceTurnsMoreThanARadian) {

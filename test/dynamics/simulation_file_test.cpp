@@ -32,7 +32,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// The ground at (x, 0, z), the box at the height h.
+/// The scene with the ground at (x, 0, z) and the box at height h.
 std::string placedAt(const std::string& x, const std::string& z, const std::string& h) {
   return replaced(replaced(replaced(kBoxOnPlane, "X", x), "Z", z), "H", h);
 }
@@ -142,7 +142,7 @@ TEST(SimulationFile, AnOpenMeshHasNoMassOfItsOwnAndIsWarnedOf) {
   EXPECT_EQ(scene("mass: 1, inertia: [1, 1, 1]").world.bodies[0].mass, 1.0);
 }
 
-/// The scenes that are shipped: they load, action equals reaction, and energy never rises.
+/// The shipped scenes: they load, action equals reaction, and energy never increases.
 class ShippedScene : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedScene, KeepsItsReactionsAndItsEnergy) {

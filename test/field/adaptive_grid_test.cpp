@@ -30,7 +30,7 @@ TEST(LeafScale, HoldsCornersToHalfAStep) {
   for (int i = 0; i < 20000; ++i) {
     const double h = test::uniform(random, 0.001, 1.0), band = test::uniform(random, 0.0, 5.0 * h);
     const LeafScale scale = AdaptiveGrid::leafScaleFor(h, band);
-    // A plane's distances: corners that differ as much as a 1-Lipschitz function's can.
+    // Distances from a plane: their differences are as large as those of any 1-Lipschitz function.
     const Vector3d normal = test::direction(random);
     const double middle = test::uniform(random, -band - 2.6 * h, band + 2.6 * h);
     std::array<double, 8> corners;
@@ -63,7 +63,7 @@ TEST(LeafError, IsRoundedUp) {
   EXPECT_GT(leaf_error::error(leaf_error::code(0.0, error_bound), error_bound), 0.0);
 }
 
-/// Compares a field with the exact distance at random places near the surface and all over its box.
+/// Compares a field with the exact distance at random points near the surface and all over its box.
 /// @return the largest error in a leaf.
 template <class Exact>
 double expectHonest(const DistanceField& field, const TriangleMesh& mesh, int count, Exact exactDistance) {
@@ -103,7 +103,7 @@ double expectHonest(const DistanceField& field, const TriangleMesh& mesh, int co
   });
 }
 
-/// The bound is kept, and not by a wide margin.
+/// The error bound holds, and the largest error is not far below it.
 void expectBoundHolds(const TriangleMesh& mesh, double error) {
   const DistanceField field = buildField(mesh, maxError(error, 2.5 * error));
   ASSERT_NE(field.adaptive(), nullptr);
@@ -141,7 +141,7 @@ TEST(AdaptiveGrid, BoundHoldsWhereSolidsOverlap) {
 }
 
 TEST(AdaptiveGrid, BoundHoldsInsideOut) {
-  // A cavity: the inner sphere's outside is the solid.
+  // A cavity: the solid is outside the inner sphere.
   const TriangleMesh mesh = merged(test::icosphere(0.3, 3), test::flipped(test::icosphere(0.15, 3)));
   expectBoundHolds(mesh, 0.001);
 }
@@ -152,7 +152,7 @@ TEST(AdaptiveGrid, BoundHoldsOnScans) {
   expectBoundHolds(mesh, 1e-3 * boundingBox(mesh).sizes().maxCoeff());
 }
 
-/// Also where a leaf reaches farther from the surface than the band.
+/// The error bound holds in all leaves, also where they extend beyond the band.
 void expectLeavesHold(const TriangleMesh& mesh, double error) {
   const DistanceField field = buildField(mesh, maxError(error));
   const AdaptiveGrid& grid = *field.adaptive();
@@ -187,8 +187,8 @@ TEST(AdaptiveGrid, LeavesHoldEdges) {
   expectLeavesHold(test::boxMesh({0.2, 0.15, 0.1}), 0.002);
 }
 
-/// Leaves met at random places of the surface: each holds its own bound at many places, with the exact distance.
-/// @return the median of their bounds, of the grid's.
+/// In leaves at random points of the surface, the error is compared with the leaf's own bound at many points.
+/// @return the median of the leaves' bounds, relative to the grid's.
 double expectLeavesHonest(const TriangleMesh& mesh, double error, int leaves) {
   const DistanceField field = buildField(mesh, maxError(error));
   const AdaptiveGrid& grid = *field.adaptive();
@@ -206,7 +206,7 @@ double expectLeavesHonest(const TriangleMesh& mesh, double error, int leaves) {
     bounds.push_back(bound);
     const std::array<double, 8> corners = grid.corners(block);
     for (int k = 0; k < 200; ++k) {
-      // Every second place on the leaf's boundary.
+      // Every second point is on the leaf's boundary.
       Vector3d u = test::uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
       if (k % 2 == 0) u[random() % 3] = double(random() % 2);
       const Vector3d p = shape.origin + shape.unit() * (block.low.cast<double>() + block.side * u);
@@ -222,7 +222,7 @@ double expectLeavesHonest(const TriangleMesh& mesh, double error, int leaves) {
 TEST(AdaptiveGrid, EveryLeafKeepsItsOwnBound) {
   EXPECT_LE(expectLeavesHonest(test::icosphere(0.3, 4), 0.0006, 300), 1.0);
   EXPECT_LT(expectLeavesHonest(test::torusMesh(0.2, 0.08, 32, 16), 0.001, 300), 1.0);
-  // Faces' middles are flat: rounding alone.
+  // The middles of faces are flat: the only error is rounding.
   EXPECT_LT(expectLeavesHonest(test::boxMesh({0.2, 0.15, 0.1}), 0.001, 20), 0.3);
 }
 
@@ -277,7 +277,7 @@ TEST(AdaptiveGrid, ALeafFillsAnOctant) {
   std::array<std::uint8_t, 64>& codes = data.nodes[0].codes;
   codes.fill(node_code::far(-3.0));
   codes[63] = node_code::kLeaf + 1;
-  for (const int child : {2, 3, 6, 7, 18, 19, 22, 23}) codes[child] = node_code::kWide;  // the octant of the second x
+  for (const int child : {2, 3, 6, 7, 18, 19, 22, 23}) codes[child] = node_code::kWide;  // the octant at upper x
   const LeafScale wide = AdaptiveGrid::leafScaleFor(0.5, shape.band), small = AdaptiveGrid::leafScaleFor(0.25, 0.0);
   data.leaves = {wide.encode({0.0, 0.1, 0.2, 0.3, 0.4, 0.1, 0.2, 0.3}), small.encode({0, 0, 0, 0, 0, 0, 0, 0})};
   data.leaf_errors = {0, 0};

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// Along short steps, from cell to cell, from far bricks into near ones and out of the grid.
+/// Random walks of short steps lead from cell to cell, from far bricks into sampled ones and out of the grid.
 TEST(CellReader, SaysBitByBitWhatTheFieldSays) {
   const Vector3d half(0.3, 0.2, 0.1);
   FieldOptions uniform, adaptive;

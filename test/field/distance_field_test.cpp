@@ -27,7 +27,7 @@ FieldOptions cells(int n) {
 
 const Vector3d kHalf(0.3, 0.2, 0.1);
 
-/// A box as a mesh is the same solid as the primitive, so its field has an analytic answer everywhere.
+/// The field of a box's mesh: the primitive is the same solid, so the exact distance is known everywhere.
 DistanceField boxField(int n) {
   return buildField(test::boxMesh(kHalf), cells(n));
 }
@@ -67,13 +67,13 @@ TEST(DistanceField, SamplesAreExactAtGridPointsToTheirRounding) {
   EXPECT_LT(grid.rounding(), 1e-3 * shape.cell);
 }
 
-/// Without its lid the box has a sign that changes far from any triangle: no sample may leave the range of 16 bits.
+/// Without its lid the box's sign changes far from any triangle: still no sample may exceed the range of 16 bits.
 TEST(DistanceField, SixteenBitsHoldAnOpenMeshsDistances) {
   TriangleMesh open = test::boxMesh(kHalf);
   open.triangles.resize(10);
   const DistanceField field = buildField(open, cells(128));
   const SparseGrid& grid = *field.grid();
-  double steepest = 0.0;  // per cell: a number that has left the range differs by far more from those beside it
+  double steepest = 0.0;  // per cell; a sample that overflowed would differ far more from its neighbours
   forEachSampled(grid, [&](const Vector3i& /*brick*/, std::int32_t slot) {
     for (int k = 0; k < GridShape::kSamples; ++k) {
       const Vector3i place(k % 9, k / 9 % 9, k / 81);
@@ -88,7 +88,7 @@ TEST(DistanceField, SixteenBitsHoldAnOpenMeshsDistances) {
   EXPECT_GT(steepest, 0.99 * grid.shape().cell);
 }
 
-/// The bound of each place, against the mesh; half the places are on the surface.
+/// Compares the error bound at random points with the error; half of the points are on the surface.
 /// @return the median bound at the surface [cells].
 double expectPlacesHonest(const TriangleMesh& mesh, const FieldOptions& options) {
   const DistanceField field = buildField(mesh, options);
@@ -153,7 +153,7 @@ TEST(DistanceField, ErrorBoundHoldsEverywhereAndIsReached) {
   }
   EXPECT_GT(in_band, 10000);
   EXPECT_GT(outside, 10000);
-  // Edges of the box are where interpolation is worst; the bound must not be far above what is met there.
+  // The interpolation error is largest at the box's edges; the bound must not be far above it.
   EXPECT_GT(worst, 0.2 * field.errorBound());
   EXPECT_GT(worst_share, 0.4);
 }
@@ -170,7 +170,7 @@ TEST(DistanceField, LowerBoundGrowsWithTheDistanceOutside) {
 }
 
 TEST(DistanceField, ErrorShrinksWithTheCell) {
-  // Away from edges a smooth surface's interpolation error falls with the square of the cell.
+  // On a smooth surface the interpolation error decreases with the square of the cell size.
   const double R = 0.5;
   const TriangleMesh mesh = test::icosphere(R, 5);
   double last = 0.0;
@@ -229,7 +229,7 @@ TEST(DistanceField, BandIsAsWideAsAsked) {
 }
 
 TEST(DistanceField, SparseFieldFollowsTheSurface) {
-  // Twice the resolution: four times the surface's cells, not eight.
+  // Twice the resolution needs four times as many cells near the surface, not eight times.
   const TriangleMesh mesh = test::icosphere(0.5, 4);
   const auto coarse = buildField(mesh, cells(100)).grid()->storedCells();
   const auto fine = buildField(mesh, cells(200)).grid()->storedCells();
@@ -237,8 +237,8 @@ TEST(DistanceField, SparseFieldFollowsTheSurface) {
   EXPECT_LT(double(fine) / coarse, 5.0);
 }
 
-/// Design §3.3: with v the sample at c and h the cell, no place nearer to c than √((v − σ)² − ¾h²) is interpolated to
-/// σ, where v is the distance; where it is rounded it is less by its own rounding and that of the samples around it.
+/// Design §3.3: with v the exact sample at c and h the cell, no point nearer to c than √((v − σ)² − ¾h²) is
+/// interpolated to σ. If samples are rounded, |v − σ| is reduced by the rounding of v and of the samples around it.
 TEST(DistanceField, NothingNearASampleIsInterpolatedToAnIsovalue) {
   const DistanceField field = boxField(40);
   const SparseGrid& grid = *field.grid();
@@ -290,7 +290,7 @@ TEST(DistanceField, ProgressReachesTheEnd) {
 }
 
 TEST(DistanceField, OpenMeshHasBoundsStill) {
-  // A box without its lid: no triangle is lost, no value is NaN, distances to the triangles hold.
+  // A box without its lid: all values, errors and gradients are finite.
   TriangleMesh open = test::boxMesh(kHalf);
   open.triangles.resize(10);
   const DistanceField field = buildField(open, cells(32));
@@ -330,7 +330,7 @@ TEST(DistanceField, PrimitiveIsExact) {
 }
 
 TEST(Trilinear, JensenBoundHoldsForEveryLipschitzFunction) {
-  // Cones of slope one in random places: the least smooth functions that a distance may be (design §3.3).
+  // Cones of slope one at random points: the least smooth functions that a distance can be (design §3.3).
   Random random(6);
   double worst_share = 0.0;
   for (int i = 0; i < 200000; ++i) {

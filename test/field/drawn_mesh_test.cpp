@@ -1,4 +1,4 @@
-// Distances to meshes as people draw them, by way of orientOutward() and buildField().
+// Fields of meshes as people draw them, made by orientOutward() and buildField().
 #include <gtest/gtest.h>
 
 #include "oracle/drawn_meshes.h"

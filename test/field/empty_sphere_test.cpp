@@ -35,7 +35,7 @@ double boxDistance(const Vector3d& p) {
   return signedDistance(Primitive(Box{kHalf}), p);
 }
 
-/// What balls say of a box, against the truth.
+/// Compares the empty spheres of a box's grid with the exact distance.
 struct Tally {
   int far = 0, inside = 0, apart = 0;
   double mean_radius = 0.0, mean_distance = 0.0;  ///< of the balls; from the cells' centres
@@ -44,7 +44,7 @@ struct Tally {
     const double truth = boxDistance(center);
     ASSERT_LE(radius, std::abs(truth) + 1e-7);
     ASSERT_EQ(says_inside, truth < 0.0);
-    // With all of the cell.
+    // All of the cell is on the same side.
     for (int k = 0; k < 8; ++k) {
       const Vector3d corner = cell_center + 0.5 * cell_side * Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
       ASSERT_EQ(says_inside, boxDistance(corner) < 0.0);
@@ -105,8 +105,7 @@ TEST(EmptySphere, BallsOfAdaptiveGridsAreFreeOfSurface) {
   EXPECT_GT(tally.mean_radius, 1.3 * tally.mean_distance);
 }
 
-/// A place of a far cell is at least as far from the surface as from its ball's: never less than by the cell's centre
-/// alone, up to what the ball's own may lack.
+/// In far cells the bounds follow from the empty spheres; they hold at all points of the field's box.
 TEST(EmptySphere, LowerBoundsHoldAwayFromTheSurface) {
   for (const bool adaptive : {false, true}) {
     FieldOptions options;

@@ -32,8 +32,8 @@ FieldOptions withCell(double cell_size) {
   return options;
 }
 
-/// The oracle builds the field whole and counts. Time ends the sample: where it then says itself that it may be off by
-/// more than a factor of two (by two standard errors), it may be off by three.
+/// Compares the estimate with the built field. If the time limit ended the sample early and two of its standard errors
+/// exceed a factor of two, a factor of three is accepted.
 void expectBytes(const TriangleMesh& mesh, const FieldOptions& options, double factor) {
   constexpr double kUncertain = 0.35;
   const ClosedSolid closed(std::make_shared<const Solid>(mesh));
@@ -82,7 +82,7 @@ TEST(FieldCost, BytesOfAnOctomapAreExpectedWithinAFifth) {
   expectBytes(mesh, withCell(0.5 * voxel), 1.2);
 }
 
-/// Of few blocks with long lists of triangles each is much of all work.
+/// Where few blocks have long lists of triangles, each block is a large part of the whole work.
 TEST(FieldCost, ASampleOfADenseMeshIsLittleOfTheBuild) {
   const std::string file = "robots/example-robot-data/robots/ur_description/meshes/ur5/visual/forearm.dae";
   SDF_CCD_NEEDS_DATA(file);
@@ -108,7 +108,7 @@ TEST(SpreadOrder, MeetsEachOnceAndAnyFewInARowAreSpread) {
     std::vector<int> met(count, 0);
     for (std::size_t i = 0; i < count; ++i) ++met[order[i]];
     EXPECT_EQ(std::count(met.begin(), met.end(), 1), std::ptrdiff_t(count)) << count;
-    // Of any 32 in a row, no eighth of the whole has more than twice its share.
+    // Of 32 numbers in a row, no eighth of the range contains more than twice its share.
     for (std::size_t first = 0; count >= 64 && first + 32 <= count; first += 32) {
       std::array<int, 8> in{};
       for (std::size_t i = first; i < first + 32; ++i) ++in[8 * order[i] / count];

@@ -62,7 +62,7 @@ void expectSame(const DistanceField& a, const DistanceField& b) {
   EXPECT_EQ(a.errorBound(), b.errorBound());
 }
 
-/// Asked everywhere, for places and segments, one by one and in batches.
+/// Queries the field everywhere, at points and along segments, one by one and in batches.
 void expectNumbers(const DistanceField& field, test::Random& random) {
   const AlignedBox3d box(Vector3d::Constant(-0.6), Vector3d::Constant(0.6));
   std::vector<Segment> segments;
@@ -120,7 +120,7 @@ TEST_F(FieldFile, KeepsOpenings) {
   }
 }
 
-/// Files whose checksum fits.
+/// The files have valid checksums.
 TEST_F(FieldFile, BadOpeningsAreRefused) {
   for (const FieldOptions& options : {options_, adaptive()}) {
     saveField(buildField(test::binMesh(0.3), options), path("a.field"));
@@ -170,7 +170,7 @@ void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
   }
 }
 
-/// A file whose checksum fits: its shape may still be nonsense.
+/// The checksum is valid, but the grid's step is not.
 TEST_F(FieldFile, BadStepsAreRefused) {
   saveField(buildField(mesh_, options_), path("a.field"));
   const test::MendedFile good(path("a.field"), "field", kVersion);
@@ -186,7 +186,7 @@ TEST_F(FieldFile, BadStepsAreRefused) {
   }
 }
 
-/// Of whatever numbers a file whose checksum fits holds: they are refused, or queries end and answer in numbers.
+/// Whatever numbers a file with a valid checksum holds: it is refused, or queries end and return no NaN.
 TEST_F(FieldFile, NoNumbersBreakQueries) {
   int refused = 0, asked = 0;
   for (const FieldOptions& options : {options_, adaptive()}) {
@@ -234,7 +234,7 @@ TEST_F(FieldFile, EveryDamageOfAnAdaptiveFieldIsNoticed) {
   expectDamageIsNoticed(adaptive());
 }
 
-/// Large files are checked in pieces, which sections and zeros between them do not end at.
+/// Large files are checked in pieces whose ends are not those of sections or of the padding between them.
 TEST_F(FieldFile, DamageOfLargeFilesIsNoticed) {
   const std::vector<char> first((1 << 20) - 7, 'a'), second((3 << 20) + 5, 'b');
   writeCheckedFile(path("large"), {"test", 1}, {{first.data(), first.size()}, {second.data(), second.size()}});
@@ -292,7 +292,7 @@ TEST_F(FieldFile, CacheBuildsOnceAndRebuildsDamage) {
   EXPECT_TRUE(cachedField(cache, mesh_, options_).outcome.from_cache);
 }
 
-/// Names are what tells one file of a cache from another: who swaps two gets neither.
+/// A cached file is identified by its name: if two are swapped, neither is used.
 TEST_F(FieldFile, CachedFilesUnderOthersNamesAreMadeAgain) {
   const TriangleMesh box = test::boxMesh({0.2, 0.1, 0.1});
   const FileCache cache(directory_.string());
@@ -358,7 +358,7 @@ TEST_F(FieldFile, NothingStaysOfWhoeverIsKilledWhileWriting) {
 }
 
 TEST_F(FieldFile, TwoProcessesBuildOnce) {
-  // Child processes race for the same field; each says whether it found it in the cache.
+  // Child processes compete for the same field; each reports whether it found the field in the cache.
   options_.cells = 60;
   setenv("SDF_CCD_TEST_CACHE", path("cache").c_str(), 1);
   std::vector<pid_t> children;

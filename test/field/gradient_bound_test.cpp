@@ -13,7 +13,7 @@ namespace {
 
 using test::Random;
 
-/// Interpolants in small cubes near a mesh, against the exact distance at places all over the cube.
+/// Compares interpolants in small cubes near a mesh with the exact distance at points all over the cube.
 class GradientBoundTest : public testing::Test {
  protected:
   struct Seen {
@@ -22,7 +22,7 @@ class GradientBoundTest : public testing::Test {
 
   Seen compare(const SurfaceIndex& index, const SpaceCube& cube, double wrong) {
     const SignedSurface& surface = index.exact();
-    // As the first octant of another: lists of octants hold only triangles that may matter, down to large ones.
+    // The cube is the first octant of a larger one, as lists of octants contain only triangles that may be nearest.
     const Vector3d around = cube.corner(7);
     const NearCube found(index, {around, 2.0 * cube.side}, surface.nearest(around));
     NearOctants octants(found.near());
@@ -42,7 +42,7 @@ class GradientBoundTest : public testing::Test {
     return seen;
   }
 
-  /// In cubes about places of the surface's box.
+  /// In cubes about random points of the surface's box.
   void expectHolds(const TriangleMesh& mesh, double side, double wrong) {
     const SurfaceIndex index(mesh);
     const AlignedBox3d box = boundingBox(mesh);

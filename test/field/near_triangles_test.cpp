@@ -10,7 +10,7 @@ namespace {
 
 using test::Random;
 
-/// A cube's lists, its octants' and theirs, against the tree over all triangles.
+/// Compares the lists of cubes, of their octants, and of the octants of these, with the tree over all triangles.
 class NearTrianglesTest : public testing::Test {
  protected:
   void expectExact(const TriangleMesh& mesh, double largest_side) {
@@ -88,7 +88,7 @@ TEST_F(NearTrianglesTest, AreExactWhereSolidsOverlap) {
 }
 
 TEST_F(NearTrianglesTest, AreExactWhereSolidsCrossAtSmallAngles) {
-  // Faces that cross end in edges of several pieces, nearest to many places; one of them alone does not tell the side.
+  // Where faces cross, an edge of several pieces is nearest to many points; one piece does not determine the side.
   for (const double angle : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     const Isometry3d X(Eigen::AngleAxisd(angle, Vector3d(1, 2, 3).normalized()));
     const TriangleMesh box = test::boxMesh({0.2, 0.15, 0.1});

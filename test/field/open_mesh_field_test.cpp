@@ -18,7 +18,7 @@ namespace {
 using test::distance;
 using test::Random;
 
-constexpr double kHalf = 0.22;  // of the bin's side [m]
+constexpr double kHalf = 0.22;  // half of the bin's side [m]
 
 std::vector<FieldOptions> bothKinds(double max_error, int cells) {
   FieldOptions adaptive, uniform;
@@ -31,7 +31,7 @@ double boxDistance(const Vector3d& p) {
   return signedDistance(Box{Vector3d::Constant(kHalf)}, p);
 }
 
-/// Before, its sign jumped where the winding number is one half: 652,022 leaves at 8 mm.
+/// With the sign of the winding number alone, which jumps where that is one half, it had 652,022 leaves at 8 mm.
 TEST(OpenMeshField, TheOpenBinNeedsAsManyLeavesAsTheClosedOne) {
   FieldOptions options;
   options.max_error = 0.008;
@@ -69,7 +69,7 @@ TEST(OpenMeshField, KnowsItsOpening) {
   }
 }
 
-/// What is said of the mesh alone holds of its triangles, on either side where it is inside.
+/// Samples of the mesh alone bound the distance to its triangles; inside, with either sign.
 TEST(OpenMeshField, MeshSampleHoldsOfTheTriangles) {
   Random random(2);
   const TriangleMesh bin = test::binMesh(kHalf);
@@ -84,15 +84,15 @@ TEST(OpenMeshField, MeshSampleHoldsOfTheTriangles) {
       ASSERT_TRUE(sample.value >= 0.0 || std::abs(sample.value + truth) <= sample.error + 1e-9) << p.transpose();
       exact += sample.error == field.sample(p).error;
     }
-    // Beside and below the bin nothing is in doubt.
+    // Beside and below the bin the error is that of the field.
     EXPECT_GT(exact, 5000);
     EXPECT_EQ(field.meshSample({0, 0, -0.25}).error, field.sample({0, 0, -0.25}).error);
     EXPECT_GT(field.meshSample({0, 0, 0.25}).error, 0.2);
   }
 }
 
-/// A mesh whose panels do not quite meet is as good as closed. (Closest points on slivers are less exact: where ties
-/// were told to 1e-12, one sample had the wrong sign, and five times the leaves were needed.)
+/// A mesh whose triangles nearly meet counts as closed. (Closest points on slivers are less exact: with a tolerance of
+/// 1e-12 for ties, one sample had the wrong sign, and five times as many leaves were needed.)
 TEST(OpenMeshField, CracksAreNoOpenings) {
   Random random(3);
   TriangleMesh soup;
@@ -105,7 +105,7 @@ TEST(OpenMeshField, CracksAreNoOpenings) {
   for (const FieldOptions& options : bothKinds(0.01, 32)) {
     const DistanceField field = buildField(soup, options), closed = buildField(ball, options);
     EXPECT_FALSE(field.openings());
-    EXPECT_LE(field.cells(), 2.0 * closed.cells());  // what overlaps by the jitter is clipped, which leaves slivers
+    EXPECT_LE(field.cells(), 2.0 * closed.cells());  // triangles that overlap by the jitter are clipped to slivers
     for (int i = 0; i < 2000; ++i) {
       const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.4), Vector3d::Constant(0.4)});
       const FieldSample a = field.sample(p), b = closed.sample(p);
@@ -114,7 +114,7 @@ TEST(OpenMeshField, CracksAreNoOpenings) {
   }
 }
 
-/// Faces that lie in the other box are no surface, though the boxes are closed by their places alone.
+/// Faces inside the other box are no surface, although the boxes are closed only geometrically, without shared edges.
 TEST(OpenMeshField, BoxesOfDividedFacesHaveTheDepthOfTheirUnion) {
   const Vector3d half(0.3, 0.2, 0.2), offset(0.25, 0.05, 0.03);
   const TriangleMesh drawn =
@@ -129,7 +129,7 @@ TEST(OpenMeshField, BoxesOfDividedFacesHaveTheDepthOfTheirUnion) {
     EXPECT_FALSE(field.openings());
     for (int i = 0; i < 2000; ++i) {
       const Vector3d p = test::uniformIn(random, first.merged(second));
-      const double depth = std::max(depthIn(first, p), depthIn(second, p));  // at least, where positive
+      const double depth = std::max(depthIn(first, p), depthIn(second, p));  // if positive, a lower bound
       const FieldSample sample = field.sample(p);
       if (depth > 0.0) {
         ASSERT_LE(sample.value - sample.error, -depth + 1e-9);
@@ -143,15 +143,14 @@ TEST(OpenMeshField, BoxesOfDividedFacesHaveTheDepthOfTheirUnion) {
 
 class RealOpenMesh : public testing::TestWithParam<const char*> {};
 
-/// Next to the triangles and far from the caps, the two sides of the surface differ; and no sample is wrong by more
-/// than it says, where the truth is what sums over all triangles of mesh and caps say.
+/// No sample's error exceeds its bound. The true distance and side come from sums over all triangles of mesh and caps.
 TEST_P(RealOpenMesh, SamplesHold) {
   SDF_CCD_NEEDS_DATA(GetParam());
   const TriangleMesh mesh = orientOutward(loadMesh(test::dataPath(GetParam()))).mesh;
   const Openings openings = findOpenings(mesh);
   const TriangleMesh closed = welded(merged(mesh, openings.caps));
   const double size = boundingBox(mesh).sizes().maxCoeff();
-  // Where parts overlap, depth is to the boundary of all of them together: no less than to the nearest triangle.
+  // Where parts overlap, the depth is that in their union: at least the distance to the nearest triangle.
   const SolidReport overlaps = Solid(closed).report();
   const bool overlapping = overlaps.dropped + overlaps.clipped > 0;
   Random random(4);

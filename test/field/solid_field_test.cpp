@@ -35,7 +35,7 @@ TEST(FieldOfASolid, DepthIsThatInOverlappingPartsTogether) {
       const FieldSample sample = field.sample(p);
       ASSERT_NEAR(sample.value, distanceToUnion(p), sample.error * (1 + 1e-9));
     }
-    // At a face of one box within the other.
+    // On a face of one box, inside the other box.
     const FieldSample deep = field.sample({0.25, 0.1, 0.1});
     EXPECT_NEAR(deep.value, -0.2, deep.error);
     EXPECT_LT(deep.value + deep.error, -0.02);
@@ -75,10 +75,10 @@ TEST(FieldOfASolid, SignedDistancesAreThoseToTheUnionOfBoxes) {
 }
 
 TEST(FieldOfASolid, SignedDistancesOfCrossedBarsAreExact) {
-  // Axis-aligned bars through each other: the deepest places are far from every face of one that lies in another.
+  // Axis-aligned bars that cross: the deepest points are far from the boundary, but not from faces inside another bar.
   const SignedSurface surface(test::meshOf(
       {boxAt({0, 0, 0}, {0.5, 0.1, 0.1}), boxAt({0, 0, 0}, {0.1, 0.5, 0.1}), boxAt({0, 0, 0}, {0.1, 0.1, 0.5})}));
-  // From the middle the nearest place is an edge where two bars meet.
+  // The boundary's point nearest to the middle is on an edge where two bars meet.
   EXPECT_NEAR(surface.signedDistance({0, 0, 0}), -std::sqrt(0.02), 1e-12);
   EXPECT_NEAR(surface.signedDistance({0.1, 0, 0}), -0.1, 1e-12);
   EXPECT_NEAR(surface.signedDistance({0.2, 0.2, 0}), 0.1, 1e-12);

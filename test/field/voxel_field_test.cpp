@@ -25,7 +25,7 @@ VoxelBlock blockOf(Random& random, int kind) {
   return block;
 }
 
-/// By all cubes, one after the other.
+/// By brute force over all voxels.
 double distanceTo(const VoxelBlock& block, bool occupied, const Vector3d& p) {
   double least = 1e9;
   for (int z = -1; z <= kSide; ++z)

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kSize = 0.05;  // of a voxel [m]
+constexpr double kSize = 0.05;  // side of a voxel [m]
 const Vector3d kOrigin(3.0, -2.0, 0.7);
 
 /// Voxels in a box, each occupied or not.
@@ -36,7 +36,7 @@ class Voxels {
     return v.minCoeff() >= 0 && (count_ - v).minCoeff() > 0 && occupied_[indexOf(v)];
   }
 
-  /// A square per side that separates an occupied voxel from a free one, each with vertices of its own.
+  /// A square for each face between an occupied and a free voxel, with vertices of its own.
   TriangleMesh boundary() const {
     TriangleMesh mesh;
     each([&](const Vector3i& v) {
@@ -62,7 +62,7 @@ class Voxels {
     return mesh;
   }
 
-  /// By all cubes, one after the other.
+  /// By brute force over all voxels.
   double distance(const Vector3d& p) const {
     const double out = distanceTo(true, p);
     return out > 0.0 ? out : -distanceTo(false, p);
@@ -108,7 +108,7 @@ FieldOptions withCell(double cell, double band) {
 TEST(VoxelSolid, IsToldFromItsBoundary) {
   Random random(3);
   for (const auto kind : {Voxels::kDust, Voxels::kWalls, Voxels::kHollowBall, Voxels::kNoise}) {
-    // One, less than, exactly, and more than a word a row.
+    // Rows of one voxel, of less than a word, of exactly one word, and of more.
     for (const int x : {1, 20, 64, 70}) {
       const Voxels voxels(random, kind, {x, 7, 9});
       const TriangleMesh mesh = voxels.boundary();
@@ -156,7 +156,7 @@ TEST(VoxelSolid, NoOtherMeshIsTakenForVoxels) {
   EXPECT_FALSE(VoxelSolid::of(point));
 }
 
-/// Cells per voxel.
+/// The parameter is the number of cells per voxel.
 class VoxelMapField : public ::testing::TestWithParam<int> {};
 
 TEST_P(VoxelMapField, IsExactAtTheLatticeAndOffByNoMoreThanItSays) {

@@ -16,7 +16,7 @@ using test::Random;
 using test::Real;
 using test::Vector3r;
 
-/// Triangles of all shapes: some without area, some mere points.
+/// Triangles of all shapes: some without area, some only points.
 std::vector<RoundedTriangle> drawn(Random& random, int count, double size, const Vector3d& offset) {
   std::vector<RoundedTriangle> all;
   for (int i = 0; i < count; ++i) {
@@ -77,7 +77,7 @@ TEST(BoxTree, MeshesOfOneTriangleAndOfEqualOnesAreTrees) {
   EXPECT_THROW(BoxTree({}), std::invalid_argument);
 }
 
-/// Against every triangle below either box, in long double; the bound's rounding is kBoxRounding, and not much less.
+/// Compared with every triangle below either box, in long double; the error by rounding is within kBoxRounding.
 TEST(BoxTree, GapsAreNoMoreThanDistances) {
   Random random(2);
   Real worst = 0;
@@ -87,7 +87,7 @@ TEST(BoxTree, GapsAreNoMoreThanDistances) {
     const BoxTree tree(drawn(random, 60, size, size * test::direction(random)));
     const RoundedTriangle other = drawn(random, 1, size, tree.origin() + 2.5 * size * test::direction(random))[0];
     const BoxTree single({other});
-    // As placed without turning.
+    // Placed without a rotation.
     const BoxTree::Node& root = single.node(0);
     const Vector3d between = single.origin() - tree.origin();
     PlacedBox box;
@@ -118,7 +118,7 @@ TEST(BoxTree, GapsAreNoMoreThanDistances) {
   EXPECT_LT(tightest, 1e-3) << "some gap is nearly the distance";
 }
 
-/// What moves as said by no more than that.
+/// For points that move by no more than the motion's bounds.
 TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
   Random random(3);
   const auto single = [](const Vector3d& v) { return std::array<float, 3>{float(v.x()), float(v.y()), float(v.z())}; };
@@ -135,7 +135,7 @@ TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
     }
     box.radius = one.node(0).radius[0];
     box.reach = one.node(0).reach[0];
-    // To either side: a shift and a turn about the tree's origin.
+    // In both directions: a translation and a rotation about the tree's origin.
     const Vector3d shift = 0.05 * test::direction(random), omega = 0.05 * test::direction(random);
     Matrix3d turn;
     turn << 0, -omega.z(), omega.y(), omega.z(), 0, -omega.x(), -omega.y(), omega.x(), 0;

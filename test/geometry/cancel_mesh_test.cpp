@@ -1,4 +1,4 @@
-// Meshes that a robot should not have, but may: unloading while one is looked at must not wait for it.
+// Meshes that no robot should have, but some do: unloading must not wait until such a mesh has been processed.
 #include "cancel_moments.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"

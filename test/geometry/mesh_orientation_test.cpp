@@ -1,4 +1,4 @@
-// Which way parts are turned: against solids that are known by construction.
+// The orientation of parts, compared with solids that are known by construction.
 #include <gtest/gtest.h>
 
 #include "geometry/triangle_tree.h"
@@ -40,13 +40,14 @@ TEST(MeshOrientation, AWallInsideASolidIsLeftOutAndSaid) {
   EXPECT_TRUE(quality.sign_trusted);
   EXPECT_NE(summary(quality).find("4 triangles of walls inside left out (8 m^2)"), std::string::npos)
       << summary(quality);
-  // If one is inside out they could also be drawn into each other: its face is the other's, the same way round.
+  // If one is inside out, they may also have been drawn into each other: the common face then has the same orientation
+  // in both.
   const OrientedMesh inverted = orientOutward(merged(first, flipped(second)));
   EXPECT_FALSE(inverted.quality.sign_trusted);
   for (const double x : {0.1, 2.1}) EXPECT_TRUE(isInside(inverted.mesh, {x, 0.2, 0.3}));
 }
 
-/// Which of two copies of a face drawn the same way round is whose must not turn one of the parts.
+/// Which of two copies of a face in the same orientation belongs to which part must not make a part flip.
 TriangleMesh block(const Vector3d& low, const Vector3d& high) {
   return translated(boxMesh(0.5 * (high - low)), 0.5 * (high + low));
 }
@@ -60,7 +61,7 @@ TEST(MeshOrientation, PartsThatShareAFaceOneWithinTheOtherStayAsDrawn) {
   }
 }
 
-/// With other diagonals in the face whose triangles come first.
+/// The box with the other diagonal in the face whose triangles come first.
 TriangleMesh likeButOneFace(TriangleMesh box) {
   const Vector3i a = box.triangles[0], b = box.triangles[1];
   const auto own = [](const Vector3i& of, const Vector3i& other) {
@@ -74,13 +75,13 @@ TriangleMesh likeButOneFace(TriangleMesh box) {
   return box;
 }
 
-/// With the first triangles the other way round.
+/// The mesh with its first triangles flipped.
 TriangleMesh withTurned(TriangleMesh mesh, int count) {
   for (int i = 0; i < count; ++i) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
   return mesh;
 }
 
-/// What cancels within a patch, or is filled though it may be a cavity, is not trusted.
+/// Parts that cancel within a patch, or that are filled though they may be cavities, are not trusted.
 TEST(MeshOrientation, WhatMayCancelOrBeACavityIsDoubtful) {
   const TriangleMesh box = boxMesh({0.5, 0.5, 0.5}), cavity = boxMesh({0.3, 0.3, 0.3});
   TriangleMesh turned = flipped(box), half = flipped(box);  // mirrored: with the other diagonals
@@ -170,7 +171,8 @@ TEST(MeshOrientation, OpenPartsAreTurnedForWhatSeesThem) {
   }
 }
 
-/// Rays from faces inside the other box meet its back: they were turned, and what was inside counted as outside.
+/// Rays from faces inside the other box meet its back: such faces used to be flipped, and the inside counted as
+/// outside.
 TEST(MeshOrientation, FacesOfBoxesThatOverlapStayAsDrawnThoughTheirEdgesDoNotMeet) {
   Random random(7);
   for (int i = 0; i < 50; ++i) {
@@ -185,9 +187,9 @@ TEST(MeshOrientation, FacesOfBoxesThatOverlapStayAsDrawnThoughTheirEdgesDoNotMee
   }
 }
 
-/// Closed parts are known as such though no edges meet, so that cavities and parts inside out are told apart; also
-/// where corners are rounded to floats, where each face's differ in the last digits, and where triangles without height
-/// fill the seams.
+/// Closed parts are recognised though their edges do not meet, so that cavities are distinguished from inverted parts;
+/// also if corners are rounded to floats, if those of each face differ in the last digits, and if triangles without
+/// height fill the seams.
 TEST(MeshOrientation, BoxesOfDividedFacesAreTurnedAsClosedOnes) {
   const TriangleMesh shell = merged(boxOfDividedFaces({0.4, 0.3, 0.2}), flipped(boxOfDividedFaces({0.3, 0.2, 0.1})));
   const TriangleMesh drawn = merged(shell, flipped(translated(boxOfDividedFaces({0.2, 0.2, 0.2}), {-0.55, 0.1, 0.05})));
@@ -223,8 +225,8 @@ TEST(MeshOrientation, AHollowBoxOfWallsOfNearlyNoThicknessKeepsItsCavity) {
   }
 }
 
-/// With every face divided into thin triangles about a point of its own, whose edges meet no other face's but at
-/// corners.
+/// A block with every face divided into thin triangles about a point of its own, whose edges meet those of other faces
+/// only at corners.
 TriangleMesh fanned(const Vector3d& low, const Vector3d& high, double at) {
   TriangleMesh mesh = block(low, high);
   std::vector<Vector3i> fans;
@@ -238,7 +240,7 @@ TriangleMesh fanned(const Vector3d& low, const Vector3d& high, double at) {
   return mesh;
 }
 
-/// What of it is solid depends on which of the two is taken to be drawn wrongly.
+/// Which part of the space is solid depends on which of the two is assumed to be drawn wrongly.
 TEST(MeshOrientation, APartInsideOutThatIsFlushInTheCornerOfAnotherIsDoubtful) {
   for (const bool outer_inverted : {false, true}) {
     for (int axis = 0; axis < 8; ++axis) {
@@ -256,8 +258,8 @@ TEST(MeshOrientation, APartInsideOutThatIsFlushInTheCornerOfAnotherIsDoubtful) {
   }
 }
 
-/// Faces of one box divided at corners of the other are linked over edges of both: one surface, as of what is left of
-/// the outer box, inside out. A bead in the inner one was CLEAR.
+/// Faces of one box that are divided at corners of the other are joined over edges of both, to one surface: like that
+/// of the rest of the outer box, inside out. A bead in the inner box used to be CLEAR.
 TEST(MeshOrientation, PartsLinkedWhereTheirFacesMeetAreDoubtfulIfTheyAreTurned) {
   // clang-format off
   const TriangleMesh mesh{
@@ -279,11 +281,11 @@ TEST(MeshOrientation, AFileInsideOutKeepsItsCavities) {
     const OrientedMesh result = orientOutward(flipped(mesh));
     EXPECT_FALSE(isInside(result.mesh, {0, 0, 0}));
     EXPECT_TRUE(isInside(result.mesh, {0.8, 0.8, 0.8}));
-    EXPECT_FALSE(result.quality.sign_trusted);  // the block alone might have been turned, and the ball be solid
+    EXPECT_FALSE(result.quality.sign_trusted);  // maybe the block alone is inverted, and the ball solid
   }
 }
 
-/// It holds the block's outermost corners on its side, so that the block seems to lie in it.
+/// The part contains the block's outermost corners on its side, so that the block seems to lie in it.
 TEST(MeshOrientation, APartInsideOutAcrossTheEndOfABlockLeavesItsCavity) {
   const TriangleMesh hollow = merged(boxMesh({0.4, 0.3, 0.2}), flipped(boxMesh({0.3, 0.2, 0.1})));
   for (const double x : {0.55, -0.55}) {
@@ -328,7 +330,8 @@ TEST(MeshOrientation, LobesOfABowTieAreCountedAndDoubtedInOtherParts) {
   EXPECT_NE(warningOf(alone.quality).find("inside out"), std::string::npos);
   const auto box_at = [&](const Vector3d& p, double half) { return translated(boxMesh(Vector3d::Constant(half)), p); };
   EXPECT_TRUE(orientOutward(merged(tie, box_at({1, 0, 0}, 0.1))).quality.sign_trusted);
-  // In the ring, about it, across its skin, and in the rod: where winding numbers cancel nobody may trust them.
+  // In the ring, around it, across its surface, and in the rod: where winding numbers cancel, the sign must not be
+  // trusted.
   int doubted = 0;
   for (const auto& [x, half] : {std::pair(0.126, 0.01), {0.126, 0.3}, {0.126, 0.04}, {0.001, 0.01}, {0.001, 0.04}}) {
     const OrientedMesh both = orientOutward(merged(tie, box_at({x, 0.001, 0.1 * (x < 0.1)}, half)));

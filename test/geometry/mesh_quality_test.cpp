@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
                                true, 1.38e-4}),
     test::ParameterName());
 
-/// Sides of unit cells that lie between one that is taken and one that is not.
+/// Faces of unit cells between a cell in the list and one that is not.
 TriangleMesh boundaryOf(const std::vector<Vector3i>& cells) {
   TriangleMesh mesh;
   for (const Vector3i& cell : cells) {
@@ -248,7 +248,7 @@ TriangleMesh boundaryOf(const std::vector<Vector3i>& cells) {
   return welded(mesh);
 }
 
-/// The block's corner is cut out, or a part of its own that somebody has drawn inside out.
+/// The block's corner may be cut out, or be a part of its own that was drawn inside out.
 TEST(MeshQuality, WallsThatCloseOffACornerAreDoubtful) {
   std::vector<Vector3i> block;
   for (int i = 0; i < 8; ++i) block.emplace_back(i % 2, i / 2 % 2, i / 4);

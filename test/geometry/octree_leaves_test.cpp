@@ -72,14 +72,15 @@ TEST(OctreeLeaves, ReadsTheFullFormatWithAndWithoutColour) {
       if (colour) bytes.insert(bytes.end(), 3, 7);
       bytes.push_back(std::int8_t(children));
     };
-    node(1.0F, 0x81);   // the root: first and last child
-    node(-0.4F, 0);     // free
-    node(2.0F, 0x02);   // the last, and its second child
-    node(0.85F, 0);     // occupied
+    node(1.0F, 0x81);  // the root: first and last child
+    node(-0.4F, 0);    // free
+    node(2.0F, 0x02);  // the last, and its second child
+    node(0.85F, 0);    // occupied
     const Leaves wanted{{{0, 0, 0, 15}, false}, {{49152, 32768, 32768, 14}, true}};
     EXPECT_EQ(leavesOf(bytes, colour ? OctreeData::kFullColor : OctreeData::kFull), wanted);
     for (std::size_t size = 1; size < bytes.size(); ++size)
-      EXPECT_THROW(leavesOf(Bytes(bytes.begin(), bytes.begin() + long(size)), colour ? OctreeData::kFullColor : OctreeData::kFull),
+      EXPECT_THROW(leavesOf(Bytes(bytes.begin(), bytes.begin() + long(size)),
+                            colour ? OctreeData::kFullColor : OctreeData::kFull),
                    std::runtime_error);
   }
 }
@@ -88,7 +89,8 @@ TEST(OctreeLeaves, RefusesWhatIsNoTree) {
   RandomTree tree(5);
   tree.binary(16, 0, 0, 0);
   for (std::size_t size = 1; size < std::min<std::size_t>(tree.bytes.size(), 3000); size += 7)
-    EXPECT_THROW(leavesOf(Bytes(tree.bytes.begin(), tree.bytes.begin() + long(size)), OctreeData::kBinary), std::runtime_error);
+    EXPECT_THROW(leavesOf(Bytes(tree.bytes.begin(), tree.bytes.begin() + long(size)), OctreeData::kBinary),
+                 std::runtime_error);
   Bytes longer = tree.bytes;
   longer.push_back(0);
   EXPECT_THROW(leavesOf(longer, OctreeData::kBinary), std::runtime_error);

@@ -57,7 +57,7 @@ TEST(Openings, ALidlessBinGetsItsLid) {
   EXPECT_EQ(summary(openings), "1 opening, the longest of 1.76 m, 0.194 m^2 of caps");
 }
 
-/// Whatever is taken away from whatever mesh, with the triangles turned at random or not.
+/// With random triangles removed from different meshes, and the others flipped at random or not.
 TEST(Openings, TheResultIsClosed) {
   Random random(1);
   for (int i = 0; i < 60; ++i) {
@@ -89,7 +89,7 @@ TEST(Openings, TheResultIsClosed) {
   }
 }
 
-/// Each triangle for itself, its corners moved apart by up to `crack`: no edge is shared any more.
+/// The triangles separated, with their corners moved by up to `crack`: no edge is shared any more.
 TriangleMesh cracked(const TriangleMesh& mesh, double crack, Random& random) {
   TriangleMesh result;
   for (const Vector3i& t : mesh.triangles) {
@@ -123,7 +123,7 @@ TEST(Openings, CracksGetSlivers) {
   }
 }
 
-/// Two panels meet along an edge that each divides otherwise, up to `crack` apart.
+/// Two panels, up to `crack` apart, meet along an edge that each divides differently.
 TEST(Openings, JunctionsWithoutSharedVerticesGetSlivers) {
   Random random(3);
   for (const double crack : {0.0, 1e-7, 5e-5}) {
@@ -179,7 +179,7 @@ TEST(Openings, PanelsWithWideGapsEncloseWhatIsBetween) {
   }
 }
 
-/// A mere sheet has no inside.
+/// A sheet alone has no inside.
 TEST(Openings, ASheetIsCappedByItself) {
   TriangleMesh sheet;
   sheet.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

@@ -1,4 +1,4 @@
-// Which way parts are turned, of many random meshes: against solids that are known by construction.
+// The orientation of parts of many random meshes, compared with solids that are known by construction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using test::flipped;
 using test::icosphere;
 using test::translated;
 
-/// A box or a ball, perhaps hollow, that overlaps others as it may.
+/// A box or a sphere, possibly hollow, that may overlap others.
 struct Body {
   bool ball = false;
   Vector3d center, half;
@@ -30,7 +30,7 @@ struct Body {
     return cavity > 0 ? merged(skin, flipped(translated(icosphere(cavity, 1), center))) : skin;
   }
 
-  /// 1 inside, 0 outside, -1 too near to a faceted ball to say.
+  /// 1 inside, 0 outside, -1 too near to a faceted sphere to decide.
   int side(const Vector3d& p) const {
     const Vector3d r = p - center;
     const auto in_ball = [&](double radius) { return r.norm() > radius ? 0 : r.norm() < 0.85 * radius ? 1 : -1; };
@@ -40,7 +40,7 @@ struct Body {
     return hole < 0 ? -1 : 1 - hole;
   }
 
-  /// Whether another body's skin may lie inside this one: then it could be drawn as a cavity.
+  /// Whether another body's surface may lie inside this one: then it could be taken for a cavity.
   bool mayHold(const Body& other) const {
     return ((other.center - center).cwiseAbs().array() + other.half.array() < half.array() + 1e-9).all();
   }
@@ -136,7 +136,7 @@ TEST(RandomOrientation, AnyTrianglesOnAGridAreTaken) {
     EXPECT_EQ(quality.triangles + quality.duplicate_triangles + quality.hidden_triangles,
               static_cast<int>(welded(mesh).triangles.size()));
     EXPECT_TRUE(std::isfinite(quality.volume) && std::isfinite(quality.area));
-    // No place is lost but inside: what is left out lies on or within what is kept.
+    // Triangles that are left out lie on or inside those that are kept.
     const TriangleTree tree(result.mesh);
     for (const Vector3i& t : welded(mesh).triangles) {
       const TriangleMesh weld = welded(mesh);

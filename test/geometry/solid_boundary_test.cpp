@@ -84,7 +84,7 @@ TEST(Solid, ALobeInsideOutDoesNotCancelWhatOverlapsIt) {
   EXPECT_TRUE(solid.inside({0.2, 0.15, 0.1}));
   EXPECT_FALSE(solid.inside({0.03, 0.1, 0.0}));
   EXPECT_FALSE(solid.inside({0.3, 0.0, 0.0}));
-  // No face within it stays, so depths are those of the whole.
+  // No face inside it is kept, so depths are those of the union.
   EXPECT_GT(solid.tree().closestPoint({0.15, 0.0, 0.0}).distance, 0.09);
 }
 
@@ -149,7 +149,7 @@ TEST(Solid, BeyondTheLimitsAllTrianglesStayAndTheReportSaysSo) {
   EXPECT_NE(warning(some.report()), "");
 }
 
-/// Of layers a tenth of a micrometre apart winding numbers open most of the mesh, for each of thousands of pieces.
+/// If layers are a tenth of a micrometre apart, winding numbers visit most of the mesh for each of thousands of pieces.
 TEST(Solid, WhatTellingTheSidesOfPiecesCostsIsLimitedToo) {
   Random random(7);
   TriangleMesh layers;
@@ -204,7 +204,7 @@ TEST(Solid, WhatCannotBeToldTakesNoLongerThanTheLimit) {
   EXPECT_LT(secondsWith(200'000) - least, 0.2 * (secondsWith(20'000'000) - least));
 }
 
-/// Boxes that lie on each other, share edges, are nearly so, or are turned by next to nothing.
+/// Boxes that lie on each other or share edges, exactly or nearly, or are rotated by tiny angles.
 std::vector<OrientedBox> nastyBoxes(Random& random) {
   const auto small = [&] { return std::pow(10.0, test::uniform(random, -17, -1)); };
   const auto choice = [&](int count) { return static_cast<int>(random() % count); };
@@ -212,7 +212,7 @@ std::vector<OrientedBox> nastyBoxes(Random& random) {
   const int count = 2 + choice(3);
   for (int i = 0; i < count; ++i) {
     OrientedBox box;
-    // Sides and places on a coarse lattice, so that faces and edges coincide.
+    // Sizes and positions on a coarse lattice, so that faces and edges coincide.
     for (int k = 0; k < 3; ++k) {
       box.half_size[k] = 0.05 * (1 + choice(4));
       box.X_WB.translation()[k] = 0.05 * (choice(7) - 3);

@@ -20,7 +20,7 @@ Case randomCase(Random& random) {
   const AlignedBox3d box(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
   Case made{test::uniformIn(random, box), test::uniformIn(random, box), test::uniformIn(random, box), {}};
   for (int k = 0; k < PlaceLanes::kCount; ++k) made.places.set(k, 2.0 * test::uniformIn(random, box));
-  // Corners and places in the plane among them.
+  // Among them corners and points in the plane.
   made.places.set(0, made.b);
   made.places.set(1, 0.5 * (made.a + made.c));
   made.places.set(2, 0.2 * made.a + 0.5 * made.b + 0.3 * made.c);

@@ -1,4 +1,4 @@
-// Publishes the transforms of a robot, and beside them what hostile or broken nodes would.
+// Publishes the transforms of a robot (kind `robot`), or those of a hostile or broken node (all other kinds).
 
 #include <tf2_msgs/TFMessage.h>
 
@@ -22,7 +22,7 @@ geometry_msgs::TransformStamped stamped(const std::string& parent, const std::st
   return result;
 }
 
-/// All links of a robot whose joints swing, one message each time.
+/// Transforms of all links of a robot whose joints swing, as one message.
 class Robot {
  public:
   explicit Robot(const std::string& urdf) : model_(urdf) {}
@@ -62,12 +62,12 @@ class Robot {
   RobotModel model_;
 };
 
-/// One of the storms, by its name; `count` is the number of the message.
+/// The messages of one kind of node. `count` is the number of a message.
 class Storm {
  public:
   Storm(const std::string& kind, const Robot& robot, long frames) : kind_(kind), robot_(robot), frames_(frames) {}
 
-  /// What is not known goes to /tf_static.
+  /// Whether a message goes to /tf_static instead of /tf.
   bool isStatic(long count) const { return kind_ == "kind" && count % 2 == 1; }
 
   tf2_msgs::TFMessage message(long count, const ros::Time& now) {
@@ -76,7 +76,7 @@ class Storm {
     const std::vector<std::string>& links = robot_.model().links();
     const std::string &root = links.front(), &link = links[1 + count / 2 % (links.size() - 1)];
     if (kind_ == "robot") return robot_.at(now);
-    if (kind_ == "links") {  // each link alone, with a stamp of its own
+    if (kind_ == "links") {  // each link in a message of its own, with its own stamp
       const tf2_msgs::TFMessage all = robot_.at(now);
       sent = {all.transforms[static_cast<std::size_t>(count) % all.transforms.size()]};
       return message;
@@ -86,19 +86,19 @@ class Storm {
     } else if (kind_ == "chain") {
       const long frame = count % frames_;
       sent = {stamped(frame == 0 ? root : "chain" + std::to_string(frame - 1), "chain" + std::to_string(frame), now)};
-    } else if (kind_ == "above") {  // the robot's root below a chain without end
+    } else if (kind_ == "above") {  // ever more frames above the robot's root
       const long frame = count % frames_;
       sent = {stamped("above" + std::to_string(frame), frame == 0 ? root : "above" + std::to_string(frame - 1), now)};
     } else if (kind_ == "loop") {
       sent = {stamped(links.back(), link, now)};
-    } else if (kind_ == "parents") {  // two that disagree about the parent
+    } else if (kind_ == "parents") {  // two publishers that disagree about the parent
       sent = {stamped(count % 2 ? root : "elsewhere" + std::to_string(count % frames_), link, now)};
-    } else if (kind_ == "poses") {  // two that disagree about the place
+    } else if (kind_ == "poses") {  // two publishers that disagree about the pose
       sent = robot_.at(now).transforms;
       for (auto& transform : sent) transform.transform.translation.x += count % 2;
-    } else if (kind_ == "times") {  // two whose clocks differ
+    } else if (kind_ == "times") {  // two publishers whose clocks differ
       sent = robot_.at(now - ros::Duration(count % 2 ? 5.0 : 0.0)).transforms;
-    } else if (kind_ == "kind") {  // static and moving
+    } else if (kind_ == "kind") {  // a frame on both /tf and /tf_static
       sent = {stamped(root, link, now)};
       sent[0].transform.translation.x = 1e-3 * static_cast<double>(count % 1000);
     } else if (kind_ == "values") {

@@ -12,7 +12,7 @@
 
 namespace sdf_ccd::test {
 
-/// Puts a shell script in the place of the program that reads meshes.
+/// Lets tests replace the program that reads meshes by a shell script.
 class FakeReader : public ::testing::Test {
  protected:
   void TearDown() override { ::unsetenv("SDF_CCD_READER"); }

@@ -147,7 +147,7 @@ TEST(MeshFile, CountsAndReferencesThatLieAreRefused) {
 TEST(MeshFile, TruncatedTextIsRefusedWhereverItEnds) {
   for (const auto& [bytes, name] : {std::pair(test::off(kBox), "a.off"), std::pair(test::ply(kBox), "a.ply")}) {
     EXPECT_EQ(parseMesh(bytes, name).triangles.size(), 12u);
-    EXPECT_EQ(parseMesh(bytes.substr(0, bytes.size() - 1), name).triangles.size(), 12u);  // no last line's end
+    EXPECT_EQ(parseMesh(bytes.substr(0, bytes.size() - 1), name).triangles.size(), 12u);  // without the last newline
     for (std::size_t length = 0; length + 2 < bytes.size(); ++length) {
       EXPECT_THROW(parseMesh(bytes.substr(0, length), name), std::runtime_error) << name << " cut to " << length;
     }
@@ -155,13 +155,13 @@ TEST(MeshFile, TruncatedTextIsRefusedWhereverItEnds) {
   const std::string off = test::off(kBox);
   EXPECT_EQ(failureOf([&] { parseMesh(off.substr(0, off.size() - 4), "a.off"); }),
             "a.off: truncated or damaged: 12 of element face are announced, 11 are whole");
-  // Comments, blank lines and colours count for nothing, and a list need not stand on one line of a PLY file.
+  // Comments, blank lines and colours are skipped; a list of a PLY file may span several lines.
   const std::string odd = "OFF # made by hand\n\n3 1 0\n# corners\n0 0 0\n1 0 0 # right\n\n0 1 0\n3 0 1 2 255 0 0\n";
   EXPECT_EQ(parseMesh(odd, "odd.off").triangles.size(), 1u);
 }
 
 TEST(MeshFile, ConcavePolygonsAreFilledRightly) {
-  // An L-shaped prism whose caps are concave hexagons; a fan about the first corner would fill its notch.
+  // An L-shaped prism whose caps are concave hexagons; a triangle fan about the first corner would fill the notch.
   const std::string prism =
       "OFF\n12 8 0\n1 2 0\n0 2 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 1\n0 2 1\n0 0 1\n2 0 1\n2 1 1\n1 1 1\n"
       "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n4 0 1 7 6\n4 1 2 8 7\n4 2 3 9 8\n4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n";
@@ -206,7 +206,7 @@ TEST(MeshFile, HostileFilesAreRefusedAndTheirNeighbourIsRead) {
     EXPECT_EQ(failureOf([&] { loadMesh(path); }).rfind(path + ": ", 0), 0u) << name;
   }
   const MeshQuality quality = orientOutward(loadMesh(test::hostilePath("prism_12.off"))).quality;
-  EXPECT_NEAR(quality.volume, 3.0, 0.2);  // its corners are not quite those of a regular one
+  EXPECT_NEAR(quality.volume, 3.0, 0.2);  // its corners are not exactly those of a regular prism
   EXPECT_EQ(quality.boundary_edges, 0);
 }
 
@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
                       RobotMesh{"panda_description/meshes/collision/link5.stl", 300, 0.317},
                       RobotMesh{"panda_description/meshes/visual/link5.dae", 18327, 0.311},    // with lines and points
                       RobotMesh{"pr2_description/urdf/meshes/base_v0/base.dae", 1200, 0.669},  // Y_UP
-                      RobotMesh{"pr2_description/kinect.dae", 6752, 0.00276},  // centimetres, scaled by 0.001 besides
+                      RobotMesh{"pr2_description/kinect.dae", 6752, 0.00276},  // in centimetres, and scaled by 0.001
                       RobotMesh{"example-robot-data/robots/allegro_hand_description/meshes/base_link.STL", 3276,
                                 0.113}),
     test::ParameterName());

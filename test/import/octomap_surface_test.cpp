@@ -13,7 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Every directed edge of a closed surface has as many opposite ones.
+/// Whether every directed edge occurs as often as its opposite, as in a closed surface.
 bool edgesBalance(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> balance;
   for (const Vector3i& t : mesh.triangles) {
@@ -42,7 +42,7 @@ class OctomapFile : public ::testing::Test {
     return path_.string();
   }
 
-  /// The reason of the failure to load.
+  /// The error message of loading these bytes.
   std::string failure(const std::string& bytes) {
     double resolution = 0.0;
     const std::string failure = test::failureOf([&] { loadOctomapSurface(write(bytes), resolution); });
@@ -59,14 +59,15 @@ std::string head(int nodes, const std::string& resolution = "0.25") {
          resolution + "\ndata\n";
 }
 
-/// Two bytes: what the eight children are (0 unknown, 1 free, 2 occupied, 3 follows).
+/// A node of the binary format, two bytes, from its eight children (0 unknown, 1 free, 2 occupied, 3 a node that
+/// follows).
 std::string node(const std::vector<int>& children) {
   unsigned bits = 0;
   for (int i = 0; i < 8; ++i) bits |= static_cast<unsigned>(children[i]) << (2 * i);
   return {static_cast<char>(bits & 255), static_cast<char>(bits >> 8)};
 }
 
-/// A tree whose only branch goes to the voxels above the origin, down to `levels`, and ends in `last`.
+/// A tree of `levels` levels with a single branch, towards the voxels above the origin, that ends with the node `last`.
 std::string branch(const std::string& last, int levels) {
   std::string bytes = node({0, 0, 0, 0, 0, 0, 0, 3});
   for (int i = 0; i < levels - 2; ++i) bytes += node({3, 0, 0, 0, 0, 0, 0, 0});

@@ -33,7 +33,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A polygon in a zigzag without area, whose ears cannot be found quickly: minutes of computing.
+/// A zigzag polygon without area, for which ear clipping takes minutes.
 std::string longReading() {
   std::string off = "OFF\n10000 1 0\n", face = "10000";
   for (int i = 0; i < 10000; ++i) {
@@ -44,7 +44,7 @@ std::string longReading() {
   return off + face + "\n";
 }
 
-/// Runs in a process of its own that may change what belongs to the whole process. @return true if `action` was.
+/// Runs `action` in a child process, where it may change signals, files and limits. @return its result.
 bool inProcess(const std::function<bool()>& action) {
   const pid_t pid = ::fork();
   if (pid == 0) {
@@ -60,7 +60,7 @@ bool inProcess(const std::function<bool()>& action) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// The processes that this one's threads, or those of another, have started and not reaped.
+/// Child processes of a process that are not reaped yet.
 std::vector<pid_t> childrenOf(pid_t pid) {
   std::vector<pid_t> children;
   std::error_code error;
@@ -75,7 +75,7 @@ std::vector<pid_t> childrenOf(pid_t pid) {
 pid_t waitForChild(pid_t of) {
   const auto start = Clock::now();
   while (childrenOf(of).empty() && secondsSince(start) < 5.0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  // It is the host's image until it has executed the reader.
+  // Until the child has called exec(), it is a copy of the host.
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   return childrenOf(of).empty() ? -1 : childrenOf(of).front();
 }
@@ -141,7 +141,7 @@ TEST_F(ReadApart, AnswersAreNotBelieved) {
   EXPECT_NE(answer(other, "").find("needed more than"), std::string::npos);
   other.vertices = std::uint64_t{1} << 25;  // 768 MB
   EXPECT_NE(answer(other, "").find("needed more than"), std::string::npos);
-  other.vertices = std::uint64_t{1} << 24;  // half a GB is announced: no more memory is taken than comes
+  other.vertices = std::uint64_t{1} << 24;  // 512 MB are announced, but memory is taken only for data that arrives
   EXPECT_NE(answer(other, "").find("without an answer"), std::string::npos);
   other = {};
   other.reason_bytes = ~std::uint64_t{0};
@@ -200,7 +200,7 @@ TEST_F(ReadApart, WhateverTheHostDoesWithSignalsAndStandardFiles) {
       return reads() && reads();
     })) << closed;
   }
-  // Another's child is not reaped, one that ends while we read.
+  // A child of the host that ends meanwhile is not reaped by the library.
   EXPECT_TRUE(inProcess([&] {
     const pid_t other = ::fork();
     if (other == 0) ::_exit(5);
@@ -256,7 +256,7 @@ TEST_F(ReadApart, ReaderEndsWithItsHost) {
 }
 
 TEST_F(ReadApart, MemoryIsBounded) {
-  // 2,000 triangles drawn 90,000 times.
+  // 2,000 triangles, instantiated 90,000 times.
   std::string nodes;
   for (int i = 0; i < 300; ++i) nodes += "<instance_node url=\"#many\"/>";
   std::string many = "<node id=\"many\">";

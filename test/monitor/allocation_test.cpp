@@ -15,7 +15,7 @@ TEST(Allocation, NoneWhilePairsAreClear) {
   Monitor monitor(scene, {});
   std::vector<CycleMotion> motions;
   for (int i = 0; i < 20; ++i) {
-    // Two just above the error bound, so that they are tested every time, one far away.
+    // Two bodies just above the error bound, so that they are tested every time, and one far away.
     const double x = 0.001 * i;
     motions.push_back(cycle(0.1, {still(Isometry3d::Identity()),
                                   {translation({x, 0, 0.115}), translation({x + 1e-3, 0, 0.115})},
@@ -44,7 +44,7 @@ TEST(Allocation, NoneForAContactLikeTheLast) {
   EXPECT_EQ(steadyAllocations([&] { ASSERT_EQ(monitor.run(motion, {true, 10}).verdict, Verdict::kContact); }), 0);
 }
 
-/// The most that is held at a time more than before, while a new monitor checks the motion [MB].
+/// Peak of the additional memory while a new monitor checks the motion [MB].
 double peakOf(const std::shared_ptr<const Scene>& scene, const CycleMotion& motion) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const long before = held;
@@ -53,7 +53,7 @@ double peakOf(const std::shared_ptr<const Scene>& scene, const CycleMotion& moti
   return 1e-6 * static_cast<double>(most_held - before);
 }
 
-/// A ball that rolls on the spot, pressed into the ground, by half a radian between two times.
+/// A ball pressed into the ground that rotates in place by half a radian per step.
 CycleMotion rolling(std::size_t waypoints) {
   std::vector<Isometry3d> X_WB;
   for (std::size_t k = 0; k < waypoints; ++k) X_WB.push_back(pose({0, 0, 0.05}, 0.5 * double(k), {1, 0, 0}));
@@ -83,7 +83,7 @@ TEST(Allocation, DoesNotGrowWithTheNumberOfPairs) {
   EXPECT_LT(six, 1.5 * one) << one << " MB of one";
 }
 
-/// Two links among many objects: nothing is allocated or freed while a change is taken over.
+/// Two links among many objects: adopt() neither allocates nor frees.
 TEST(Allocation, NoneWhileAChangeIsTakenOver) {
   SceneDescription description{{body("a", Primitive(Sphere{0.1})), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))}, {}};
   for (int i = 0; i < 300; ++i) {
@@ -96,7 +96,8 @@ TEST(Allocation, NoneWhileAChangeIsTakenOver) {
   const auto run = [&] {
     CycleMotion motion;
     motion.times = {0.0, 0.1};
-    for (const BodyDescription& one : description.bodies) motion.X_WB.push_back(still(one.X_frame_B * translation({0, 0, one.is_world ? 0.0 : 0.3})));
+    for (const BodyDescription& one : description.bodies)
+      motion.X_WB.push_back(still(one.X_frame_B * translation({0, 0, one.is_world ? 0.0 : 0.3})));
     return monitor.run(motion, {}).checked;
   };
   run();

@@ -37,7 +37,7 @@ TEST(BuildScene, BuildsOnlyWhatThePlanNeeds) {
 }
 
 TEST(BuildScene, EqualMeshesAreBuiltOnce) {
-  // Two meshes of equal content, as two loads of one file give.
+  // Two meshes of equal content, as from loading a file twice.
   const auto scene =
       build({body("left finger", meshShape(icosphere(0.05, 2))), body("right finger", meshShape(icosphere(0.05, 2))),
              body("thumb", meshShape(icosphere(0.06, 2)))});
@@ -93,7 +93,7 @@ TEST(BuildScene, OneBodysFailureIsItsOwn) {
 }
 
 TEST(BuildScene, UnionShellStillCoversTheUnion) {
-  // A long box through a ball: what lies deep inside of the other is dropped, the union's surface stays covered.
+  // A long box through a ball: points deep inside the other part are dropped, and the union's surface stays covered.
   BodyDescription cross = body("cross", Primitive(Sphere{0.1}));
   cross.geometry.push_back({Primitive(Box{{0.3, 0.03, 0.03}}), translation({0.02, 0.01, 0}), "box", false});
   const auto scene = build({cross, body("other", Primitive(Sphere{0.1}))}, fine(0.01));
@@ -178,7 +178,7 @@ TEST(PlanTable, GroupsWhatWasLeftOutByReason) {
   const std::string table = planTable(*build(description, fine(0.05)));
   EXPECT_NE(table.find("65 pairs, SRDF: Never: link0 - link2, "), std::string::npos) << table;
   EXPECT_LT(std::count(table.begin(), table.end(), '\n'), 22) << table;
-  // Aligned: the header's last column ends where every row's does.
+  // Aligned: every row ends in the column where the header ends.
   std::size_t width = table.find('\n'), start = 0;
   for (int row = 0; row < 13; ++row) {
     const std::size_t end = table.find('\n', start);

@@ -8,7 +8,7 @@ namespace sdf_ccd {
 namespace {
 
 using namespace test;
-/// Two parts of one body that overlap, of many triangles, and a sheet.
+/// A body of two overlapping tori with many triangles, and an open mesh.
 SceneDescription largeMeshes() {
   TriangleMesh torus = torusMesh(0.3, 0.1, 120, 40);
   TriangleMesh other = translated(torus, {0.05, 0.02, 0.01});
@@ -21,7 +21,7 @@ SceneDescription largeMeshes() {
 }
 
 constexpr int kMoments = 10;
-constexpr double kSoon = 0.15;  // of the 0.2 s that unloading may take [s]
+constexpr double kSoon = 0.15;  // 0.2 s is the limit for unloading [s]
 
 void expectBuildEndsSoon(const BodyOptions& options) {
   const SceneDescription description = largeMeshes();

@@ -1,4 +1,4 @@
-// One pair alone may hold hours of work: what ends a query must reach into it.
+// A single pair may take hours of work, so cancelling must also interrupt the check of a pair.
 #include <gtest/gtest.h>
 
 #include "cancel_moments.h"
@@ -18,7 +18,7 @@ void expectPairEndsSoon(const std::shared_ptr<const Scene>& scene, const CycleMo
   expectEndsSoon([&] { Monitor(scene, soft()).run(motion, {}); }, kMoments, kSoon);
 }
 
-/// A ball deep in another that turns and shakes, in many chords.
+/// A ball deep inside another one that rotates and shakes, in many chords.
 CycleMotion shaken(double depth, std::size_t waypoints) {
   std::vector<Isometry3d> X_WB;
   for (std::size_t k = 0; k < waypoints; ++k) {

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// Bodies that wander about in a room, now and then fast.
+/// Bodies that move randomly in a room, sometimes fast.
 class Wanderers {
  public:
   Wanderers(int count, unsigned seed) : random_(seed) {
@@ -64,7 +64,7 @@ TEST(ClearanceSkip, GivesTheVerdictsOfTesting) {
 }
 
 TEST(ClearanceSkip, SkippedClearIsNeverWrong) {
-  // Ball against box, where the distance is known; the clearance said must hold too.
+  // Ball against box, where the distance is known; the reported clearance must hold too.
   const double radius = 0.08;
   const Primitive box = Box{{0.1, 0.05, 0.15}};
   const auto scene = build({body("box", box), body("ball", Primitive(Sphere{radius}))}, fine(0.02));
@@ -93,7 +93,7 @@ TEST(ClearanceSkip, SkippedClearIsNeverWrong) {
   EXPECT_GT(skipped, 500);
 }
 
-/// What was said of a pair when that was asked for does not outlast its cycle.
+/// A clearance that was requested in one cycle must not remain as the result of later ones.
 TEST(ClearanceSkip, ClearancesHoldWhetherOrNotTheyAreAskedFor) {
   constexpr double kHalf = 0.05;
   const auto scene = build({body("a", Primitive(Sphere{kHalf})), body("b", Primitive(Sphere{kHalf}))}, fine(0.02));
@@ -129,7 +129,7 @@ TEST(ClearanceSkip, LookingCloserIsPaidForOnlyWhenNear) {
   EXPECT_NEAR(at(0.8, 0.7).clearance, 0.6, 0.15);
   EXPECT_EQ(at(0.7, 0.11).verdict, Verdict::kUncertain);
   EXPECT_LT(at(0.11, 0.11).clearance, 0.0);
-  // A motion that begins elsewhere than the last one ended is not taken for near to it.
+  // A motion that does not begin where the last one ended is not assumed to be near it.
   at(1.0, 0.9);
   EXPECT_EQ(at(0.09, 0.09).verdict, Verdict::kContact);
 }

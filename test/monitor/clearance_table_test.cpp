@@ -16,7 +16,7 @@ using namespace test;
 
 constexpr double kBudget = 64.0;  // [m]
 
-/// Bodies that are balls, and all of their pairs but some.
+/// Bodies that are balls, and most of their pairs.
 Scene balls(int count, Random& random) {
   Scene scene;
   for (int i = 0; i < count; ++i) {
@@ -30,15 +30,15 @@ Scene balls(int count, Random& random) {
   return scene;
 }
 
-/// How bodies of a trial move.
+/// How the bodies of a trial move.
 struct Family {
-  double angle, shift;  // of a step, at most [rad], [m]
-  double apart;         // [m]
-  double away;          // from the origin [m]
-  bool on_a_base;       // all of them move with one body, nearly
+  double angle, shift;  // largest per step [rad], [m]
+  double apart;         // spread of the bodies [m]
+  double away;          // distance from the origin [m]
+  bool on_a_base;       // all of them move with a common base, apart from small motions
 };
 
-/// The pose after a step.
+/// A random pose near X, as after a step.
 Isometry3d moved(const Isometry3d& X, double angle, double shift, Random& random) {
   const Vector3d axis = direction(random), along = direction(random);
   Isometry3d next = X;
@@ -72,7 +72,7 @@ CycleMotion motionOf(const Family& family, int bodies, int steps, Random& random
   return motion;
 }
 
-/// Where a motion begins, for a second.
+/// A motion of one second at rest in the other motion's first poses.
 CycleMotion restAt(const CycleMotion& motion) {
   CycleMotion rest;
   rest.times = {0.0, 1.0};
@@ -80,7 +80,7 @@ CycleMotion restAt(const CycleMotion& motion) {
   return rest;
 }
 
-/// The most that the distance of two points changes over a motion, one in each ball, by climbing.
+/// Largest change of the distance of two points, one in each ball, over a motion; found by random climbing.
 Real largestChange(const Scene& scene, const PlannedPair& pair, const CycleMotion& motion, Random& random) {
   const auto ballOf = [&](int body) -> const BoundingBall& { return scene.bodies[std::size_t(body)].ball; };
   const std::size_t steps = motion.times.size() - 1;
@@ -116,13 +116,13 @@ Real largestChange(const Scene& scene, const PlannedPair& pair, const CycleMotio
   return most;
 }
 
-/// No point of P's ball goes farther against F in a step, by twists in doubles.
+/// Upper bound of the displacement of P's ball's points relative to F in a step, from twists in double precision.
 double travelOf(const WorldTwist& F, const WorldTwist& P) {
   const Vector3d u = P.velocity - F.velocityAt(P.center);
   return u.norm() + (P.omega - F.omega).norm() * (P.radius + 0.25 * P.speed());
 }
 
-/// Over all steps, of the ball that gives less.
+/// The sum over all steps of the smaller bound of the two balls.
 double boundOf(const Scene& scene, const PlannedPair& pair, const CycleMotion& motion) {
   double sum = 0.0;
   for (std::size_t k = 0; k + 1 < motion.times.size(); ++k) {
@@ -176,15 +176,15 @@ TEST(ClearanceTable, SubtractsNoLessThanBodiesMoveAndLittleMore) {
       const Real change = largestChange(scene, scene.pairs[i], motion, random);
       ASSERT_GE(used, change) << "trial " << trial << ", pair " << i;
       const double bound = boundOf(scene, scene.pairs[i], motion);
-      // The scale of what single precision keeps: the budget's, and that of each body's own motion.
+      // Tolerance for single precision: relative to the budget, and to the motion of each body.
       const double coarse = 2e-6 * kBudget + 1e-5 * (family.angle * (2.0 * family.apart + 1.0) + family.shift) * steps;
       ASSERT_LE(used, 1.05 * bound + coarse) << "trial " << trial << ", pair " << i;
       if (change > 1e-4) worst = std::max(worst, double(change) / used);
       if (bound > 0.1) loosest = std::max(loosest, used / bound);
     }
   }
-  EXPECT_GT(worst, 0.9);  // climbing comes near to the bound
-  EXPECT_LT(loosest, 1.02);  // of what is large beside the budget's rounding
+  EXPECT_GT(worst, 0.9);     // climbing comes close to the bound
+  EXPECT_LT(loosest, 1.02);  // where the bound is large compared with the rounding of the budget
 }
 
 TEST(ClearanceTable, KeepsABudgetExactlyWhileNothingMoves) {
@@ -222,7 +222,7 @@ TEST(ClearanceTable, PairsAreDueInTheOrderOfUrgency) {
   const int count = int(scene.pairs.size());
   for (int i = 0; i < count; ++i) {
     table.setMargin(i, 0.01, 1e-3 * i);
-    table.set(i, 0.01 + 0.001 * (i - 4));  // the first five have nothing left
+    table.set(i, 0.01 + 0.001 * (i - 4));  // the first five have no budget left
   }
   table.forget(7);
   bodies.begin(still, whole);
@@ -251,7 +251,7 @@ TEST(ClearanceTable, ABodyThatIsNotFollowedMakesItsPairsDue) {
     for (const DuePair& next : due) {
       const PlannedPair& pair = scene.pairs[std::size_t(next.pair)];
       EXPECT_TRUE(pair.body_a == 4 || pair.body_b == 4);
-      EXPECT_EQ(table.clearance(next.pair), 1.0);  // as before, for whoever looks closer
+      EXPECT_EQ(table.clearance(next.pair), 1.0);  // unchanged, for the pair's checker
     }
     return due.size();
   };

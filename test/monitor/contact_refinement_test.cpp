@@ -17,7 +17,7 @@ BodyOptions coarse(bool exact_depths = true) {
   return options;
 }
 
-/// As the monitor prepares robots.
+/// The options with which the monitor prepares robots.
 BodyOptions usual() {
   BodyOptions options = optionsForContacts();
   options.exact_depths = true;
@@ -30,9 +30,9 @@ CycleRequest refined() {
   return request;
 }
 
-constexpr double kHalf = 0.05, kTop = 0.02;  // of a cube, and of the slab that it comes down on [m]
+constexpr double kHalf = 0.05, kTop = 0.02;  // half sizes of a cube, and of the slab that it lands on [m]
 
-/// A cube whose corner points down; so far is that from its middle [m].
+/// Pose of a cube with a corner pointing down; kCorner is the distance of that corner from its centre [m].
 Isometry3d onCorner() {
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
   return Isometry3d(turn);
@@ -55,7 +55,7 @@ std::vector<Landing> landings() {
 }
 
 TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
-  // From 6 mm above to 3 mm deep in 90 ms: it touches at 60 ms.
+  // From 6 mm above to 3 mm deep in 90 ms: the cube touches at 60 ms.
   for (const Landing& landing : landings()) {
     const BodyDescription slab = body("slab", landing.slab), cube = body("cube", landing.cube);
     const auto scene = landing.is_swapped ? build({cube, slab}, coarse()) : build({slab, cube}, coarse());
@@ -76,7 +76,7 @@ TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
     ASSERT_TRUE(pair.first_touch);
     EXPECT_LE(pair.first_touch->enter, 0.06 + 1e-12);
     EXPECT_GE(pair.first_touch->exit, 0.06 - 1e-12);
-    EXPECT_LE(pair.first_touch->exit - pair.first_touch->enter, 0.002);  // 0.2 mm
+    EXPECT_LE(pair.first_touch->exit - pair.first_touch->enter, 0.002);  // 0.2 mm of motion
     ASSERT_EQ(pair.intervals.size(), 1u);
     EXPECT_LE(pair.intervals[0].enter, pair.first_touch->exit);
     EXPECT_GE(pair.intervals[0].enter, pair.first_touch->enter);
@@ -85,7 +85,7 @@ TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
   }
 }
 
-/// A cube swings by with its edge, deepest halfway.
+/// A cube swings past with an edge down, deepest halfway.
 TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
   const auto scene = build(
       {body("slab", meshShape(boxMesh({0.3, 0.3, kTop}))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
@@ -106,7 +106,7 @@ TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
     EXPECT_LE(pair.deepest.depth, depth + 1e-12);
     EXPECT_LE(depth, pair.deepest.depth + pair.deepest.depth_error);
     EXPECT_LE(pair.deepest.depth_error, 1e-4);
-    // It touches where its edge, on a circle, comes down to the top.
+    // It touches when its edge, on a circle, reaches the top of the slab.
     const double angle = std::acos((reach - depth) / reach), begin = 0.5 - 0.5 * angle / half_angle;
     ASSERT_TRUE(pair.first_touch);
     EXPECT_LE(pair.first_touch->enter, begin + 1e-9);
@@ -115,7 +115,7 @@ TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
 }
 
 TEST(ContactRefinement, ContactDoesNotBeginBeforeTheBodiesTouch) {
-  // Shells and fields also see contact before that.
+  // Shells and fields report contact even before that.
   const auto scene = build(
       {body("ball", meshShape(icosphere(0.05, 2))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))}, usual());
   Monitor monitor(scene, soft());
@@ -147,7 +147,7 @@ TEST(ContactRefinement, DoesNotLastWhileTheBodiesAreApart) {
   const auto at = [&](double height) {
     return translation({0.0011, 0.0007, 2.0 * edge + height}) * pose({0, 0, 0}, kPi / 4, {0, 1, 0});
   };
-  // Edges that cross touch for a moment, 0.2 mm deep, where no point of a shell is; then they are 0.2 m apart.
+  // Crossing edges touch briefly, 0.2 mm deep, away from all shell points; then they are 0.2 m apart.
   const CycleMotion motion =
       cycle(3.0, {std::vector<Isometry3d>(4, X_WA), {at(0.005), at(-2e-4), at(0.2), at(-0.008)}});
   const PairResult& pair = monitor.run(motion, refined()).pairs[0];

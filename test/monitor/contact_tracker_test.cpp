@@ -15,9 +15,9 @@ using namespace test;
 using Time = std::chrono::nanoseconds;
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-constexpr double kLength = 0.1;  // of a cycle [s]
+constexpr double kLength = 0.1;  // duration of a cycle [s]
 
-/// A scene that only has names; some are of tiles of the map "map".
+/// A scene that has only names; `tiles` are the bodies that are tiles of the map "map".
 Scene named(const Pairs& pairs, const std::set<std::string>& tiles) {
   Scene scene;
   std::map<std::string, int> bodies;
@@ -45,11 +45,11 @@ Time at(double seconds) {
 }
 
 struct Touch {
-  double enter, exit;  // from the cycle's start [s]
+  double enter, exit;  // relative to the cycle's start [s]
   double depth = 0.01, depth_error = 0.0;
 };
 
-/// What a cycle says of one pair.
+/// The result of one pair in a cycle.
 struct Said {
   Verdict verdict = Verdict::kClear;
   std::vector<Touch> touches;
@@ -67,7 +67,7 @@ class TrackerTest : public ::testing::Test {
     }
   }
 
-  /// The next cycle, or one from another time on. What is not said of a pair is that it is clear.
+  /// Runs the next cycle, or one that starts at the given time. Pairs without an entry are clear.
   void cycle(const std::vector<Said>& pairs, double start = -1.0) {
     if (start >= 0.0) now_ = start;
     CycleResult result;
@@ -85,7 +85,7 @@ class TrackerTest : public ::testing::Test {
       } else {
         pair.span = {0, 1};
       }
-      pair.error = {0.0, 0.0001, 0.0, 0.0};  // the verdict's, which triangles tell; depths are the fields'
+      pair.error = {0.0, 0.0001, 0.0, 0.0};  // of the verdict, from triangles; depths have the fields' errors
       pair.contact_error = {0.003, 0.0001, 0.0, 0.001};
       pair.on_a_W.force = Vector3d(0.0, 0.0, 6.0);
       for (const Touch& touch : said.touches) {
@@ -194,15 +194,15 @@ TEST_F(TrackerTest, WhetherAContactIsSureFollowsFromItsOwnPoints) {
     return text;
   };
   constexpr Verdict kContact = Verdict::kContact, kUncertain = Verdict::kUncertain;
-  // Less deep than the field's largest error, but deeper than that of its location.
+  // Less deep than the largest error of the field, but deeper than its error at that point.
   EXPECT_EQ(verdicts({{kContact, {{0.0, 0.02, 0.001, 0.0002}}}}), "CONTACT ");
-  // As of an open mesh: deeper than the error bound, but perhaps only inside a cap.
+  // As in an open mesh: deeper than the error bound, but perhaps only inside a cap.
   EXPECT_EQ(verdicts({{kUncertain, {{0.0, 0.02, 0.01, 0.01}}}}), "UNCERTAIN ");
-  // Surfaces that are known to cross, although no depth shows it.
+  // The surfaces are known to cross, although no depth proves it.
   EXPECT_EQ(verdicts({{kContact, {{0.0, 0.02, 0.0, 0.0}}}}), "CONTACT ");
-  // Of two times within a cycle, one is proved.
+  // One of two intervals in a cycle is proved.
   EXPECT_EQ(verdicts({{kContact, {{0.0, 0.02, 0.0001, 0.0002}, {0.03, 0.05, 0.001, 0.0002}}}}), "UNCERTAIN CONTACT ");
-  // One contact over two cycles: the second proves it, although it is less deep there.
+  // One contact over two cycles: the second cycle proves it, although it is less deep there.
   EXPECT_EQ(verdicts({{kUncertain, {{0.05, 0.1, 0.002, 0.003}}}, {kContact, {{0.0, 0.05, 0.001, 0.0002}}}}),
             "CONTACT ");
 }
@@ -221,7 +221,7 @@ TEST_F(TrackerTest, DelayKeepsAContactAndWhatIsNotCheckedLosesIt) {
   Said delayed{Verdict::kNotChecked, {}, true};
   cycle({delayed});
   EXPECT_FALSE(only().ends);
-  cycle({kThrough}, 100.1);  // what was delayed
+  cycle({kThrough}, 100.1);  // the delayed cycle
   EXPECT_EQ(only().id, 1u);
   cycle({{Verdict::kNotChecked, {}}});
   EXPECT_TRUE(only().ends && only().is_lost);
@@ -263,7 +263,7 @@ TEST_F(TrackerTest, NothingGoesOnAfterAJump) {
 TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
   world({{"hand", "table"}, {"foot", "table"}, {"foot", "box"}});
   cycle({kThrough, kThrough, kThrough});
-  // The other way round, in another order, without the box, with a new body.
+  // In reverse order of names and of pairs, without the box, with a new body.
   world({{"table", "foot"}, {"new", "table"}, {"table", "hand"}});
   for (const TrackedContact& contact : said()) EXPECT_EQ(contact.is_lost, contact.id == 3);
   cycle({kThrough, kThrough, kThrough});
@@ -277,12 +277,12 @@ TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
   EXPECT_EQ(by_id[4].body_a, "new");
   EXPECT_TRUE(by_id[4].begins);
   tracker_->settle();
-  // The others are gone: said when they went.
+  // The other pairs are gone: their contacts are reported as lost at once.
   world({{"hand", "table"}});
   ASSERT_EQ(tracker_->size(), 3u);
   for (const TrackedContact& contact : said()) EXPECT_EQ(contact.is_lost, contact.id != 1);
   EXPECT_EQ(tracker_->open(), 1u);
-  // And in the next cycle, whose message is the first since then; not before and not later.
+  // They are reported again in the next cycle, whose message is the first one since, and only in that.
   tracker_->settle();
   EXPECT_EQ(tracker_->size(), 1u);
   cycle({kThrough});
@@ -303,7 +303,7 @@ TEST_F(TrackerTest, ANormalPointsFromTheFirstBodyAlsoWhereAnotherWorldHasThemThe
   EXPECT_EQ(only().deepest.normal_W, -before);
 }
 
-/// What the tracker must say, from all intervals at once: stays of each pair, joined where breaks are short.
+/// Expected contacts, from all intervals at once: intervals of each pair, joined across short breaks.
 std::multiset<std::tuple<std::string, Time, Time>> joined(
     std::map<std::string, std::vector<std::pair<Time, Time>>> all) {
   std::multiset<std::tuple<std::string, Time, Time>> contacts;
@@ -379,13 +379,13 @@ TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
   const std::uint64_t id = said().at(0).id;
   EXPECT_EQ(said()[0].body_a, "hand");
   EXPECT_EQ(said()[0].body_b, "map");
-  // It leaves the first tile while it is on the second one; within the cycle that comes first.
+  // It leaves the first tile while it touches the second one, whose interval starts earlier in the cycle.
   cycle({{Verdict::kContact, {{0.02, 0.06, 0.005}}}, {Verdict::kContact, {{0.0, 0.03, 0.002}, {0.055, 0.1, 0.008}}}});
   ASSERT_EQ(said().size(), 1u);
   EXPECT_EQ(said()[0].id, id);
   EXPECT_EQ(said()[0].cycles, 2u);
   EXPECT_DOUBLE_EQ(said()[0].deepest.depth, 0.008);
-  // Both are made anew, and the map has another one.
+  // Both tiles are replaced, and the map gets another one.
   world({{"arm", "map/0_0_-1"}, {"map/5_5_5", "hand"}, {"hand", "map/1_0_-1"}, {"hand", "map/x"}},
         {"map/0_0_-1", "map/1_0_-1", "map/5_5_5"});
   cycle({{}, {}, {Verdict::kContact, {{0.0, 0.04, 0.002}}}});
@@ -394,7 +394,7 @@ TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
   EXPECT_TRUE(said()[0].ends);
   EXPECT_FALSE(said()[0].is_lost);
   EXPECT_EQ(said()[0].end - said()[0].begin, at(0.19));
-  // Of two that are no tiles each is its own.
+  // Pairs without tiles are tracked separately.
   cycle({{Verdict::kContact, {{0.0, 0.1}}}, {}, {Verdict::kContact, {{0.0, 0.1}}}, {Verdict::kContact, {{0.0, 0.1}}}});
   EXPECT_EQ(said().size(), 3u);
 }
@@ -421,7 +421,7 @@ TEST_F(TrackerTest, WhatIsOnlyCalledLikeAMapOrItsTileIsItself) {
   EXPECT_EQ(before[0].body_b, "map");
   EXPECT_EQ(before[1].body_b, "map/1_0_0");
   EXPECT_EQ(before[2].body_b, "map");
-  // In another order each goes on, or ends, as what it was.
+  // In another order, each contact continues or ends as before.
   world({pairs[2], pairs[1], pairs[0]}, {"map/0_0_0"});
   cycle({{}, touches, touches});
   ASSERT_EQ(said().size(), 3u);

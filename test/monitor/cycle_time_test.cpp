@@ -1,4 +1,4 @@
-// Cycles that are ended by their time (CycleRequest::max_time). Truth: distances of balls.
+// Cycles that are ended by CycleRequest::max_time. Expected values: exact distances of balls.
 #include <gtest/gtest.h>
 
 #include "monitor/scene_case.h"
@@ -11,9 +11,9 @@ using namespace test;
 
 constexpr double kRadius = 0.1;
 constexpr int kBalls = 10;
-constexpr double kNoTime = 1e-12;  // one pair is tested all the same
+constexpr double kNoTime = 1e-12;  // still, one pair is tested
 
-/// Balls that fly about in a room.
+/// Balls that move randomly in a room.
 class CycleTime : public ::testing::Test {
  protected:
   CycleTime() {
@@ -29,7 +29,7 @@ class CycleTime : public ::testing::Test {
     return {uniform(random_, -0.5, 0.5), uniform(random_, -0.5, 0.5), uniform(random_, -0.5, 0.5)};
   }
 
-  /// Each ball a bit on; now and then one is elsewhere at the cycle's start.
+  /// Moves each ball a little; occasionally one starts the cycle elsewhere.
   CycleMotion next() {
     std::vector<std::vector<Isometry3d>> poses;
     for (Vector3d& place : places_) {
@@ -42,7 +42,7 @@ class CycleTime : public ::testing::Test {
     return cycle(0.1, poses);
   }
 
-  /// Least distance of two balls in the cycle; below zero their overlap.
+  /// Smallest distance of two balls in the cycle; if negative, its amount is their overlap.
   static double leastDistance(const CycleMotion& motion, int a, int b) {
     const Vector3d from = motion.X_WB[b][0].translation() - motion.X_WB[a][0].translation(),
                    way = motion.X_WB[b][1].translation() - motion.X_WB[a][1].translation() - from;
@@ -96,7 +96,7 @@ TEST_F(CycleTime, WhatIsLeftIsUncertainByNoMoreThanItMayOverlap) {
     EXPECT_EQ(result.checked + result.skipped + result.postponed, int(result.pairs.size()));
     if (found > 0) {
       ++short_of_time;
-      tested += result.checked;  // but where the clearance that was known is found to suffice
+      tested += result.checked;  // except if the known clearance turns out to suffice
       EXPECT_GE(result.verdict, Verdict::kUncertain);
     }
     postponed += found;
@@ -105,10 +105,10 @@ TEST_F(CycleTime, WhatIsLeftIsUncertainByNoMoreThanItMayOverlap) {
   EXPECT_GT(tested, 0.9 * short_of_time);
   EXPECT_GT(contacts, 50);
   EXPECT_GT(tight, 100);
-  EXPECT_LE(longest, int(scene_->pairs.size()));  // in turn
+  EXPECT_LE(longest, int(scene_->pairs.size()));  // each pair gets its turn
 }
 
-/// Nobody needs time to see that balls do not meet.
+/// Balls that stay apart need no test.
 TEST_F(CycleTime, WhatIsFarAwayIsClearWithoutATest) {
   CycleRequest request;
   request.max_time = kNoTime;
@@ -118,7 +118,7 @@ TEST_F(CycleTime, WhatIsFarAwayIsClearWithoutATest) {
     const CycleMotion motion = next();
     for (const PairResult& pair : monitor.run(motion, request).pairs) {
       expectTrue(pair, motion);
-      // 0.05 m along each axis is as far as a ball goes.
+      // A ball moves at most 0.05 m along each axis.
       if (leastDistance(motion, pair.body_a, pair.body_b) < 0.18) continue;
       EXPECT_EQ(pair.verdict, Verdict::kClear);
       const Vector3d apart = motion.X_WB[pair.body_a][1].translation() - motion.X_WB[pair.body_b][1].translation();
@@ -182,7 +182,7 @@ TEST_F(CycleTime, WhatCannotBeCheckedIsNotPostponed) {
   EXPECT_EQ(result.not_checked, kBalls - 1);
 }
 
-/// A bead in the middle of a ball: to part them it has to go both radii.
+/// A bead at the centre of a ball: separating them takes the sum of both radii.
 TEST(CycleTimeOfTwo, WhatIsLeftMayLieDeepInALargerBody) {
   const auto scene = build({body("ball", Primitive(Sphere{0.3})), body("bead", Primitive(Sphere{0.02})),
                             body("other", Primitive(Sphere{0.02}))});
@@ -201,8 +201,8 @@ TEST(CycleTimeOfTwo, WhatIsLeftMayLieDeepInALargerBody) {
   EXPECT_EQ(postponed, 2);
 }
 
-/// A half-space's surface strays by its motion error within 10 m of its origin, and in proportion beyond; beads 30 m
-/// away, before any test of their pairs.
+/// The motion error of a half-space holds within 10 m of its origin and grows in proportion beyond. Beads 30 m away,
+/// whose pairs have never been tested.
 TEST(CycleTimeOfTwo, WhatIsLeftOnAHalfSpaceKnowsHowFarThatMayStray) {
   constexpr double kAway = 30.0, kError = 1e-3;
   const auto scene =
@@ -218,21 +218,21 @@ TEST(CycleTimeOfTwo, WhatIsLeftOnAHalfSpaceKnowsHowFarThatMayStray) {
   for (const PairResult& pair : monitor.run(motion, request).pairs) {
     if (!pair.postponed) continue;
     ++postponed;
-    // A radius deep, by a ball that is larger by up to the shell's spacing, and what the floor strays.
+    // Depth of one radius, of a ball enlarged by up to the shell's spacing, plus the error of the floor's motion.
     EXPECT_GE(pair.error.chord, 0.05 + 3.0 * kError);
     EXPECT_LT(pair.error.chord, 0.06 + 4.0 * kError);
   }
   EXPECT_EQ(postponed, 2);
 }
 
-/// A bead that gets into a box while the pair is left, so that no surfaces cross afterwards.
+/// A bead moves into a box while the pair is postponed; afterwards no surfaces cross.
 TEST(CycleTimeOfTwo, WhatGotInsideMeanwhileIsFound) {
   const auto scene = build({body("box", Primitive(Box{{0.3, 0.3, 0.3}}), true), body("bead", Primitive(Sphere{0.02})),
                             body("post", Primitive(Sphere{0.3}))});
   Monitor monitor(scene, {});
   CycleRequest request;
   request.max_time = kNoTime;
-  // The post is in the box all the time, so that some pair is always due.
+  // The post is inside the box all the time, so that another pair is always due.
   const auto motionOf = [&](double from, double to) {
     return cycle(0.1, {still(Isometry3d::Identity()),
                        {translation({from, 0, 0}), translation({to, 0, 0})},

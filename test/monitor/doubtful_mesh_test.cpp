@@ -1,4 +1,4 @@
-// Meshes that are closed, but nobody can tell what is inside: only surfaces decide.
+// Closed meshes whose inside cannot be determined: only surfaces decide.
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::Shape;
 using test::translated;
 using test::translation;
 
-/// A small box that moves in the mesh's frame from `start` to `end`.
+/// Verdict of a small box that moves from `start` to `end` in the mesh's frame.
 Verdict verdictOf(const TriangleMesh& mesh, const Vector3d& start, const Vector3d& end) {
   const auto scene =
       test::build({test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}})), test::body("part", test::meshShape(mesh))},
@@ -29,7 +29,7 @@ Verdict verdictOf(const TriangleMesh& mesh, const Vector3d& start, const Vector3
       .verdict;
 }
 
-/// With the other diagonals than boxMesh() has.
+/// A box with the opposite diagonals of boxMesh().
 TriangleMesh mirroredBox(const Vector3d& half_size) {
   TriangleMesh mesh = flipped(boxMesh(half_size));
   for (Vector3d& v : mesh.vertices) v.x() = -v.x();
@@ -66,8 +66,8 @@ TEST(DoubtfulMesh, WhatIsInACavityThatMayBeFilledIsNoContact) {
   }
 }
 
-/// Nothing is inside out, but where boxes are tessellated apart and a loose sheet keeps the mesh open, which way their
-/// faces look is a guess.
+/// No box is inside out, but they are tessellated separately and a loose sheet keeps the mesh open, so the orientation
+/// of their faces is a guess.
 TEST(DoubtfulMesh, WhatIsInPartsBesideALooseSheetIsNotClear) {
   struct Case {
     Vector3d first, second, offset, place;
@@ -103,7 +103,7 @@ TEST(DoubtfulMesh, AHullOfFacesThatMeetButForTheLastDigitsHasItsCavity) {
   EXPECT_EQ(verdictOf(mesh, {0.25, 0.25, 0}, {0.251, 0.25, 0}), Verdict::kContact);
 }
 
-/// Of a link with a doubtful mesh, and another element.
+/// A link with a doubtful mesh, and optionally another element.
 BodyDescription doubtfulLink(const std::optional<Shape>& beside) {
   const TriangleMesh sheets = merged(boxMesh({0.3, 0.3, 0.3}), flipped(mirroredBox({0.3, 0.3, 0.3})));
   BodyDescription link = test::body("part", test::meshShape(sheets));
@@ -111,7 +111,7 @@ BodyDescription doubtfulLink(const std::optional<Shape>& beside) {
   return link;
 }
 
-/// Whatever decides about a pair: triangles, fields of half-spaces, or voxels.
+/// For pairs decided by triangles, by fields of half-spaces, and by voxels.
 TEST(DoubtfulMesh, WhatIsInsideIsNeverClearWhateverItIs) {
   TriangleMesh open = boxMesh({0.3, 0.3, 0.3});
   open.triangles.pop_back();

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// A ball that goes through a block twice, and turns.
+/// A ball that passes through a block twice, rotating.
 CycleMotion throughAndBack() {
   std::vector<Isometry3d> ball;
   for (int i = 0; i <= 40; ++i) {
@@ -54,7 +54,7 @@ TEST(ResultJoiner, PiecesTogetherSayWhatTheWholeSays) {
     EXPECT_NEAR(a.intervals[i].exit, b.intervals[i].exit, 1e-9);
   }
   EXPECT_NEAR(a.deepest.depth, b.deepest.depth, 1e-9);
-  EXPECT_NEAR(a.deepest.time, b.deepest.time, 0.2);  // it is as deep for a while
+  EXPECT_NEAR(a.deepest.time, b.deepest.time, 0.2);  // the depth is constant for a while
   EXPECT_EQ(a.points.size(), 5u);
   const double force = b.on_a_W.force.norm();
   EXPECT_GT(force, 1.0);
@@ -64,7 +64,7 @@ TEST(ResultJoiner, PiecesTogetherSayWhatTheWholeSays) {
   EXPECT_NEAR(joiner.motion().times[1], 4.0, 1e-12);
 }
 
-/// Pieces of two seconds each.
+/// Joins pieces of two seconds each.
 CycleResult joined(Monitor& monitor, const CycleMotion& motion, const CycleRequest& request) {
   ResultJoiner joiner(0);
   for (std::size_t first = 0; first + 1 < motion.times.size(); first += 2) {
@@ -80,7 +80,7 @@ BodyOptions exactDepths() {
   return options;
 }
 
-/// A cube whose corner points down, so far below its middle.
+/// A cube with a corner pointing down, kCorner below its centre.
 constexpr double kHalf = 0.05;
 const double kCorner = std::sqrt(3.0) * kHalf, kEdge = std::sqrt(2.0) * kHalf;
 Isometry3d onCorner() {
@@ -99,7 +99,7 @@ TEST(ResultJoiner, WhatAnUncertainPieceMayTouchIsNotApart) {
   const auto at = [](double y, double height) {
     return translation({0.0123, y, kEdge + kCorner + height}) * onCorner();
   };
-  // Its corner passes over the edge, 5 um deep; later it comes down on it.
+  // Its corner passes over the edge, 5 um deep; later it lands on the edge.
   std::vector<Isometry3d> poses{at(-0.0313, -5e-6), at(0.0517, -5e-6)};
   for (int i = 0; i < 9; ++i) poses.push_back(at(0.0517, 0.05 + 0.001 * i));
   poses.push_back(at(0.0, 0.05));
@@ -126,7 +126,7 @@ TEST(ResultJoiner, NoPieceIsDeeperThanTheWholeSays) {
       return translation({0.013, 0.021, kHalf - depth + arm}) * pose({0, 0, 0}, angle, {0, 1, 0}) *
              translation({0, 0, -0.2}) * onCorner();
     };
-    // One piece ends exactly where it is deepest, the next one swings through a little deeper.
+    // One piece ends exactly at its deepest time; the next one swings through a little deeper.
     const std::vector<Isometry3d> poses{at(first - 1e-3, 0.0), at(first, 0.0), at(first - 1e-3, 0.0),
                                         at(second, -half_angle), at(second, half_angle)};
     const CycleMotion motion = cycle(4.0, {std::vector<Isometry3d>(poses.size(), Isometry3d::Identity()), poses});

@@ -23,7 +23,7 @@ MonitorOptions chords(double max_error) {
 }
 
 TEST(MaxError, ReportedBoundIsKeptAndTrue) {
-  // Two balls of 5 cm as meshes, one swinging past the other: how near they come is known.
+  // Two meshes of balls with 5 cm radius, one swinging past the other at a known distance.
   constexpr double kRadius = 0.05;
   const TriangleMesh ball = icosphere(kRadius, 4);
   for (const double max_error : {0.005, 0.001}) {
@@ -33,9 +33,9 @@ TEST(MaxError, ReportedBoundIsKeptAndTrue) {
     EXPECT_EQ(scene->bound.total(), scene->motion_error);  // triangles are exact
     Monitor monitor(scene, chords(max_error));
     int open = 0;
-    for (const double apart : {-1.5, -0.5, -0.1, 0.1, 0.5, 1.5}) {  // of max_error
+    for (const double apart : {-1.5, -0.5, -0.1, 0.1, 0.5, 1.5}) {  // in units of max_error
       const double distance = 2.0 * kRadius + apart * max_error;
-      // On a circle about a place opposite, nearest in the middle of the turn.
+      // On a circle about an opposite point, nearest halfway.
       const Vector3d pivot(distance + 0.3, 0.0, 0.0), arm(-0.3, 0.0, 0.0);
       const Isometry3d from = translation(pivot) * pose({0, 0, 0}, -0.3, {0, 0, 1}) * translation(arm);
       const Isometry3d to = translation(pivot) * pose({0, 0, 0}, 0.3, {0, 0, 1}) * translation(arm);
@@ -44,7 +44,7 @@ TEST(MaxError, ReportedBoundIsKeptAndTrue) {
       EXPECT_LE(pair.error.total(), pair.verdict == Verdict::kClear ? 1e-5 : max_error);
       EXPECT_LE(pair.contact_error.total(), max_error);
       EXPECT_EQ(pair.contact_error.total() > 0.0, pair.deepest.depth > 0.0);
-      // Chords of the icosphere's faces are inside of the ball by this at most.
+      // The icosphere's faces are at most this far inside the ball.
       const double inside = 2.0 * kRadius * 0.002;
       if (apart * max_error > inside) {
         EXPECT_NE(pair.verdict, Verdict::kContact) << apart;
@@ -76,7 +76,7 @@ TEST(MaxError, BoxesAreToldApartAtAMillimetre) {
         .pairs[0]
         .verdict;
   };
-  EXPECT_EQ(verdictAt(0.0017), Verdict::kClear);  // the bound, and what the field may be off by
+  EXPECT_EQ(verdictAt(0.0017), Verdict::kClear);  // the bound plus the field's error
   EXPECT_EQ(verdictAt(-0.0017), Verdict::kContact);
 }
 
@@ -100,7 +100,7 @@ TEST(MaxError, ATableIsHeldToTheEdgeGap) {
   const auto scene = std::make_shared<const Scene>(buildScene(description, plan, options));
   EXPECT_LE(scene->contact_bound.total(), 0.001);
   EXPECT_LT(scene->bodies[0].shell->size(), 30000u);
-  // The table bears no force of its own: what presses is the link's whole shell, not half of it.
+  // The table bears no force itself: the force is that of the link's whole shell, not half of it.
   const auto force = [](const std::shared_ptr<const Scene>& scene) {
     Monitor monitor(scene, soft());
     return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.045}))}), {})
@@ -109,7 +109,7 @@ TEST(MaxError, ATableIsHeldToTheEdgeGap) {
   };
   constexpr double kPressed = kStiffness * 0.2 * 0.1 * 0.005;
   EXPECT_NEAR(force(scene), kPressed, 0.15 * kPressed);
-  // A corner of the table in the middle of the link's large face is seen.
+  // A corner of the table at the centre of the link's large face is detected.
   Monitor monitor(scene, chords(0.001));
   const Isometry3d tilted =
       translation({1.0, 0.6, 0.02}) * pose({0, 0, 0}, 0.9, {1, -1, 0}) * translation({0, 0, 0.029});
@@ -129,7 +129,7 @@ TEST(MaxError, WhatWouldBeTooLargeIsMadeCoarserAndSaysSo) {
   EXPECT_NE(scene->reports[0].warnings[0].find("m instead"), std::string::npos) << scene->reports[0].warnings[0];
   EXPECT_EQ(scene->reports[1].warnings.size(), 1u);
   EXPECT_NE(planTable(*scene).find("within the max_error of 0.50"), std::string::npos) << planTable(*scene);
-  options.is_shared_out = false;  // settings that were asked for one by one are not changed
+  options.is_shared_out = false;  // explicit settings are not changed
   EXPECT_NE(build(description, options)->bodies[0].failure, "");
 }
 
@@ -152,7 +152,7 @@ TEST(MaxError, CostIsExpectedWithinAFactorOfTwo) {
     EXPECT_EQ(cost.bodies.size(), 4u);
     EXPECT_GT(cost.bodies[0].field_seconds, 0.0);
     EXPECT_LE(cost.bodies[0].field_seconds, cost.bodies[0].seconds);
-    EXPECT_EQ(cost.bodies[2].field_seconds, 0.0);  // of a's mesh
+    EXPECT_EQ(cost.bodies[2].field_seconds, 0.0);  // the same mesh as a's
     EXPECT_EQ(summary(cost).find("about "), 0u) << summary(cost);
   }
 }
@@ -189,7 +189,7 @@ TEST(MaxError, WhatTheCacheHasIsNotSampled) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(cost.bodies[i].in_cache);
     EXPECT_EQ(cost.bodies[i].seconds, 0.0);
-    EXPECT_FALSE(cost.meshes->find(description.bodies[i].geometry[0]).made.solid);  // which a sample needs
+    EXPECT_FALSE(cost.meshes->find(description.bodies[i].geometry[0]).made.solid);  // only a sample of cells needs it
   }
   std::filesystem::remove_all(options.cache_directory);
 }
@@ -198,7 +198,7 @@ SceneCost affordable(const SceneDescription& description, const BodyOptions& opt
   return affordableCost(description, planScene(description, planOptions(options)), options);
 }
 
-/// What affordableCost() says against it; empty if it does not.
+/// The error message of affordableCost(); empty if it does not throw.
 std::string refusal(const SceneDescription& description, const BodyOptions& options) {
   return failureOf<std::logic_error>([&] { affordable(description, options); });
 }

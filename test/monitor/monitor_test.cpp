@@ -50,7 +50,7 @@ TEST(Monitor, FindsContactBetweenTheSamples) {
   EXPECT_NEAR(pair.intervals[0].exit, 0.1 * (0.1 + 0.0205) / 0.2, 1e-3);
   EXPECT_EQ(pair.points.size(), 5u);
   EXPECT_EQ(pair.points[0].depth, pair.deepest.depth);
-  EXPECT_GT(pair.deepest.depth, 0.9e-2);  // the plate's points in the ball
+  EXPECT_GT(pair.deepest.depth, 0.9e-2);  // of the plate's points inside the ball
 }
 
 TEST(Monitor, SeesWhatASampleSees) {
@@ -67,7 +67,7 @@ TEST(Monitor, SeesWhatASampleSees) {
 }
 
 TEST(Monitor, QuarterTurnWithinOneCycle) {
-  // A bar swings through a post that it meets neither before nor after.
+  // A bar swings through a post that it touches neither before nor after.
   BodyDescription bar = body("bar", Primitive(Box{{0.25, 0.02, 0.02}}));
   bar.geometry[0].X_BG = translation({0.35, 0, 0});
   const auto scene = build({body("post", Primitive(Cylinder{0.03, 0.2}), true), bar});
@@ -78,7 +78,7 @@ TEST(Monitor, QuarterTurnWithinOneCycle) {
   EXPECT_EQ(pair.verdict, Verdict::kContact);
   EXPECT_FALSE(touchesAtEnds(pair, 0.1));
   EXPECT_LT(pair.error.chord, 2e-4);
-  // The chord of the bar's tip passes inside of the arc: a straight path would give other times.
+  // The chord of the bar's tip runs inside the arc: a straight path would give other times.
   const double half_angle = std::asin((0.03 + 0.02) / (0.3 * std::sqrt(2.0)));
   ASSERT_EQ(pair.intervals.size(), 1u);
   EXPECT_NEAR(pair.intervals[0].enter, 0.1 * (0.5 - half_angle / (kPi / 2)), 1e-3);
@@ -126,7 +126,7 @@ bool same(const ErrorBound& a, const ErrorBound& b) {
   return a.field == b.field && a.chord == b.chord && a.root == b.root && a.gap == b.gap;
 }
 
-/// Bit by bit.
+/// Bitwise equality.
 void expectSame(const CycleResult& a, const CycleResult& b) {
   EXPECT_EQ(a.verdict, b.verdict);
   EXPECT_EQ(a.error_bound, b.error_bound);
@@ -150,7 +150,7 @@ void expectSame(const CycleResult& a, const CycleResult& b) {
   }
 }
 
-/// What cycles keep for the next ones (clearances, witnesses, memory) is in it too, and bodies of all kinds.
+/// Includes the state that is kept between cycles (clearances, witnesses, memory), for bodies of all kinds.
 TEST(Monitor, CyclesDoNotDependOnThreads) {
   std::vector<BodyDescription> bodies = {body("ground", ground(), true)};
   for (int i = 0; i < 3; ++i) {
@@ -199,7 +199,7 @@ TEST(Monitor, WithoutSubscribersNoWrenchAndNoPoints) {
   EXPECT_NEAR(pair.deepest.depth, 0.01, 1e-3);
 }
 
-/// Deep inside, a field knows the depth by far less than it does near the surface; a bead may be in the cavity.
+/// Deep inside, a field's depth is much less accurate than near the surface: the bead may be in the cavity.
 TEST(Monitor, MotionErrorBeyondTheBandNeverMakesContact) {
   BodyOptions options = fine(0.004);
   options.field.cells = 64;
@@ -224,7 +224,7 @@ TEST(Monitor, MotionErrorBeyondTheBandNeverMakesContact) {
 }
 
 TEST(Monitor, BoundBeyondTheBandNeverMakesClear) {
-  // Only a sampled field, with a narrow band, and a motion that is known to 20 cm.
+  // Only a sampled field with a narrow band, and a motion error of 20 cm.
   BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
   map.geometry[0].watertight_voxels = true;
   const auto scene = build({map, body("ball", Primitive(Sphere{0.05}))});
@@ -283,12 +283,12 @@ TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
   EXPECT_EQ(first.checked + first.skipped, 1);
   EXPECT_EQ(first.not_checked, 0);
   EXPECT_NEAR(first.pairs[0].intervals[0].enter, all.pairs[0].intervals[0].enter, 1e-12);
-  EXPECT_LT((2.0 * all.pairs[0].on_a_W.force - first.pairs[0].on_a_W.force).norm(), 1e-9);  // half of the time
+  EXPECT_LT((2.0 * all.pairs[0].on_a_W.force - first.pairs[0].on_a_W.force).norm(), 1e-9);  // over half of the time
   EXPECT_LT((2.0 * all.pairs[0].on_b_W.force - first.pairs[0].on_b_W.force).norm(), 1e-9);
 
   motion.spans = {{2, 4}, {0, 2}, {2, 2}};
   const CycleResult& second = monitor.run(motion, {});
-  EXPECT_EQ(second.verdict, Verdict::kNotChecked);  // what was checked is CLEAR, but one pair is delayed
+  EXPECT_EQ(second.verdict, Verdict::kNotChecked);  // the checked pairs are CLEAR, but one pair is delayed
   EXPECT_EQ(second.pairs[0].verdict, Verdict::kClear);
   EXPECT_EQ(second.pairs[1].verdict, Verdict::kClear);
   motion.spans = {{4, 4}, {2, 4}, {0, 4}};

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// A ball pressed δ into a plate; the same for both orders of bodies, wherever in the world.
+/// A ball pressed δ deep into a plate.
 struct Pressed {
   double R = 0.1, delta = 0.005;
   double force() const { return kPi * kStiffness * R * delta * delta; }
@@ -25,10 +25,10 @@ TEST(MonitorWrench, BothRolesDoNotDouble) {
   EXPECT_NEAR(pair.on_a_W.force.z(), press.force(), 0.05 * press.force());
   EXPECT_LT((pair.on_a_W.force + pair.on_b_W.force).norm(), 1e-9 * press.force());
   EXPECT_GT(pair.deepest.normal_W.z(), -1.0 - 1e-9);
-  EXPECT_LT(pair.deepest.normal_W.z(), -0.9);  // from A, above, to B
+  EXPECT_LT(pair.deepest.normal_W.z(), -0.9);  // from A, which is above, to B
 }
 
-/// More chords, and points on them, than are looked at together: the contact is still one, and bears the same force.
+/// More chords, and points on them, than one block holds: still one contact, with the same force.
 TEST(MonitorWrench, HowFarABallRollsDoesNotMatter) {
   const Pressed press{0.1, 0.05};
   const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{press.R}))}, fine(0.003));
@@ -45,7 +45,7 @@ TEST(MonitorWrench, HowFarABallRollsDoesNotMatter) {
   EXPECT_NEAR(pair.intervals[0].enter, 0.0, 1e-6);
   EXPECT_NEAR(pair.intervals[0].exit, 0.5, 1e-6);
   EXPECT_NEAR(pair.deepest.depth, press.delta, 1e-4);
-  // 9.5 rad: every point that comes down is below the ground for the third of a revolution, in one piece.
+  // 9.5 rad: every point that comes down is below the ground for a third of a revolution, in one piece.
   std::size_t long_ones = 0;
   for (const ContactPoint& point : pair.points) {
     EXPECT_LT(point.exit - point.enter, 0.5 * 2.2 / 9.5);
@@ -77,7 +77,7 @@ TEST(MonitorWrench, MomentsAreAboutBothOrigins) {
   const Vector3d p_A(0.4, -0.3, press.R - press.delta);
   const PairResult pair =
       monitor.run(cycle(0.1, {still(translation(p_A)), still(Isometry3d::Identity())}), {}).pairs[0];
-  // The contact's centre lies below the ball's: no moment about it, p × F about the ground's origin.
+  // The contact's centre is below the ball's: no moment about it, and p × F about the ground's origin.
   const Vector3d force(0, 0, press.force());
   EXPECT_LT((pair.on_a_W.force - force).norm(), 0.02 * force.norm());
   EXPECT_LT(pair.on_a_W.torque.norm(), 0.01 * press.R * force.norm());
@@ -145,12 +145,12 @@ TEST(MonitorWrench, OverlappingPartsOfABodyPushOnce) {
       cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.03 + press.R - press.delta}))});
   const double once = one.run(motion, {}).pairs[0].on_b_W.force.z(),
                found = two.run(motion, {}).pairs[0].on_b_W.force.z();
-  // The ball's points in the two boxes count once; of the boxes' points the doubled face's stay.
+  // The ball's points inside both boxes count once; of the boxes' points, those of the doubled face all remain.
   EXPECT_NEAR(found, 1.5 * once, 0.1 * once);
 }
 
 TEST(MonitorWrench, PartsLieWhereTheirBodyPutsThem) {
-  // The ground is a part that stands upright in its body: it pushes along the body's x.
+  // The ground is a part that is upright in its body: it pushes along the body's x.
   BodyDescription wall = body("wall", ground(), true);
   wall.geometry[0].X_BG = pose({0.3, 0.1, 0.2}, kPi / 2.0, {0, 1, 0});
   const Pressed press;
@@ -164,7 +164,7 @@ TEST(MonitorWrench, PartsLieWhereTheirBodyPutsThem) {
 }
 
 TEST(MonitorWrench, TurntableIsTheSameInOneStepAndInMany) {
-  // A ball pressed off-centre onto a turning table, with damping: force, drag and moment are constant in the world.
+  // A ball pressed off-centre onto a rotating table, with damping: force, drag and moment are constant in the world.
   const Pressed press;
   const auto scene = build({body("table", ground()), body("ball", Primitive(Sphere{press.R}))}, fine(0.005));
   MonitorOptions options = soft();
@@ -179,11 +179,11 @@ TEST(MonitorWrench, TurntableIsTheSameInOneStepAndInMany) {
   EXPECT_LT((one.on_a_W.force - many.on_a_W.force).norm(), 2e-3 * many.on_a_W.force.norm());
   EXPECT_LT((one.on_a_W.torque - many.on_a_W.torque).norm(), 2e-3 * many.on_a_W.torque.norm());
   EXPECT_LT((one.on_b_W.torque - many.on_b_W.torque).norm(), 2e-3 * many.on_a_W.torque.norm());
-  // The table drags the ball along +y and is braked by it.
+  // The table drags the ball along +y and is slowed down by it.
   EXPECT_GT(one.on_b_W.force.y(), 0.1 * press.force());
   EXPECT_LT(one.on_a_W.torque.z(), 0.0);
   EXPECT_NEAR(one.on_b_W.force.z(), press.force(), 0.03 * press.force());
-  // Each point is in contact once, all the time, though the path has many chords.
+  // Each point is in contact once, all the time, although the path has many chords.
   EXPECT_GT(one.points.size(), 10u);
   EXPECT_LT(one.points.size(), 200u);
   for (const ContactPoint& point : one.points) {
@@ -212,7 +212,8 @@ TEST(MonitorWrench, MeshesPressAsTheirShapesDo) {
 }
 
 TEST(MonitorWrench, HundredMetresPerSecondThroughOneMillimetre) {
-  // A ball through a thin plate within a hundredth of a cycle: damping takes k_D times the volume that each swept.
+  // A ball passes through a thin plate within a hundredth of a cycle: damping absorbs k_D times the volume swept by
+  // each.
   const double R = 0.02, thickness = 1e-3, T = 0.01, v = 100.0, damping = 1e6;
   const auto scene =
       build({body("ball", Primitive(Sphere{R})), body("plate", Primitive(Box{{0.03, 0.03, thickness / 2}}), true)},
@@ -229,8 +230,9 @@ TEST(MonitorWrench, HundredMetresPerSecondThroughOneMillimetre) {
           .pairs[0];
   EXPECT_EQ(pair.verdict, Verdict::kContact);
   EXPECT_FALSE(touchesAtEnds(pair, T));
-  // Per unit of area a point is inside for thickness / v, or for the ball's chord / v: the integral over the ball's
-  // surface of thickness, and over the plate's two faces of the chord, which is the ball's volume each. Half of both.
+  // Per unit of area a point is inside for thickness / v, or for the ball's chord / v: the integrals are, over the
+  // ball's surface, of the thickness, and over each of the plate's two faces, of the chord, which is the ball's volume.
+  // Half of both.
   const double impulse = damping * 0.5 * (4.0 * kPi * R * R * thickness + 2.0 * (4.0 / 3.0) * kPi * R * R * R);
   EXPECT_NEAR(pair.on_a_W.force.z() * T, impulse, 0.03 * impulse);
   EXPECT_NEAR(pair.intervals.front().enter, (0.47 - R - thickness / 2) / v, 1e-5);

@@ -12,7 +12,7 @@ using namespace test;
 
 TEST(NearestBody, FindsTheNearestAndItsGradient) {
   const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.05));
-  // Only the ground's field is planned: the ball is ever a shell.
+  // Only the ground's field is planned: the ball needs only a shell.
   const std::vector<Isometry3d> X_WB = {pose({0, 0, -1}, kPi / 2, {0, 1, 0}), Isometry3d::Identity()};
   const NearestBody nearest = nearestBody(*scene, X_WB, {0.7, 0.2, 0.3});
   EXPECT_EQ(nearest.body, 0);
@@ -26,7 +26,7 @@ TEST(NearestBody, FindsTheNearestAndItsGradient) {
   EXPECT_EQ(nearestBody(Scene{}, {}, {0, 0, 0}).body, -1);
 }
 
-/// Half a metre wide, without a lid: nobody knows on which side its middle is.
+/// A bin half a metre wide without a lid: its centre may be on either side.
 TEST(NearestBody, ErrorHoldsForEitherSideOfAnOpenMesh) {
   const auto scene = build({body("ball", Primitive(Sphere{0.1})), body("bin", meshShape(binMesh(0.25)))}, fine(0.05));
   const std::vector<Isometry3d> X_WB = {translation({9, 0, 0}), Isometry3d::Identity()};
@@ -34,7 +34,7 @@ TEST(NearestBody, ErrorHoldsForEitherSideOfAnOpenMesh) {
   EXPECT_EQ(middle.body, 1);
   EXPECT_LE(middle.distance - middle.error, -0.2);
   EXPECT_GE(middle.distance + middle.error, 0.2);
-  // Above the opening's middle the mesh is as far as its rim.
+  // Above the opening's centre, the nearest part of the mesh is its rim.
   const Vector3d above(0, 0, 0.3);
   const NearestBody over = nearestBody(*scene, X_WB, above);
   EXPECT_LE(over.distance - over.error, std::hypot(0.25, 0.05));

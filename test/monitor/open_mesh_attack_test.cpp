@@ -6,14 +6,14 @@
 #include "oracle/triangle_distance.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-/// Looks for motions of open meshes that are called CONTACT although their triangles never meet, or CLEAR although they
-/// do.
+/// Searches for motions of open meshes with the verdict CONTACT although their triangles never meet, or CLEAR although
+/// they do.
 namespace sdf_ccd {
 namespace {
 
 using test::Random;
 
-/// A solid with holes: a patch, or triangles here and there; with cracks or without.
+/// A solid with holes: a missing patch, or single triangles missing; with or without cracks.
 TriangleMesh openMesh(Random& random, double size) {
   const int kind = int(random() % 3);
   TriangleMesh mesh = kind == 0   ? test::boxMesh(size * Vector3d(1, test::uniform(random, 0.1, 1), 0.8))
@@ -38,7 +38,7 @@ TriangleMesh openMesh(Random& random, double size) {
 }
 
 struct Case {
-  TriangleMesh a, b;  // as the scene turns them outward
+  TriangleMesh a, b;  // oriented as in the scene
   std::shared_ptr<const Scene> scene;
 };
 
@@ -58,7 +58,7 @@ Case makeCase(Random& random) {
   return made;
 }
 
-/// A's displacement runs straight.
+/// A translation of A along a straight line.
 struct Path {
   Vector3d start, end;
 };
@@ -71,7 +71,7 @@ Verdict verdictOf(Monitor& monitor, const Path& path) {
       .verdict;
 }
 
-/// Between which numbers the least distance of the triangles on the way lies: distances change by no more than places.
+/// Bounds of the smallest distance of the triangles along the path; distances change by no more than positions.
 struct Least {
   double low, high;
 };
@@ -107,7 +107,7 @@ TEST(OpenMeshAttack, ContactsAreCrossingsAndWhatIsClearIsFree) {
   EXPECT_GT(count[static_cast<int>(Verdict::kContact)], 20);
 }
 
-/// Climbs: keeps a change of the path if the verdict stays and the truth moves away from it.
+/// Climbs: keeps a change of the path if the verdict stays and the true distance moves away from it.
 TEST(OpenMeshAttack, ClimbingFindsNoFalseVerdict) {
   Random random(2);
   for (const Verdict wanted : {Verdict::kContact, Verdict::kClear}) {
@@ -137,7 +137,7 @@ TEST(OpenMeshAttack, ClimbingFindsNoFalseVerdict) {
   }
 }
 
-/// Triangles as fine as the disc is thin would be too many.
+/// A tessellation as fine as the disc is thin would have too many triangles.
 TEST(OpenMeshAttack, ADiscOfHardlyAnyThickness) {
   const auto scene = test::build(
       {test::body("bin", test::meshShape(test::binMesh(0.2))), test::body("disc", Primitive(Cylinder{0.5, 1e-12}))});

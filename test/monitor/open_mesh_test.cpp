@@ -9,7 +9,7 @@ namespace {
 
 using test::translation;
 
-constexpr double kHalf = 0.22;  // of the bin's side [m]
+constexpr double kHalf = 0.22;  // half of the bin's side [m]
 constexpr double kBall = 0.02;  // radius [m]
 
 BodyOptions coarse() {
@@ -19,7 +19,7 @@ BodyOptions coarse() {
   return options;
 }
 
-/// The ball moves in the bin's frame from `start` to `end`.
+/// Result for the ball that moves from `start` to `end` in the bin's frame.
 PairResult ballAndBin(const Vector3d& start, const Vector3d& end) {
   const auto scene = test::build(
       {test::body("ball", Primitive(Sphere{kBall})), test::body("bin", test::meshShape(test::binMesh(kHalf)))},
@@ -33,7 +33,7 @@ PairResult ballAndBin(const Vector3d& start, const Vector3d& end) {
 TEST(OpenMesh, ABallFreeInALidlessBinIsNoContact) {
   const PairResult result = ballAndBin(Vector3d::Zero(), {0, 0, 0.01});
   EXPECT_EQ(result.verdict, Verdict::kUncertain);
-  // Its depth may be none, and it is not pushed.
+  // Its depth may be wrong altogether, so it is not pushed.
   EXPECT_GE(result.deepest.depth_error, result.deepest.depth);
   EXPECT_EQ(result.on_a_W.force.norm(), 0.0);
 }
@@ -43,7 +43,7 @@ TEST(OpenMesh, ABallBesideALidlessBinIsClear) {
   EXPECT_EQ(ballAndBin({0, 0, 0.4}, {0, 0.1, 0.3}).verdict, Verdict::kClear);
 }
 
-/// In through the opening, down to the middle.
+/// In through the opening, down to the centre.
 TEST(OpenMesh, ABallThatEntersALidlessBinIsNoContact) {
   EXPECT_EQ(ballAndBin({0, 0, 0.4}, {0, 0, 0}).verdict, Verdict::kUncertain);
 }
@@ -59,7 +59,7 @@ TEST(OpenMesh, ABallAtRestHalfThroughTheWallIsAContact) {
   EXPECT_GT(result.on_a_W.force.x(), 0.0) << "out by the wall";
 }
 
-/// It lies at the wall, and moves to the middle: it has come out of nothing.
+/// It starts at the wall and moves to the centre, without ever having been inside the wall.
 TEST(OpenMesh, ABallThatLeavesTheWallFromWithinIsNoContact) {
   for (const double gap : {-0.0005, 0.0, 0.0005, 0.002}) {
     const double start = kHalf - kBall - gap;
@@ -67,14 +67,14 @@ TEST(OpenMesh, ABallThatLeavesTheWallFromWithinIsNoContact) {
   }
 }
 
-/// Half through the opening, where nothing is.
+/// Halfway through the opening, where there is no surface.
 TEST(OpenMesh, ABallAtRestInTheOpeningIsNoContact) {
   EXPECT_EQ(ballAndBin({0, 0, kHalf}, {0, 0, kHalf}).verdict, Verdict::kUncertain);
 }
 
-/// On the bin's floor lies a thin pad, which the ball dips into by less than it may be off, and leaves for the middle
-/// of the bin. Neither proves a contact, and nor do both, although the ball is far inside the one and was inside the
-/// other.
+/// A thin pad lies on the bin's floor. The ball dips into it by less than the motion error, and moves to the centre of
+/// the bin. Neither proves a contact, and together they do not either, although the ball is far inside the closed bin
+/// and was inside the pad.
 TEST(OpenMesh, ABallFreeInALidlessBinFromItsPadIsNoContact) {
   constexpr double kPad = 0.006, kDip = 0.004, kError = 0.005;
   for (const bool with_bin : {false, true}) {
@@ -94,7 +94,7 @@ TEST(OpenMesh, ABallFreeInALidlessBinFromItsPadIsNoContact) {
   }
 }
 
-/// A mere sheet has no inside, so nothing is ever deep in it; a rod through it crosses it all the same.
+/// A sheet has no inside, so nothing is ever deep in it; a rod through it crosses it nevertheless.
 TEST(OpenMesh, ARodThroughASheetIsAContact) {
   TriangleMesh sheet;
   sheet.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -113,7 +113,7 @@ TEST(OpenMesh, ARodThroughASheetIsAContact) {
   EXPECT_EQ(verdictAt(0.3).verdict, Verdict::kClear);
 }
 
-/// What no pair with an opening needs is not built.
+/// BodySurface is built only for pairs with an opening.
 TEST(OpenMesh, TrianglesAreKeptOnlyForPairsWithOpenings) {
   const auto scene = test::build(
       {test::body("ball", Primitive(Sphere{kBall})), test::body("bin", test::meshShape(test::binMesh(kHalf))),
@@ -122,7 +122,7 @@ TEST(OpenMesh, TrianglesAreKeptOnlyForPairsWithOpenings) {
   EXPECT_TRUE(scene->bodies[0].surface && scene->bodies[1].surface);
   EXPECT_EQ(scene->bodies[1].surface->mesh.triangles.size(), 10U) << "caps are no surface";
   EXPECT_FALSE(scene->bodies[2].surface);
-  EXPECT_EQ(scene->reports[1].warnings.size(), 2U);  // what is not certain of it, and its caps
+  EXPECT_EQ(scene->reports[1].warnings.size(), 2U);  // its uncertain inside, and its caps
   const auto closed = test::build({test::body("ball", Primitive(Sphere{kBall})),
                                    test::body("box", test::meshShape(test::boxMesh(Vector3d::Constant(kHalf))))},
                                   coarse());

@@ -42,7 +42,7 @@ TEST(OverBudget, NamesWhatWasMadeCoarser) {
   const auto scene =
       build({body("a", meshShape(icosphere(0.1, 3))), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))}, options);
   EXPECT_EQ(overBudget(*scene), "");  // triangles decide
-  Scene without = *scene;             // as of bodies of more than half a million
+  Scene without = *scene;             // as for bodies with more than half a million triangles
   for (std::size_t i = 0; i < without.bodies.size(); ++i) without.bodies.edit(i).triangles.reset();
   without.bound = without.contact_bound;
   const std::string text = overBudget(without);

@@ -19,7 +19,7 @@ using test::Vector3r;
 
 constexpr double kRange = 0.3;
 
-/// Of two boxes, by their faces.
+/// Exact distance of two boxes, from their faces.
 double boxDistance(const Vector3d& half_a, const Isometry3d& X_WA, const Vector3d& half_b, const Isometry3d& X_WB) {
   const TriangleMesh a = test::boxMesh(half_a), b = test::boxMesh(half_b);
   Real least = 1e300L;
@@ -46,7 +46,7 @@ class PairDistancesTest : public ::testing::Test {
     return update(motion);
   }
 
-  /// Of a cycle that begins where the last one ended.
+  /// Runs a cycle that starts where the last one ended.
   const std::vector<PairDistance>& update(const CycleMotion& motion) {
     result_ = monitor_.run(motion, {true, 3});
     const auto origin = std::chrono::nanoseconds(std::llround(1e9 * end_));
@@ -54,7 +54,7 @@ class PairDistancesTest : public ::testing::Test {
     return distances_.update(motion, result_, kRange, {origin});
   }
 
-  /// All pairs wait in it.
+  /// A motion in which all pairs are delayed.
   static CycleMotion delayed(const Scene& scene, const std::vector<Isometry3d>& at, double length) {
     CycleMotion motion;
     motion.times = {0.0, length};
@@ -70,7 +70,7 @@ class PairDistancesTest : public ::testing::Test {
   Monitor monitor_;
   PairDistances distances_;
   CycleResult result_;
-  double end_ = 0.0;  // of the last cycle [s]
+  double end_ = 0.0;  // end of the last cycle [s]
 };
 
 const Vector3d PairDistancesTest::kBox(0.1, 0.05, 0.08), PairDistancesTest::kBlock(0.05, 0.3, 0.2);
@@ -80,7 +80,7 @@ TEST_F(PairDistancesTest, AreTrueWithWitnessesOnBothBodiesAndNothingNearIsLeftOu
   int near = 0, left_out = 0, of_ground = 0;
   std::vector<Isometry3d> last;
   for (int i = 0; i < 400; ++i) {
-    // Small steps, and now and then a large one.
+    // Small steps, with a large one now and then.
     const std::vector<Isometry3d> now =
         last.empty() || i % 50 == 0
             ? std::vector<Isometry3d>{test::translation({0.5, 0, 0.5}) * test::pose(random, 3.0, 0.4),
@@ -152,12 +152,12 @@ TEST_F(PairDistancesTest, SpeedsAreThoseAtWhichTheyClose) {
   CycleMotion motion;
   motion.times = {0.0, 0.1};
   for (const Isometry3d& X : rest) motion.X_WB.push_back({X, X});
-  const auto over = [&](const std::vector<double>& gaps) {  // poses are interpolated over as long
+  const auto over = [&](const std::vector<double>& gaps) {  // poses are interpolated over these times
     const auto& between = distances_.update(motion, monitor_.run(motion, {true, 3}), kRange, {{}, &gaps});
     EXPECT_EQ(between[0].slab->over, between[0].any.over);
     return between[0].any.over;
   };
-  EXPECT_EQ(over({0.1, 0.1, 0.0, 0.0}), 0.1);  // both moved from sample to sample
+  EXPECT_EQ(over({0.1, 0.1, 0.0, 0.0}), 0.1);  // both have moved from sample to sample
   EXPECT_EQ(over({0.25, 0.0, 0.0, 0.0}), 0.25);
   EXPECT_EQ(over({0.25, 0.15, 0.0, 0.0}), 0.4);
 }
@@ -169,15 +169,15 @@ TEST_F(PairDistancesTest, WhatTouchesHasNone) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].distance, 0.0);
   EXPECT_EQ(found[0].any.width, 0.0);
-  // Wholly inside it touches no surface.
+  // A body wholly inside touches no surface.
   const std::vector<Isometry3d> inside = {touch[0], touch[1], test::translation({0, 0, 0.5}), touch[3]};
   for (const PairDistance& each : cycle(inside, inside)) EXPECT_EQ(each.any.width, 0.0) << each.pair;
 }
 
 TEST_F(PairDistancesTest, WhatHasJustLeftDoesNotTouch) {
-  const double touching = 0.4 - 0.25 - 1e-6;  // where the box touches the block
+  const double touching = 0.4 - 0.25 - 1e-6;  // the box touches the block
   CycleMotion motion;
-  motion.times = {0.0, 0.0325, 0.0333};  // leaves at 5 m/s in the last 0.8 ms
+  motion.times = {0.0, 0.0325, 0.0333};  // separates at 5 m/s in the last 0.8 ms
   const auto at = [](double x) { return test::translation({x, 0, 0.5}); };
   motion.X_WB = {{at(touching), at(touching), at(touching + 0.004)},
                  std::vector<Isometry3d>(3, at(0.0)),
@@ -233,7 +233,7 @@ TEST_F(PairDistancesTest, OfPairsThatAreDelayedTheLastOneStands) {
   cycle(rest, rest);
   CycleMotion motion = delayed(*scene_, rest, 0.01);
   ASSERT_EQ(update(motion).size(), 1u);
-  EXPECT_NEAR(distances_.near()[0].time, 0.0, 1e-12);  // the end of the cycle before, however long that was
+  EXPECT_NEAR(distances_.near()[0].time, 0.0, 1e-12);  // the end of the last cycle, whatever its length
   update(motion);
   EXPECT_NEAR(distances_.near()[0].time, -0.01, 1e-12);
   EXPECT_FALSE(distances_.hasUnknown());
@@ -248,13 +248,13 @@ TEST_F(PairDistancesTest, WhatIsDelayedAndWasNotMeasuredIsUnknown) {
                                         test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
   const CycleMotion waits = delayed(*scene_, rest, 0.1);
   update(waits);
-  EXPECT_TRUE(distances_.hasUnknown());  // from the first cycle on
+  EXPECT_TRUE(distances_.hasUnknown());  // already in the first cycle
   cycle(rest, rest);
   EXPECT_FALSE(distances_.hasUnknown());
   update(waits);
   EXPECT_FALSE(distances_.hasUnknown());
   distances_.update(waits, result_, 2.0 * kRange, {});
-  EXPECT_TRUE(distances_.hasUnknown());  // others may be that near
+  EXPECT_TRUE(distances_.hasUnknown());  // other pairs may be within this range
   CycleMotion lost = waits;
   lost.spans.clear();
   lost.missing = {"lost", "", "", ""};
@@ -273,7 +273,7 @@ TEST_F(PairDistancesTest, WhatIsDelayedAndWasNotMeasuredIsUnknown) {
   result_ = monitor_.run(waits, {true, 3});
   same.update(waits, result_, kRange, {});
   EXPECT_FALSE(same.hasUnknown());
-  now.back() = -1;  // another body in its place
+  now.back() = -1;  // another body replaces it
   other.take(same, now);
   other.update(waits, result_, kRange, {});
   EXPECT_TRUE(other.hasUnknown());
@@ -291,7 +291,7 @@ TEST_F(PairDistancesTest, TwoScenesTakenOverInARowKeepIt) {
   const CycleMotion motion = delayed(*scene_, rest, 0.1);
   result_ = monitor_.run(motion, {true, 3});
   EXPECT_EQ(last.update(motion, result_, kRange, {}).size(), 1u);
-  std::fill(same.begin(), same.end(), -1);  // no pair stays
+  std::fill(same.begin(), same.end(), -1);  // no pair is kept
   PairDistances other(scene_);
   other.take(last, same);
   EXPECT_TRUE(other.update(motion, result_, kRange, {}).empty());

@@ -15,7 +15,7 @@ inline Shape meshShape(TriangleMesh mesh) {
   return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 
-/// A body of one part at its own origin, in a frame of its own name.
+/// A body of one part at its origin, in a frame with its own name.
 inline BodyDescription body(const std::string& name, const Shape& shape, bool is_world = false) {
   BodyDescription body;
   body.name = name;
@@ -34,7 +34,7 @@ inline BodyOptions fine(double spacing = 0.01) {
 
 constexpr double kStiffness = 1e7;  // [N/m^3]
 
-/// A monitor's options for bodies as soft as that.
+/// A monitor's options with the stiffness kStiffness.
 inline MonitorOptions soft() {
   MonitorOptions options;
   options.contact.stiffness = kStiffness;
@@ -49,7 +49,7 @@ inline std::shared_ptr<const Scene> build(std::vector<BodyDescription> bodies, c
   return build(SceneDescription{std::move(bodies), {}}, options);
 }
 
-/// Poses per body at times evenly spread over the cycle.
+/// A motion from poses per body, at times evenly spread over the cycle.
 inline CycleMotion cycle(double length, std::vector<std::vector<Isometry3d>> X_WB) {
   CycleMotion motion;
   const std::size_t waypoints = X_WB.front().size();
@@ -62,7 +62,7 @@ inline std::vector<Isometry3d> still(const Isometry3d& X, std::size_t waypoints 
   return {waypoints, X};
 }
 
-/// Whether a check at the first or the last instant alone would see the contact.
+/// Whether a check at the first or last instant alone would detect the contact.
 inline bool touchesAtEnds(const PairResult& pair, double length) {
   const double rounding = 1e-9 * length;
   for (const Interval& interval : pair.intervals)

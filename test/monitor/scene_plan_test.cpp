@@ -55,7 +55,7 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   EXPECT_TRUE(plan.pairs[1].a_shell_b_field);
   EXPECT_FALSE(plan.pairs[1].b_shell_a_field);
   EXPECT_EQ(plan.needs_shell, (std::vector<bool>{false, true, false}));
-  // Voxels may lie wholly inside the arm: its field shows that of their witnesses.
+  // Voxels may lie wholly inside the arm: its field at their witness points shows that.
   EXPECT_TRUE(plan.pairs[0].a_witnesses_b_field);
   EXPECT_FALSE(plan.pairs[0].b_witnesses_a_field);
   EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{true, false, false}));
@@ -93,7 +93,7 @@ TEST(ScenePlan, BodiesArePreparedForATileThatIsToCome) {
   std::vector<BodyDescription> bodies = {body("link", kBall), body("tile", kBall, true)};
   bodies[1].geometry[0].watertight_voxels = true;
   bodies[1].failure = "no map has come yet";
-  EXPECT_FALSE(planScene({bodies, {}}).needs_shell[0]);  // of a body that failed nothing comes
+  EXPECT_FALSE(planScene({bodies, {}}).needs_shell[0]);  // a body that failed will not come
   bodies[1].map = "map";
   const ScenePlan plan = planScene({bodies, {}});
   ASSERT_EQ(plan.pairs.size(), 1u);
@@ -124,7 +124,7 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   EXPECT_TRUE(plan.pairs[0].b_shell_a_field);
   EXPECT_TRUE(plan.pairs[1].a_shell_b_field);  // table – wall: both are large, so both are sampled
   EXPECT_TRUE(plan.pairs[1].b_shell_a_field);
-  // A large body that a smaller one could still hold keeps its shell, and so does every body at a coarse spacing.
+  // A large body that a smaller one could still contain keeps its shell, and so does every body at a coarse spacing.
   const SceneDescription cubes{{body("cube", Primitive(Box{{0.5, 0.5, 0.5}})), body("ball", Primitive(Sphere{0.4}))},
                                {}};
   EXPECT_TRUE(planScene(cubes, {0.001}).pairs[0].a_shell_b_field);

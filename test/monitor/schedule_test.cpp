@@ -12,7 +12,8 @@ using namespace test;
 constexpr double kRadius = 0.08;
 constexpr int kBalls = 5;
 
-/// Balls that wander about, and how their transforms come: all, late, in part, from elsewhere, not at all, vaguely.
+/// Randomly moving balls, and ways in which their transforms arrive: complete, late, in part, from elsewhere, missing,
+/// with motion errors.
 class Arrivals {
  public:
   explicit Arrivals(unsigned seed, std::size_t pairs) : random_(seed), pairs_(pairs) {
@@ -46,7 +47,7 @@ class Arrivals {
       for (int i = 0; i < kBalls; ++i) motion.motion_error.push_back(oneIn(10) ? 0.05 : oneIn(2) ? 0.0 : 1e-3);
       if (oneIn(10)) motion.motion_error[random_() % kBalls] = std::numeric_limits<double>::infinity();
     }
-    if (oneIn(10)) X_[random_() % kBalls].translation() += 0.1 * direction();  // the next one begins elsewhere
+    if (oneIn(10)) X_[random_() % kBalls].translation() += 0.1 * direction();  // the next motion begins elsewhere
     return motion;
   }
 
@@ -60,8 +61,8 @@ class Arrivals {
   std::vector<Isometry3d> X_;
 };
 
-/// What testing every pair says, as slow and obvious as it is: the same, but that skipped pairs are clear. And what
-/// spheres have between them.
+/// Compares with testing every pair, a slow and simple reference: results are equal, except that skipped pairs are
+/// clear. Also compares with the exact distance of spheres.
 TEST(Schedule, SaysWhatTestingEveryPairSays) {
   std::vector<BodyDescription> bodies;
   for (int i = 0; i < kBalls; ++i) bodies.push_back(body("ball " + std::to_string(i), Primitive(Sphere{kRadius})));
@@ -121,7 +122,7 @@ TEST(Schedule, SaysWhatTestingEveryPairSays) {
         ASSERT_LE(spared.clearance, distance(pair.span.last, 0.0) - motion_error + 1e-12);
         ASSERT_GE(pair.error.chord, motion_error);
       }
-      // The largest bound is known to what single precision keeps of it.
+      // The largest bound is accurate to single precision.
       if (std::isfinite(worst)) {
         ASSERT_NEAR(a.error_bound, worst, 1e-6);
       }
@@ -142,7 +143,7 @@ TEST(Schedule, KeepsWhatItKnowsUntilItIsReset) {
   EXPECT_TRUE(monitor.run(at(1.0), {}).pairs[0].skipped);
   CycleMotion bad = at(1.0);
   bad.times = {0.0, -1.0};
-  EXPECT_THROW(monitor.run(bad, {}), std::invalid_argument);  // looked at before anything is touched
+  EXPECT_THROW(monitor.run(bad, {}), std::invalid_argument);  // rejected before any state changes
   EXPECT_TRUE(monitor.run(at(1.0), {}).pairs[0].skipped);
   EXPECT_EQ(monitor.run(at(0.15), {}).pairs[0].verdict, Verdict::kContact);
   EXPECT_EQ(monitor.run(at(1.0), {}).pairs[0].verdict, Verdict::kClear);

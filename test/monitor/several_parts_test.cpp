@@ -2,7 +2,7 @@
 
 #include "monitor/scene_case.h"
 
-/// Bodies of several parts, of which no shell can be made: what lies wholly inside another body must be seen.
+/// Bodies of several parts for which no shell can be made: a part wholly inside another body must be detected.
 namespace sdf_ccd {
 namespace {
 
@@ -12,13 +12,13 @@ void addPart(const Shape& shape, const Isometry3d& X_BG, BodyDescription& body, 
   body.geometry.push_back({shape, X_BG, "part" + std::to_string(body.geometry.size()), voxels});
 }
 
-/// Both at rest.
+/// Result for both bodies at rest.
 PairResult atRest(const std::shared_ptr<const Scene>& scene, const Isometry3d& X_WA, const Isometry3d& X_WB) {
   Monitor monitor(scene, soft());
   return monitor.run(cycle(0.1, {still(X_WA), still(X_WB)}), {}).pairs.front();
 }
 
-/// Ground, and a ball of 5 cm above it, that the others may lie around.
+/// A half-space, and above it a ball of 5 cm radius that other bodies may enclose.
 BodyDescription groundAndBall() {
   BodyDescription fixture = body("fixture", ground());
   addPart(Primitive(Sphere{0.05}), translation({0, 0, 1}), fixture);
@@ -53,18 +53,18 @@ BodyDescription groundAndVoxels() {
   return fixture;
 }
 
-/// The ball that is taken for a half-space's body does not hold the half-space.
+/// The ball that represents a body with a half-space does not contain the half-space.
 TEST(SeveralParts, FarOutOnAHalfSpaceThatHasVoxels) {
   const auto scene = build({groundAndVoxels(), body("ball", Primitive(Sphere{0.1}))});
   EXPECT_EQ(atRest(scene, Isometry3d::Identity(), translation({100, 0, 0.05})).verdict, Verdict::kContact);
 }
 
-/// Voxels that half-space and all turn about: what is far out goes far.
+/// Half-space and voxels rotate together: points far out move far.
 TEST(SeveralParts, AHalfSpaceWithVoxelsThatTurnsInSmallSteps) {
   const auto scene = build({groundAndVoxels(), body("ball", Primitive(Sphere{0.1}))});
   Monitor monitor(scene, soft());
   const auto turned = [](int step) { return pose({0, 0, 0}, -2e-4 * step, {0, 1, 0}); };
-  const Isometry3d ball = translation({100, 0, 1});  // 0.9 m above, which takes 45 steps
+  const Isometry3d ball = translation({100, 0, 1});  // 0.9 m above the ground, which takes 45 steps
   for (int step = 0; step < 60; ++step) {
     const PairResult result =
         monitor.run(cycle(0.1, {{turned(step), turned(step + 1)}, still(ball)}), {}).pairs.front();
@@ -75,7 +75,8 @@ TEST(SeveralParts, AHalfSpaceWithVoxelsThatTurnsInSmallSteps) {
   }
 }
 
-/// Three walls that meet in a corner, from where x, y and z > 0 is free; a little turned, off the field's cells.
+/// Three walls that meet in a corner, with free space where x, y, z > 0; slightly rotated, not aligned with the field's
+/// cells.
 BodyDescription corner(const Isometry3d& turn) {
   TriangleMesh walls;
   for (int k = 0; k < 3; ++k) {
@@ -86,7 +87,7 @@ BodyDescription corner(const Isometry3d& turn) {
   return body("corner", meshShape(transformed(walls, turn)));
 }
 
-/// The corner's field is the coarser one, and tells of the tip what it tells.
+/// The corner's field is the coarser one; the depth of the tip has its error.
 TEST(SeveralParts, ATipThatDoesNotReachIntoACorner) {
   const Isometry3d turn = pose({0, 0, 0}, 0.2, {1, 2, 3});
   const double s = 0.02;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// With shells whose points are centimetres apart.
+/// Shells with points centimetres apart.
 BodyOptions coarse() {
   BodyOptions options = fine(0.02);
   options.field.cells = 16;
@@ -21,7 +21,7 @@ PairResult at(Monitor& monitor, const Isometry3d& X) {
   return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(X)}), {}).pairs[0];
 }
 
-/// Whatever fields and shells are: boxes, balls, cylinders and meshes.
+/// Independent of fields and shells: boxes, balls, cylinders and meshes.
 TEST(SurfacePair, TellsATenthOfAMillimetre) {
   constexpr double kGap = 5e-5, kHalf = 0.1;
   const std::vector<std::pair<Shape, double>> shapes = {{Primitive(Box{{kHalf, kHalf, kHalf}}), kHalf},
@@ -47,7 +47,7 @@ TEST(SurfacePair, TellsATenthOfAMillimetre) {
   }
 }
 
-/// Edges that cross between the points of both shells: no point is inside, and no depth is known but by the error.
+/// Edges that cross between the points of both shells: no point is inside, and the depth is known only up to the error.
 TEST(SurfacePair, CrossingBetweenPointsIsAsDeepAsItsErrorAllows) {
   constexpr double kHalf = 0.01, kOverlap = 1e-3;
   const Primitive rod = Box{{0.2, kHalf, kHalf}};
@@ -55,7 +55,7 @@ TEST(SurfacePair, CrossingBetweenPointsIsAsDeepAsItsErrorAllows) {
   options.field.cells = 64;
   const auto scene = build({body("rod", rod), body("other", rod)}, options);
   Monitor monitor(scene, soft());
-  const Isometry3d turned = pose({0, 0, 0}, kPi / 4, {1, 0, 0});  // an edge on top, and one below
+  const Isometry3d turned = pose({0, 0, 0}, kPi / 4, {1, 0, 0});  // one edge on top, one below
   int without_depth = 0;
   for (int i = 0; i < 20; ++i) {
     const Vector3d p(-0.05 + 0.0037 * i, 0.0023 * i, 2.0 * std::sqrt(2.0) * kHalf - kOverlap);
@@ -69,8 +69,8 @@ TEST(SurfacePair, CrossingBetweenPointsIsAsDeepAsItsErrorAllows) {
   EXPECT_GT(without_depth, 0);
 }
 
-/// A cube tumbles over a slab and is nearest on its edge, halfway: how near is known. The bound holds from both sides,
-/// whatever max_error is.
+/// A cube tumbles over a slab and is nearest with its edge, halfway, at a known distance. The bound holds from both
+/// sides, for every max_error.
 TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
   constexpr double kHalf = 0.1, kTop = 0.01;
   const auto scene =
@@ -101,7 +101,7 @@ TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
       ASSERT_LE(gap, pair.error.total());
       ASSERT_NEAR(pair.error.total(), max_error, 1e-9);
     }
-    EXPECT_TRUE(open > 0 || max_error < 1e-2) << max_error;  // finer ones are decided sooner than given up
+    EXPECT_TRUE(open > 0 || max_error < 1e-2) << max_error;  // finer ones are decided before they are given up
     EXPECT_LT(open, 100) << max_error;
   }
   for (const double wrong : {0.0, -1.0, 9e-6, 0.011, std::nan("")}) {
@@ -141,7 +141,7 @@ TEST(SurfacePair, WhatGrazesByFarLessThanMaxErrorIsDecided) {
   }
 }
 
-/// What closes a mesh that is not quite closed is known to the triangles, however coarse the fields are.
+/// The triangles detect contacts at the gap-closing caps of an almost closed mesh, however coarse the fields are.
 TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
   constexpr double kGap = 5e-5, kCrack = 1e-6, kHalf = 0.1;
   Random random(1);
@@ -159,7 +159,7 @@ TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
   EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf - kGap})).verdict, Verdict::kContact);
 }
 
-/// Where contacts are not asked for, verdicts are the same, and what crosses has a time and a place.
+/// If contacts are not requested, verdicts are the same, and a crossing has a time and a position.
 TEST(SurfacePair, VerdictsAloneAreTheSame) {
   const auto scene =
       build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("hand", meshShape(boxMesh({0.03, 0.04, 0.05}))),
@@ -193,7 +193,7 @@ TEST(SurfacePair, VerdictsAloneAreTheSame) {
   EXPECT_GT(contacts, 100);
 }
 
-/// And what touches within the cycle alone, however thin and fast.
+/// Detects contacts that exist only within the cycle, however thin and fast the bodies are.
 TEST(SurfacePair, NothingTunnels) {
   const auto scene = build(
       {body("plate", meshShape(boxMesh({0.1, 0.1, 0.0005}))), body("hand", meshShape(boxMesh({0.03, 0.04, 0.05})))},
@@ -212,8 +212,8 @@ TEST(SurfacePair, NothingTunnels) {
   }
 }
 
-/// No surface is met, and yet it is a contact (design §3.15), also when nothing is known of before; in a cavity it is
-/// none.
+/// A body wholly inside touches no surface, and yet is in contact (design §3.15), also without a previous cycle; in a
+/// cavity it is not.
 TEST(SurfacePair, WhatIsWhollyInsideIsAContact) {
   TriangleMesh cavity = boxMesh({0.1, 0.1, 0.1});
   for (Vector3i& t : cavity.triangles) std::swap(t[1], t[2]);
@@ -227,7 +227,7 @@ TEST(SurfacePair, WhatIsWhollyInsideIsAContact) {
   EXPECT_EQ(at(in_hollow, translation({0.01, 0, 0})).verdict, Verdict::kClear);
   EXPECT_EQ(at(in_hollow, translation({0.15, 0, 0})).verdict, Verdict::kContact);
   EXPECT_EQ(at(in_hollow, translation({0.25, 0, 0})).verdict, Verdict::kClear);
-  // One of two parts.
+  // One of two parts is inside.
   BodyDescription two = body("two", Primitive(Sphere{0.02}));
   two.geometry.push_back({Primitive(Sphere{0.02}), translation({0.5, 0, 0}), "other"});
   const auto parts = build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), two}, coarse());
@@ -237,7 +237,7 @@ TEST(SurfacePair, WhatIsWhollyInsideIsAContact) {
   EXPECT_EQ(at(in_part, translation({0.25, 0, 0})).verdict, Verdict::kClear);
 }
 
-/// Into a solid within one cycle, through its surface, is a contact; then it stays one.
+/// A bead that enters a solid through its surface within one cycle is in contact, and stays so.
 TEST(SurfacePair, WhatGoesInStaysIn) {
   const auto scene =
       build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), body("bead", Primitive(Sphere{0.02}))}, coarse());
@@ -253,7 +253,7 @@ TEST(SurfacePair, WhatGoesInStaysIn) {
   }
 }
 
-/// A body that has something beside triangles is not decided by these alone.
+/// A body with other elements than triangles is not decided by triangles.
 TEST(SurfacePair, HalfSpacesAndVoxelsKeepTheirFields) {
   BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
   map.geometry[0].watertight_voxels = true;

@@ -7,20 +7,20 @@ namespace {
 
 using namespace test;
 
-/// A motion of two links, each from one pose to another.
+/// A motion of two bodies, each from one pose to another.
 CycleMotion bothMove(const Isometry3d& X_start_a, const Isometry3d& X_end_a, const Isometry3d& X_start_b,
                      const Isometry3d& X_end_b) {
   return cycle(0.1, {{X_start_a, X_end_a}, {X_start_b, X_end_b}});
 }
 
-/// An arm's pose whose joint stands at `base` and has turned by `angle` about z.
+/// Pose of an arm whose joint is at `base`, rotated by `angle` about z.
 Isometry3d arm(const Vector3d& base, double angle) {
   return pose(base, angle, Vector3d::UnitZ());
 }
 
-/// Two arms of 0.8 m whose joints are 1 m apart. Both turn by 1 rad between two poses; halfway each hand (a ball of 5
-/// cm at the arm's end) is on the line between the joints, so that the hands meet, whatever the relative poses at both
-/// ends look like.
+/// Two arms of 0.8 m whose joints are 1.66 m apart. Both rotate by the same angle between two poses; halfway each hand
+/// (a ball of 5 cm radius at the arm's end) is on the line between the joints, so the hands meet, whatever the relative
+/// poses at both ends are.
 TEST(TwoBodiesMove, HandsThatMeetHalfwayAreFound) {
   const auto hand = [](const std::string& name) {
     BodyDescription description = body(name, Primitive(Sphere{0.05}));
@@ -37,19 +37,19 @@ TEST(TwoBodiesMove, HandsThatMeetHalfwayAreFound) {
                                       {})
                                  .pairs[0];
     ASSERT_EQ(pair.verdict, Verdict::kContact) << turn;
-    // The hands' centres are 1.66 - 1.6 cos(angle) apart: 0.06 at the least.
+    // The hands' centres are 1.66 - 1.6 cos(angle) apart, at least 0.06.
     EXPECT_NEAR(pair.deepest.depth, 0.04, pair.contact_error.total()) << turn;
     EXPECT_NEAR(pair.deepest.time, 0.05, 0.01) << turn;
   }
 }
 
-/// The same arms side by side: their screws in the world cross, that of the relative poses does not.
+/// The same arms side by side: their screw motions in the world cross, a screw of their relative pose does not.
 TEST(TwoBodiesMove, ArmsThatCrossBetweenTheirPosesAreNotClear) {
   const auto scene = build(
       {body("left", Primitive(Box{{0.4, 0.02, 0.02}})), body("right", Primitive(Box{{0.4, 0.02, 0.02}}))}, fine(0.004));
   int met = 0;
   for (int i = 0; i < 40; ++i) {
-    // Both swing through, and return: what they do in between is not seen at either end.
+    // Both swing through: what they do in between is not visible in either pose.
     const double offset = 0.02 * i;
     const auto at = [&](double x, double angle) {
       return Isometry3d(arm({x, 0.0, 0.0}, angle) * translation({0.4, 0.0, 0.0}));
@@ -58,7 +58,7 @@ TEST(TwoBodiesMove, ArmsThatCrossBetweenTheirPosesAreNotClear) {
                      b1 = at(1.0 + offset, M_PI + 1.0);
     Monitor monitor(scene, {});
     const PairResult& pair = monitor.run(bothMove(a0, a1, b0, b1), {}).pairs[0];
-    // Halfway both lie on the line between the joints, and overlap if those are less than 1.6 m apart.
+    // Halfway both lie on the line between the joints, and overlap if these are less than 1.6 m apart.
     if (1.0 + offset >= 1.6) continue;
     ++met;
     EXPECT_EQ(pair.verdict, Verdict::kContact) << offset;
@@ -66,13 +66,12 @@ TEST(TwoBodiesMove, ArmsThatCrossBetweenTheirPosesAreNotClear) {
   EXPECT_GT(met, 20);
 }
 
-/// Links that turn by +2 and -2 rad about one axis turn by 4 rad against each other, not by 2.28 the other way.
+/// Links that rotate by +2 and -2 rad about one axis rotate by 4 rad relative to each other, not by 2.28 in reverse.
 TEST(TwoBodiesMove, RelativeTurnsBeyondHalfARevolutionAreNotTakenTheShortWay) {
   const auto scene =
       build({body("plate", Primitive(Box{{0.05, 0.05, 0.05}})), body("rod", Primitive(Box{{0.05, 0.05, 0.05}}))},
             fine(0.005));
-  // Both on a circle of 0.5 m, a third of the relative way apart: they meet halfway through 4 rad, and never
-  // within 2.28.
+  // Both on a circle of 0.5 m, exchanging places: they meet halfway through 4 rad, but would not within 2.28.
   const auto on_circle = [](double angle) {
     return Isometry3d(arm(Vector3d::Zero(), angle) * translation({0.5, 0.0, 0.0}));
   };
@@ -100,7 +99,7 @@ TEST(TwoBodiesMove, BodiesOnOneMovingBaseAreSkippedAsIfTheyStood) {
   }
 }
 
-/// Both on one turning base, so that they move against each other by little: their contact goes round with them.
+/// Both on one rotating base, so that they move little relative to each other: their contact rotates with them.
 TEST(TwoBodiesMove, AContactIsWhereTheBodiesAreInTheWorld) {
   const auto scene =
       build({body("plate", Primitive(Box{{0.2, 0.2, 0.02}})), body("ball", Primitive(Sphere{0.1}))}, fine(0.01));
@@ -115,8 +114,7 @@ TEST(TwoBodiesMove, AContactIsWhereTheBodiesAreInTheWorld) {
     EXPECT_LT((p_base - Vector3d(1.0, 0.0, p_base.z())).norm(), 0.05);
     EXPECT_NEAR(p_base.z(), 0.015, 0.006);
   }
-  // The force on the ball is upwards all the time, but for the unevenness of the points.
-  // round.
+  // The force on the ball points upwards all the time, except for the irregularity of the points.
   EXPECT_LT(pair.on_b_W.force.head<2>().norm(), 1e-2 * pair.on_b_W.force.norm());
 }
 
@@ -146,7 +144,7 @@ TEST(TwoBodiesMove, AHalfSpaceStraysMoreFarFromItsOrigin) {
   }
 }
 
-/// A robot's own voxels in a depth camera's map: they touch no surface of the link that they lie in.
+/// A robot's own voxels in a depth camera's map: they touch no surface of the link that contains them.
 TEST(WhollyInside, AVoxelInTheMiddleOfALinkIsAContact) {
   for (const int voxels : {1, 2, 5}) {
     TriangleMesh map;

@@ -28,7 +28,7 @@ StoppingPromise anyPromise(Random& random) {
   return promise;
 }
 
-/// A robot that keeps its promise, and not more: it obeys as late as it may, and goes as fast as it may.
+/// A robot that just keeps its promise: it obeys as late and moves as fast as the promise allows.
 class Robot {
  public:
   Robot(const StoppingPromise& promise, Random& random) : promise_(promise), random_(random) {}
@@ -39,7 +39,7 @@ class Robot {
     last_ = time;
   }
 
-  /// The speed after a step from now on, towards one that is wanted.
+  /// The speed after a step from `now`, as close to the wanted one as allowed.
   double next(double now, double step, double speed, double wanted) {
     brakeAfterSilence(now);
     while (!heard_.empty() && heard_.front().first <= now) {
@@ -55,7 +55,7 @@ class Robot {
   Random& random() { return random_; }
 
  private:
-  /// It reacts to silence as to a scale of 0.
+  /// If no scale comes in time, it brakes as on a scale of 0.
   void brakeAfterSilence(double now) {
     if (now <= last_ + promise_.period || silent_since_ == last_) return;
     heard_.push_back({last_ + promise_.period + promise_.reaction_time, 0.0});
@@ -69,11 +69,11 @@ class Robot {
 };
 
 struct Outcome {
-  double least = 1e300, last = 0.0;  // widths less the stop distance [m]
+  double least = 1e300, last = 0.0;  // widths minus the stop distance [m]
   double fastest = 0.0;
 };
 
-/// A gap that a robot closes as it likes, and as the scale lets it.
+/// Closes a gap with a robot that moves as it likes within the scale.
 Outcome close(const StoppingPromise& promise, Random& random, bool is_greedy) {
   constexpr double kStep = 1e-3, kLength = 12.0;
   Robot robot(promise, random);
@@ -88,7 +88,7 @@ Outcome close(const StoppingPromise& promise, Random& random, bool is_greedy) {
     outcome.least = std::min(outcome.least, width - promise.stop_distance);
     outcome.fastest = std::max(outcome.fastest, speed);
     if (now >= next_scale) {
-      // What is known is up to as old as it may be, and a mean over some time before that.
+      // The data are somewhat old, and the speed is a mean over some time before.
       const int age = std::min(i, static_cast<int>(uniform(random, 0.0, 0.15) / kStep));
       const int over = std::min(i - age, 1 + static_cast<int>(uniform(random, 0.0, 0.05) / kStep));
       if (over > 0) {
@@ -98,7 +98,7 @@ Outcome close(const StoppingPromise& promise, Random& random, bool is_greedy) {
         pair.any.closing = (widths[i - age - over] - widths[i - age]) / pair.any.over;
         robot.hear(now, velocityScale({pair}, age * kStep, age * kStep, promise));
       }
-      // The next one comes in time, or for a while none at all.
+      // The next scale comes in time, or for a while none comes.
       next_scale = now + (uniform(random, 0.0, 1.0) < 0.02 ? 5.0 : 0.95) * promise.period;
     }
     if (!is_greedy && i % 50 == 0) wanted = uniform(random, -1.0, 1.0) * promise.max_speed;
@@ -115,11 +115,11 @@ TEST(VelocityScale, WhoObeysNeverComesNearerThanTheStopDistanceAndComesThatNear)
     const StoppingPromise promise = anyPromise(random);
     const bool is_greedy = i % 2 == 0;
     const Outcome outcome = close(promise, random, is_greedy);
-    // The steps of the simulation are not smooth: a speed holds for one, and what brakes comes one later.
+    // Tolerance for the simulation's steps: a speed holds for a whole step, and braking starts a step late.
     const double step = 2e-3 * promise.max_speed;
     EXPECT_GE(outcome.least, -step) << i;
     if (!is_greedy) continue;
-    // It lets the robot come as near as what may happen until it obeys, if it accelerates meanwhile.
+    // The scale allows the distance that may be needed until the robot obeys, if it accelerates meanwhile.
     const double T = 0.15 + promise.reaction_time;
     const double fastest = std::min(promise.max_speed, promise.max_acceleration * (T + 0.025));
     const double near = fastest * T + fastest * fastest / (2.0 * promise.deceleration);
@@ -135,11 +135,11 @@ TEST(VelocityScale, WhatIsFarOrOpensIsNotSlowed) {
   EXPECT_EQ(velocityScale({pair}, promise.max_age, promise.max_age, promise), 1.0);
   pair.any = {0.1, promise.max_speed, 0.01};
   EXPECT_LT(velocityScale({pair}, 0.0, 0.0, promise), 0.2);
-  pair.slab = ClosingGap{0.1, -0.5, 0.01};  // along it they part
+  pair.slab = ClosingGap{0.1, -0.5, 0.01};  // along it they separate
   EXPECT_GT(velocityScale({pair}, 0.0, 0.0, promise), 0.25);
   EXPECT_EQ(velocityScale({}, 0.0, 0.0, promise), 1.0);
-  EXPECT_EQ(velocityScale({}, 0.0, promise.max_age + 1e-3, promise), 0.0);      // of some pair, and none was near
-  EXPECT_EQ(velocityScale({pair}, promise.max_age + 1e-3, 0.0, promise), 0.0);  // nothing is known of it any more
+  EXPECT_EQ(velocityScale({}, 0.0, promise.max_age + 1e-3, promise), 0.0);  // some data are too old; no pair is near
+  EXPECT_EQ(velocityScale({pair}, promise.max_age + 1e-3, 0.0, promise), 0.0);  // the pair's data are too old
   pair.any = *pair.slab = {0.0, 0.0, 0.01};
   EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
 }
@@ -153,7 +153,7 @@ TEST(VelocityScale, PromisesAreChecked) {
   EXPECT_THROW(validate(promise), std::invalid_argument);
 }
 
-/// Of two meshes at their poses, over all pairs of triangles.
+/// Exact distance of two meshes at their poses, over all pairs of triangles.
 double trueDistance(const TriangleMesh& a, const Isometry3d& X_WA, const TriangleMesh& b, const Isometry3d& X_WB) {
   const auto placed = [](const TriangleMesh& mesh, const Isometry3d& X) {
     std::vector<test::Triangle3r> all;
@@ -171,7 +171,7 @@ double trueDistance(const TriangleMesh& a, const Isometry3d& X_WA, const Triangl
   return static_cast<double>(least);
 }
 
-/// A body flies at random among others, and at them, as a robot that obeys; the truth are the meshes themselves.
+/// A body moves randomly among others, and towards them, as a robot that obeys; the truth are distances of the meshes.
 TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
   Random random(11);
   double nearest = 1e300;
@@ -200,13 +200,13 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
     for (int i = 1; i < 800; ++i) {
       const double now = i * kStep;
       if (i % 40 == 0 && speed == 0.0) {
-        // From rest another way: what it promises is about the speed of any point, so the way may be any.
+        // From rest it takes a new direction: the promise is about the speed of any point, so the direction is free.
         const Vector3d aim =
             i % 80 == 0 ? Vector3d(X_block.translation() - X.translation()).normalized() : Vector3d(direction(random));
         way = aim;
         spin = 2.0 * direction(random);
       }
-      // The speed is that of the fastest point of the ball: 1 + |spin| r of the middle's.
+      // The speed is that of the ball's fastest point: 1 + |spin| r times that of the centre.
       const double reach = 1.0 + spin.norm() * 0.08;
       const double wanted = (X.translation() - Vector3d(0, 0, 0.3)).norm() > 1.0 ? 0.0 : promise.max_speed;
       if (wanted == 0.0) way = -X.translation().normalized();
@@ -214,7 +214,7 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       X.translation() += speed / reach * kStep * way;
       X.linear() = Eigen::AngleAxisd(speed / reach * spin.norm() * kStep, spin.normalized()) * X.linear();
       poses.push_back(X);
-      TriangleMesh point;  // the ball's middle
+      TriangleMesh point;  // the ball's centre
       point.vertices = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
       point.triangles = {{0, 1, 2}};
       nearest =
@@ -234,14 +234,14 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       const CycleResult& result = monitor.run(motion, {false, 0});
       ASSERT_EQ(result.verdict, Verdict::kClear);
       const std::chrono::nanoseconds origin(std::llround(1e9 * (now - motion.times.back())));
-      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise), {origin}), motion.times.back(),
-                                    0.0, promise));
+      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise), {origin}),
+                                    motion.times.back(), 0.0, promise));
       poses = {X};
       known = now;
     }
     EXPECT_GT(known, 0.0);
   }
-  EXPECT_LT(nearest, 0.05);  // it comes near all the same
+  EXPECT_LT(nearest, 0.05);  // it comes near nevertheless
 }
 
 }  // namespace

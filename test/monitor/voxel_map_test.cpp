@@ -18,10 +18,10 @@ namespace {
 
 using namespace test;
 
-constexpr double kSize = 0.05;  // of a voxel [m]
+constexpr double kSize = 0.05;  // size of a voxel [m]
 constexpr int kMiddle = 32768;
 
-using Voxels = std::set<std::array<int, 3>>;  // from the origin
+using Voxels = std::set<std::array<int, 3>>;  // counted from the origin
 
 VoxelGrid gridOf(const Voxels& voxels, const VoxelMapOptions& options) {
   VoxelGrid grid(kSize, options);
@@ -37,7 +37,7 @@ VoxelMask ballMask(const Vector3d& center, double radius) {
   return mask;
 }
 
-/// A map as it is known from its changes.
+/// A map maintained from its changes.
 class Kept {
  public:
   void take(const VoxelMap::Change& change) {
@@ -137,7 +137,7 @@ TEST(VoxelMap, WhatTheRobotFillsDoesNotCount) {
   EXPECT_EQ(change.occupied, left.size());
   EXPECT_EQ(change.masked, voxels.size() - left.size());
   EXPECT_GT(kept.distance(ball.center_M), 0.2);
-  // It goes, and what is in its place counts again.
+  // When the mask is gone, the voxels there count again.
   kept.take(map.take(gridOf(voxels, options), {}));
   EXPECT_LT(kept.distance(ball.center_M), 0.0);
 }
@@ -165,7 +165,7 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   kept_near.take(near.take(gridOfFree(), {ball}));
   EXPECT_GT(kept_near.distance({0.4, 0.4, 0.4}), 0.1);
   EXPECT_LT(kept_near.distance({1.05, 0.4, 0.4}), 0.0);  // unknown, 0.2 m from the ball
-  EXPECT_GT(kept_near.distance({1.5, 0.4, 0.4}), 0.2);   // unknown, but far
+  EXPECT_GT(kept_near.distance({1.5, 0.4, 0.4}), 0.2);   // unknown, but far away
 }
 
 TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {
@@ -184,7 +184,7 @@ TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {
     EXPECT_GT(kept.distance({20.0, 20.0, 25.0}), 0.3);
     EXPECT_GT(kept.distance({20.2, 20.1, 25.1}), 0.1);
     EXPECT_GT(kept.distance({51.0, 51.0, 25.0}), 0.0);
-    EXPECT_LT(kept.distance({51.35, 51.15, 25.0}), 0.0);  // beyond its end
+    EXPECT_LT(kept.distance({51.35, 51.15, 25.0}), 0.0);  // beyond the leaf
     EXPECT_THROW(grid.add(Vector3i::Constant(kMiddle + 1), kSide, false), std::invalid_argument);
     EXPECT_THROW(grid.add(Vector3i::Constant(kMiddle), kSide - 1, false), std::invalid_argument);
   }
@@ -207,7 +207,7 @@ TEST(VoxelMap, RefusesWhatIsTooLarge) {
       std::runtime_error);
 }
 
-/// The whole map of a building as bodies of a world, of which a ball flies through a wall.
+/// The whole map of a building as bodies of a world, in which a ball flies through a wall.
 TEST(VoxelMap, ARealMapIsAWorld) {
   const std::string file = SDF_CCD_TEST_DATA "/octomaps/geb079.bt";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
@@ -217,7 +217,7 @@ TEST(VoxelMap, ARealMapIsAWorld) {
   options.band = 0.08;
   VoxelGrid grid(0.08, options);
   grid.addOctree(reinterpret_cast<const std::int8_t*>(bytes.data()) + at, bytes.size() - at, "OcTree", true);
-  EXPECT_GE(grid.occupied(), 143729U);  // so many leaves, some of them larger than a voxel
+  EXPECT_GE(grid.occupied(), 143729U);  // the number of leaves, some of which are larger than a voxel
   VoxelMap map("map", "world", options);
   const VoxelMap::Change change = map.take(std::move(grid), {});
   EXPECT_GE(change.occupied, 143729U);

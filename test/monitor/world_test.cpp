@@ -24,24 +24,25 @@ ScenePlan planOf(const SceneDescription& description, const BodyOptions& options
   return planScene(description, planOptions(options));
 }
 
-/// A world of some links and objects that changes at random.
+/// A world of some links and objects that changes randomly.
 class ChangingWorld {
  public:
   explicit ChangingWorld(unsigned seed) : random_(seed) {
     links_ = {body("link0", Primitive(Sphere{0.1})), body("link1", Primitive(Box{{0.1, 0.06, 0.05}})),
               body("link2", meshShape(torusMesh(0.12, 0.04, 16, 8)))};
     description_.bodies = links_;
-    for (const char* link : {"link0", "link1", "link2"}) moving_[link] = pose({uniform(random_, -0.5, 0.5), 0, 0}, 0, {0, 0, 1});
+    for (const char* link : {"link0", "link1", "link2"})
+      moving_[link] = pose({uniform(random_, -0.5, 0.5), 0, 0}, 0, {0, 0, 1});
   }
 
   const SceneDescription& description() const { return description_; }
 
-  /// One to four changes: adds, removes, moves, attaches, detaches, allows and forbids.
+  /// Makes one to four changes: adds, removes, moves, attaches or detaches an object, or changes its allowed pairs.
   void change() {
     for (int n = 1 + int(uniform(random_, 0.0, 4.0)); n > 0; --n) changeOnce();
   }
 
-  /// Poses over one cycle: links go on from where they were, objects stand where their frames are.
+  /// Poses over one cycle: links continue from their last poses, objects follow their frames.
   CycleMotion motion() {
     std::map<std::string, std::vector<Isometry3d>> frames;
     frames["world"] = still(Isometry3d::Identity());
@@ -49,8 +50,7 @@ class ChangingWorld {
       const Vector3d to(uniform(random_, -0.6, 0.6), uniform(random_, -0.6, 0.6), uniform(random_, -0.3, 0.3));
       const Vector3d shift = 0.15 * (to - X.translation());
       const Isometry3d next = pose(X.translation() + shift, 0.0, {0, 0, 1}) *
-                              pose({0, 0, 0}, uniform(random_, -0.2, 0.2), direction(random_)) *
-                              Isometry3d(X.linear());
+                              pose({0, 0, 0}, uniform(random_, -0.2, 0.2), direction(random_)) * Isometry3d(X.linear());
       frames[link] = {X, next};
       X = next;
     }
@@ -80,7 +80,8 @@ class ChangingWorld {
                 uniform(random_, -3.0, 3.0), direction(random_));
   }
   BodyDescription& anyObject() {
-    return description_.bodies[links_.size() + std::size_t(uniform(random_, 0.0, 0.999) * double(description_.bodies.size() - links_.size()))];
+    return description_.bodies[links_.size() + std::size_t(uniform(random_, 0.0, 0.999) *
+                                                           double(description_.bodies.size() - links_.size()))];
   }
   void dropPairs(const std::string& name) {
     auto& disabled = description_.disabled;
@@ -100,7 +101,8 @@ class ChangingWorld {
       dropPairs(one.name);
       const std::string name = one.name;
       auto& bodies = description_.bodies;
-      bodies.erase(std::find_if(bodies.begin(), bodies.end(), [&](const BodyDescription& b) { return b.name == name; }));
+      bodies.erase(
+          std::find_if(bodies.begin(), bodies.end(), [&](const BodyDescription& b) { return b.name == name; }));
     } else if (what == 2) {
       one.X_frame_B = place();
     } else if (what == 3) {  // attached
@@ -141,7 +143,7 @@ void expectSame(const CycleResult& changed, const CycleResult& anew, const Scene
   EXPECT_EQ(changed.verdict, anew.verdict);
 }
 
-/// The same verdicts, pair by pair, as a monitor made anew from a scene that buildScene() makes of the same description.
+/// Verdicts equal those of a new monitor of a scene that buildScene() makes of the same description, pair by pair.
 TEST(World, ChangesAreAsAMonitorBuiltAnew) {
   const BodyOptions options = coarse();
   int contacts = 0, skipped = 0;
@@ -157,8 +159,8 @@ TEST(World, ChangesAreAsAMonitorBuiltAnew) {
       ASSERT_EQ(snapshot->version, std::uint64_t(version));
       const auto change = monitor.prepare(snapshot->scene);
       monitor.adopt(*change);
-      const auto anew = std::make_shared<const Scene>(
-          buildScene(world.description(), planOf(world.description(), options), options));
+      const auto anew =
+          std::make_shared<const Scene>(buildScene(world.description(), planOf(world.description(), options), options));
       for (int cycle = 0; cycle < 3; ++cycle) {
         const CycleMotion motion = world.motion();
         CycleRequest request;
@@ -178,7 +180,8 @@ TEST(World, ChangesAreAsAMonitorBuiltAnew) {
 
 TEST(World, KeepsIdsAndBodiesThatDoNotChange) {
   const BodyOptions options = coarse();
-  SceneDescription description{{body("arm", meshShape(torusMesh(0.12, 0.04, 16, 8))), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  SceneDescription description{
+      {body("arm", meshShape(torusMesh(0.12, 0.04, 16, 8))), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
   WorldEditor editor(options);
   const auto first = editor.next(description);
   EXPECT_EQ(first->version, 1U);
@@ -193,14 +196,14 @@ TEST(World, KeepsIdsAndBodiesThatDoNotChange) {
   EXPECT_EQ(third->prepared, 0);
   EXPECT_EQ(third->body_ids[1], second->body_ids[2]);
   EXPECT_EQ(third->scene->bodies.shared(1), second->scene->bodies.shared(2));
-  // Back, and another of the same geometry: nothing is made again.
+  // The wall returns, and another box of the same geometry: nothing is built again.
   description.bodies.push_back(body("wall", Primitive(Box{{1, 0.1, 1}}), true));
   description.bodies.push_back(body("box2", Primitive(Box{{0.1, 0.1, 0.1}}), true));
   const auto fourth = editor.next(description);
   EXPECT_EQ(fourth->prepared, 0);
   EXPECT_EQ(fourth->shared, 2);
   EXPECT_NE(fourth->body_ids[2], first->body_ids[1]);
-  EXPECT_EQ(first->scene->bodies.size(), 2U);  // as it was
+  EXPECT_EQ(first->scene->bodies.size(), 2U);  // unchanged
 }
 
 TEST(World, WhatBodiesShareCountsOnce) {
@@ -221,7 +224,8 @@ TEST(World, WhatBodiesShareCountsOnce) {
 }
 
 TEST(World, AChangeThatFailsChangesNothing) {
-  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)},
+                               {}};
   WorldEditor editor(coarse());
   const auto first = editor.next(description);
   SceneDescription bad = description;
@@ -250,7 +254,8 @@ TEST(World, LeavesOutWhatTheFirstSceneLeftOut) {
 
 TEST(World, AMonitorRefusesAChangeOfAnotherScene) {
   WorldEditor editor(coarse());
-  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)},
+                               {}};
   const auto first = editor.next(description);
   description.bodies.push_back(body("box", Primitive(Box{{0.1, 0.1, 0.1}}), true));
   const auto second = editor.next(description);

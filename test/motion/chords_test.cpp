@@ -43,7 +43,7 @@ TEST(ScrewMotion, TheTwistLeadsToTheEndAndTheMiddleLiesHalfWay) {
 }
 
 TEST(ScrewMotion, RevoluteJointGivesAnArcAboutItsAxis) {
-  // F rests; P turns a right angle about an axis through (1, 0, 0).
+  // F rests; P rotates by a right angle about an axis through (1, 0, 0).
   const Vector3d center(1, 0, 0);
   const auto about = [&](double angle) {
     Isometry3d X = turned({0, 0, 1}, angle);

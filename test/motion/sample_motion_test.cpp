@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::AngleAxisd;
 
-/// The hand of an arm whose two crossing joints turn evenly by 0.4 rad in a second: no screw.
+/// The hand of an arm whose two crossing joints rotate uniformly by 0.4 rad in a second: not a screw motion.
 Isometry3d hand(double time) {
   const Isometry3d X_base(AngleAxisd(0.4 * time, Vector3d::UnitZ()));
   const Isometry3d X_elbow(Eigen::Translation3d(0.5, 0.0, 0.0) * AngleAxisd(0.4 * time, Vector3d::UnitY()));
   return X_base * X_elbow * Eigen::Translation3d(0.3, 0.0, 0.0);
 }
 
-/// What bounds the hand's third derivative over a time in which both joints turn by `angle`: its ball lies 0.3 m beyond
-/// the elbow, that 0.5 m from the base.
+/// Bound of the hand's third derivative over a time in which both joints rotate by `angle`: its ball lies 0.3 m beyond
+/// the elbow, which is 0.5 m from the base.
 double handJerk(const DerivativeBounds& angle) {
   ChainDerivatives chain({Vector3d(0.3, 0.0, 0.0), 0.1});
   chain.addFrame(0.5, angle, {});
@@ -76,7 +76,7 @@ TEST(SampleMotion, ReportsWhatIsLeftWhenHalvingEnds) {
   EXPECT_LE(worstDeviation(motion), motion.motion_error[0]);
 }
 
-/// One joint with quintic timing: at the middle it is where it would be if it turned evenly.
+/// One joint with quintic timing: in the middle it is where it would be if it rotated uniformly.
 TEST(SampleMotion, ADeviationThatTheMiddleDoesNotShowIsInTheBound) {
   constexpr double kAngle = 1.5;
   const auto hand = [](double s) {

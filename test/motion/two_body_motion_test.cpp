@@ -14,7 +14,7 @@ namespace {
 
 using test::Random;
 
-/// A body that turns about an axis of the world and slides along it: written down without logarithms.
+/// A body that rotates about an axis of the world and slides along it, computed without logarithms.
 struct Screw {
   Vector3d axis, through;
   double angle, slide;
@@ -34,7 +34,7 @@ Screw randomScrew(Random& random, double most) {
           random() % 2 == 0 ? 0.0 : test::uniform(random, -0.5, 0.5), test::pose(random, 3.0, 1.0)};
 }
 
-/// Two bodies, a ball of the second, and what their points really do in the first one's frame.
+/// Two bodies, a ball of the second, and the true motion of its points in the first one's frame.
 struct Case {
   Screw F, P;
   BoundingBall ball;

@@ -8,7 +8,7 @@
 /// Rigid bodies for tests and studies.
 namespace sdf_ccd::test {
 
-/// All below z = 0.
+/// A fixed body that fills the half-space below z = 0.
 inline RigidBody groundBody() {
   RigidBody ground;
   ground.name = "ground";
@@ -18,7 +18,7 @@ inline RigidBody groundBody() {
   return ground;
 }
 
-/// A point of unit area, with mass, and an inertia that a contact through it never uses.
+/// A point of unit area with mass; a contact at the point exerts no torque, so the inertia is arbitrary.
 inline RigidBody pointBody(const std::string& name, double mass) {
   RigidBody body;
   body.name = name;

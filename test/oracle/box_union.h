@@ -8,7 +8,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-/// Boxes in one mesh, and what is known of the solid they make without looking at triangles.
+/// Boxes in one mesh, and facts about their union that do not depend on the triangles.
 namespace sdf_ccd::test {
 
 struct OrientedBox {
@@ -16,7 +16,7 @@ struct OrientedBox {
   Vector3d half_size;
   bool inside_out = false;
 
-  /// How far outside a place is; negative inside. Off the faces' directions less than the distance.
+  /// The largest distance of a point beyond one of the face planes; negative inside. A lower bound of the distance.
   double outside(const Vector3d& p) const { return ((X_WB.inverse() * p).cwiseAbs() - half_size).maxCoeff(); }
 };
 
@@ -36,8 +36,8 @@ inline TriangleMesh meshOf(const std::vector<OrientedBox>& boxes) {
   return mesh;
 }
 
-/// Signed distance to the union of boxes along the axes, none inside out: the rectangles between the planes of all
-/// faces with one side in a box and the other in none are its boundary.
+/// Signed distance to the union of axis-aligned boxes, none of them inside out. The planes of all faces form
+/// rectangles; those with a box on one side only are the union's boundary.
 inline double distanceToUnion(const std::vector<OrientedBox>& boxes, const Vector3d& p) {
   std::array<std::vector<double>, 3> planes;
   for (const OrientedBox& box : boxes) {
@@ -54,7 +54,7 @@ inline double distanceToUnion(const std::vector<OrientedBox>& boxes, const Vecto
   const auto isInside = [&](const Vector3d& q) {
     return std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) { return box.outside(q) < 0; });
   };
-  constexpr double kBeside = 1e-6;  // of a plane; all others are farther from it
+  constexpr double kBeside = 1e-6;  // distance from a plane; all other planes are farther from it
   double nearest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     const std::vector<double>&across = planes[(k + 1) % 3], &up = planes[(k + 2) % 3];
@@ -78,10 +78,10 @@ inline double distanceToUnion(const std::vector<OrientedBox>& boxes, const Vecto
   return isInside(p) ? -nearest : nearest;
 }
 
-/// A place on one box's face, and what the winding number is a step before and behind it.
+/// A point on a face of one box, and the winding numbers one step in front of and behind it.
 struct FacePlace {
   Vector3d point;
-  bool certain;  ///< other faces are in the same place, or more than a step away from it and half of one from the two
+  bool certain;  ///< other faces contain the point or are 2 steps away, and half a step from the points beside it
   int before, behind;
 };
 

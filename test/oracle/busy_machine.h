@@ -7,8 +7,8 @@
 
 namespace sdf_ccd::test {
 
-/// How many times longer than on a quiet machine what is limited by the clock may take here, as others use its
-/// processors too: 1 if there are no more of them than processors.
+/// Factor by which a time limit must be longer than on an idle machine, because other processes use the processors too;
+/// 1 if the load does not exceed the number of processors.
 inline double slowness() {
   double load = 0.0;
   if (::getloadavg(&load, 1) != 1) return 1.0;

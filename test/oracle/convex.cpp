@@ -7,7 +7,7 @@
 namespace sdf_ccd::test {
 namespace {
 
-/// Edges that are parallel to this span the same axes as the faces: their cross product says nothing [rad].
+/// Edges within this angle are parallel: their cross product is no additional axis [rad].
 constexpr Real kParallel = 1e-12L;
 
 void addDirection(const Vector3l& v, std::vector<Vector3l>& directions) {
@@ -38,7 +38,7 @@ Range along(const std::vector<Vector3l>& points, const Vector3l& axis) {
   return range;
 }
 
-/// In A's frame.
+/// Finds the axis with the largest gap, in A's frame.
 class AxisSearch {
  public:
   AxisSearch(const Convex& a, const std::vector<Vector3l>& corners_b) : a_(a), b_(corners_b) {}

@@ -35,7 +35,7 @@ inline TriangleMesh wheelMesh(double radius, double height, int steps) {
   return mesh;
 }
 
-/// Sides of a box without the one at +y, each with corners of its own, turned outward.
+/// The sides of a box except the one at +y, each with vertices of its own, facing outward.
 inline TriangleMesh openBox(const Vector3d& low, const Vector3d& high) {
   TriangleMesh mesh;
   const auto at = [&](int x, int y, int z) {
@@ -49,8 +49,8 @@ inline TriangleMesh openBox(const Vector3d& low, const Vector3d& high) {
   return mesh;
 }
 
-/// A closed shelf of 1 × 1.08 × 0.061 m about the origin, free in a cupboard that is open at +y: the cupboard's outer
-/// and inner walls, the strips between them and a sheet below are parts of their own. 46 triangles.
+/// A closed shelf of 1 × 1.08 × 0.061 m about the origin, not connected to the cupboard around it, open at +y. The
+/// cupboard's outer and inner walls, the strips between them and a sheet below are separate parts. 46 triangles.
 struct Cupboard {
   TriangleMesh shelf, walls;
 
@@ -105,7 +105,7 @@ inline TriangleMesh armOverItsLobe() {
     mesh.triangles.emplace_back(i, j, count + j);
     mesh.triangles.emplace_back(i, count + j, count + i);
   }
-  for (int i = 1; i + 1 < count; ++i) {  // fans: what they add beside the curve cancels
+  for (int i = 1; i + 1 < count; ++i) {  // fans: outside of the curve their triangles cancel
     mesh.triangles.emplace_back(0, i + 1, i);
     mesh.triangles.emplace_back(count, count + i, count + i + 1);
   }
@@ -115,7 +115,7 @@ inline TriangleMesh armOverItsLobe() {
 /// Two tetrahedra with the edge from (0, 0, -h) to (0, 0, h) in common, h = 0.15 m, the one at x < 0 with winding
 /// number 1, the other with -1: one closed component, a double cone over a quadrilateral that crosses itself.
 struct CrossedTetrahedra {
-  TriangleMesh large, small;  ///< each by itself, turned outward
+  TriangleMesh large, small;  ///< each as a mesh of its own, facing outward
   TriangleMesh mesh;
 
   CrossedTetrahedra() {
@@ -139,7 +139,7 @@ struct CrossedTetrahedra {
   }
 };
 
-/// A box whose faces are divided each in another way, so that no edge of one is an edge of the next.
+/// A box each of whose faces is divided in another way, so that adjacent faces share no edges.
 inline TriangleMesh boxOfDividedFaces(const Vector3d& half_size) {
   TriangleMesh mesh;
   for (int face = 0; face < 6; ++face) {

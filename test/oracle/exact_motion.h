@@ -7,7 +7,7 @@
 #include "robot/trajectory_motion.h"
 #include "sdf_ccd/motion/screw_motion.h"
 
-/// Motions in long double, straight from their definitions, and how far a sampled motion is from them.
+/// Motions in long double, by their definitions, and the error of a sampled motion.
 namespace sdf_ccd::test {
 
 using Real = long double;
@@ -37,7 +37,7 @@ inline Matrix3r rotation(const Vector3r& w) {
   return angle == 0 ? Matrix3r(Matrix3r::Identity()) : Eigen::AngleAxis<Real>(angle, w / angle).toRotationMatrix();
 }
 
-/// ∫ exp(u [w]) du from 0 to s: what takes a constant velocity to a displacement.
+/// ∫ exp(u [w]) du from 0 to s: the matrix that maps a constant velocity to the displacement.
 inline Matrix3r velocityToDisplacement(const Vector3r& w, Real s) {
   const Real angle = w.norm(), t = angle * s;
   const Matrix3r W = skewOf(w);
@@ -46,7 +46,7 @@ inline Matrix3r velocityToDisplacement(const Vector3r& w, Real s) {
          (t - std::sin(t)) / (angle * angle * angle) * W * W;
 }
 
-/// With a constant twist, the shortest way.
+/// The pose at s of the motion with a constant twist and the shorter rotation.
 inline Pose screwBetween(const Pose& X_start, const Pose& X_end, Real s) {
   const Pose X = X_start.inverse() * X_end;
   const Vector3r w = rotationVector(X.linear());
@@ -57,7 +57,7 @@ inline Pose screwBetween(const Pose& X_start, const Pose& X_end, Real s) {
   return X_start * moved;
 }
 
-/// Turns and slides evenly, each for itself.
+/// The pose at s if rotation and translation are interpolated separately, at constant rates.
 inline Pose slideAndTurn(const Pose& X_start, const Pose& X_end, Real s) {
   Pose X = Pose::Identity();
   X.linear() = X_start.linear() * rotation(s * rotationVector(X_start.linear().transpose() * X_end.linear()));
@@ -65,7 +65,7 @@ inline Pose slideAndTurn(const Pose& X_start, const Pose& X_end, Real s) {
   return X;
 }
 
-/// Where a link is between two waypoints, by its chain of joints.
+/// The pose of a link between two waypoints, by its chain of joints.
 inline Pose linkBetween(const RobotModel& robot, const RobotState& from, const RobotState& to, int link, Real s) {
   if (link == 0) return slideAndTurn(exact(from.X_WR), exact(to.X_WR), s);
   const urdf::Joint& joint = robot.jointAbove(link);
@@ -96,7 +96,8 @@ inline Pose linkBetween(const RobotModel& robot, const RobotState& from, const R
   return linkBetween(robot, from, to, robot.parent(link), s) * X;
 }
 
-/// The farthest that a point of the ball is from itself under the other pose: |A p + b|, convex in p, so it climbs.
+/// The largest distance between a ball's point under one pose and under the other, |A p + b|. This is convex in p, so
+/// that climbing finds it.
 inline double farthestApart(const Pose& X, const Pose& Y, const BoundingBall& ball) {
   const Matrix3r A = X.linear() - Y.linear();
   const Vector3r b = A * ball.center.cast<Real>() + X.translation() - Y.translation();
@@ -115,8 +116,8 @@ inline double farthestApart(const Pose& X, const Pose& Y, const BoundingBall& ba
   return static_cast<double>(worst);
 }
 
-/// The farthest that any point of a body is from where the sampled motion has it. Between two samples, the time climbs
-/// from the worst of a few.
+/// The largest distance of any point of a body from its position in the sampled motion. Between two samples, the search
+/// in time begins at the worst of `looks` times.
 inline double worstError(const RobotModel& robot, const RobotTrajectory& trajectory, const CarriedBody& body,
                          const std::vector<double>& times, const std::vector<Isometry3d>& X_WB, int looks = 8) {
   double worst = 0.0;

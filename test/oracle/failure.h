@@ -5,7 +5,7 @@
 
 namespace sdf_ccd::test {
 
-/// What the Error says that an action throws; empty if it throws nothing. Exceptions of other types pass.
+/// The message of the Error that an action throws; empty if it throws none. Exceptions of other types pass through.
 template <typename Error = std::runtime_error, typename Action>
 std::string failureOf(const Action& action) {
   try {

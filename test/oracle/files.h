@@ -11,7 +11,7 @@
 /// Files that tests write and read.
 namespace sdf_ccd::test {
 
-/// All bytes of a file; none where it cannot be opened.
+/// All bytes of a file; empty if it cannot be opened.
 inline std::string readText(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -21,7 +21,7 @@ inline void writeText(const std::filesystem::path& path, const std::string& byte
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A new directory, which goes with all that is in it.
+/// A new directory, which the destructor removes with all its content.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -5,8 +5,8 @@
 
 namespace sdf_ccd::test {
 
-/// Small files that made readers crash, hang or take gigabytes, in test/data/hostile. All but the prism of two
-/// twelve-cornered polygons, which is a good one, are refused.
+/// Small files in test/data/hostile that made readers crash, hang or take gigabytes. All are refused except the prism
+/// of two twelve-cornered polygons, which is valid.
 inline const std::vector<std::string>& hostileMeshes() {
   static const std::vector<std::string> names = {
       "assimp_11.iqm",         "assimp_11.md2",      "assimp_24.smd",    "node_bomb.dae",         "obj_mtl_segv.obj",

@@ -6,16 +6,16 @@
 
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
-/// Whether bodies with whole coordinates meet while one slides along a straight path: without any rounding.
+/// Whether bodies with integer coordinates meet while one slides along a straight path, computed without rounding.
 namespace sdf_ccd::test {
 
 using Whole = __int128;
 using Vector3w = Eigen::Matrix<Whole, 3, 1>;
 
-/// A convex polytope; coordinates below 2^20 in size, so that nothing overflows.
+/// A convex polytope; the magnitudes of coordinates are below 2^20, so that nothing overflows.
 struct WholeConvex {
   std::vector<Vector3w> corners;
-  std::vector<Vector3w> normals;  ///< of its faces, one of each pair of opposite ones
+  std::vector<Vector3w> normals;  ///< of its faces; one of two opposite normals
   std::vector<Vector3w> edges;
 };
 
@@ -25,7 +25,7 @@ inline Vector3w cross(const Vector3w& a, const Vector3w& b) {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
 
-/// Of a convex mesh whose coordinates are whole multiples of `unit`.
+/// From a convex mesh whose coordinates are integer multiples of `unit`.
 inline WholeConvex wholeConvexOf(const TriangleMesh& mesh, double unit) {
   WholeConvex convex;
   for (const Vector3d& v : mesh.vertices) {
@@ -45,7 +45,7 @@ inline WholeConvex wholeConvexOf(const TriangleMesh& mesh, double unit) {
   return convex;
 }
 
-/// Turned by a matrix of whole numbers, then shifted.
+/// Rotated by an integer matrix, then translated.
 inline WholeConvex moved(const WholeConvex& convex, const Eigen::Matrix<Whole, 3, 3>& R, const Vector3w& by) {
   WholeConvex result = convex;
   for (Vector3w& p : result.corners) p = R * p + by;
@@ -54,8 +54,9 @@ inline WholeConvex moved(const WholeConvex& convex, const Eigen::Matrix<Whole, 3
   return result;
 }
 
-/// A against B, which slides along `path`. What B sweeps is convex, and its faces are B's, or hold an edge of B's and
-/// the path: so these axes, and cross products of edges, are all that can separate it from A.
+/// Tests A against B, which slides along `path`. The volume that B sweeps is convex, and each of its faces is one of
+/// B's or contains an edge of B and the path's direction: so only these axes, A's normals and the cross products of
+/// edges can separate it from A.
 inline Sweep sweep(const WholeConvex& a, const WholeConvex& b, const Vector3w& path) {
   Sweep best = Sweep::kOverlap;
   const auto look = [&](const Vector3w& axis) {

@@ -7,12 +7,12 @@
 
 #include "oracle/long_screw.h"
 
-/// The least value that a function takes, certified from both sides.
+/// The minimum of a function, certified from both sides.
 namespace sdf_ccd::test {
 
 struct LeastValue {
-  Real low = 0;   ///< nowhere less
-  Real high = 0;  ///< taken at `at`
+  Real low = 0;   ///< lower bound of the minimum
+  Real high = 0;  ///< the function's value at `at`, an upper bound of the minimum
   Real at = 0;
 };
 
@@ -23,13 +23,13 @@ struct LeastOptions {
   int max_samples = 20000;
 };
 
-/// A function's value in the middle of an interval, and what it is nowhere less than in all of it.
+/// A function's value in the middle of an interval, and a lower bound in all of the interval.
 struct LeastSample {
   Real value, low;
 };
 
-/// Least value over [from, to]: intervals are halved, those that may hold less first (Piyavskii 1972).
-/// @param sample  LeastSample(Real middle, Real half): of [middle − half, middle + half].
+/// The minimum over [from, to]: intervals are halved, those with the smallest lower bound first (Piyavskii 1972).
+/// @param sample  LeastSample(Real middle, Real half), for the interval [middle − half, middle + half].
 template <class F>
 LeastValue leastOfSamples(const F& sample, Real from, Real to, const LeastOptions& options) {
   struct Interval {
@@ -48,7 +48,7 @@ LeastValue leastOfSamples(const F& sample, Real from, Real to, const LeastOption
     }
     queue.push({found.low, middle, half});
   };
-  for (const Real end : {from, to}) {  // the ends themselves: what only touches there is seen
+  for (const Real end : {from, to}) {  // the ends themselves, so that a contact that only occurs there is found
     const Real value = sample(end, 0).value;
     if (value >= least.high) continue;
     least.high = value;
@@ -66,8 +66,8 @@ LeastValue leastOfSamples(const F& sample, Real from, Real to, const LeastOption
   }
 }
 
-/// The same of a function that changes by no more than `rate` per unit.
-/// @param f  Real(Real); where it understates the function that has the rate, `low` still holds.
+/// The minimum of a function that changes by at most `rate` per unit.
+/// @param f  Real(Real); it may be less than the function with that rate: `low` still holds.
 template <class F>
 LeastValue leastValue(const F& f, Real from, Real to, Real rate, const LeastOptions& options) {
   const auto sample = [&](Real middle, Real half) {

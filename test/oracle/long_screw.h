@@ -4,7 +4,7 @@
 
 #include "sdf_ccd/common/eigen_types.h"
 
-/// Motions of constant twist in long double, written apart from src/motion/ so that they can judge it.
+/// Motions of constant twist in long double, independent of src/motion/, as a reference for it.
 namespace sdf_ccd::test {
 
 using Real = long double;
@@ -55,13 +55,13 @@ class LongScrew {
     return start_ * LongPose(R, shift(omega_, s) * velocity_);
   }
 
-  /// |ω × p + v|: the same all along [m per unit of s].
+  /// |ω × p + v|, which is the same at all s [m per unit of s].
   Real speed(const Vector3l& p_B) const { return velocity(p_B).norm(); }
 
-  /// Of a point, in the body's frame [m per unit of s].
+  /// Velocity of a point, in the body's frame [m per unit of s].
   Vector3l velocity(const Vector3l& p_B) const { return omega_.cross(p_B) + velocity_; }
 
-  /// Of the rotation [rad per unit of s].
+  /// Angular speed [rad per unit of s].
   Real turningSpeed() const { return omega_.norm(); }
 
  private:

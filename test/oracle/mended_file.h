@@ -11,7 +11,7 @@
 
 namespace sdf_ccd::test {
 
-/// Changes the sections of a checked file, and makes the checksum fit again.
+/// Changes the sections of a checked file, and writes it with a valid checksum.
 class MendedFile {
  public:
   using Sections = std::vector<std::string>;
@@ -42,20 +42,20 @@ class MendedFile {
   Sections sections_;
 };
 
-/// Overwrites what stands at `offset` of a section.
+/// Overwrites the bytes at `offset` of a section.
 template <class Value>
 void put(Value value, std::size_t offset, std::string& section) {
   section.replace(offset, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Puts numbers that no writer would at some places: NaN, infinities, huge, negative, any bits.
+/// Overwrites some bytes with numbers that no writer produces: NaN, infinities, huge or negative numbers, random bits.
 inline void breakNumbers(Random& random, MendedFile::Sections& sections) {
   const int count = 1 + int(random() % 3);
   for (int i = 0; i < count; ++i) {
     std::string& section = sections[random() % sections.size()];
     const std::size_t size = random() % 2 ? 8 : 4;
     if (section.size() < size) continue;
-    // Often near the beginning, where sizes and places stand.
+    // Often near the beginning, which holds sizes and positions.
     const std::size_t place =
         random() % std::min(section.size() / size, random() % 2 ? std::size_t(24) : section.size());
     constexpr double kDoubles[] = {0.0, -0.0, -1.0, 1e300, -1e300, 1e-300, 1e15, HUGE_VAL, -HUGE_VAL, NAN};

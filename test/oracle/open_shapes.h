@@ -9,7 +9,7 @@
 /// Meshes that are not closed.
 namespace sdf_ccd::test {
 
-/// A mesh without the triangles that the predicate names, by their three corners' mean.
+/// A mesh without the triangles whose centroids the predicate selects.
 template <typename Lost>
 TriangleMesh without(TriangleMesh mesh, Lost lost) {
   const auto is_lost = [&](const Vector3i& t) {
@@ -24,7 +24,7 @@ inline TriangleMesh binMesh(double half) {
   return without(boxMesh(Vector3d::Constant(half)), [half](const Vector3d& p) { return p.z() > 0.99 * half; });
 }
 
-/// Of a place to the nearest triangle [m], one after the other.
+/// Distance from a point to the nearest triangle [m], by brute force.
 inline double distance(const TriangleMesh& mesh, const Vector3d& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vector3i& t : mesh.triangles) {

@@ -6,8 +6,7 @@
 #include "oracle/convex.h"
 #include "oracle/least_value.h"
 
-/// How near two bodies come that both move: each with its own constant twist in the world between given poses, or along
-/// any path.
+/// The smallest separation of two bodies, each moving with a constant twist in the world between poses, or on any path.
 namespace sdf_ccd::test {
 
 using LongPath = std::function<LongPose(Real)>;
@@ -23,8 +22,9 @@ class PairMotion {
   }
   PairMotion(const Pieces& a, const Pieces& b) : a_(&a), b_(&b) {}
 
-  /// A step from one time to another: where the bodies are at a share s of it, and speeds that no point of theirs
-  /// exceeds, per unit of s [m].
+  /// Adds a step from one time to another.
+  /// @param a, b  the bodies' poses at s, from 0 to 1.
+  /// @param rate  upper bound of the sum of their points' speeds, per unit of s [m].
   void add(Real start, Real end, const LongPath& a, const LongPath& b, Real rate) {
     steps_.push_back({start, end, a, b, rate, {}});
   }
@@ -36,7 +36,7 @@ class PairMotion {
   Separation at(Real time) const { return separation(*a_, poseA(time), *b_, poseB(time)); }
   Real distanceAt(Real time) const { return surfaceDistance(*a_, poseA(time), *b_, poseB(time)); }
 
-  /// Least separation over all of the motion [m], at a time [s].
+  /// The smallest separation over the whole motion [m], and its time [s].
   LeastValue least(const LeastOptions& options) const {
     LeastValue all{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), 0};
     for (const Step& step : steps_) {
@@ -55,7 +55,7 @@ class PairMotion {
     Real start, end;
     LongPath a, b;
     Real rate;
-    std::vector<LongScrew> screws;  ///< that a and b follow; empty if they do not
+    std::vector<LongScrew> screws;  ///< the screws that a and b follow; empty for other paths
   };
 
   void addScrews(Real start, Real end, const LongScrew& a, const LongScrew& b) {
@@ -65,8 +65,8 @@ class PairMotion {
     steps_.back().screws = {a, b};
   }
 
-  /// Nothing changes by more than the rate; and along an axis that separates two pieces by a gap g, or overlaps them by
-  /// −g, the gap changes no faster than the points move along it now, and by what their motion may turn.
+  /// The separation changes by at most the rate. Along an axis on which two pieces have the gap g (or overlap by −g),
+  /// the gap changes at most as fast as the points move along it in the middle, plus the change of their velocities.
   LeastSample sampleOf(const Step& step, Real middle, Real half) const {
     const LongPose X_WA = step.a(middle), X_WB = step.b(middle);
     Real low = std::numeric_limits<Real>::infinity();
@@ -84,7 +84,7 @@ class PairMotion {
     return {value, low};
   }
 
-  /// How fast a piece's points move along an axis, from low to high; and by how much that changes at most.
+  /// The range of a piece's points' speeds along an axis, and `turn`, an upper bound of their change per unit of s.
   struct Range {
     Real low = std::numeric_limits<Real>::infinity(), high = -low, turn = 0;
   };
@@ -101,7 +101,7 @@ class PairMotion {
     return range;
   }
 
-  /// The speed is convex in the place, so it is greatest at a corner.
+  /// The speed is a convex function of the point, so it is largest at a corner.
   static Real fastest(const Pieces& pieces, const LongScrew& screw) {
     Real fastest = 0;
     for (const Convex& piece : pieces)

@@ -8,7 +8,7 @@
 
 namespace sdf_ccd::test {
 
-/// Names a test by its parameter, as that is written to a stream, instead of by its number.
+/// Names a test by its parameter, as a stream prints it, instead of by its number.
 struct ParameterName {
   template <class Parameter>
   std::string operator()(const testing::TestParamInfo<Parameter>& info) const {

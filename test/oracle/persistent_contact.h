@@ -5,14 +5,13 @@
 
 #include "oracle/bodies.h"
 
-/// A contact that persists, in one dimension, run through the integrators themselves: a point of mass 1 kg that its
-/// weight presses into a half-space, k = 10⁶ N/m, so that ω = 1000 rad/s.
+/// A contact that persists, in one dimension, simulated with the integrators under test: a point of mass 1 kg whose
+/// weight presses it into a half-space, k = 10⁶ N/m, so that ω = 1000 rad/s.
 namespace sdf_ccd::test {
 
 constexpr double kOmega = 1000.0;  // [rad/s]
 
-/// Whether a small oscillation about the resting depth grows. It is that of the linear system, as the point never
-/// leaves the half-space.
+/// Whether a small oscillation about the resting depth does not grow. The point stays inside, so the system is linear.
 inline bool staysStable(Scheme scheme, double zeta, double s, int steps) {
   RigidWorld world;
   world.bodies = {groundBody(), pointBody("point", 1.0)};
@@ -33,7 +32,7 @@ inline bool staysStable(Scheme scheme, double zeta, double s, int steps) {
   return late <= std::max(early, 1e-9 * start);
 }
 
-/// Largest stable s below `highest`, to a relative 1e-3 or better; the stable ones are those below it.
+/// The largest stable s below `highest`, to a relative 1e-3 or better; all smaller ones are taken to be stable.
 inline double largestStable(Scheme scheme, double zeta, double highest, int steps) {
   if (staysStable(scheme, zeta, highest, steps)) return highest;
   double low = 1e-3, high = highest;
@@ -44,12 +43,12 @@ inline double largestStable(Scheme scheme, double zeta, double highest, int step
   return low;
 }
 
-/// s/4 < ζ < 1/s (design §3.10).
+/// Limit of s for the continuous scheme: s/4 < ζ < 1/s (design §3.10).
 inline double continuousLimit(double zeta) {
   return std::min(4.0 * zeta, 1.0 / zeta);
 }
 
-/// s² + 4ζs < 4.
+/// Limit of s for the discrete scheme: s² + 4ζs < 4.
 inline double discreteLimit(double zeta) {
   return 2.0 * (std::sqrt(zeta * zeta + 1.0) - zeta);
 }

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd::test {
 
-/// Random, short, axis-parallel, on faces, edges and corners of cells, and of no length.
+/// A random segment; kinds: any, short, axis-parallel, on faces, edges and corners of cells, and of nearly no length.
 inline Segment randomSegment(const DistanceField& field, Random& random, int kind) {
   const Lattice shape = latticeOf(field);
   const AlignedBox3d box = shape.box();

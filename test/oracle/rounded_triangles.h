@@ -7,7 +7,7 @@
 #include "geometry/triangle_cut.h"
 #include "oracle/triangle_distance.h"
 
-/// Surfaces of rounded triangles, and how far they are apart by brute force.
+/// Surfaces of rounded triangles, and their distances by brute force.
 namespace sdf_ccd::test {
 
 inline std::vector<RoundedTriangle> roundedTriangles(const TriangleMesh& mesh, double radius = 0.0) {
@@ -20,7 +20,7 @@ inline BoxTree treeOf(const TriangleMesh& mesh, double radius = 0.0) {
   return BoxTree(roundedTriangles(mesh, radius));
 }
 
-/// Of two triangles; negative as far as their balls overlap.
+/// Distance of two rounded triangles [m]; negative if they overlap.
 inline Real distance(const RoundedTriangle& a, const RoundedTriangle& b,
                      const Isometry3d& X_AB = Isometry3d::Identity()) {
   return triangleDistance(exact(a.corners), exact(b.corners, X_AB)) - a.radius - b.radius;

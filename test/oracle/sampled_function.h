@@ -11,9 +11,9 @@
 
 namespace sdf_ccd::test {
 
-/// A field whose samples are f at the grid points, all of them stored. f need not be a distance, but as queries rest on
-/// that, what it is at any two of them must differ by no more than they are apart (noise: by no more than a cell).
-/// @throws std::logic_error where it does not at two neighbours.
+/// A field whose samples are f at the grid points, all of them stored. f need not be a distance, but its values at two
+/// grid points must differ by at most the points' distance (noise: by at most a cell), because queries rely on that.
+/// @throws std::logic_error if two neighbours violate this.
 template <class Function>
 DistanceField sampledFunction(const Function& f, const Vector3i& bricks, double cell, double band) {
   GridShape shape;

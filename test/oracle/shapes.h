@@ -29,7 +29,7 @@ inline TriangleMesh boxMesh(const Vector3d& half_size) {
   return mesh;
 }
 
-/// Icosahedron whose 20 triangles are split in four `subdivisions` times; vertices on the sphere.
+/// Icosahedron whose 20 triangles are divided into four `subdivisions` times; all vertices on the sphere.
 inline TriangleMesh icosphere(double radius, int subdivisions) {
   const double g = (1.0 + std::sqrt(5.0)) / 2.0;
   TriangleMesh mesh;

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd::test {
 
-/// Path of real data that a plain clone does not have.
+/// Path of real data, which is not in the repository.
 inline std::string dataPath(const std::string& name) {
   return std::string(SDF_CCD_TEST_DATA) + "/" + name;
 }
@@ -18,6 +18,6 @@ inline bool exists(const std::string& path) {
 
 }  // namespace sdf_ccd::test
 
-/// Skips the test, naming the file, where real data is absent.
+/// Skips the test, naming the file, if the data does not exist.
 #define SDF_CCD_NEEDS_DATA(name) \
   if (!sdf_ccd::test::exists(sdf_ccd::test::dataPath(name))) GTEST_SKIP() << "needs " << sdf_ccd::test::dataPath(name)

@@ -14,7 +14,7 @@ using Real = long double;
 using Vector3r = Eigen::Matrix<Real, 3, 1>;
 using Triangle3r = std::array<Vector3r, 3>;
 
-/// A triangle in frame B, in frame A.
+/// The corners in frame A of a triangle given in frame B.
 inline Triangle3r exact(const std::array<Vector3d, 3>& corners_B, const Isometry3d& X_AB = Isometry3d::Identity()) {
   Triangle3r corners_A;
   for (int k = 0; k < 3; ++k)
@@ -38,7 +38,7 @@ inline Real segmentDistance2(const Vector3r& a, const Vector3r& b, const Vector3
   return best;
 }
 
-/// Of p from the triangle's inside, if it is nearest there; else infinity, as edges are nearer.
+/// Squared distance of p from a triangle whose closest point is in its interior; else infinity, as an edge is nearer.
 inline Real faceDistance2(const Triangle3r& t, const Vector3r& p) {
   const Vector3r n = (t[1] - t[0]).cross(t[2] - t[0]);
   if (!(n.squaredNorm() > 0)) return std::numeric_limits<Real>::infinity();
@@ -69,7 +69,7 @@ inline Real triangleDistance(const Triangle3r& a, const Triangle3r& b) {
   return std::sqrt(best);
 }
 
-/// Of all triangles of two meshes, the second displaced.
+/// The smallest distance between triangles of two meshes, the second one displaced.
 inline Real meshDistance(const TriangleMesh& a, const TriangleMesh& b, const Vector3d& displacement) {
   const auto corners = [](const TriangleMesh& mesh, const Vector3i& t, const Vector3d& by) {
     Triangle3r result;

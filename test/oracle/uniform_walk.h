@@ -12,7 +12,7 @@
 
 namespace sdf_ccd::test {
 
-/// The cells of a grid as the oracle sees them: unit cubes, each with the values of the cell it belongs to.
+/// A grid as the oracle sees it: unit cubes, each with the values of the cell to which it belongs.
 struct Lattice {
   Vector3d origin;
   double cell;  ///< side of a unit cube [m]
@@ -32,7 +32,7 @@ inline Lattice latticeOf(const DistanceField& field) {
 struct LatticeCell {
   Vector3i low;  ///< [unit cubes]
   int side;
-  bool sampled;  ///< false: all of it is far, with the sign of corners[0]
+  bool sampled;  ///< false: a far cell, whose side of the surface is the sign of corners[0]
   std::array<double, 8> corners;
 };
 
@@ -49,12 +49,12 @@ inline LatticeCell latticeCell(const DistanceField& field, const Vector3i& c) {
   return {c, 1, true, grid.cellCorners(slot, c - GridShape::kBrick * brick)};
 }
 
-/// The segment query done slowly and plainly: every cell that the segment meets, one after the other, in long double;
-/// in each the cubic through four of its values, its extrema, and 120 halvings per root. No hierarchy, no skipping.
+/// The segment query by brute force in long double: visits every cell that the segment crosses; in each it fits the
+/// cubic through four values, finds its extrema, and bisects 120 times per root. No hierarchy, no skipping.
 class UniformWalk {
  public:
   struct Span {
-    long double enter, exit, lowest;  ///< `lowest` is the least φ − σ met [m]
+    long double enter, exit, lowest;  ///< `lowest` is the smallest φ − σ in the span [m]
   };
 
   UniformWalk(const DistanceField& field, const Segment& segment, double sigma)
@@ -77,7 +77,7 @@ class UniformWalk {
     return found;
   }
 
-  /// φ − σ at t, outside the grid +1.
+  /// φ − σ at t; +1 outside the grid.
   long double value(long double t) const {
     const std::array<long double, 3> p = place(t);
     return valueIn(p, cellOf(t));

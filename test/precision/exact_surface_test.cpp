@@ -18,7 +18,7 @@ TEST(ExactSurface, SegmentsMeetABoxWhereItsFacesAre) {
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
     const Segment segment{0.9 * test::direction(random), 0.9 * test::direction(random)};
-    // The slab method.
+    // The expected result, by the slab method.
     const Vector3d way = segment.end - segment.start;
     double enter = 0.0, exit = 1.0;
     for (int k = 0; k < 3; ++k) {
@@ -43,7 +43,7 @@ TEST(ExactSurface, NothingSlipsThroughEdgesAndCorners) {
     const Vector3d& a = mesh.vertices[t[0]];
     const Vector3d on_edge = a + test::uniform(random, 0.0, 1.0) * (mesh.vertices[t[1]] - a);
     for (const Vector3d& target : {a, on_edge}) {
-      // Radially: the first ball without surface ends at the edge itself.
+      // A radial segment: the first empty sphere reaches exactly to the edge.
       const Segment segment{3.0 * target, Vector3d::Zero()};
       const std::optional<double> hit = ball.firstHit(segment);
       ASSERT_TRUE(hit.has_value());

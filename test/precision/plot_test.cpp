@@ -22,7 +22,7 @@ int count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// Two systems that differ little have their points on top of each other: one name for both can be read.
+/// The points of two similar systems coincide; only one of their names may be drawn there.
 TEST(Plot, NamesOfSettingsDoNotCoverEachOther) {
   const std::vector<Measurement> rows{point("a", "4 mm", 1e-6, 1e-3), point("a", "1 mm", 1e-5, 1e-5),
                                       point("b", "4 mm", 1.02e-6, 1e-3), point("b", "1 mm", 1e-4, 1e-5)};

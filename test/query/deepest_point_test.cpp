@@ -20,7 +20,7 @@ using test::Real;
 using test::treeOf;
 using test::Vector3r;
 
-/// The truth about a closed mesh: all triangles, one after the other.
+/// Exact depths in a closed mesh, by brute force over all triangles.
 class MeshTruth {
  public:
   explicit MeshTruth(const TriangleMesh& mesh) {
@@ -45,7 +45,7 @@ class MeshTruth {
   std::vector<test::Triangle3r> triangles_;
 };
 
-/// A mesh as the solid that others go into.
+/// A mesh as the solid in which depths are measured.
 struct MeshSolid {
   explicit MeshSolid(const TriangleMesh& mesh, const Isometry3d& X_BG = Isometry3d::Identity())
       : solid(mesh), field(buildField(mesh, coarse(mesh))), parts{{X_BG.inverse(), &field, &solid}} {}
@@ -65,7 +65,7 @@ Vector3r inFrame(const test::LongPose& X_WF, const Vector3r& p_W) {
   return X_WF.R.transpose() * (p_W - X_WF.p);
 }
 
-/// The deepest place found, and all that is needed to tell whether it is.
+/// The result of a search: the deepest point, and the upper bound of how much deeper another one may be.
 struct Found {
   DeepestPoint point;
   double error;
@@ -83,7 +83,7 @@ Found search(const EnteringSurface& surface, const std::vector<SolidPart>& solid
   return {search.deepest(), search.error()};
 }
 
-/// The deepest place that samples of the surface and of the motion, and climbing from the best of them, come to.
+/// The largest depth that random samples of the surface and the motion find, with a local search from the best of them.
 Real deepestSample(const TriangleMesh& surface, const MeshTruth& solid, const LongScrew& X_WF, const LongScrew& X_WP,
                    Random& random) {
   struct Place {
@@ -136,7 +136,7 @@ TEST(DeepestPoint, NoPlaceIsDeeperAndItsOwnDepthIsExact) {
     for (const TriangleMesh* surface : meshes) {
       const BoxTree tree = treeOf(*surface);
       for (int i = 0; i < 12; ++i) {
-        const double scale = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.02 : 1.0;  // of the motion: none, a cycle's, a plan's
+        const double scale = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.02 : 1.0;  // at rest, as in a cycle, as in a plan
         const Isometry3d X_WF = test::pose(random, 1.0, 1.0), X_FP = test::pose(random, 2.0, 0.07);
         const ScrewMotion f(X_WF, X_WF * test::pose(random, 1.5 * scale, 0.03 * scale));
         const ScrewMotion p(X_WF * X_FP, X_WF * X_FP * test::pose(random, 1.5 * scale, 0.05 * scale));
@@ -149,14 +149,14 @@ TEST(DeepestPoint, NoPlaceIsDeeperAndItsOwnDepthIsExact) {
         if (found.point.depth == 0.0) continue;
         ++deep;
         EXPECT_NEAR(double(truth.depth(found.point.p_F.cast<Real>())), found.point.depth, 1e-12);
-        // It is a place of the surface at that time.
+        // It is a point of the surface at that time.
         const Vector3r p_P =
             inFrame(long_p.pose(found.point.s), long_f.pose(found.point.s) * found.point.p_F.cast<Real>());
         Real off = 1e300L;
         for (const RoundedTriangle& t : test::roundedTriangles(*surface))
           off = std::min(off, test::triangleDistance(test::exact(t.corners), {p_P, p_P, p_P}));
         EXPECT_LT(double(off), 1e-12);
-        // Its normal leads out.
+        // Its normal points out of the solid.
         const Vector3d outside = found.point.p_F + (found.point.depth + 1e-7) * found.point.out_F;
         EXPECT_LT(double(truth.depth(outside.cast<Real>())), 0.0);
       }
@@ -166,7 +166,7 @@ TEST(DeepestPoint, NoPlaceIsDeeperAndItsOwnDepthIsExact) {
 }
 
 TEST(DeepestPoint, OfABallIsWhereItFacesIn) {
-  // Into the face at z = 0.03 of a box, by 2 mm.
+  // A ball moves 2 mm into the face at z = 0.03 of a box.
   const TriangleMesh box = test::boxMesh({0.05, 0.04, 0.03});
   const MeshSolid solid(box);
   const BoxTree ball({RoundedTriangle{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}, 0.02}});
@@ -194,7 +194,7 @@ TEST(DeepestPoint, OfPrimitivesIsExact) {
 }
 
 TEST(DeepestPoint, WhatIsInsideItsOwnBodyDoesNotCount) {
-  // Two boxes overlap in one body; a face of the lower one's end is inside the upper one, deeper than what shows.
+  // One body has a box inside another one: the inner box's surface is hidden, so its points do not count.
   const MeshSolid ground(test::boxMesh({0.2, 0.2, 0.1}));  // its top at z = 0.1
   const TriangleMesh upper = test::translated(test::boxMesh({0.02, 0.02, 0.02}), {0, 0, 0.115});
   const TriangleMesh hidden = test::translated(test::boxMesh({0.005, 0.005, 0.005}), {0, 0, 0.115});

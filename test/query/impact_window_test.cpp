@@ -21,8 +21,8 @@ std::optional<double> firstContact(const Segment& segment) {
   return found.empty() ? std::optional<double>() : found.front().enter;
 }
 
-/// The box's own distances are the truth for fields of its mesh.
-/// @return the median length of the windows that are closed, in error bounds of the field.
+/// Compares the windows of a box's sampled field with the times of impact by its exact distance.
+/// @return the median length of the windows that have a latest time, in multiples of the field's error bound.
 double expectHonest(const FieldOptions& options) {
   const DistanceField field = buildField(test::boxMesh(kHalf), options);
   Random random(4);

@@ -16,14 +16,13 @@ namespace {
 
 using test::Random;
 
-constexpr double kTolerance = 1e-5;  ///< of the truth [m]
+constexpr double kTolerance = 1e-5;  ///< of the reference distances [m]
 
 Vector3d placeAt(const Segment& segment, double t) {
   return segment.start + t * (segment.end - segment.start);
 }
 
-/// The least distance of a segment, to `tolerance` [m] above it: distances change by no more than the way between
-/// places.
+/// The least distance of a segment, or up to `tolerance` [m] more: the distance is 1-Lipschitz.
 template <class Distance>
 double leastOn(const Segment& segment, double tolerance, const Distance& distance) {
   struct Piece {
@@ -44,7 +43,8 @@ double leastOn(const Segment& segment, double tolerance, const Distance& distanc
   return least;
 }
 
-/// Everywhere; short; along what may be a face, up to a band beside it; into the middle, beyond the band.
+/// A random segment about a box; kinds: 0 any, 1 short, 2 parallel to a face, up to a band beside it, 3 into the
+/// middle, beyond the band.
 Segment segmentAbout(const AlignedBox3d& box, double band, int kind, Random& random) {
   const AlignedBox3d around{1.5 * box.min(), 1.5 * box.max()};
   Segment segment{test::uniformIn(random, around), test::uniformIn(random, around)};
@@ -54,9 +54,9 @@ Segment segmentAbout(const AlignedBox3d& box, double band, int kind, Random& ran
   return segment;
 }
 
-/// What is reported against a mesh.
+/// Bounds of depths, compared with a mesh's exact distances.
 struct Tally {
-  std::vector<double> bounds, ratios;  ///< of depths in the band [m]; over their true errors
+  std::vector<double> bounds, ratios;  ///< of the errors of depths in the band [m]; the same over the true errors
   int deep = 0, far = 0;               ///< paths beyond the band, inside and out
 
   static double median(std::vector<double> values) {
@@ -65,7 +65,7 @@ struct Tally {
   }
 };
 
-/// Depths below the isosurface σ, of the deepest place that the field itself knows.
+/// Compares depths below the isosurface σ: that of the deepest point in the interpolated field, and the exact one.
 void expectHonestDepth(const DistanceField& field, const Segment& segment, double sigma, double exact, Tally& tally) {
   double deepest = -std::numeric_limits<double>::infinity();
   for (const Interval& interval : segmentIntervals(field, segment, {sigma})) {

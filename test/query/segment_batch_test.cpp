@@ -57,17 +57,17 @@ std::vector<Segment> randomSegments(const DistanceField& field, int count) {
   return segments;
 }
 
-/// Of the interpolated field minus sigma: how far from a hit or a gap time t is [m].
+/// The interpolated field minus sigma, at time t of a segment [m].
 double valueAt(const DistanceField& field, const Segment& s, double t, double sigma) {
   return field.sample(s.start + t * (s.end - s.start)).value - sigma;
 }
 
-/// From the nearest of a box's faces, of a place in it.
+/// Distance of a point in a box from the nearest face; negative outside.
 double toFaces(const AlignedBox3d& box, const Vector3d& p) {
   return std::min((p - box.min()).minCoeff(), (box.max() - p).minCoeff());
 }
 
-/// Where both differ, the segment must graze: the field along the difference stays within the tolerance of sigma.
+/// Where the two results differ, the segment must graze: the field there is within the tolerance of sigma.
 void expectSame(const DistanceField& field, const Segment& s, const Intervals& exact, const Intervals& batch,
                 double sigma) {
   // Leaves of an adaptive field jump by up to twice the error where they meet, and single precision may cut a corner.
@@ -151,7 +151,7 @@ TEST(SegmentBatch, EqualsSingleQueries) {
   }
 }
 
-/// Samples of half a cell at most, as a distance could have them: none has a ball to go by.
+/// The samples' magnitudes are at most half a cell, so that no sample has an empty sphere to skip by.
 TEST(SegmentBatch, EqualsSingleQueriesOnNoise) {
   Random random(77);
   const DistanceField field = test::sampledFunction(
@@ -160,7 +160,7 @@ TEST(SegmentBatch, EqualsSingleQueriesOnNoise) {
   EXPECT_GT(compared.hits, 1000);
 }
 
-/// Samples of 16 bits are read two at a time: not beyond the last one, behind which a mapped file may end.
+/// Samples of 16 bits are read two at a time, but never beyond the last one, where a mapped file may end.
 TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
   const DistanceField field = uniformTorus();
   const SparseGrid& grid = *field.grid();
@@ -195,7 +195,7 @@ TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
 
 #ifdef SDF_CCD_HIGHWAY
 TEST(SegmentBatch, FollowsEverySegmentToItsEnd) {
-  // One that does not end is asked again one by one: right, but as slow as thousands.
+  // A segment that is not completed is queried again by itself: correct, but as slow as thousands in a batch.
   FieldOptions options;
   options.max_error = 0.0003;
   const DistanceField fine = buildField(test::torusMesh(0.2, 0.08, 48, 24), options), even = uniformTorus();
@@ -271,7 +271,8 @@ TEST(SegmentBatch, DoesNotDependOnThreads) {
   }
 }
 
-/// Segments share vectors, and what is done for one of them may be done for all: far ones, those that leave the box.
+/// Segments share vectors, and some steps are done for all lanes if one needs them, e.g. for segments far away or those
+/// that leave the box.
 TEST(SegmentBatch, DoesNotDependOnTheOtherSegments) {
   for (const DistanceField& field : {torus(), uniformTorus()}) {
     std::vector<Segment> segments = randomSegments(field, 5000);
@@ -313,7 +314,7 @@ TEST(SegmentBatch, DefinedForNoSegmentsNoLengthAndNoGrid) {
   EXPECT_EQ(result.hits[3].enter, 0.0F);
 }
 
-/// Segments that miss the grid's box end before they begin; those behind them must not be forgotten.
+/// Segments that miss the grid's box are complete at once; those after them must still be queried.
 TEST(SegmentBatch, GoesOnAfterManyThatMissTheBox) {
   for (const DistanceField& field : {torus(), uniformTorus()}) {
     std::vector<Segment> segments(3000, {Vector3d(5, 5, 5), Vector3d(6, 5, 5)});

@@ -83,8 +83,8 @@ TEST(SegmentQuery, ReversedInTimeGivesTheMirroredIntervals) {
 
 using Vector3r = Eigen::Matrix<long double, 3, 1>;
 
-/// How far a root is from where φ changes its sign on the segment, in long double [m]; negative where φ does so at a
-/// slope of less than a third, or more than once.
+/// Distance from a root to the point of the segment where φ changes its sign, in long double, times φ's slope there
+/// [m]. Negative if the slope is less than a third or no single change of sign is found.
 double rootError(const DistanceField& field, const Segment& segment, double t) {
   const Vector3r start = segment.start.cast<long double>(), path = segment.end.cast<long double>() - start;
   const long double length = path.norm();
@@ -107,7 +107,7 @@ double rootError(const DistanceField& field, const Segment& segment, double t) {
   return -1.0;
 }
 
-/// Segments of one length through the middle of things, which they leave somewhere on their way.
+/// Segments of one length through random points near the origin.
 std::vector<Segment> longSegments(double length, int count) {
   Random random(15);
   std::vector<Segment> segments;
@@ -130,7 +130,7 @@ std::vector<DistanceField> fieldsOfAllKinds() {
           DistanceField{Primitive(Cylinder{0.2, 0.3})}, buildField(torus, even), buildField(torus, adaptive)};
 }
 
-/// The documented accuracy in metres holds, and is no more than needed.
+/// The documented accuracy holds and is not too pessimistic.
 TEST(SegmentQuery, RootsAreRightToAFewSpacingsOfDoublesAtTheirCoordinates) {
   for (const DistanceField& field : fieldsOfAllKinds()) {
     double most = 0.0;
@@ -176,7 +176,7 @@ TEST(SegmentBatch, HitsAreRightToAMillionthOfTheGridAndToWhatFloatsTellOfThePath
   }
 }
 
-/// What stops early equals what is first in the whole.
+/// Queries that stop early give the first of all intervals.
 void expectFirstOfAll(const DistanceField& field) {
   Random random(8);
   int several = 0;

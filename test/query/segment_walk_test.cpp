@@ -18,7 +18,7 @@ using test::Random;
 using test::randomSegment;
 using test::UniformWalk;
 
-/// Segments per field; the full million of the issue is run by setting SDF_CCD_SEGMENTS.
+/// Segments per field; SDF_CCD_SEGMENTS sets another number, e.g. a million.
 int segmentCount() {
   const char* wanted = std::getenv("SDF_CCD_SEGMENTS");
   return wanted ? std::atoi(wanted) : 20000;
@@ -33,7 +33,7 @@ struct Agreement {
 
 /// Every span of the oracle that is deeper than rounding must be found, with its ends, and nothing else.
 void expectAgreement(const DistanceField& field, const Segment& segment, double sigma, Agreement& agreement) {
-  // Where a face is crossed is known to the rounding of places; on a short segment that is much of its time.
+  // A crossing of a face is known to the rounding of coordinates; on a short segment that is a large part of its time.
   const double place_time =
       1e-15 * test::latticeOf(field).box().sizes().maxCoeff() / std::max((segment.end - segment.start).norm(), 1e-300);
   const double tick = std::max(1e-12, 4.0 * place_time), time = std::max(1e-9, 4.0 * place_time);
@@ -70,7 +70,7 @@ void expectAgreement(const DistanceField& field, const Segment& segment, double 
     bool matched = false;
     for (const Interval& interval : fast) {
       if (interval.enter > span.exit + time || interval.exit < span.enter - time) continue;
-      // Spans that nearly touch may be one for the other side.
+      // Spans that nearly touch may be merged in the other result.
       matched = (sameTime(interval.enter, span.enter) || interval.enter < span.enter) &&
                 (sameTime(interval.exit, span.exit) || interval.exit > span.exit);
       if (matched) break;
@@ -79,7 +79,7 @@ void expectAgreement(const DistanceField& field, const Segment& segment, double 
                          << " m deep, from " << segment.start.transpose() << " to " << segment.end.transpose()
                          << ", sigma " << sigma;
   }
-  // What lies between two spans of the fast answer is outside.
+  // Between two intervals of the fast query the point is outside.
   for (std::size_t i = 1; i < fast.size(); ++i) {
     const double middle = 0.5 * (fast[i - 1].exit + fast[i].enter);
     if (fast[i].enter - fast[i - 1].exit > time) {
@@ -110,12 +110,13 @@ TEST(SegmentQuery, EqualsUniformWalkOnThinPlate) {
   FieldOptions options;
   options.cells = 40;
   Agreement agreement;
-  // A third of a cell thin: the interpolated field has hills and holes, and many double crossings.
+  // The plate is a fifth of a cell thick: the interpolated field has bumps and holes, and many double crossings.
   compareRandom(buildField(test::boxMesh({0.2, 0.15, 0.001}), options), 2, agreement);
   EXPECT_GT(agreement.spans, segmentCount() / 100);
 }
 
-/// Leaves of all sizes, with jumps between them: a segment that runs in a face has two answers, so none does here.
+/// Leaves of all sizes, with jumps between them: along a face between leaves the result is ambiguous, so no segment
+/// here runs in a face.
 void compareAdaptive(const TriangleMesh& mesh, double max_error, Agreement& agreement) {
   FieldOptions options;
   options.max_error = max_error;
@@ -144,7 +145,7 @@ TEST(SegmentQuery, EqualsUniformWalkOnAdaptivePlate) {
 
 TEST(SegmentQuery, EqualsUniformWalkOnNoise) {
   const auto noise = [](const Vector3d& p) {
-    if (std::max({std::abs(p.x()), 0.5 * std::abs(p.y()), std::abs(p.z())}) > 0.0799) return 0.005;  // as far away is
+    if (std::max({std::abs(p.x()), 0.5 * std::abs(p.y()), std::abs(p.z())}) > 0.0799) return 0.005;  // as far outside
     Random random(std::uint64_t(std::llround(p.x() * 100) * 1000003 + std::llround(p.y() * 100) * 1009 +
                                 std::llround(p.z() * 100)));
     return test::uniform(random, -0.005, 0.005);
@@ -157,7 +158,7 @@ TEST(SegmentQuery, EqualsUniformWalkOnNoise) {
 }
 
 TEST(SegmentQuery, EqualsUniformWalkWhenGrazing) {
-  // Along the edges of a wave whose crests just reach the isosurface.
+  // Segments at the height of a wave's crests, which just reach the isosurface.
   constexpr double kSlope = 0.6;
   const auto field = test::sampledFunction(
       [](const Vector3d& p) { return kSlope * (0.02 * std::sin(60 * p.x()) * std::sin(50 * p.y()) + p.z()); },
@@ -167,7 +168,7 @@ TEST(SegmentQuery, EqualsUniformWalkWhenGrazing) {
   for (int i = 0; i < segmentCount(); ++i) {
     const AlignedBox3d box = test::latticeOf(field).box();
     Segment s{test::uniformIn(random, box), test::uniformIn(random, box)};
-    // Start and end at the same height, at which a crest is just touched somewhere.
+    // Start and end at the height at which a crest is just touched.
     const double height = field.sample(s.start).value / kSlope - s.start.z();
     s.start.z() = s.end.z() = -height + test::uniform(random, -1e-6, 1e-6);
     expectAgreement(field, s, 0.0, agreement);
@@ -178,7 +179,7 @@ TEST(SegmentQuery, EqualsUniformWalkWhenGrazing) {
 }
 
 TEST(SegmentQuery, PaperSignTestLosesThisDoubleCrossing) {
-  // Both ends of the cell's piece are outside, its middle is not.
+  // Both ends of the segment's piece in the cell are outside, its middle is inside.
   const auto field = test::sampledFunction(
       [](const Vector3d& p) { return std::abs(p.x()) < 1e-9 && std::abs(p.y()) < 1e-9 ? 0.01 : -0.01; }, {1, 1, 1}, 0.1,
       0.05);

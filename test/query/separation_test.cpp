@@ -18,7 +18,7 @@ using test::treeOf;
 using test::Triangle3r;
 using test::Vector3r;
 
-/// Two trees and how they move, with the truth in long double.
+/// Two trees and their motions, with exact distances in long double.
 struct Case {
   const BoxTree *a, *b;
   Isometry3d A_start, A_end, B_start, B_end;
@@ -38,7 +38,7 @@ struct Case {
     return query(options, witness, memory);
   }
 
-  /// Of the surfaces at a time; 0 where they cross. Where it is above `least`, something above that.
+  /// Distance of the surfaces at a time; 0 if they cross. If it exceeds `least`, any value of at least `least`.
   Real distanceAt(Real s, Real least = 1e300L) const {
     const LongPose X_WA = LongScrew(A_start, A_end).pose(s), X_WB = LongScrew(B_start, B_end).pose(s);
     const auto placed = [](const BoxTree& tree, const LongPose& X) {
@@ -57,7 +57,7 @@ struct Case {
     };
     std::vector<std::pair<Vector3r, Real>> balls_b;
     for (const Triangle3r& t : in_b) balls_b.push_back(ball(t));
-    // Triangles that are near each other first.
+    // First an upper bound from two corners that are near each other.
     std::size_t first = 0;
     for (std::size_t i = 1; i < in_a.size(); ++i)
       if ((in_a[i][0] - balls_b[0].first).norm() < (in_a[first][0] - balls_b[0].first).norm()) first = i;
@@ -76,7 +76,7 @@ struct Case {
     return std::max<Real>(least, 0);
   }
 
-  /// The least found at some times, and by halving steps from the best of them: an upper bound.
+  /// The smallest distance found at some times, and by a local search from the best of them: an upper bound.
   Real leastFound(int samples = 24) const {
     Real best = 1e300L, at = 0;
     const auto look = [&](Real s) {
@@ -110,7 +110,7 @@ struct Shapes {
   }
 };
 
-/// Both move, by as much as `travel` and `turn` at most, and are about `apart` from each other halfway.
+/// A random case: both bodies move by at most `travel` and rotate by at most `turn`; halfway their distance is `apart`.
 Case draw(const Shapes& shapes, Random& random, double travel, double turn, double apart) {
   Case c;
   c.a = &shapes.trees[random() % shapes.trees.size()];
@@ -124,7 +124,7 @@ Case draw(const Shapes& shapes, Random& random, double travel, double turn, doub
     return moved;
   };
   c.A_start = around(A, 1), c.A_end = around(A, 1), c.B_start = around(B, 1), c.B_end = around(B, 1);
-  // Moved along the way between the nearest points, halfway.
+  // B is moved along the segment between the nearest corners halfway.
   for (int step = 0; step < 3; ++step) {
     const Isometry3d X_WA = ScrewMotion(c.A_start, c.A_end).pose(0.5), X_WB = ScrewMotion(c.B_start, c.B_end).pose(0.5);
     double best = 1e300;
@@ -142,20 +142,20 @@ Case draw(const Shapes& shapes, Random& random, double travel, double turn, doub
   return c;
 }
 
-/// Of random motions, fast and slow, far and near: no bound is above the truth, and no crossing untrue.
+/// For random motions, fast and slow, far and near: no lower bound exceeds the distance, and every crossing is real.
 TEST(Separation, BoundsAndCrossingsAreTrue) {
   const Shapes shapes;
   Random random(1);
   SeparationMemory memory;
   long apart = 0, crossing = 0, open = 0;
-  std::vector<double> ratios;  // of the bound and the truth
+  std::vector<double> ratios;  // of the bound to the distance found
   for (int trial = 0; trial < 250; ++trial) {
     const double travel = std::pow(10.0, test::uniform(random, -4, -0.3));
     const Case c = draw(shapes, random, travel, 3 * travel, std::pow(10.0, test::uniform(random, -4.5, -0.7)));
     SeparationOptions options;
     options.margin = trial % 3 ? 0.0 : 1e-4;
     SeparationWitness witness;
-    for (int again = 0; again < 2; ++again) {  // with what the first has left
+    for (int again = 0; again < 2; ++again) {  // the second time with the witness of the first
       const Separation found = c.query(options, witness, memory);
       if (found.state == SeparationState::kApart) {
         const Real truth = c.leastFound();
@@ -179,7 +179,7 @@ TEST(Separation, BoundsAndCrossingsAreTrue) {
   EXPECT_GT(ratios[ratios.size() / 2], 0.55) << "of slow motions the bound is near the distance";
 }
 
-/// From a case that is apart, to where its bound exceeds the truth by most: it never does.
+/// Climbs from cases that are apart to the largest excess of the bound over the distance: it is never positive.
 TEST(Separation, NoClimbFindsABoundAboveTheTruth) {
   const Shapes shapes;
   SeparationMemory memory;
@@ -222,7 +222,7 @@ TEST(Separation, NoClimbFindsABoundAboveTheTruth) {
   EXPECT_GT(worst, -0.2) << "the climb comes near the truth";
 }
 
-/// A thin plate passes through another in one step, apart at both ends.
+/// A body passes through a thin plate in one step; at both ends they are apart.
 TEST(Separation, NothingTunnels) {
   const BoxTree plate = treeOf(test::boxMesh({0.1, 0.1, 5e-4})), hand = treeOf(test::boxMesh({0.02, 0.02, 0.02}));
   Random random(3);
@@ -244,7 +244,7 @@ TEST(Separation, NothingTunnels) {
   }
 }
 
-/// What grazes a plate at a tenth of a millimetre, in one long step, is told from what it touches.
+/// In one long step, a gap to a plate of 0.1 or 0.01 mm is distinguished from a contact.
 TEST(Separation, GrazingIsToldFromTouching) {
   const BoxTree plate = treeOf(test::boxMesh({0.5, 0.5, 0.01})), hand = treeOf(test::boxMesh({0.02, 0.03, 0.04}));
   for (const double gap : {1e-4, 1e-5, -1e-5, -1e-4}) {
@@ -276,7 +276,7 @@ TEST(Separation, BallsTouchWhereTheirRadiiSay) {
   EXPECT_EQ(stateOf(wall, b, 0.3 - 1e-9), SeparationState::kCrossing);
 }
 
-/// Where rounded triangles cross is a place on the surface of one that the other one has, not a ball's middle.
+/// The reported point of rounded triangles that cross is on the surface of one and in the other, not a ball's centre.
 TEST(Separation, ACrossingIsOnASurface) {
   const BoxTree large({{{Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0)}, 0.5}}),
       small({{{Vector3d(0, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0, 0)}, 0.02}}),
@@ -304,7 +304,7 @@ TEST(Separation, ACrossingIsOnASurface) {
   EXPECT_NEAR(crossing(large, small, Vector3d::Zero()).norm(), 0.02, 1e-9);
 }
 
-/// Far from the world's origin, and bodies that turn about it together: only what they do against each other counts.
+/// Bodies that rotate together about the world's origin: only the relative motion counts.
 TEST(Separation, BodiesThatMoveAsOneKeepTheirDistance) {
   const BoxTree a = treeOf(test::torusMesh(0.1, 0.03, 16, 8)), b = treeOf(test::boxMesh({0.05, 0.05, 0.05}));
   Isometry3d X_AB = Isometry3d::Identity();
@@ -319,7 +319,7 @@ TEST(Separation, BodiesThatMoveAsOneKeepTheirDistance) {
   EXPECT_GT(found.distance, 0.5 * truth);
 }
 
-/// Triangles that lie on each other, everywhere: it ends, and says that nothing is proved.
+/// Triangles that lie on each other everywhere: the query ends with nothing proved.
 TEST(Separation, SurfacesThatLieOnEachOtherStayOpen) {
   TriangleMesh sheet;
   constexpr int kSteps = 40;
@@ -339,10 +339,11 @@ TEST(Separation, SurfacesThatLieOnEachOtherStayOpen) {
 }
 
 TEST(Separation, NoMoreTestsThanAreAllowed) {
-  // Two balls of many triangles, one in the other and nearer than can be told: every pair of triangles stays open.
+  // Two balls of many triangles, one in the other, closer than the resolution: many pairs of triangles stay open.
   const BoxTree inner = treeOf(test::icosphere(0.09999, 4)), outer = treeOf(test::icosphere(0.1, 4));
   const Isometry3d at_rest = Isometry3d::Identity();
-  const Case nested{&outer, &inner, at_rest, at_rest, at_rest, Isometry3d(Eigen::AngleAxisd(0.2, Vector3d(1, 2, 3).normalized()))};
+  const Case nested{&outer,  &inner,  at_rest,
+                    at_rest, at_rest, Isometry3d(Eigen::AngleAxisd(0.2, Vector3d(1, 2, 3).normalized()))};
   for (const int allowed : {100, 1000, 20000}) {
     SeparationOptions options;
     options.max_tests = allowed;

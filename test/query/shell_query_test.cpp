@@ -22,7 +22,7 @@ BoundingBall rootBall(const SphereTree& tree) {
   return {tree.nodes[0].center, tree.nodes[0].radius};
 }
 
-/// Every point on every chord, without the tree. Grids are asked in batches, as the shell query asks them.
+/// Queries every point on every chord, without the tree. Grids are queried in batches, as in the shell query.
 std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& shell, const ChordPath& path,
                                  double sigma) {
   std::vector<ShellHit> hits;
@@ -120,7 +120,7 @@ TEST(ShellQuery, EqualsLinearScanOnEveryPoint) {
   long hits = 0, visits = 0, points = 0;
   for (const Scene& scene : scenes()) {
     for (int i = 0; i < 200; ++i) {
-      // Far and near, fast and slow, also turning by more than a right angle.
+      // Far and near, fast and slow, also with rotations by more than a right angle.
       const double reach = i % 4 == 0 ? 1.0 : 0.3;
       RelativePath motion{{0.0, 0.5, 1.0},
                           {test::pose(random, 3.0, reach), test::pose(random, 3.0, reach),
@@ -149,7 +149,7 @@ TEST(ShellQuery, EqualsLinearScanWhereOneNodeHoldsAllPoints) {
     SphereTree root{{scene.tree.nodes[0]}};
     root.nodes[0].first_child = -1;
     root.nodes[0].child_count = 0;
-    for (const double reach : {0.0, 0.01, 1.0}) {  // resting, short ways, long ways
+    for (const double reach : {0.0, 0.01, 1.0}) {  // at rest, short paths, long paths
       ChordPath path;
       path.chords.emplace_back();
       path.chords[0].X_FP_start = test::pose(random, 3.0, 0.05);
@@ -194,7 +194,7 @@ TEST(ShellQuery, EqualsLinearScanOnAdversarialMotions) {
   }
 }
 
-/// Bodies of a kind that meet in a motion, by how far they move and turn.
+/// A kind of motion: distance of the bodies, rotation and translation over a chord.
 struct Motions {
   const char* name;
   double reach, turn, travel;
@@ -202,7 +202,7 @@ struct Motions {
 constexpr Motions kMotions[] = {
     {"random", 0.5, 3.0, 0.6}, {"small", 0.25, 0.01, 0.005}, {"deep", 0.03, 0.01, 0.005}, {"clear", 3.0, 0.01, 0.005}};
 
-/// Points inside all along are those of the linear scan too, of fields of all kinds.
+/// Points that are inside along the whole chord are those of the linear scan too, in fields of all kinds.
 TEST(ShellQuery, EqualsLinearScanOnMotionsOfAllKinds) {
   Random random(11);
   const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);

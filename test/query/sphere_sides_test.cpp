@@ -13,7 +13,7 @@ namespace {
 
 using test::Random;
 
-const BoundingBall kShell{{0.05, -0.02, 0.01}, 0.4};  // of the spheres' centres
+const BoundingBall kShell{{0.05, -0.02, 0.01}, 0.4};  // contains the spheres' centres
 
 std::vector<DistanceField> buildFields() {
   const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);
@@ -40,7 +40,7 @@ Chord chordOf(Random& random, double reach, double turn, double travel) {
   return {0.0, 1.0, start, test::pose(random, turn, travel) * start, 0};
 }
 
-/// Asks spheres of all sizes, and points; near the torus mostly.
+/// Fills a group with spheres of all sizes, and points; most of them near the torus.
 void fill(SphereGroup& group, Random& random, std::vector<std::pair<Vector3d, double>>& spheres) {
   spheres.clear();
   group.size = 0;
@@ -52,7 +52,7 @@ void fill(SphereGroup& group, Random& random, std::vector<std::pair<Vector3d, do
   }
 }
 
-/// Every place of a sphere's way is on the side that was said, as far as the field's own bounds can tell.
+/// A sphere is on the reported side along its whole path, as far as the field's bounds can tell.
 TEST(SphereSides, OutsideAndInsideHoldAllAlong) {
   Random random(1);
   std::vector<std::pair<Vector3d, double>> spheres;
@@ -92,7 +92,7 @@ TEST(SphereSides, OutsideAndInsideHoldAllAlong) {
   EXPECT_GT(sorts, 0) << "no short ways";
 }
 
-/// Nearly as many are told apart as by sweptSide(), which follows short ways from ball to ball too.
+/// Groups find nearly as many sides as sweptSide(), which follows short paths from one empty sphere to the next too.
 TEST(SphereSides, TellsAsManyApartAsOneByOne) {
   Random random(2);
   std::vector<std::pair<Vector3d, double>> spheres;

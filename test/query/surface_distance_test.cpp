@@ -15,14 +15,14 @@ using test::treeOf;
 using test::Triangle3r;
 using test::Vector3r;
 
-/// No part of it is flat, and it is not convex.
+/// A sphere with random bumps: not convex, and nowhere flat.
 TriangleMesh bumpySphere(Random& random, double radius, int subdivisions) {
   TriangleMesh mesh = test::icosphere(radius, subdivisions);
   for (Vector3d& v : mesh.vertices) v *= test::uniform(random, 0.6, 1.4);
   return mesh;
 }
 
-/// Over all pairs of triangles, in long double.
+/// By brute force over all pairs of triangles, in long double.
 Real trueDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB) {
   Real least = 1e300L;
   for (int i = 0; i < int(a.size()); ++i)
@@ -31,7 +31,7 @@ Real trueDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB) {
   return std::max<Real>(least, 0);
 }
 
-/// Of a point from a surface.
+/// Distance of a point from a surface.
 Real distanceFrom(const BoxTree& tree, const Vector3d& p) {
   Real least = 1e300L;
   const Vector3r q = p.cast<Real>();
@@ -51,7 +51,7 @@ TEST(SurfaceDistance, IsThatOfAllPairsOfTrianglesWithPointsOnBothSurfaces) {
     const BoxTree a = treeOf(bumpySphere(random, 0.2, 1), radius), b = treeOf(bumpySphere(random, 0.1, 1));
     SeparationWitness witness;
     Isometry3d X_AB = test::pose(random, 3.0, 0.5);
-    for (int k = 0; k < 4; ++k) {  // the witness of the last one helps, and tells nothing wrong
+    for (int k = 0; k < 4; ++k) {  // the previous query's witness must not change the result
       X_AB = X_AB * test::pose(random, 0.1, 0.05);
       const Real truth = trueDistance(a, b, X_AB);
       const auto found = surfaceDistance(a, b, X_AB, 1e3, witness, memory);
@@ -65,7 +65,7 @@ TEST(SurfaceDistance, IsThatOfAllPairsOfTrianglesWithPointsOnBothSurfaces) {
       } else {
         ++crossing;
       }
-      // Within a distance, or nothing.
+      // Surfaces beyond the limit give no result.
       SeparationWitness none;
       const double limit = test::uniform(random, 0.0, 0.4);
       const auto near = surfaceDistance(a, b, X_AB, limit, none, memory);

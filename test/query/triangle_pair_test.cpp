@@ -16,8 +16,8 @@ using test::Triangle3r;
 
 enum class Kind { kGeneral, kWhole, kNear, kThin, kParallel };
 
-/// In general position; with small whole coordinates, so that many are parallel, in one plane, of no area or touch; a
-/// hair apart; thin; with parallel edges.
+/// Two random triangles: in general position; with small integer coordinates, so that many are parallel, coplanar, of
+/// no area, or touch; nearly touching; thin; with parallel edges.
 std::pair<Corners, Corners> draw(Random& random, Kind kind) {
   Corners a, b;
   for (int i = 0; i < 3; ++i)
@@ -51,7 +51,7 @@ TEST(TrianglePair, ClosestPointsAreNoFartherApartThanTheTriangles) {
   EXPECT_LT(worst, 1e-7L);
 }
 
-/// Which is what proves that triangles are apart.
+/// A positive gap proves that triangles are apart.
 TEST(TrianglePair, GapsAreNoMoreThanDistances) {
   Random random(2);
   long tight = 0, apart = 0;
@@ -69,7 +69,7 @@ TEST(TrianglePair, GapsAreNoMoreThanDistances) {
   EXPECT_GT(tight, apart - apart / 1000) << "the way between the closest points nearly always proves the distance";
 }
 
-/// And what proves that they cross: they do, however one is displaced by less than the error.
+/// A crossing point proves that triangles cross, for every displacement of one by less than the error.
 TEST(TrianglePair, CrossingTrianglesCrossWhereverTheyAreDisplaced) {
   Random random(3);
   long crossing = 0;
@@ -116,7 +116,7 @@ TEST(TrianglePair, LanesAreAsOneByOne) {
   }
 }
 
-/// At both ends of an interval, against long double.
+/// Gaps are lower bounds at both ends of an interval, compared with distances in long double.
 TEST(TrianglePair, LanesGapsHoldAtBothEnds) {
   Random random(5);
   for (int trial = 0; trial < 5000; ++trial) {

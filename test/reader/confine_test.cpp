@@ -18,7 +18,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// What is possible in a process that has confined itself.
+/// Whether an attempt succeeds in a child process that has called leaveHost() and confine().
 bool possible(const std::function<bool()>& attempt) {
   const pid_t pid = ::fork();
   if (pid == 0) {
@@ -33,7 +33,7 @@ bool possible(const std::function<bool()>& attempt) {
 }
 
 TEST(Confine, TakesAllThatReadingDoesNotNeed) {
-  const int inherited = ::open("/dev/null", O_RDONLY);  // not closed on exec, as ROS's sockets
+  const int inherited = ::open("/dev/null", O_RDONLY);  // without close-on-exec, like ROS's sockets
   EXPECT_FALSE(possible([&] { return ::fcntl(inherited, F_GETFD) >= 0; }));
   ::close(inherited);
   EXPECT_FALSE(possible([] { return ::open("/dev/null", O_RDONLY) >= 0; }));

@@ -1,4 +1,4 @@
-// What readers make of damage, in this very process: a crash here is one that the confined process would have.
+// Damaged files, parsed in the test's own process: a crash here would also crash the confined reader.
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -37,7 +37,7 @@ std::vector<File> files() {
 
 enum class Outcome { kMesh, kRefused };
 
-/// Whatever the bytes, it is one of the two.
+/// Parses a file. Whatever its bytes, it must give a valid mesh or an exception with a message.
 Outcome read(const File& file) {
   try {
     validate(parseMeshHere(file.bytes, file.format));
@@ -52,11 +52,11 @@ TEST(DamagedFile, CutAnywhere) {
   for (const File& file : files()) {
     EXPECT_EQ(read(file), Outcome::kMesh) << file.format;
     int meshes = 0;
-    // Without its last bytes a text may still be whole.
+    // A text may still be complete without its last bytes.
     for (std::size_t length = 0; length + 10 < file.bytes.size(); ++length) {
       meshes += read({file.format, file.bytes.substr(0, length)}) == Outcome::kMesh;
     }
-    if (file.format == "obj") continue;  // it does not say how much there is
+    if (file.format == "obj") continue;  // OBJ does not announce its number of elements
     EXPECT_EQ(meshes, 0) << file.format;
   }
 }
@@ -110,14 +110,14 @@ TEST(DamagedFile, EveryFormatReadsEveryOther) {
   }
 }
 
-/// OctoMap takes "id OcTree\vsize 24" for two entries, and "data" within a line for its end.
+/// OctoMap reads "id OcTree\vsize 24" as two entries, and takes "data" within a line as the end of the header.
 TEST(DamagedFile, OctomapHeadsMeanTheSameToWhoChecksAndWhoReads) {
   const std::string node = {0, 0, 0, 0, 0}, parent = {0, 0, 0, 0, 1};
   const std::string whole = "# Octomap OcTree file\nid OcTree\nsize 2\nres 0.1\n";
   EXPECT_NO_THROW(checkOctreeFile(whole + "data\n" + parent + node));
   for (const std::string& head :
        {whole + "# data\n", whole + "x data\n", whole + "id OcTree\vsize 900000 data\n", whole + "res 0.1\vdata\n"}) {
-    // All nodes that OctoMap would find from the earlier `data` on have all children.
+    // The nodes that OctoMap would read after the earlier `data` have all children, without end.
     const std::string bytes = head + std::string(64, '\xff') + "\ndata\n" + parent + node;
     const OctreeFile file = checkOctreeFile(bytes);
     const std::string plain = withPlainHead(file, bytes);

@@ -1,4 +1,4 @@
-// What the formats allow beside what test/geometry/mesh_file_test.cpp reads.
+// Features of the formats that test/import/mesh_file_test.cpp does not cover.
 #include <gtest/gtest.h>
 
 #include "oracle/hostile_files.h"

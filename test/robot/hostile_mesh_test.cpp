@@ -17,7 +17,7 @@ namespace {
 
 const std::string kSource = SDF_CCD_SOURCE_DIR;
 
-/// The demo's arm, whose forearm has another mesh.
+/// The demo's arm with another mesh for the forearm.
 SceneDescription armWith(const std::string& forearm) {
   std::string urdf = test::readText(kSource + "/config/demo/arm.urdf");
   const std::string good = "package://sdf_ccd/config/demo/meshes/forearm.obj";
@@ -36,7 +36,7 @@ SceneDescription goodArm() {
   return armWith("package://sdf_ccd/config/demo/meshes/forearm.obj");
 }
 
-/// Of this process and of those that it has waited for: what else the computer does is not in it [s].
+/// CPU time of this process and of its terminated children, independent of the computer's other load [s].
 double cpuSeconds() {
   double seconds = 0.0;
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -82,7 +82,7 @@ TEST_P(HostileMesh, CostsItsLinkAlone) {
   rest.times = {0.0, 1.0};
   for (std::size_t i = 0; i < scene->bodies.size(); ++i) {
     Isometry3d X = Isometry3d::Identity();
-    X.translation().x() = 10.0 * static_cast<double>(i);  // apart, so that what is checked is CLEAR
+    X.translation().x() = 10.0 * static_cast<double>(i);  // apart, so that checked pairs are CLEAR
     rest.X_WB.push_back({X, X});
   }
   const CycleResult& result = monitor.run(rest, {});

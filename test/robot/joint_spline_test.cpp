@@ -17,7 +17,7 @@ JointKnot anyKnot(Random& random) {
   return {uniform(random, -3, 3), uniform(random, -2, 2), uniform(random, -5, 5)};
 }
 
-/// By differences of positions.
+/// Derivatives, by differences of positions.
 double velocityOf(const JointSpline& spline, double time) {
   return (spline.position(time + 1e-5) - spline.position(time - 1e-5)) / 2e-5;
 }

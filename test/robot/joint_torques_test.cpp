@@ -9,8 +9,8 @@ namespace {
 
 using test::Random;
 
-/// Joints of all kinds: one that turns, one that slides along an axis that is not unit, a fixed one, one that turns all
-/// the way round, one that mimics the first and one that mimics that; and another branch.
+/// Joints of all kinds: revolute, prismatic along an axis that is not unit, fixed, continuous, one that mimics the
+/// first and one that mimics that; and another branch.
 const char* const kRobot = R"(
 <robot name='r'>
   <link name='base'/><link name='a'/><link name='b'/><link name='c'/><link name='d'/><link name='e'/><link name='f'/>
@@ -39,7 +39,7 @@ TEST(JointTorques, AreTheWorkOfTheWrenchesPerMotionOfTheJoint) {
     JointPositions positions;
     for (const std::string& joint : torques.joints()) positions[joint] = test::uniform(random, -2.0, 2.0);
     const std::vector<Isometry3d> X_WL = robot.forwardKinematics(positions);
-    // Forces at points of all links, and what they are about the links' origins.
+    // Forces at points of all links, as wrenches about the links' origins.
     std::vector<Wrench> wrenches;
     std::vector<Vector3d> points_L, forces;
     for (const Isometry3d& X : X_WL) {
@@ -49,7 +49,7 @@ TEST(JointTorques, AreTheWorkOfTheWrenchesPerMotionOfTheJoint) {
     }
     std::vector<double> found;
     torques.compute(X_WL, wrenches, found);
-    const auto work = [&](const JointPositions& at) {  // against the origin: forces stay
+    const auto work = [&](const JointPositions& at) {  // relative to the origin, with constant forces
       const std::vector<Isometry3d> X = robot.forwardKinematics(at);
       double sum = 0.0;
       for (std::size_t link = 0; link < X.size(); ++link) sum += forces[link].dot(X[link] * points_L[link]);

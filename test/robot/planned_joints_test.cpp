@@ -30,7 +30,7 @@ const char* const kRobot = R"(<robot name='r'>
 class PlannedJointsTest : public ::testing::Test {
  protected:
   PlannedJointsTest() {
-    // The robot stands at a random place, as tf would say.
+    // The robot is at a random pose, as tf would report it.
     test::Random random(5);
     const JointPoses poses = {
         {"roll", Isometry3d(Eigen::Translation3d(1, 2, 0) * Eigen::AngleAxisd(0.4, Vector3d::UnitZ()))},
@@ -81,7 +81,7 @@ TEST_F(PlannedJointsTest, WhatIsNotNamedRestsWhereItIs) {
   std::map<std::string, double> assumed;
   for (const AssumedJoint& joint : planned.assumed) assumed[joint.name] = joint.position;
   EXPECT_EQ(assumed.size(), 5u);
-  EXPECT_NEAR(assumed.at("elbow"), -5.0, 1e-12);  // of all that its pose may mean, the one within its limits
+  EXPECT_NEAR(assumed.at("elbow"), -5.0, 1e-12);  // the one within its limits, of all that the pose allows
   EXPECT_NEAR(assumed.at("grip"), 0.04, 1e-12);
   EXPECT_NEAR(assumed.at("follow"), 0.0, 1e-12);
   EXPECT_TRUE(std::isnan(assumed.at("roll")));
@@ -99,7 +99,7 @@ TEST_F(PlannedJointsTest, WhatIsNotKnownIsMissingWithAllBelowIt) {
   EXPECT_EQ(missing("arm"), "joint elbow is not named, and where it is now is not known: no transform");
   EXPECT_EQ(missing("finger"), missing("arm"));
   EXPECT_EQ(missing("kite"), "");
-  EXPECT_EQ(complete(at({{"elbow", 0.0}})).missing[1], "");  // the fixed joint is where the URDF has it
+  EXPECT_EQ(complete(at({{"elbow", 0.0}})).missing[1], "");  // the fixed joint is at its pose in the URDF
 }
 
 TEST_F(PlannedJointsTest, AssumedPositionsBeyondLimitsAreSaid) {
@@ -123,7 +123,7 @@ TEST_F(PlannedJointsTest, LimitsHoldUnlessTheyNeedNot) {
             "joint elbow: position 1.1 is beyond its limits [-6, 1] (waypoint 1)");
   EXPECT_EQ(refusal(at({{"elbow", 1.0 + 5e-7}})), "");
   EXPECT_EQ(refusal(at({{"grip", 0.11}})), "joint grip: position 0.11 is beyond its limits [0, 0.1] (waypoint 0)");
-  EXPECT_EQ(refusal(at({{"grip", 0.05}})), "");  // given the wrong way round
+  EXPECT_EQ(refusal(at({{"grip", 0.05}})), "");  // its limits are in the wrong order
   EXPECT_EQ(refusal(at({{"spin", 99.0}})), "");
   EXPECT_EQ(refusal(plan({{"elbow", 0.0}}, {{"elbow", 1.1}}), {true}), "");
   EXPECT_NEAR(complete(at({{"elbow", 1.1}}), {true}).trajectory.states[1].positions.at("elbow"), 1.1, 1e-15);

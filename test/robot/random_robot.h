@@ -6,7 +6,7 @@
 #include "oracle/random.h"
 #include "robot/trajectory_motion.h"
 
-/// Robots and trajectories that nobody would build.
+/// Random robots and trajectories, also unrealistic ones.
 namespace sdf_ccd::test {
 
 inline std::string numbers(const Vector3d& v) {
@@ -15,7 +15,7 @@ inline std::string numbers(const Vector3d& v) {
   return text;
 }
 
-/// A chain of `joints` joints of all types, j0 below link l0 and so on, each as long as `scale` [m] or none.
+/// A chain of `joints` joints of all types, j0 below link l0 and so on, each with a length up to `scale` [m] or none.
 inline std::string randomChain(Random& random, int joints, double scale) {
   std::string links = "<link name='l0'/>", elements;
   std::vector<std::string> leaders;
@@ -47,8 +47,8 @@ inline std::string randomChain(Random& random, int joints, double scale) {
   return "<robot name='chain'>" + links + elements + "</robot>";
 }
 
-/// Waypoints a second apart. Joints turn by up to `turn` from one to the next, slide by up to `scale` [m], or rest;
-/// mostly the root rests too.
+/// Waypoints one second apart. From one to the next, joints rotate by up to `turn`, translate by up to `scale` [m], or
+/// rest; usually the root rests too.
 inline RobotTrajectory randomTrajectory(Random& random, const RobotModel& robot, int waypoints, double turn,
                                         double scale) {
   RobotTrajectory trajectory;

@@ -11,7 +11,7 @@ namespace {
 
 struct RealRobot {
   const char* urdf;
-  const char* srdf;  ///< empty: none
+  const char* srdf;  ///< empty: no SRDF
   std::size_t bodies;
   std::size_t disabled;
   std::size_t pairs;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// base –(shoulder, z)– upper –(fixed)– bracket –(elbow, y)– fore –(slide, x)– tip, and a finger that mimics slide.
+/// base –(shoulder, z)– upper –(fixed)– bracket –(elbow, y)– fore –(slide, x)– tip, and a finger that
+/// mimics slide.
 const char* const kArm = R"(<?xml version="1.0"?>
 <!-- a comment -- with dashes, as calibrated robots have -->
 <robot name="arm">
@@ -56,7 +57,7 @@ TEST(RobotModel, ForwardKinematicsOfAnArm) {
   const RobotModel robot(kArm);
   const double s = 0.7, e = 0.9, d = 0.04;
   const JointPositions positions = {{"shoulder", s}, {"elbow", e}, {"slide", d}, {"spin", 0.5}};
-  // Along the upper arm 0.5, then 0.3 + d turned about y by e, all turned about z by s.
+  // Along the upper arm 0.5, then 0.3 + d rotated about y by e, all rotated about z by s.
   const double out = 0.5 + (0.3 + d) * std::cos(e);
   const Vector3d tip(out * std::cos(s), out * std::sin(s), 1.2 - (0.3 + d) * std::sin(e));
   EXPECT_TRUE(poseOf(robot, "tip", positions).translation().isApprox(tip, 1e-14));
@@ -136,7 +137,7 @@ TEST(RobotModel, ReachIsExactOverOneJoint) {
   const auto still = robot.reach("upper", "bracket");
   EXPECT_DOUBLE_EQ(still.nearest, 0.5);
   EXPECT_DOUBLE_EQ(still.farthest, 0.5);
-  // The fore arm's origin turns about z at a radius of 0.5, 1.2 above the base.
+  // The fore arm's origin rotates about z at a radius of 0.5, 1.2 above the base.
   const auto turned = robot.reach("base", Vector3d(2, 0, 0), "fore", Vector3d::Zero());
   EXPECT_NEAR(turned.nearest, std::hypot(1.5, 1.2), 1e-14);
   EXPECT_NEAR(turned.farthest, std::hypot(2.5, 1.2), 1e-14);
@@ -184,7 +185,7 @@ TEST(RobotModel, ReachOfUnlimitedJointsIsInfinite) {
   }
 }
 
-/// All joint positions: those of revolute joints anything, of prismatic ones within their limits and the margin.
+/// Random joint positions: any for revolute joints, within limits and margin for prismatic ones.
 JointPositions randomPositions(const RobotModel& robot, test::Random& random) {
   JointPositions positions;
   for (const auto& [name, joint] : robot.urdf().joints_) {
@@ -267,12 +268,12 @@ TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
   };
   const auto refusal = [](const std::string& content) { return failure("<robot name='r'>" + content + "</robot>"); };
   const std::string links = "<link name='a'/><link name='b'/><link name='c'/>";
-  // urdfdom takes c for the root, and forgets the others.
+  // urdfdom takes c for the root and drops the other links.
   EXPECT_EQ(refusal(links + joint("there", "a", "b") + joint("back", "b", "a")),
             "no chain of joints leads from the root link c to link a: it is in a loop, or below one");
   EXPECT_EQ(refusal(links + joint("to_b", "a", "b") + joint("to_c", "a", "c") + joint("closing", "b", "c")),
             "link c is the child of two joints, closing and to_c");
-  // Along each of 2^40 ways the last link would be another one.
+  // 2^40 paths lead to the last link.
   std::string ladder = "<link name='l0'/>";
   for (int i = 1; i <= 40; ++i) {
     const std::string from = "l" + std::to_string(i - 1), to = "l" + std::to_string(i);
@@ -284,7 +285,7 @@ TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
 TEST(RobotModel, TextThatIsCutShortOrBrokenIsRefused) {
   const std::string urdf = kArm;
   for (std::size_t size = 0; size < urdf.size() - 20; ++size) EXPECT_NE(failure(urdf.substr(0, size)), "") << size;
-  // Bytes that begin a longer character, at the end and elsewhere: urdfdom's reader went on behind the end for them.
+  // Bytes that begin a multi-byte character, at the end and elsewhere: urdfdom's reader read past the end for them.
   for (const char byte : {'\xC3', '\xEF', '\xF4', '\xB5', '\0'}) {
     for (std::size_t size = 0; size < urdf.size() - 20; size += 13) {
       EXPECT_NE(failure(urdf.substr(0, size) + byte), "") << size;

@@ -41,7 +41,8 @@ std::string joint(const std::string& parent, const std::string& child, const std
          child + "'/><origin xyz='" + xyz + "'/><axis xyz='0 0 1'/></joint>";
 }
 
-/// a –turns– b –turns– c –fixed– d, each a box of 0.1 m, 1 m apart along x.
+/// a –continuous– b –continuous– c –fixed– d, each a box of 0.1 m; a, b and c are 1 m apart along x, d 0.5
+/// m farther.
 std::string chain() {
   const std::string cube = box("0.1 0.1 0.1");
   return "<robot name='chain'>" + link("a", cube) + link("b", cube) + link("c", cube) + link("d", cube) +
@@ -117,7 +118,7 @@ TEST(RobotScene, MeshesAreSharedByUriAndScale) {
   EXPECT_EQ(meshOf(0), meshOf(1));
   EXPECT_EQ(meshOf(2), meshOf(3));
   EXPECT_NE(meshOf(0), meshOf(2));
-  // Mirrored about y: the vertices move, and the triangle is turned round with them.
+  // Mirrored about y: the vertices move, and the triangle's orientation is reversed with them.
   EXPECT_EQ(boundingBox(*meshOf(2)).min(), Vector3d(0, -4, 0));
   EXPECT_LT(areaNormal(*meshOf(0), 0).z() * -2.0, 0.0);
   EXPECT_NEAR(areaNormal(*meshOf(2), 0).z(), 2.0 * areaNormal(*meshOf(0), 0).z(), 1e-12);
@@ -137,7 +138,7 @@ TEST(RobotScene, ElementsThatTheParserDropsCostTheirLinkAlone) {
                joint("good", "heavy", "floating", "0 0 0") + joint("good", "frame", "floating", "0 0 0") + "</robot>");
   std::map<std::string, std::string> failures;
   for (const BodyDescription& body : described.scene.bodies) failures[body.name] = body.failure;
-  ASSERT_EQ(failures.size(), 6u);  // the frame has nothing that could touch
+  ASSERT_EQ(failures.size(), 6u);  // the frame has no collision element
   EXPECT_EQ(failures["good"], "");
   EXPECT_EQ(failures["short"].find("link short: line 1 of the URDF: 1 of 2 collision elements cannot be read: "), 0u)
       << failures["short"];
@@ -171,7 +172,7 @@ TEST(RobotScene, BadMeshCostsItsLinkAlone) {
   EXPECT_EQ(described.scene.bodies[3].failure, "link thumb: missing.stl: no such file");
   EXPECT_EQ(described.scene.bodies[4].failure.find("link flat: good.off: "), 0u);
   EXPECT_EQ(described.scene.bodies[5].failure.find("link sunk: "), 0u);
-  EXPECT_EQ(reasonFor(described.scene, "good", "hand"), "checked");  // which the plan makes NOT_CHECKED
+  EXPECT_EQ(reasonFor(described.scene, "good", "hand"), "checked");  // the plan makes it NOT_CHECKED
 }
 
 TEST(RobotScene, WarningsArePassedOnOnce) {
@@ -191,7 +192,7 @@ TEST(RobotScene, RigidAndAdjacentLinksAreNoPairs) {
   options.check_adjacent = true;
   const SceneDescription adjacent = describe(chain(), {}, options).scene;
   EXPECT_EQ(reasonFor(adjacent, "c", "d"), "rigidly joined");
-  EXPECT_EQ(reasonFor(adjacent, "a", "b"), "out of reach");  // 1 m apart whatever the joint does
+  EXPECT_EQ(reasonFor(adjacent, "a", "b"), "out of reach");  // 1 m apart at every joint position
 }
 
 TEST(RobotScene, SrdfDisablesAndEnables) {
@@ -256,7 +257,7 @@ TEST(RobotScene, ThousandsOfLinksAreRefused) {
 }
 
 TEST(RobotScene, LinksOutOfReachAreNoPair) {
-  // b turns 1 m from a, c at 0.2 m from b: between 0.8 and 1.2 m from a.
+  // b rotates 1 m from a, c at 0.2 m from b: between 0.8 and 1.2 m from a.
   const std::string cube = box("0.1 0.1 0.1");
   const SceneDescription scene =
       describe("<robot name='r'>" + link("a", cube) + link("b", cube) + link("c", cube) +
@@ -297,7 +298,7 @@ TEST(RobotScene, WorldObjectsOutOfReachAreNoPair) {
   }
   EXPECT_EQ(reasonFor(scene, "near", "a"), "rigidly joined");
   EXPECT_EQ(reasonFor(scene, "near", "c"), "checked");
-  EXPECT_EQ(reasonFor(scene, "near", "b"), "out of reach");  // it turns on its own place, 1 m away
+  EXPECT_EQ(reasonFor(scene, "near", "b"), "out of reach");  // it rotates in place, 1 m away
   EXPECT_EQ(reasonFor(scene, "elsewhere", "a"), "checked");
 }
 

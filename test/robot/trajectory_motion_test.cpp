@@ -21,12 +21,12 @@ struct Case {
   RobotTrajectory trajectory;
   CarriedBody body;
   MotionSampling sampling;
-  double size = 0.0;  ///< of robot and slides [m]: rounding is some 1e-16 of it
+  double size = 0.0;  ///< of robot and slides [m]: rounding errors are some 1e-16 of it
 };
 
 struct Errors {
-  double bound = 0.0;  ///< as reported [m]
-  double worst = 0.0;  ///< as found [m]
+  double bound = 0.0;  ///< reported bound [m]
+  double worst = 0.0;  ///< largest error found [m]
 };
 
 CycleMotion sampled(const RobotModel& robot, const Case& a_case) {
@@ -56,7 +56,7 @@ Case randomCase(Random& random, const RobotModel& robot, double scale) {
   return a_case;
 }
 
-/// Rounding alone: of poses, and of what is measured in the middle.
+/// Tolerance for the rounding of poses and of the deviations measured halfway.
 double rounding(const Case& a_case) {
   return 1e-13 * a_case.size;
 }
@@ -78,7 +78,7 @@ TEST(TrajectoryMotion, NoChainOfJointsMovesFartherFromItsSamplesThanIsReported) 
   EXPECT_LT(looseness[looseness.size() / 2], 5.0);
 }
 
-/// Climbs over what the joints turn and slide by, for the largest share of the reported bound.
+/// Climbs over the joints' displacements for the largest share of the reported bound.
 TEST(TrajectoryMotion, NoChoiceOfRatesGetsBeyondTheBound) {
   Random random(12);
   double most = 0.0;
@@ -103,11 +103,11 @@ TEST(TrajectoryMotion, NoChoiceOfRatesGetsBeyondTheBound) {
     }
     most = std::max(most, share);
   }
-  EXPECT_GT(most, 0.4);  // it does climb
+  EXPECT_GT(most, 0.4);  // climbing does approach the bound
 }
 
-/// The elbow folds while shoulder and hand keep the hand's direction: it goes along a line, slower at both ends than in
-/// the middle, where it is exactly when an even motion would be.
+/// The elbow folds while shoulder and hand joint keep the hand's orientation: the hand moves along a line, slower at
+/// both ends than halfway, where it is exactly on time.
 TEST(TrajectoryMotion, SumOfEvenTurnsMayBeSShaped) {
   const RobotModel robot(R"(<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>
     <joint name='i' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>
@@ -122,7 +122,7 @@ TEST(TrajectoryMotion, SumOfEvenTurnsMayBeSShaped) {
   Case a_case;
   a_case.trajectory = {{0.0, 1.0}, {folded(-0.12), folded(0.12)}};
   a_case.body.link = 3;
-  a_case.body.ball_B.radius = 1e-3;  // so that the links alone make the bound
+  a_case.body.ball_B.radius = 1e-3;  // so that the links alone determine the bound
   a_case.sampling = {1e-4, 0};
   const CycleMotion motion = sampled(robot, a_case);
   ASSERT_EQ(motion.times.size(), 2u);
@@ -137,7 +137,7 @@ TEST(TrajectoryMotion, SumOfEvenTurnsMayBeSShaped) {
   EXPECT_LE(errorsOf(robot, a_case).bound, 1e-4);
 }
 
-/// One joint from rest to rest by a polynomial of the fifth degree: it passes the middle when an even turn would.
+/// One joint from rest to rest along a polynomial of degree five: halfway it is exactly where a uniform rotation is.
 TEST(TrajectoryMotion, QuinticTimingIsBoundedByItsDerivatives) {
   const double angle = 1.0, radius = 0.9;
   const BoundingBall ball = {Vector3d(radius, 0, 0), 0.0};
@@ -148,7 +148,7 @@ TEST(TrajectoryMotion, QuinticTimingIsBoundedByItsDerivatives) {
   MotionSource source;
   source.poses_at = [&](double time, std::vector<Isometry3d>& X_WB) { X_WB = {poseAt(time)}; };
   source.jerk_bounds = [&](double start, double end, std::vector<double>& jerk) {
-    const double h = end - start;  // the largest derivatives over all of it
+    const double h = end - start;  // the largest derivatives over the whole motion
     ChainDerivatives chain(ball);
     chain.addFrame(0.0, {1.875 * angle * h, 10.0 / std::sqrt(3.0) * angle * h * h, 60.0 * angle * h * h * h}, {});
     jerk = {chain.jerk()};

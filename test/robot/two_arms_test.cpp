@@ -12,9 +12,9 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kBall = 0.05, kArm = 0.8;  // [m]
-const Vector3d kRod(0.4, 0.02, 0.02);       // half its size [m]
+const Vector3d kRod(0.4, 0.02, 0.02);       // half size [m]
 
-/// A ball at the end of one arm, a rod as the other; both arms stand where a test puts them.
+/// A ball at the end of one arm, a rod as the other one; each test places both arms.
 const char* const kTwoArms = R"(<robot name='r'>
   <link name='world'/><link name='left_base'/><link name='right_base'/><link name='upper'/>
   <link name='ball'><collision><origin xyz='0.8 0 0'/><geometry><sphere radius='0.05'/></geometry></collision></link>
@@ -51,12 +51,12 @@ class TwoArmsTest : public ::testing::Test {
     return monitor_->run(cycle, {}).verdict;
   }
 
-  /// In the left arm's stand.
+  /// Centre of the ball in the frame of the left arm's stand.
   static Vector3d ballCenter(double yaw, double pitch) {
     return {kArm * std::cos(yaw) * std::cos(pitch), kArm * std::sin(yaw) * std::cos(pitch), -kArm * std::sin(pitch)};
   }
 
-  /// Where the right arm must stand for the ball to graze the rod's end, or nearly, some time on the way.
+  /// A pose of the right arm's stand with which the ball grazes the rod's end, or nearly does, at some time.
   static Isometry3d standFor(test::Random& random, const JointPositions& from, const JointPositions& to,
                              const Isometry3d& X_left) {
     const double s = test::uniform(random, 0.1, 0.9), gap = test::uniform(random, -0.05, 0.1);
@@ -68,7 +68,7 @@ class TwoArmsTest : public ::testing::Test {
     return X_right;
   }
 
-  /// The least distance of ball and rod, by the joints' angles alone [m].
+  /// Distance of ball and rod at s, from the joint angles alone [m].
   static double distance(const JointPositions& from, const JointPositions& to, const Isometry3d& X_left,
                          const Isometry3d& X_right, double s) {
     const auto at = [&](const char* joint) { return (1.0 - s) * from.at(joint) + s * to.at(joint); };
@@ -88,7 +88,7 @@ class TwoArmsTest : public ::testing::Test {
   std::vector<BoundingBall> balls_;
 };
 
-/// Both arms turn between two waypoints: no verdict contradicts their joints.
+/// Both arms rotate between two waypoints: no verdict contradicts the joint angles.
 TEST_F(TwoArmsTest, NoVerdictContradictsTheJointsAngles) {
   test::Random random(21);
   int counts[4] = {}, meetings = 0;
@@ -101,7 +101,7 @@ TEST_F(TwoArmsTest, NoVerdictContradictsTheJointsAngles) {
     };
     const JointPositions from = angles({{"left", 0.0}, {"wrist", 0.0}, {"right", 3.0}});
     JointPositions to = angles(from);
-    if (i % 3) to["wrist"] = from.at("wrist");  // each arm a screw then, exactly, but not one against the other
+    if (i % 3) to["wrist"] = from.at("wrist");  // each arm is then exactly a screw, but not relative to the other
     const Isometry3d X_left = test::pose(random, 0.3, 0.1);
     const Isometry3d X_right = standFor(random, from, to, X_left);
     RobotTrajectory trajectory = {{0.0, 1.0}, std::vector<RobotState>(2)};
@@ -115,7 +115,7 @@ TEST_F(TwoArmsTest, NoVerdictContradictsTheJointsAngles) {
     ++counts[static_cast<int>(result)];
     meetings += least < 0.0;
     ASSERT_FALSE(result == Verdict::kClear && least < 0.0) << i << ": they meet by " << -least;
-    // Between two looks the distance changes by less than this.
+    // Between two samples the distance changes by less than this.
     const double step = 2.0 * kArm * 3.0 * turn / 4000.0;
     ASSERT_FALSE(result == Verdict::kContact && least > step) << i << ": they are apart by " << least;
   }

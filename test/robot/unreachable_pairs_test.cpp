@@ -7,7 +7,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// Two balls of 0.1 m at both ends of a rail of 3 m, one of which slides by 1 m.
+/// Two balls of 0.1 m radius at both ends of a rail of 3 m, one of which slides by 1 m.
 const char* const kRail = R"(<robot name='r'>
   <link name='base'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
   <link name='arm'/>
@@ -39,7 +39,7 @@ TEST_F(UnreachablePairsTest, RestOnTheLimitsOfPrismaticJoints) {
   ASSERT_EQ(pairs_.size(), 1u);
   EXPECT_EQ(scene_.bodies[pairs_[0].body_a].name, "base");
   EXPECT_EQ(scene_.bodies[pairs_[0].body_b].name, "ball");
-  EXPECT_NEAR(pairs_[0].ball_b.radius, std::sqrt(0.03), 1e-12);  // of its box
+  EXPECT_NEAR(pairs_[0].ball_b.radius, std::sqrt(0.03), 1e-12);  // from the ball's box
   ASSERT_EQ(pairs_[0].slides.size(), 1u);
   EXPECT_EQ(pairs_[0].slides[0].joint, "slide");
   EXPECT_NEAR(pairs_[0].slides[0].low, -1.1, 1e-12);
@@ -51,9 +51,9 @@ TEST_F(UnreachablePairsTest, AreUncheckedWhereAJointGoesBeyond) {
   ASSERT_EQ(along(-3.0, 0.0).size(), 1u);  // through the other ball
   EXPECT_EQ(along(-3.0, 0.0)[0].reason, "out of reach only while joint slide is within [-1.1, 0.1], it is at -3");
   EXPECT_EQ(along(0.0, 0.2).size(), 1u);
-  CurrentJoints now;  // where the joint is assumed to be
+  CurrentJoints now;  // no current positions
   const RobotTrajectory named = {{0.0, 1.0}, std::vector<RobotState>(2)};
-  EXPECT_EQ(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).size(), 1u);  // it is not known
+  EXPECT_EQ(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).size(), 1u);  // it is unknown
   now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(2.0, 0.0, 0.0));
   EXPECT_TRUE(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).empty());
   now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.0));

@@ -17,7 +17,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// A rod of 1 m turns about z at the origin.
+/// A rod of 1 m that rotates about z at the origin.
 const char* const kRod = R"(<robot name='r'>
   <link name='base'/>
   <link name='rod'><collision><origin xyz='0.5 0 0'/><geometry><box size='1 0.02 0.02'/></geometry></collision></link>
@@ -80,7 +80,7 @@ TEST_F(CheckMotionTest, TimesCountFromTheFirstPoint) {
 }
 
 TEST_F(CheckMotionTest, FindsWhatLiesBetweenTheWaypoints) {
-  // The rod's side is at the post's when it still has asin((0.01 + 0.03) / 0.9) to turn.
+  // The rod's side touches the post when it still has asin((0.01 + 0.03) / 0.9) to rotate.
   const CycleResult result = turn(post("base", 2.0), {0.0, 4.0});
   EXPECT_EQ(result.verdict, Verdict::kContact);
   ASSERT_EQ(result.pairs.size(), 1u);
@@ -169,11 +169,11 @@ TEST(PlanThrough, RefusesWhatDoesNotFit) {
                 [](CycleMotion& motion) { motion.X_WB[0][1] = Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitZ()); });
 }
 
-/// Turns of the rod by angles that are drawn, among posts.
+/// Random rotations of the rod among posts.
 class CheckMotionsTest : public CheckMotionTest {
  protected:
-  static constexpr double kPost = 2.0, kOther = 4.0;  // where the posts are [rad]
-  const double half_angle_ = std::asin(0.04 / 0.9);   // that the rod still has to turn to a post
+  static constexpr double kPost = 2.0, kOther = 4.0;  // angles of the posts [rad]
+  const double half_angle_ = std::asin(0.04 / 0.9);   // from the post's angle at which the rod touches it
   const std::shared_ptr<const Scene> scene_ = sceneOf(posts());
 
   std::vector<BodyDescription> posts() const {
@@ -182,7 +182,7 @@ class CheckMotionsTest : public CheckMotionTest {
     return posts;
   }
 
-  /// From one angle to the next, up to 0.6 rad.
+  /// Start and end angles, up to 0.6 rad apart.
   static std::vector<std::array<double, 2>> turns(std::size_t count) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> from(0.0, 6.0), by(-0.6, 0.6);
@@ -202,7 +202,7 @@ class CheckMotionsTest : public CheckMotionTest {
     return checkMotions(scene_, {}, turns.size(), motion, request);
   }
 
-  /// How far the rod stays from the posts, as an angle; below 0 if it meets one.
+  /// Angle by which the rod stays away from the posts; negative if it meets one.
   double freeAngle(const std::array<double, 2>& turn) const {
     const auto [low, high] = std::minmax(turn[0], turn[1]);
     double free = 10.0;

@@ -37,20 +37,20 @@ std::string limits(double lower, double upper) {
   return "<limit lower='" + std::to_string(lower) + "' upper='" + std::to_string(upper) + "' effort='1' velocity='1'/>";
 }
 
-/// Arms that turn about one axis, each with a sphere of radius 0.1; how far they are apart is known from their angles.
+/// Arms that rotate about one axis, each with a sphere of radius 0.1; their distances follow from their angles.
 std::string scissors() {
   return "<robot name='scissors'>" + sphere("base", 0.0) +                             //
-         sphere("a", 1.0) + joint("base", "a", "continuous") +                         // all the way round
-         sphere("b", 1.0) + joint("base", "b", "revolute", limits(0.5, 1.0)) +         // 0.5 rad from c at least
+         sphere("a", 1.0) + joint("base", "a", "continuous") +                         // a full revolution
+         sphere("b", 1.0) + joint("base", "b", "revolute", limits(0.5, 1.0)) +         // at least 0.5 rad from c
          sphere("c", 1.0, 0.08) + joint("base", "c", "revolute", limits(-1.0, 0.0)) +  //
          sphere("d", 2.0) + joint("base", "d", "continuous") +                         // 0.8 m from all others
          sphere("e", 1.0) + joint("base", "e", "continuous", "<mimic joint='to_a' offset='3.14159265'/>") +
-         sphere("f", 0.0, 0.1) + joint("a", "f", "continuous", "<origin xyz='0.05 0 0'/>") +  // 5 cm from base's
+         sphere("f", 0.0, 0.1) + joint("a", "f", "continuous", "<origin xyz='0.05 0 0'/>") +  // 5 cm from base's sphere
          sphere("g", 3.0) + joint("base", "g", "revolute", limits(0.0, 0.0)) +                // no limits
          sphere("h", 3.0) + joint("base", "h", "floating") + "</robot>";
 }
 
-/// Shells of spheres that are made fast.
+/// Spheres whose shells are built quickly.
 LearnOptions coarse() {
   LearnOptions options;
   options.max_error = 0.02;
@@ -79,7 +79,7 @@ TEST(LearnPairs, FindsWhatTheAnglesSay) {
             (Names{"a base", "b base", "base c", "base d", "base e", "a f", "base g"}));
   EXPECT_EQ(namesOf(pairs.disabled, "Always"), (Names{"base f"}));
   EXPECT_EQ(namesOf(pairs.touching), (Names{"a b", "a c", "b e", "c e"}));
-  Names never = {"b c", "a e"};  // by a limit, by a mimic
+  Names never = {"b c", "a e"};  // because of a limit, and of a mimic joint
   for (const char* pair : {"a d", "b d", "c d", "d e", "d f", "a g", "b g", "c g", "d g", "e g", "f g"}) {
     never.insert(pair);
   }
@@ -95,7 +95,7 @@ TEST(LearnPairs, FindsWhatTheAnglesSay) {
 }
 
 TEST(LearnPairs, WhatIsNearerThanTheBoundIsNotLeftOut) {
-  // Rigidly 5 mm and 5 cm apart, across a link between them.
+  // Rigidly joined 5 mm and 5 cm apart, with a link between them.
   const auto urdf = [](double gap) {
     return "<robot name='r'>" + sphere("a", 0.0) + sphere("m", 5.0) + joint("a", "m", "fixed") +
            sphere("b", 0.2 + gap) + joint("m", "b", "fixed") + "</robot>";
@@ -152,7 +152,7 @@ TEST(LearnPairs, TheFileKeepsWhatWasGivenAndIsHonest) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
   }
   EXPECT_EQ(text.find("link1=\"a\" link2=\"b\""), std::string::npos);
-  // From nothing, it is an SRDF too; and with it there is nothing left to learn but what touches.
+  // Without a given SRDF the result is an SRDF too; with it, only touching pairs remain to be learned.
   const Srdf own = parseSrdf(srdfWith(pairs, robot, ""));
   EXPECT_EQ(own.disabled.size(), pairs.disabled.size());
   EXPECT_TRUE(learnPairs(robot, parseSrdf(text), noResource, options).disabled.empty());
@@ -173,7 +173,7 @@ TEST(LearnPairs, AMeshThatIsMissingCostsItsPairsAlone) {
   EXPECT_EQ(namesOf(pairs.disabled, "Never"), Names{"a c"});
 }
 
-/// As of a mesh in millimetres: coarser fields and shells took minutes, to say less than was asked for.
+/// As for a mesh in millimetres: coarser fields and shells took minutes, for less accuracy than was requested.
 TEST(LearnPairs, WhatTheErrorWouldCostIsRefusedBeforeItIsBuilt) {
   LearnOptions options = coarse();
   options.max_error = 1e-8;
@@ -200,8 +200,8 @@ TEST(LearnPairs, TheDemoArm) {
   EXPECT_TRUE(pairs.unknown.empty());
 }
 
-/// MoveIt's setup assistant has tested the Panda with FCL. We leave out nothing that it does not, for the same reasons,
-/// and all that it does but two pairs.
+/// MoveIt's setup assistant has tested the Panda with FCL. We leave out no pair that it does not, for the same reasons,
+/// and all that it does except two.
 TEST(LearnPairs, AgreesWithTheSetupAssistantOnAPanda) {
   SDF_CCD_NEEDS_DATA("robots/panda_from_xacro.urdf");
   const std::string robots = test::dataPath("robots");
@@ -235,7 +235,7 @@ TEST(JointSampler, DrawsWithinLimitsAndAllOfThem) {
     EXPECT_EQ(positions, same.next());
     for (const auto& [name, position] : positions) drawn[name].push_back(position);
   }
-  EXPECT_EQ(drawn.size(), 6u);  // not the mimic, nor the floating one
+  EXPECT_EQ(drawn.size(), 6u);  // without the mimic and the floating joint
   const std::map<std::string, std::pair<double, double>> ranges = {
       {"to_a", {-M_PI, M_PI}}, {"to_b", {0.5, 1.0}}, {"to_c", {-1.0, 0.0}}, {"to_g", {-M_PI, M_PI}}};
   for (const auto& [name, range] : ranges) {

@@ -25,15 +25,15 @@ std::string joint(const std::string& parent, const std::string& child, const std
          "'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
 }
 
-/// A base 0.2 m high on a caster, with a wheel that reaches 3 cm into the base however both turn; an arm that is in the
-/// base as long as it hangs down; and one that floats in it.
+/// A base 0.2 m high on a caster, with a wheel that reaches 3 cm into the base at all joint positions; an arm that is
+/// in the base while it hangs down; and a body that floats in the base.
 std::string cart() {
-  return "<robot name='cart'>" + box("base", "1 1 0.2") +                                                      //
-         box("caster", "0.02 0.02 0.02") + joint("base", "caster", "continuous", "0 0 -0.15", "0 0 1") +       //
-         "<link name='wheel'><collision><geometry><sphere radius='0.08'/></geometry></collision></link>" +     //
-         joint("caster", "wheel", "continuous", "0 0 0") +                                                     //
-         box("mast", "0.02 0.02 0.02", "0 0 0.5") + joint("base", "mast", "continuous", "0 0 0", "0 0 1") +    //
-         box("arm", "0.05 0.05 0.45", "0 0 -0.225") + joint("mast", "arm", "continuous", "0 0 0.5") +          //
+  return "<robot name='cart'>" + box("base", "1 1 0.2") +                                                    //
+         box("caster", "0.02 0.02 0.02") + joint("base", "caster", "continuous", "0 0 -0.15", "0 0 1") +     //
+         "<link name='wheel'><collision><geometry><sphere radius='0.08'/></geometry></collision></link>" +   //
+         joint("caster", "wheel", "continuous", "0 0 0") +                                                   //
+         box("mast", "0.02 0.02 0.02", "0 0 0.5") + joint("base", "mast", "continuous", "0 0 0", "0 0 1") +  //
+         box("arm", "0.05 0.05 0.45", "0 0 -0.225") + joint("mast", "arm", "continuous", "0 0 0.5") +        //
          box("ghost", "0.1 0.1 0.1") + joint("caster", "ghost", "floating", "0 0 0.15") + "</robot>";
 }
 

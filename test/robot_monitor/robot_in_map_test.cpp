@@ -1,4 +1,4 @@
-// A real arm sweeps through a real map; what the map holds is asked of OctoMap.
+// A real arm sweeps through a real map. OctoMap itself gives the expected occupancy.
 #ifdef SDF_CCD_WITH_OCTOMAP
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ const std::string kMap = "octomaps/geb079.bt";
 const std::string kUrdf = "robots/example-robot-data/robots/ur_description/urdf/ur5_robot.urdf";
 const std::string kSrdf = "robots/example-robot-data/robots/ur_description/srdf/ur5.srdf";
 
-/// What of a map is near a point, by OctoMap.
+/// The occupied voxels of a map, from OctoMap.
 class Occupied {
  public:
   explicit Occupied(const std::string& file) {
@@ -40,7 +40,7 @@ class Occupied {
 
   double size() const { return size_; }
 
-  /// Signed, exact up to two voxels on either side; beyond that ±kBeyond.
+  /// Signed distance, exact up to two voxels on either side; beyond that ±kBeyond.
   static constexpr double kBeyond = 1.0;
   double distance(const Vector3d& p) const {
     const Vector3i voxel = (p / size()).array().floor().cast<int>();
@@ -57,7 +57,7 @@ class Occupied {
     return is_in ? -distance : distance;
   }
 
-  /// The middle of an occupied voxel.
+  /// Centre of a random occupied voxel.
   Vector3d any(test::Random& random) const {
     std::uniform_int_distribution<std::size_t> pick(0, voxels_.size() - 1);
     return size_ * (voxels_[pick(random)].cast<double>().array() + 0.5);
@@ -74,7 +74,7 @@ class Occupied {
   std::unordered_set<std::int64_t> known_;
 };
 
-/// Points on the surface of a body, in its frame, about that far from each other.
+/// Points on the surface of a body, in its frame, about `spacing` apart.
 std::vector<Vector3d> surfacePoints(const BodyDescription& body, double spacing) {
   std::vector<Vector3d> points;
   for (const GeometryDescription& geometry : body.geometry) {
@@ -117,7 +117,7 @@ class RobotInMap : public ::testing::Test {
         std::make_shared<const Scene>(buildScene(description_, planScene(description_, planOptions(options)), options));
   }
 
-  /// Per body, the robot standing there; the map at its own place.
+  /// Pose of each body for a robot whose root is at X_WR; the map stays in place.
   std::vector<Isometry3d> posesOf(const Isometry3d& X_WR, const JointPositions& positions) const {
     const std::vector<Isometry3d> X_RL = robot_->forwardKinematics(positions);
     const std::vector<std::string>& links = robot_->links();
@@ -150,7 +150,7 @@ TEST_F(RobotInMap, SweepsAreCaughtAtTheRightVoxels) {
   constexpr int kSteps = 12;
   int caught = 0, deep = 0, clear = 0, open = 0;
   for (int sweep = 0; sweep < 15; ++sweep) {
-    // Beside something that is occupied, as robots stand.
+    // Close to an occupied voxel, where robots usually stand.
     Isometry3d X_WR = Isometry3d::Identity();
     X_WR.translation() =
         occupied.any(random) +

@@ -33,7 +33,7 @@ struct Solid {
   TriangleTree tree;
 
   explicit Solid(const TriangleMesh& m) : mesh(m), shell(sampleSurface(m, options())), tree(m) {}
-  /// Tessellated so finely that it stands for the primitive itself.
+  /// The tessellation is so fine that it can replace the primitive.
   explicit Solid(const Primitive& p) : mesh(tessellate(p, 1e-5)), shell(sampleSurface(p, options())), tree(mesh) {}
 };
 
@@ -45,14 +45,14 @@ Vector3d placeOn(const TriangleMesh& mesh, test::Random& random, bool on_edge) {
   return a + u * (b - a) + v * (c - a);
 }
 
-/// Distance of the nearest point of one's shell from the other's surface.
+/// The smallest distance of the points of the first solid's shell from the second one's surface.
 double nearest(const Solid& shell, const Isometry3d& X_FP, const Solid& field) {
   double best = kInfinity;
   for (const Vector3d& p : shell.shell.points) best = field.tree.closestPoint(X_FP * p, best).distance;
   return best;
 }
 
-/// The largest distance that points of both keep while their surfaces meet at a random place.
+/// Lets the surfaces meet at random points: the largest distance that all points of both shells then keep.
 double largestNearest(const Solid& a, const Solid& b, int trials) {
   test::Random random(7);
   double largest = 0.0;
@@ -94,10 +94,10 @@ TEST(ContactGap, NeedsFarFewerPointsThanFaces) {
   ShellOptions fine = options(0.004);
   faces.spacing = 0.004;
   const Primitive sphere = Sphere{0.3}, bead = Sphere{0.02};
-  for (const Primitive& curved : {sphere, bead}) {  // edges of a curved surface are many: no more than all of it
+  for (const Primitive& curved : {sphere, bead}) {  // many edges: not many more points than for the whole surface
     EXPECT_LT(sampleSurface(curved, fine).size(), 1.5 * static_cast<double>(sampleSurface(curved, faces).size()));
   }
-  // Twelve edges of four metres in all, a point every 1.6 gaps, and the faces' few.
+  // Twelve edges of eight metres in total, a point every 1.6 gaps, and a few points on faces.
   EXPECT_NEAR(static_cast<double>(sampleSurface(box, options()).size()), 8.0 / (1.6 * kGap), 60.0);
 }
 
@@ -122,7 +122,7 @@ TEST(FlatPieces, ABoxHasTwelveEdges) {
   EXPECT_EQ(edgesOfFlatPieces(box, 1e-9).size(), 12u);
   TriangleMesh open = box;
   open.triangles.pop_back();
-  EXPECT_EQ(edgesOfFlatPieces(open, 1e-9).size(), 13u);  // and the diagonal that has become a border
+  EXPECT_EQ(edgesOfFlatPieces(open, 1e-9).size(), 13u);  // one is the diagonal, which is a border now
 }
 
 TEST(FlatPieces, BendBeyondTheFlatnessEndsAPiece) {

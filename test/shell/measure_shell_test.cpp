@@ -17,7 +17,7 @@ using Real = long double;
 using Point = Eigen::Matrix<Real, 3, 1>;
 using Polygon = std::vector<Point>;
 
-/// What of a convex polygon is nearer to p than to q.
+/// The part of a convex polygon that is nearer to p than to q.
 Polygon nearer(const Polygon& polygon, const Point& p, const Point& q) {
   const Point normal = q - p, middle = (p + q) / 2;
   Polygon kept;
@@ -41,7 +41,7 @@ struct Measured {
   std::vector<double> areas;
 };
 
-/// Each triangle cut by the planes between every two points.
+/// By brute force: each triangle is cut by the bisecting planes of all pairs of points.
 Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
   Measured measured;
   measured.areas.assign(shell.size(), 0.0);
@@ -57,7 +57,7 @@ Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
       for (std::size_t j = 0; j < shell.size(); ++j) {
         if (j == i) continue;
         const Point p = shell.points[i].cast<Real>(), q = shell.points[j].cast<Real>();
-        if (p == q) {  // the first of points at one location has all
+        if (p == q) {  // the first of several points at one location gets all of the area
           if (j < i) cell.clear();
           if (j < i && (any || takes[j])) own.clear();
           continue;
@@ -74,7 +74,7 @@ Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
   return measured;
 }
 
-/// Random points of the mesh, each with its triangle's normal; some of them twice, some off the mesh.
+/// Random points of the mesh, each with its triangle's normal; some are duplicates, some are off the mesh.
 PointShell drawnShell(const TriangleMesh& mesh, std::size_t count, std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform;
   std::vector<double> weights;

@@ -16,13 +16,13 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of normals and areas, over their size
+constexpr double kRounding = 1e-6;  // relative, of normals and areas
 
 double sum(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Random places on the mesh, uniform by area.
+/// Random points on the mesh, uniform by area.
 std::vector<Vector3d> randomPlaces(const TriangleMesh& mesh, int count) {
   std::mt19937_64 random(42);
   std::uniform_real_distribution<double> uniform;
@@ -55,7 +55,7 @@ std::vector<std::pair<const char*, TriangleMesh>> meshes() {
           {"needle", needle}};
 }
 
-/// A folded sheet of four triangles, far longer than wide.
+/// A folded sheet of four triangles, much longer than wide.
 TriangleMesh sliver(double length) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {length, 0, 0}, {length, 1e-4, 0}, {0, 1e-4, 1e-4}};
@@ -81,7 +81,7 @@ TEST(SampleSurface, CoveringRadiusIsABoundFromBothSides) {
 }
 
 TEST(SampleSurface, CoveringRadiusOfASquareIsExact) {
-  // One square, its corners the only points: its middle is farthest.
+  // A square whose corners are the only points: its middle is the farthest location.
   TriangleMesh square;
   square.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -117,7 +117,7 @@ TEST(SampleSurface, AreasAgreeWithCountingRandomPlaces) {
     }
     counted[nearest] += surfaceArea(mesh) / places.size();
   }
-  // The box is thick enough for no point to be nearest across it, save around its edges.
+  // The box is so thick that no point is nearest to the opposite side, except around edges.
   double moved = 0;
   for (std::size_t i = 0; i < shell.size(); ++i) moved += std::abs(shell.areas[i] - counted[i]) / 2;
   EXPECT_LT(moved, 0.06 * surfaceArea(mesh));
@@ -252,7 +252,7 @@ TEST(SampleSurface, WhatWouldTakeTooManyPointsIsRefusedBeforeItIsSampled) {
   double start = threadSeconds();
   const std::size_t points = sampleSurface(plate, options).size();
   const double sampled = threadSeconds() - start;
-  // More than can be covered with so few by any means, and not much less than darts would take.
+  // A limit that no sampling could keep, and one not much below the number of points that darts take.
   for (const double share : {0.2, 0.8}) {
     options.max_points = static_cast<std::size_t>(share * static_cast<double>(points));
     start = threadSeconds();
@@ -281,7 +281,7 @@ TEST(SampleSurface, SliversThatNeedTooManyPointsAreRefusedBeforehand) {
   EXPECT_NO_THROW(sampleSurface(sliver(10.0), options));
   const double start = threadSeconds();
   EXPECT_THROW(sampleSurface(sliver(1e6), options), std::length_error);
-  // A fan: few points reach all of it, but there are many slices of triangles to look at.
+  // A fan: few points cover all of it, but its triangles have many slices.
   TriangleMesh fan;
   fan.vertices.emplace_back(0, 0, 0);
   for (int i = 0; i <= 10'000; ++i) fan.vertices.emplace_back(1, 1e-6 * i, 0);
@@ -337,7 +337,7 @@ TEST(SampleSurface, RobotMeshes) {
 }
 
 TEST(SampleSurface, FacesInsideTheSolidGetNoPointsAndNoArea) {
-  // Two boxes that overlap by half, 1.5 × 0.6 × 0.6 m together: one as wide as the other, or a little wider.
+  // Two boxes that overlap by half, 1.5 × 0.6 × 0.6 m together; equally wide, or one a little wider.
   for (const double half_width : {0.3, 0.31}) {
     const Vector3d half_size(0.5, half_width, half_width), half_size_of_first(0.5, 0.3, 0.3), shift(0.25, 0, 0);
     const TriangleMesh mesh = merged(test::translated(test::boxMesh(half_size_of_first), -shift),
@@ -358,7 +358,7 @@ TEST(SampleSurface, FacesInsideTheSolidGetNoPointsAndNoArea) {
 }
 
 TEST(SampleSurface, HeapsOfVerticesAlongSeamsAreThinned) {
-  // Faces that cross at next to no angle: dozens of corners in one place for the spacing.
+  // Faces that cross at tiny angles: many vertices within a fraction of the spacing.
   TriangleMesh mesh = test::boxMesh({0.2, 0.15, 0.1});
   for (int i = 1; i < 12; ++i) {
     const Isometry3d X(Eigen::AngleAxisd(1e-7 * i, Vector3d(1, 2 + 0.1 * i, 3).normalized()));

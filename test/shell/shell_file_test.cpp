@@ -68,7 +68,7 @@ TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
   }
   for (const double bad : {-1e-9, std::nan("")}) expectRefused([&] { shell_.edge_radius = bad; });
   shell_ = good;
-  shell_.edge_radius = HUGE_VAL;  // edges were not sampled apart
+  shell_.edge_radius = HUGE_VAL;  // edges were not sampled separately
   saveShell(shell_, path_.string());
   EXPECT_EQ(loadShell(path_.string()).edge_radius, HUGE_VAL);
 }

@@ -16,7 +16,7 @@ PointShell shellOf(std::vector<Vector3d> points) {
   shell.points = std::move(points);
   for (std::size_t i = 0; i < shell.size(); ++i) {
     shell.normals.push_back(Vector3f::UnitZ());
-    shell.areas.push_back(static_cast<float>(i));  // tells points apart
+    shell.areas.push_back(static_cast<float>(i));  // identifies the point
   }
   return shell;
 }
@@ -63,7 +63,7 @@ TEST(SphereTree, HoldsAllPointsOnceAndNests) {
   const PointShell before = shell;
   const SphereTree tree = buildSphereTree(shell);
   expectSound(tree, shell);
-  // The areas went along with their points.
+  // The areas were reordered with their points.
   for (std::size_t i = 0; i < shell.size(); ++i) {
     EXPECT_EQ(shell.points[i], before.points[static_cast<std::size_t>(shell.areas[i])]);
   }

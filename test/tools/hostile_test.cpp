@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kSeconds = 5.0;  // a loaded computer's; a hundredth of that is usual
+constexpr double kSeconds = 5.0;  // for a loaded computer; usually a hundredth of it
 constexpr long kKilobytes = 200'000;
 
 class Hostile : public test::ToolTest {
@@ -18,7 +18,7 @@ class Hostile : public test::ToolTest {
     expectRefused("build " + option + " '" + test::hostilePath(name) + "' --out made", name);
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), kSeconds) << name;
     struct rusage usage;
-    ::getrusage(RUSAGE_CHILDREN, &usage);  // the largest of all so far, readers too
+    ::getrusage(RUSAGE_CHILDREN, &usage);  // maximum over all children so far, readers included
     EXPECT_LT(usage.ru_maxrss, kKilobytes) << name;
   }
 };

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Installs the build, moves it, and has the tool there read a mesh and a map: it must find the program that reads them.
+# Installs the build, moves the installation, and runs its tool on a mesh: it must find the program that reads meshes.
 # usage: installed_layout.sh BUILD_DIRECTORY LIB_DIRECTORY BIN_DIRECTORY DATA_DIRECTORY
 set -euo pipefail
 build=$1 lib=$2 bin=$3 data=$4
@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "installed_layout: $1" >&2; cat "$work/log" >&2; exit 1; }
 
-# The reader lies in the build where the library looks for it; DESTDIR would put the moved tree elsewhere.
+# With DESTDIR set, the installation would go elsewhere.
 env -u DESTDIR cmake -DCMAKE_INSTALL_PREFIX="$work/first" -P "$build/cmake_install.cmake" > "$work/log" 2>&1 || fail "no install"
 mv "$work/first" "$work/moved"
 [ -x "$work/moved/$lib/sdf_ccd/sdf_ccd_read" ] || fail "the reader is not in $lib/sdf_ccd"
@@ -17,7 +17,7 @@ export LD_LIBRARY_PATH=$work/moved/$lib:${LD_LIBRARY_PATH:-}
 cd /
 build_mesh() { "$tool" build --mesh "$data/prism_12.off" --resolution 8 --out "$work/made" > "$work/log" 2>&1; }
 build_mesh || fail "the moved tool reads no mesh"
-# Found from the library's own path, also where that is a relative one.
+# The reader is found relative to the library's path, also if that path is a relative one.
 cd "$work/moved"
 LD_LIBRARY_PATH=$lib "$tool" build --mesh "$data/prism_12.off" --resolution 8 --out "$work/made" > "$work/log" 2>&1 ||
   fail "no mesh is read where the library's path is relative"

@@ -28,7 +28,7 @@ TEST_F(QueryCommand, EqualsTheLibrary) {
 
   const DistanceField field = loadField(path("made/ball.field").string());
   const std::vector<Segment> segments = {{{-1, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 1}}};
-  for (const int i : {0, 2}) {  // the second one misses the ball
+  for (const int i : {0, 2}) {  // segment 1 misses the ball
     const Intervals intervals = segmentIntervals(field, segments[i / 2]);
     ASSERT_EQ(intervals.size(), 1u);
     int segment = -1;
@@ -68,7 +68,7 @@ TEST_F(QueryCommand, TellsBoundsOfImpactAndDepth) {
   std::string line;
   std::getline(lines, line);
   EXPECT_EQ(line, "segment,t_earliest,t,t_latest,depth,depth_low,depth_high");
-  // The ball's polyhedron is convex: the depth is that below the nearest face's plane.
+  // The ball's polyhedron is convex, so the depth is the distance below the nearest face's plane.
   const TriangleMesh ball = test::icosphere(0.5, 3);
   const auto trueDepth = [&](const Vector3d& p) {
     double depth = std::numeric_limits<double>::infinity();
@@ -99,7 +99,7 @@ TEST_F(QueryCommand, TellsBoundsOfImpactAndDepth) {
   EXPECT_NEAR(depth, deepest, high - low);
   EXPECT_LE(low, depth);
   EXPECT_LE(depth, high);
-  // What comes in by an opening meets a cap, if anything.
+  // A segment that enters through an opening meets at most its cap.
   write("bin.off", test::off(test::binMesh(0.1)));
   write("drop.csv", "0,0,1,0,0,0.05\n");
   ASSERT_EQ(run("query --mesh bin.off --segments drop.csv --out drop_out.csv --impact --max-error 0.002").exit_code,

@@ -30,7 +30,7 @@ struct ToolRun {
   std::string error;
 };
 
-/// What was said on stderr, but for the progress of work that takes over a second, as on a loaded computer.
+/// Text without lines of progress, which appear when work takes over a second, as on a loaded computer.
 inline std::string withoutProgress(const std::string& text) {
   std::istringstream lines(text);
   std::string line, rest;
@@ -40,7 +40,7 @@ inline std::string withoutProgress(const std::string& text) {
   return rest;
 }
 
-/// Runs the tool in a directory of its own, which goes with the test.
+/// Runs the tool in a temporary directory, which is removed after the test.
 class ToolTest : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(directory_ / "work"); }
@@ -55,7 +55,7 @@ class ToolTest : public ::testing::Test {
             withoutProgress(readText(directory_ / "error.txt"))};
   }
 
-  /// Bad input: exit code 2, one line that holds `reason`, and no file that was not there before.
+  /// Expects that the tool refuses: exit code 2, one line on stderr that holds `reason`, and no new file.
   void expectRefused(const std::string& arguments, const std::string& reason) {
     const std::size_t files = countFiles();
     const ToolRun result = run(arguments);
@@ -76,7 +76,7 @@ class ToolTest : public ::testing::Test {
   const TemporaryDirectory directory_;
 };
 
-/// With a ball's mesh in its work directory, and three segments, of which the second one misses it.
+/// With the mesh of a ball (ball.off) and three segments (in.csv), of which the second misses the ball.
 class ToolWithBall : public ToolTest {
  protected:
   void SetUp() override {

@@ -175,7 +175,7 @@ TEST_F(Tool, BadMeshesAndOptionsAreRefused) {
   expectRefused("build --mesh ball.off --out made --cell -1", "-1");
   expectRefused("build --mesh ball.off --out made --cell nan", "nan");
   expectRefused("build --mesh ball.off --out made --resolution 0", "0");
-  expectRefused("build --mesh ball.off --out made --cell 1e-9", "");  // more memory than is allowed
+  expectRefused("build --mesh ball.off --out made --cell 1e-9", "");  // would need more memory than allowed
   expectRefused("build --mesh ball.off --out made --cell 0.1 --resolution 9", "excludes");
   expectRefused("build --mesh ball.off --out made --spacing 0", "--spacing");
   expectRefused("build --mesh ball.off --out made --threads -1", "--threads");
@@ -301,7 +301,7 @@ TEST_F(Tool, LearnPairsWritesAnSrdf) {
   EXPECT_NE(srdf.find("NO PROOF"), std::string::npos);
   ASSERT_EQ(run(command + "--states 200 --threads 1 --out again.srdf").exit_code, kDone);
   EXPECT_EQ(readText(path("again.srdf")), srdf);
-  // It may be written over what it is given.
+  // The output may overwrite the given SRDF.
   const ToolRun more = run(command + "--states 200 --srdf arm.srdf --out arm.srdf");
   ASSERT_EQ(more.exit_code, kDone) << more.error;
   EXPECT_NE(more.out.find("no check needed  0"), std::string::npos) << more.out;
@@ -329,7 +329,7 @@ TEST_F(Tool, WorkPrecisionWritesATableAndAPlot) {
             "missed,queries");
   int rows = 0;
   for (; std::getline(csv, line); ++rows) EXPECT_EQ(line.substr(0, 5), "cell,");
-  EXPECT_EQ(rows, 12);  // hits, hits in a batch and depths at four cell sizes
+  EXPECT_EQ(rows, 12);  // hits, batched hits and depths at four cell sizes
   EXPECT_EQ(fs::exists(path("study/cell.svg")), has_gnuplot);
   EXPECT_EQ(fs::exists(path("study/cell.svg.part")), false);
 }

@@ -3,9 +3,9 @@
 
 usage: faults.py [--bin FOLDER] [--rounds N] [--seed N] [--only kill_build|kill_check_bag|kill_monitor|disk|bits]
 
-What must hold: the next run succeeds with the very results of an undisturbed one, no temporary file and no process
-stays, a damaged file is refused or made again. Exit code 1 if it does not, with what was found. Needs the package's
-devel space (build/devel/setup.bash sourced).
+After each fault the next run must succeed with the results of an undisturbed run, no temporary file and no process may
+be left, and a damaged file must be refused or rebuilt. Otherwise it prints the findings and the exit code is 1. Needs
+the package's devel space (build/devel/setup.bash sourced).
 """
 import argparse
 import csv
@@ -26,7 +26,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path.insert(0, ROOT + '/test/ros')
 from own_master import start_master, use_own_master  # noqa: E402
 
-TIME_LIMIT = 120.0  # [s] of one undisturbed run, on a loaded computer
+TIME_LIMIT = 120.0  # of one run, on a loaded computer [s]
 
 
 class Findings:
@@ -46,12 +46,12 @@ def files_below(folder):
 
 
 def without_locks(names):
-    """A lock of the cache stays: it is empty, and the kernel frees it."""
+    """Without the lock files of the cache, which stay: they are empty, and the kernel releases the locks."""
     return [name for name in names if not name.endswith('.lock')]
 
 
 class Bench:
-    """Inputs and undisturbed results, in a folder of its own."""
+    """Inputs and commands, in a temporary folder."""
 
     def __init__(self, binaries, rng):
         self.binaries, self.rng, self.findings = binaries, rng, Findings()
@@ -77,7 +77,9 @@ class Bench:
         return [self.tool, 'check-bag', self.inputs.bag, '--urdf', self.inputs.urdf, '--config', config, '--out', out]
 
     def run(self, command, limit=None):
-        """With a limit on the size of files [bytes], as on a full disk. @return exit code, stderr, duration [s]"""
+        """Runs a command, optionally with a limit on file sizes [bytes], as on a full disk.
+
+        Returns exit code, stderr and duration [s]."""
         def prepare():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             if limit is not None:
@@ -88,7 +90,7 @@ class Bench:
         return done.returncode, done.stderr.decode(errors='replace'), time.monotonic() - start
 
     def kill_after(self, command, delay):
-        """@return true if it was still running"""
+        """Runs a command and kills it after a delay [s]. Returns whether it was still running."""
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             process.wait(delay)
@@ -99,7 +101,7 @@ class Bench:
             return True
 
     def require_no_reader(self):
-        """The processes that read meshes end with who waits for them."""
+        """Requires that the processes that read meshes end with the processes that wait for them."""
         end = time.monotonic() + 5.0
         while time.monotonic() < end:
             left = [pid for pid in os.listdir('/proc') if pid.isdigit() and self.is_reader(pid)]
@@ -124,7 +126,7 @@ def same_files(bench, folder, reference, names, what):
 
 
 def results(folder):
-    """Of check-bag, without its run times."""
+    """Results of check-bag, without run times."""
     with open(os.path.join(folder, 'contacts.csv')) as contacts, open(os.path.join(folder, 'cycles.csv')) as cycles:
         rows = [row for row in csv.DictReader(cycles)]
         for row in rows:
@@ -238,7 +240,7 @@ def kill_monitor_beside(bench, rounds):
 
 
 def disk(bench, rounds):
-    """Files may grow to a random size and no further."""
+    """Limits the size of files to a random value."""
     reference, cache, _ = check_bag_reference(bench)
     built = bench.fresh('build_reference')
     bench.run(bench.build_command(built))
@@ -265,7 +267,7 @@ def disk(bench, rounds):
 
 
 def damage(path, rng):
-    """One bit of another value, or an end that is missing."""
+    """Flips one bit of a file, or truncates it."""
     with open(path, 'rb') as stream:
         data = bytearray(stream.read())
     if rng.random() < 0.2 or not data:

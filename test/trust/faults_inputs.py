@@ -1,4 +1,4 @@
-"""A mesh, a robot of two links and a bag in which they pass each other, for faults.py and soak.py."""
+"""A mesh, a robot of two links and a bag in which they pass each other, for faults.py."""
 import collections
 import math
 import os
@@ -18,7 +18,7 @@ URDF = """<robot name="rings">
 
 
 def torus(major=0.2, minor=0.08, around=48, across=24):
-    """A closed mesh in the format OFF."""
+    """A torus as a closed mesh in OFF format."""
     lines = ['OFF', '%d %d 0' % (around * across, 2 * around * across)]
     for i in range(around):
         for k in range(across):

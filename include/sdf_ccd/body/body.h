@@ -39,23 +39,23 @@ struct Body {
   std::vector<BodyPart> parts;    ///< empty if no pair needs its field
   SharedValue<PointShell> shell;  ///< frame B; empty if no pair needs it; without points deep inside a sibling part
   SharedValue<SphereTree> tree;
-  SharedValue<PointShell> witnesses;  ///< frame B; instead of a shell, one point per component; none of half-spaces
+  SharedValue<PointShell> witnesses;  ///< frame B; replace a shell: one point per component, none for half-spaces
   SharedValue<SphereTree> witness_tree;
-  std::shared_ptr<const BodySurface> surface;      ///< if a pair has a field with openings; null for a half-space
-  std::shared_ptr<const BodyTriangles> triangles;  ///< decide pairs in which both bodies have them; null if the body
-                                                   ///< is not all triangles, or is in no such pair
+  std::shared_ptr<const BodySurface> surface;      ///< set if a pair has a field with openings; null for a half-space
+  std::shared_ptr<const BodyTriangles> triangles;  ///< decide the pairs whose bodies both have them; null if the body
+                                                   ///< is not made of triangles alone, or is in no such pair
   /// All bounded geometry of a body with a mesh whose sign is not trusted (MeshQuality::sign_trusted), with caps in
-  /// openings and boxes around primitives, frame B: only points that see the outside past it are certainly outside.
-  /// Null for other bodies, whose fields give the sign.
+  /// openings and boxes around primitives, frame B. Only points with a free line of sight to the outside are certainly
+  /// outside. Null for other bodies, whose fields give the sign.
   std::shared_ptr<const TriangleTree> doubtful;
-  bool inside_is_doubtful = false;      ///< of such a body: its fields may also take cavities for solid
+  bool inside_is_doubtful = false;      ///< for such a body: its fields may also treat cavities as solid
   BoundingBall ball;                    ///< contains the body's surface, frame B; see kHalfSpaceRadius
-  std::shared_ptr<const void> content;  ///< keeps data alive that other bodies share
+  std::shared_ptr<const void> content;  ///< keeps alive data shared with other bodies
 
   /// The field of a body with one element, whose frame is the body frame.
   /// @throws std::logic_error if it is not.
   const DistanceField& field() const&;
-  const DistanceField& field() const&& = delete;  ///< of a body that is gone before it is used
+  const DistanceField& field() const&& = delete;  ///< the body would be destroyed before the field is used
 };
 
 /// A ball that contains the body's surface, frame B: the points of its shell, or else the boxes of its fields. For a
@@ -75,7 +75,7 @@ struct BodyReport {
   std::size_t witnesses = 0;  ///< Body::witnesses
   double gap = 0.0;           ///< between its shell's points, for a pair of equal shells [m]
   std::size_t pairs = 0;
-  ErrorBound bound;   ///< of verdicts, the largest of its pairs; chord: what the options allow for
+  ErrorBound bound;   ///< of verdicts, largest over its pairs; chord: as the options allow
   std::string solid;  ///< parts of its meshes that were left out as inside their solids; empty if none, or cached
   std::vector<std::string> warnings;
 };

@@ -17,9 +17,9 @@ struct CancelRequest {
   Clock::time_point deadline = Clock::time_point::max();
 };
 
-/// The request of the thread that makes it, also for the tasks that this thread hands to others. Long work makes one
-/// and checks it every few milliseconds: a check costs as much as reading a variable and, where there is a deadline,
-/// the clock (25 ns), so that loops of cheap steps do it every so many (CancelTicks).
+/// The cancel request of the thread that constructs it; tasks on other threads may use it, too. Long work constructs
+/// one and checks it every few milliseconds. A check reads a variable and, if there is a deadline, the clock (25 ns),
+/// so loops of cheap steps check only every so many steps (CancelTicks).
 class CancelPoint {
  public:
   CancelPoint();
@@ -41,18 +41,18 @@ class CancelPoint {
   CancelRequest request_;
 };
 
-/// While it lives, work on this thread ends with Cancelled soon after the flag has been set, by whatever thread, or
-/// after the deadline.
+/// While it exists, work on this thread ends with Cancelled soon after the flag has been set, by any thread, or after
+/// the deadline.
 ///
-/// The request belongs to the thread, so that what lies between the caller and a long loop need not hand it on. Scopes
-/// nest: the inner flag counts, and the earlier deadline.
+/// The request belongs to the thread, so functions between the caller and a long loop need not pass it on. Scopes nest:
+/// the inner flag replaces the outer one, and the earlier deadline counts.
 class CancelScope {
  public:
   /// @param asked  must outlive the scope.
   explicit CancelScope(const std::atomic<bool>& asked);
   explicit CancelScope(CancelRequest::Clock::time_point deadline);
 
-  /// For a task of another thread: what ends that one's work ends this one's, and nothing else.
+  /// For a task on another thread: exactly what cancels the work at `point` cancels this task.
   explicit CancelScope(const CancelPoint& point);
 
   ~CancelScope();
@@ -68,7 +68,7 @@ inline void checkCancelled() {
   CancelPoint().check();
 }
 
-/// A CancelPoint for a loop of steps that take less than microseconds: looks at it every `Period` of them.
+/// A CancelPoint for loops whose steps take less than a microsecond: checks it once every `Period` steps.
 template <unsigned Period = 64>
 class CancelTicks {
  public:

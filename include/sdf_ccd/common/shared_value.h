@@ -5,14 +5,14 @@
 
 namespace sdf_ccd {
 
-/// A value that nobody changes, so that copies of it are the same one in memory.
+/// An immutable value; copies of it share memory.
 template <class T>
 class SharedValue {
  public:
   SharedValue() : value_(empty()) {}
   SharedValue(T value) : value_(std::make_shared<const T>(std::move(value))) {}
 
-  // What is moved from keeps it, too.
+  // Copied, never moved: a moved-from object keeps its value.
   SharedValue(const SharedValue&) = default;
   SharedValue& operator=(const SharedValue&) = default;
 

@@ -51,8 +51,8 @@ struct ContactOptions {
 /// count below 1.
 void validate(const ContactOptions& options);
 
-/// Another part of the body that carries the field. Where it is the deeper one, the contact is its own, so that a
-/// point inside two overlapping parts counts once.
+/// Another part of the body that carries the field. Where it is deeper, the contact belongs to it, so that a point
+/// inside two overlapping parts counts once.
 struct SiblingField {
   const DistanceField* field;
   Isometry3d X_GF;  ///< from this field's frame F to the sibling's G
@@ -69,15 +69,15 @@ struct ContactInput {
   const std::vector<SiblingField>& siblings;
 };
 
-/// Where a hit is deepest.
+/// Deepest point of a hit.
 struct HitDepth {
-  bool siblings = false;            ///< the contact is a sibling's all along: the rest is not set
-  double depth = 0.0;               ///< [m], positive inside; of a point on the path; the deepest: leastDistance()
-  double error = 0.0;               ///< of the depth: the field's there, larger beyond its band [m]
-  double least = 0.0;               ///< the depth is no less [m]: beyond the band the error alone would not tell that
-  double time = 0.0;                ///< [s]
-  Vector3d p_F = Vector3d::Zero();  ///< contact point [m], frame F
-  Vector3d p_C = Vector3d::Zero();  ///< the same in frame C
+  bool siblings = false;  ///< the whole contact belongs to siblings: the other members are not set
+  double depth = 0.0;     ///< [m], positive inside, at a sampled point of the path; the maximum: leastDistance()
+  double error = 0.0;     ///< of the depth [m]: the field's error at p_F, larger beyond the band
+  double least = 0.0;     ///< lower bound of the depth [m]; beyond the band tighter than depth − error
+  double time = 0.0;      ///< [s]
+  Vector3d p_F = Vector3d::Zero();       ///< contact point [m], frame F
+  Vector3d p_C = Vector3d::Zero();       ///< the same in frame C
   Vector3d normal_C = Vector3d::Zero();  ///< unit, out of the field's body
 };
 
@@ -91,7 +91,7 @@ struct ContactRequest {
 struct ContactImpulse {
   Wrench on_shell_body;          ///< I [N·s] and M about C's origin [N·m·s] on P; on F it is the opposite (Eq. 6, 7)
   std::vector<HitDepth> depths;  ///< one per hit
-  std::vector<double> breaks;    ///< memory that is reused from hit to hit
+  std::vector<double> breaks;    ///< scratch memory, reused from hit to hit
 };
 
 /// Integrates penalty force F = −k d N (N out of the field's body, d < 0 inside) and damping force −k_D v_rel over

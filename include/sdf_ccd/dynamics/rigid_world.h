@@ -28,7 +28,8 @@ struct MassProperties {
 ///
 /// @param density  [kg/m³], finite and positive.
 /// @throws std::invalid_argument for a mesh that encloses no positive volume (open, flat, inside out), or a density
-/// that is not valid. An open mesh with volume counts as closed by the tetrahedra: see MeshQuality::boundary_edges.
+/// that is not valid. An open mesh that encloses volume is treated as if the tetrahedra closed it: check
+/// MeshQuality::boundary_edges.
 MassProperties massProperties(const TriangleMesh& mesh, double density);
 
 /// Mass properties of a primitive, in closed form.
@@ -50,7 +51,7 @@ struct CollisionShape {
 /// Builds field and shell of a shape from a closed mesh. The field has exact samples in the whole solid, so that deep
 /// overlaps have a depth.
 /// @param mesh_B  about the centre of mass; its components are oriented outward.
-/// @throws std::invalid_argument if they cannot be made.
+/// @throws std::invalid_argument if field or shell cannot be built.
 CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const ShellOptions& shell);
 
 /// The same for a primitive: the field is exact. A half-space has no shell.
@@ -94,8 +95,8 @@ class SimulationError : public std::runtime_error {
 };
 
 /// Throws SimulationError (step 0) that names the first body that cannot be simulated, or std::invalid_argument for
-/// options that are not valid: a mass, inertia, force or state that is not finite or not positive, a body without
-/// field and shell, a moving half-space, fields deeper than they know.
+/// options that are not valid: a mass, inertia, force or state that is not finite or not positive, a body without field
+/// and shell, a moving half-space.
 void validate(const RigidWorld& world, const std::vector<BodyState>& states);
 
 /// ½ m v² + ½ ω·Iω [J]; 0 for a fixed body.

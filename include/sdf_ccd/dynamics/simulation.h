@@ -13,13 +13,13 @@ enum class Scheme {
   /// The paper's §4: symplectic Euler under the force and torque averaged over the last step's continuous contact
   /// (Eq. 8-11). A persistent contact (s = ωΔt, damping ratio ζ) is stable only for s/4 < ζ < 1/s (design §3.10).
   kContinuous,
-  /// The paper compares with this: symplectic Euler under penalty and damping forces at the sampled pose; stable for s²
-  /// + 4ζs < 4.
+  /// The scheme that the paper compares with: symplectic Euler under penalty and damping forces at the sampled pose;
+  /// stable for s² + 4ζs < 4.
   kDiscrete,
   /// Ours: backward Euler by Newton's method on the 6×6 stiffness and damping blocks of all contact points, contacts
-  /// found continuously. A persistent contact is stable at any step. A step whose energy would grow is halved. It
-  /// costs accuracy: at ζ = 0 a contact oscillation is damped as by ζ ≈ s/2, so impacts that last few steps lose most
-  /// of their energy. Needs field normals.
+  /// found continuously. A persistent contact is stable at any step. A step whose energy would grow is halved. It costs
+  /// accuracy: at ζ = 0 a contact oscillation is damped as by ζ ≈ s/2, so impacts that last few steps lose most of
+  /// their energy. Needs field normals.
   kImplicit
 };
 

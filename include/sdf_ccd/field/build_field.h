@@ -26,18 +26,18 @@ void validate(const FieldOptions& options);
 class ClosedSolid;
 class Solid;
 
-/// Samples the signed distance to the boundary of a mesh's solid (paper §3, Table 1): exact closest points there, signs
-/// from the winding number. Where parts overlap, depth is that in all of them together (see Solid).
+/// Samples the signed distance to the boundary of a mesh's solid (paper §3, Table 1): exact closest points on the
+/// boundary, signs from the winding number. Where parts overlap, the depth is that in their union (see Solid).
 ///
 /// Uses all threads of the caller's TBB arena; the result does not depend on their number.
-/// A mesh that is not closed is closed by caps (see findOpenings()): the field is that of the closed solid, and knows
+/// A mesh that is not closed is closed by caps (see findOpenings()): the field is that of the closed solid, and records
 /// where its surface is a cap (see DistanceField::openings()).
 /// @param mesh  frame F, oriented (see orientOutward()).
 /// @throws std::invalid_argument for a mesh or options that are not valid.
 /// @throws std::length_error if the field would exceed options.max_bytes.
 DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress = {});
 
-/// The same for a solid that is there already.
+/// The same for an existing solid.
 DistanceField buildField(const Solid& solid, const FieldOptions& options, const Progress& progress = {});
 DistanceField buildField(const ClosedSolid& closed, const FieldOptions& options, const Progress& progress = {});
 

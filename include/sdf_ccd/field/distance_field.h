@@ -36,8 +36,8 @@ struct DistanceBounds {
 /// of one size, or of sizes that follow the shape).
 ///
 /// A value type: copies share the samples, which never change.
-/// Of a mesh with openings the surface is that of the mesh and of caps that close it, which the field stores: near
-/// them, and inside, it describes a solid that the mesh does not bound on all sides (see openings()).
+/// For a mesh with openings, the surface includes caps that close it, which the field stores: near the caps, and
+/// inside, it describes a solid that the mesh does not bound on all sides (see openings()).
 /// Sampled fields hold samples of the true distance in a band around the surface and bounds of it everywhere else,
 /// also outside their box; "no data" is never zero.
 class DistanceField {
@@ -48,11 +48,11 @@ class DistanceField {
   explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
   explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
 
-  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is that at the point: of its
-  /// leaf, or of the samples around it (see src/field/uniform/sample_bracket.h).
+  /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is local: that of the
+  /// point's leaf, or of the samples around the point (see src/field/uniform/sample_bracket.h).
   FieldSample sample(const Vector3d& p_F) const;
 
-  /// The same value and gradient; cheaper, as the error is left out.
+  /// The same value and gradient without the error; cheaper.
   FieldValue interpolate(const Vector3d& p_F) const;
 
   /// Bounds of the true distance [m], anywhere; cheaper and wider than sample(). Outside the grid `high` is
@@ -66,16 +66,17 @@ class DistanceField {
   /// Bound on |interpolated − true distance| within the band [m]; 0 for primitives.
   double errorBound() const;
 
-  /// The parts of the surface that are not on the mesh; null if all of it is, to the error bound: then the sign is
-  /// certain. (Caps of cracks, no point of which is farther from the mesh than errorBound(), do not count.)
+  /// The caps: parts of the surface that are not on the mesh. Null if the whole surface is on the mesh, within the
+  /// error bound; then the sign is certain. (Caps of cracks do not count if no point of theirs is farther from the mesh
+  /// than errorBound().)
   const OpeningCaps* openings() const { return openings_.get(); }
 
   /// Lower bound of the distance to the parts of the surface that are not on the mesh [m]; infinity if there are none.
   double openingDistance(const Vector3d& p_F) const;
 
-  /// The distance from the mesh alone; without openings as sample(). Guarantee: |s − value| ≤ error for the distance s
-  /// from the mesh, positive or negative where p_F counts as inside. The value is that of sample(), so the error is
-  /// large inside, and where a cap may be the nearest surface.
+  /// The distance from the mesh alone; without openings as sample(). Guarantee: |s − value| ≤ error for the
+  /// distance s from the mesh; where p_F counts as inside, for either sign of s. The value is that of sample(), so the
+  /// error is large inside, and where a cap may be the nearest surface.
   FieldSample meshSample(const Vector3d& p_F) const;
 
   /// Encloses the surface [m]; infinite for a half-space.
@@ -86,10 +87,10 @@ class DistanceField {
   /// Cells that hold samples; 0 for primitives.
   std::size_t cells() const;
 
-  /// Outside of this box [m] only bounds are known: that of a grid; the surface's for a primitive.
+  /// Box of the grid [m], outside of which only bounds are known; for a primitive, the box of its surface.
   AlignedBox3d box() const;
 
-  /// The representation, for queries: one of the three is not null.
+  /// The representation, for queries: exactly one of the three is not null.
   const Primitive* primitive() const;
   const SparseGrid* grid() const;
   const AdaptiveGrid* adaptive() const;
@@ -100,8 +101,8 @@ class DistanceField {
   std::shared_ptr<const OpeningCaps> openings_;
 };
 
-/// Writes a sampled field. The file appears under its name complete or not at all, and ends in a checksum.
-/// @param key  what the field was made from, up to 63 characters, for whoever loads it to compare.
+/// Writes a sampled field. The file appears under its name complete or not at all, and holds a checksum.
+/// @param key  what the field was made from, up to 63 characters; loadField() can compare it.
 /// @throws std::invalid_argument for a primitive's field, which is exact and needs no file; std::runtime_error naming
 /// the path and the reason.
 void saveField(const DistanceField& field, const std::string& path, const std::string& key = {});

@@ -29,7 +29,7 @@ struct HalfSpace {
 /// A convex solid with an exact signed distance.
 using Primitive = std::variant<Sphere, Box, Cylinder, HalfSpace>;
 
-/// The only one without bounds, and so without a shell.
+/// A half-space is the only primitive that is unbounded, and so has no shell.
 inline bool isHalfSpace(const Primitive& primitive) {
   return std::holds_alternative<HalfSpace>(primitive);
 }

@@ -19,7 +19,7 @@ struct GeometryDescription {
   std::string source;                        ///< for display: "box" or the mesh's URI
   bool watertight_voxels = false;            ///< boundary of whole voxels: has only a field, no shell
   std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: that of BodyOptions::field
-  std::optional<Vector3d> scale = {};        ///< of the mesh in the file `source`; none if its name differs
+  std::optional<Vector3d> scale = {};        ///< of the mesh in the file `source`; none if that file has another name
 };
 
 inline bool isHalfSpace(const GeometryDescription& geometry) {

@@ -12,29 +12,32 @@
 
 namespace sdf_ccd {
 
-/// What contacts are measured on beyond fields and shells.
+/// How contacts are measured beyond what fields and shells give.
 enum class Refinement {
   kNone,
-  /// How deep a contact gets, where and when, and when it begins, on the triangles of both bodies. Of pairs of closed
-  /// bodies that are all triangles, of a scene with BodyOptions::exact_depths; others stay as they are.
+  /// On the triangles of both bodies: the greatest depth, its time and location, and the time at which the contact
+  /// begins. Only for pairs of closed bodies that consist of triangles, in a scene built with
+  /// BodyOptions::exact_depths; other pairs are not refined.
   kDeepest,
 };
 
-/// What a cycle is asked for; what nobody reads is not computed.
+/// The outputs wanted from a cycle; others are not computed.
 struct CycleRequest {
   bool wrenches = true;
   int max_points = 0;  ///< contact points listed per pair, the deepest first
 
-  /// Whether `clearance` and `error` of pairs that are skipped are those of this cycle. Else they are what holds as
-  /// long as the pair is skipped, and what held when it began to be: a cycle touches only pairs that it tests then.
+  /// Whether `clearance` and `error` of skipped pairs are those of this cycle. If not, `clearance` is a bound that
+  /// holds as long as the pair is skipped, and `error` is that of the cycle in which skipping began: such a cycle
+  /// touches only the pairs that it tests.
   bool skipped_pairs = true;
 
-  /// Intervals and deepest points; wrenches and points ask for them too. Else a pair whose surfaces are found to cross
-  /// has one interval and deepest point, the time and place where they were, without a depth; no field is asked.
+  /// Whether to compute intervals and deepest points; wrenches and points imply it. If not, a pair whose surfaces are
+  /// found to cross gets one interval and deepest point, at the time and location of the crossing and without a depth;
+  /// no field is queried.
   bool contacts = true;
 
-  /// When that much of the cycle's time is up, no other pair is tested [s], but one in every cycle; 0: no limit. Those
-  /// that are left are PairResult::postponed, and the first to be tested in the next cycle.
+  /// Once this much of the cycle's time is used up [s], no further pair is tested, except that every cycle tests at
+  /// least one; 0: no limit. The remaining pairs are PairResult::postponed, and are tested first in the next cycle.
   double max_time = 0.0;
 
   Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
@@ -44,13 +47,13 @@ struct CycleRequest {
 
 /// One contact of one shell point.
 struct ContactPoint {
-  double enter = 0.0;               ///< [s] from t₀
-  double exit = 0.0;                ///< [s] from t₀
-  double time = 0.0;                ///< when it is deepest [s] from t₀
-  double depth = 0.0;               ///< [m]
-  double depth_error = 0.0;         ///< of the depth, from the field there [m]: mostly less than ErrorBound::field,
-                                    ///< beyond its band more
-  Vector3d p_W = Vector3d::Zero();  ///< when deepest [m]
+  double enter = 0.0;                    ///< [s] from t₀
+  double exit = 0.0;                     ///< [s] from t₀
+  double time = 0.0;                     ///< when it is deepest [s] from t₀
+  double depth = 0.0;                    ///< [m]
+  double depth_error = 0.0;              ///< of the depth [m], from the field at this point: mostly less than
+                                         ///< ErrorBound::field, but more beyond the band
+  Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
 };
 
@@ -58,25 +61,26 @@ struct PairResult {
   int body_a = -1;
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;        ///< why it was not checked; empty if it was
-  WaypointSpan span;         ///< the part of the motion that this is about; empty if the pair is delayed
-  bool skipped = false;      ///< clear by the clearance left from an earlier cycle
-  /// UNCERTAIN, as no time was left for it: by what earlier cycles knew the bodies overlap by no more than the error.
+  std::string reason;    ///< why it was not checked; empty if it was
+  WaypointSpan span;     ///< the part of the motion that was checked; empty if the pair is delayed
+  bool skipped = false;  ///< CLEAR without a test, by the clearance known from an earlier cycle
+  /// UNCERTAIN because no time was left to test it: by what is known from earlier cycles, the bodies overlap by no more
+  /// than the error.
   bool postponed = false;
   ErrorBound error;          ///< of the verdict
-  ErrorBound contact_error;  ///< of intervals and depths, which fields and shells tell; zero where there are none
-  double clearance = 0.0;    ///< a lower bound of the distance at the span's end, whatever the motion is off
-                             ///< by [m]; negative if not known. See CycleRequest::skipped_pairs
+  ErrorBound contact_error;  ///< of intervals and depths, which come from fields and shells; zero if there are none
+  double clearance = 0.0;    ///< lower bound of the distance at the span's end, the motion's error taken off [m];
+                             ///< negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
-  ContactPoint deepest;             ///< valid if intervals is not empty. Its depth_error, where refined: no place
-                                    ///< of either surface gets deeper into the other body by more in this span
-  bool refined = false;             ///< see CycleRequest::refine: the deepest point is of triangles
-  /// Where refined, and the surfaces cross: the bodies are apart before `enter`, and surely touch by `exit`. The first
-  /// interval begins between them. `exit` is infinite if no certain crossing was found. None where one body may be
-  /// inside the other at first.
+  ContactPoint deepest;             ///< valid if intervals is not empty. If refined, no point of either surface gets
+                                    ///< deeper than this depth by more than depth_error within the span
+  bool refined = false;             ///< the deepest point was measured on triangles: see CycleRequest::refine
+  /// If refined, and the surfaces cross: the bodies are apart before `enter`, and certainly touch by `exit`. The first
+  /// interval begins between the two. `exit` is infinite if no certain crossing was found. Not set if one body may be
+  /// inside the other at the start.
   std::optional<Interval> first_touch;
-  Wrench on_a_W;                    ///< average over the span, world axes, about A's origin at its end
-  Wrench on_b_W;                    ///< the same on B, about B's origin
+  Wrench on_a_W;  ///< average over the span, world axes, about A's origin at its end
+  Wrench on_b_W;  ///< the same on B, about B's origin
   std::vector<ContactPoint> points;
 };
 
@@ -101,26 +105,26 @@ struct MonitorOptions {
   ContactOptions contact;
   ChordOptions chords;
 
-  /// Where triangles decide about a pair, surfaces that come no nearer than half of this, beyond what the motions and
-  /// the triangles are off by, are told apart; what comes nearer may stay UNCERTAIN [m]. From kLeastMaxError to
-  /// kLargestMaxError.
+  /// For pairs that are decided by triangles [m]: surfaces are proved to be apart if they come no closer than half of
+  /// this plus the errors of the motions and the triangles; pairs that come closer may stay UNCERTAIN. From
+  /// kLeastMaxError to kLargestMaxError.
   double max_error = 1e-4;
 };
 
-/// What checks need while they run, to be used again. Monitors of which several run at a time may share one; there is
-/// as much of it as there are pairs that are checked at the same time.
+/// Scratch memory of checks, which is reused. Several monitors that run at the same time may share it; its size depends
+/// on how many pairs are checked at the same time.
 struct MonitorMemory;
 std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
 class SceneDifference;
 
-/// What another scene needs of a monitor, made ahead by Monitor::prepare(); after Monitor::adopt() what the monitor no
-/// longer needs. To be destroyed by a thread that has the time for it.
+/// A monitor's data for another scene, made in advance by Monitor::prepare(); after Monitor::adopt(), the data that the
+/// monitor no longer needs. Destroy it on a thread that is not time-critical.
 class MonitorChange {
  public:
   ~MonitorChange();
 
-  /// What the scene has in common with the one before.
+  /// What the scene has in common with the previous one.
   const SceneDifference& difference() const;
 
  private:
@@ -130,73 +134,75 @@ class MonitorChange {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Runs cycles over all pairs of a scene and remembers how far apart they were.
+/// Checks all pairs of a scene cycle by cycle, and remembers their clearances.
 ///
-/// Two bodies that are all triangles (meshes, boxes, cylinders, balls: Body::triangles) are CLEAR if their surfaces are
-/// proved to stay farther apart than the motions are known to, and no part of one is wholly inside the other, and in
-/// CONTACT if the surfaces surely cross at some time: to MonitorOptions::max_error, whatever fields and shells are
-/// (src/query/separation.h; design §3.17). PairResult::error is that of the triangles and motions then; of a pair that
-/// is UNCERTAIN as its surfaces come nearer than can be told, max_error more. What is left open otherwise
-/// (a body may be wholly inside the other, or have come through the opening of a mesh) is the fields' and shells', and
-/// so are depths and forces, which are off by PairResult::contact_error.
+/// Two bodies that consist of triangles (meshes, boxes, cylinders, spheres: Body::triangles) are CLEAR if their
+/// surfaces are proved to stay farther apart than the error of the motions, and no part of one is wholly inside the
+/// other. They are in CONTACT if the surfaces certainly cross at some time. This holds to MonitorOptions::max_error,
+/// independent of fields and shells (src/query/separation.h; design §3.17). PairResult::error then is that of the
+/// triangles and motions; for a pair that is UNCERTAIN because its surfaces come too close to decide, plus max_error.
+/// Fields and shells decide what this leaves open (a body may be wholly inside the other, or have come through the
+/// opening of a mesh); they also give depths and forces, with the error PairResult::contact_error.
 ///
-/// Else a pair is CLEAR if no shell point comes nearer than the error bound's total, CONTACT if one is surely deeper,
-/// by what the field knows where it is, than the errors of chord and root, else UNCERTAIN; NOT_CHECKED if a body is
-/// missing, beyond kFarthestPose, or the bound infinite. Both bodies' shells are tested where both exist, and their
-/// impulses weighted, so that what both see counts once. Where the bound exceeds a band, the field's lower bounds
-/// decide about CLEAR. Wrenches are integrated in the world's axes about A's origin at the end.
+/// Other pairs are CLEAR if no shell point comes closer than the error bound's total; in CONTACT if one is certainly
+/// deeper than the errors of chord and root, given the field's error at its location; else UNCERTAIN. They are
+/// NOT_CHECKED if a body is missing or beyond kFarthestPose, or the bound is infinite. Both bodies' shells are tested
+/// where both exist, and their impulses are weighted so that a contact that both see counts once. Where the bound
+/// exceeds a band, the field's lower bounds decide about CLEAR. Wrenches are integrated in the world's axes about A's
+/// origin at the end.
 ///
-/// A pair that is CLEAR is not tested again before its bodies can have used up the distance between them: some
-/// nanoseconds per pair and cycle, never less safe than a test. It holds also if a motion does not begin where the last
-/// one ended.
+/// A CLEAR pair is not tested again until its bodies can have used up the distance between them. Skipping costs some
+/// nanoseconds per pair and cycle and is as safe as a test, even if a motion does not begin where the last one ended.
 ///
-/// In a field with openings a place may be inside because a cap makes it so, or have come there through an opening.
-/// What its hits alone say is UNCERTAIN, with a depth_error no less than the depth, and bears no force, unless it may
-/// be that the point just touches. CONTACT there needs that a point surely passes through the mesh, in or out, or that
-/// triangles of both bodies surely cross at a recorded time (surface_crossing.h); then depths to the mesh, not to a
-/// cap, bear force. A crossing without any hit (of a sheet, which has no inside) is a contact of no length and depth.
+/// In a field with openings, a point may be inside only because of a cap, or may have come there through an opening.
+/// Hits in such a field alone give UNCERTAIN, with a depth_error no less than the depth. They bear no force, unless the
+/// point may be just touching the mesh. CONTACT with such a field requires that a point certainly passes through the
+/// mesh, in or out, or that triangles of both bodies certainly cross at a recorded time (surface_crossing.h); then
+/// depths to the mesh, but not to a cap, bear force. A crossing without any hit (of a sheet, which has no inside) is a
+/// contact of zero duration and depth.
 ///
-/// A body that lies wholly inside another touches no surface: points of its shell show that, or, of a body without one
-/// (a voxel map, whatever shares a body with one or with a half-space), one point of each of its components. Such a
-/// contact of a body without a shell has a depth, but bears no force.
+/// A body wholly inside another one touches no surface. It is detected by the points of its shell or, for a body
+/// without a shell (a voxel map, whatever shares a body with one or with a half-space), by one point of each of its
+/// components. Such a contact of a body without a shell has a depth, but bears no force.
 ///
 /// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
-/// the arena (it makes its scratch memory once). However many chords touch however many points, what is known of them
-/// is put together as it comes: memory is as that of a few chords. Pairs run in parallel on the caller's TBB arena;
-/// results do not depend on the number of threads. Not thread-safe: one cycle at a time.
+/// the arena (it allocates its scratch memory once). Contacts are merged as they are found, so memory is that of a few
+/// chords, however many chords and points touch. Pairs run in parallel on the caller's TBB arena; results do not depend
+/// on the number of threads. Not thread-safe: one cycle at a time.
 ///
-/// The scene may change between two cycles: another thread prepares the next one while cycles run, and adopt() takes it
-/// over. Of a pair whose two bodies are the same in both (BodyList::shared()), tested in the same way, all that is known
-/// stays; what is new or has changed begins unknown. adopt() moves what is known, pointer by pointer where it can: it
-/// frees nothing, and allocates nothing. Verdicts are those of a monitor made anew of the scene.
+/// The scene may change between two cycles: another thread prepares the next one while cycles run, and adopt() switches
+/// to it. Everything known about a pair is kept if its two bodies are the same in both scenes (BodyList::shared()) and
+/// are tested in the same way; about new or changed pairs nothing is known. adopt() moves this knowledge, by pointers
+/// where possible: it frees and allocates nothing. Verdicts are those of a monitor newly made for the scene.
 class Monitor {
  public:
   /// @param memory  to be shared with other monitors; null: its own.
   /// @throws std::invalid_argument if the options are not valid.
   Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
           std::shared_ptr<MonitorMemory> memory = nullptr);
-  /// Of bodies that are prepared already: see makeScene().
+  /// For bodies that are already prepared: see makeScene().
   explicit Monitor(std::vector<Body> bodies, const MonitorOptions& options = {});
   ~Monitor();
 
-  /// @return what holds until the next run() or check(), which uses its memory again: copy what is to be kept.
+  /// @return the result, valid until the next run() or check(), which reuses its memory: copy what must be kept.
   /// @throws std::invalid_argument if the motion's sizes do not fit the scene or its times do not increase.
   const CycleResult& run(const CycleMotion& motion, const CycleRequest& request);
 
-  /// The same for bodies that are all known at the same times. Between two poses a body turns the shorter way round:
-  /// turns of half a revolution and more need poses in between.
+  /// The same for bodies whose poses are all given at the same times. Between two poses a body takes the shorter
+  /// rotation: rotations of half a revolution and more need poses in between.
   /// @param X_WB      per body: poses of its own frame B, two or more; Body::X_frame_B is not applied.
   /// @param duration  from the first poses to the last; those between are evenly spaced [s].
-  /// @throws std::invalid_argument also if bodies have different numbers of poses, or two poses of a body do not tell
-  /// which way it turned (kAmbiguousTurn).
+  /// @throws std::invalid_argument also if bodies have different numbers of poses, or two poses of a body leave the
+  /// direction of its rotation open (kAmbiguousTurn).
   const CycleResult& check(const std::vector<std::vector<Isometry3d>>& X_WB, double duration = 1.0,
                            const CycleRequest& request = {});
 
-  /// Makes what another scene needs. From any thread, also while a cycle runs, but not while adopt() does.
+  /// Prepares the switch to another scene. May be called from any thread, also while a cycle runs, but not during
+  /// adopt().
   std::unique_ptr<MonitorChange> prepare(std::shared_ptr<const Scene> next) const;
 
-  /// Takes over a scene between two cycles. What run() returned is no longer valid.
-  /// @param change  that prepare() made of this monitor, since the last adopt(). @throws std::logic_error otherwise.
+  /// Switches to a prepared scene, between two cycles. What run() returned is no longer valid.
+  /// @param change  from prepare() of this monitor, since the last adopt(). @throws std::logic_error otherwise.
   void adopt(MonitorChange& change);
 
   /// Forgets all clearances, as when time jumps.
@@ -210,7 +216,7 @@ class Monitor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Distance from a point to the nearest body at given poses; for the point queries. Of a mesh with openings the error
+/// Distance from a point to the nearest body at given poses; for the point queries. For a mesh with openings, the error
 /// covers that the point may be on either side, and that the nearest surface may be a cap: see
 /// DistanceField::meshSample().
 struct NearestBody {

@@ -20,14 +20,14 @@ struct Scene {
   std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid
   std::vector<BodyReport> reports;
   std::vector<std::string> warnings;  ///< about its pairs, and those that several bodies share
-  ErrorBound bound;                   ///< of verdicts, the largest of all pairs; chord: what the options allow for
-  ErrorBound contact_bound;           ///< the same of contacts' times and depths, which fields and shells tell
+  ErrorBound bound;                   ///< of verdicts, largest over all pairs; chord: as the options allow
+  ErrorBound contact_bound;           ///< the same for times and depths of contacts, which come from fields and shells
   double motion_margin = 0.0, motion_error = 0.0;  ///< as in BodyOptions [m]
-  std::optional<double> max_error;                 ///< that was wanted [m]
+  std::optional<double> max_error;                 ///< as requested [m]
   double build_seconds = 0.0;
 };
 
-/// What planScene() has to know of the options.
+/// The options that planScene() needs.
 inline PlanOptions planOptions(const BodyOptions& options) {
   PlanOptions plan;
   plan.shell_spacing = options.shell.spacing;
@@ -35,24 +35,24 @@ inline PlanOptions planOptions(const BodyOptions& options) {
   return plan;
 }
 
-/// Builds, or takes from the cache, what the plan needs; meshes of equal content once. A body whose field or shell
-/// cannot be built keeps its place with Body::failure set; the others are not touched by it.
+/// Builds, or loads from the cache, what the plan needs; meshes of equal content once. A body whose field or shell
+/// cannot be built keeps its index, with Body::failure set; other bodies are not affected.
 /// @param progress  called with the body's name and the share of all bodies done.
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
                  const std::function<void(const std::string&, double)>& progress = {});
 
-/// Takes pairs out of a scene that is built; bodies stay as they are.
-/// @param reasons  per pair; of those that stay empty.
+/// Removes pairs from a scene that is built; bodies stay unchanged.
+/// @param reasons  per pair: why it is removed; empty if it stays.
 void leaveOut(const std::vector<std::string>& reasons, Scene& scene);
 
-/// A scene of bodies that are prepared already: all of its pairs, but those of two bodies of the world.
+/// A scene of bodies that are already prepared, with all of their pairs except those of two world bodies.
 /// @param motion_margin  as in BodyOptions [m].
-/// @throws std::invalid_argument if two bodies share a name, one has neither field nor shell, or two that are not both
-/// of the world have no shell to test.
+/// @throws std::invalid_argument if two bodies share a name, one has neither field nor shell, or a pair has no shell to
+/// test.
 Scene makeScene(std::vector<Body> bodies, double motion_margin = 1e-3);
 
 /// The plan as one table for the log: body, geometry, field, shell, cells, bytes, error bound by source, pairs; below
-/// it what failed, what to know, and what was left out, by reason.
+/// it failures, warnings, and what was left out, by reason.
 std::string planTable(const Scene& scene);
 
 }  // namespace sdf_ccd

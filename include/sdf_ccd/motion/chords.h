@@ -6,13 +6,13 @@
 
 namespace sdf_ccd {
 
-/// A piece of a relative motion along which every point is taken to run straight (paper Eq. 1).
+/// A piece of a relative motion along which every point is assumed to move on a straight line (paper Eq. 1).
 struct Chord {
   double t_start;  ///< [s]
   double t_end;    ///< [s]
   Isometry3d X_FP_start;
   Isometry3d X_FP_end;
-  int interval;  ///< which interval between recorded poses it is a piece of
+  int interval;  ///< index of the interval between recorded poses that contains it
 };
 
 /// A relative motion as chords.
@@ -29,7 +29,7 @@ struct RelativePath {
 
 struct ChordOptions {
   double tolerance = 1e-4;  ///< chord error aimed at [m]
-  int max_chords = 1000;    ///< per recorded interval; what tolerance is left then is in ChordPath::error
+  int max_chords = 1000;    ///< per recorded interval; a larger deviation then remains in ChordPath::error
 };
 
 /// Cuts a relative motion with a constant twist between recorded poses (one of the bodies rests, or one joint lies
@@ -47,8 +47,8 @@ struct TwoBodyMotion {
   double acceleration;  ///< of P's points in F: RelativeMotionBounds
 };
 
-/// Adds the chords of one interval to the path, whose last chord ends where this begins, and its error. Chords end at
-/// the true relative poses X_WF(s)⁻¹ X_WP(s): design §3.12.
+/// Appends the chords of one interval to the path, whose last chord must end where the interval begins, and updates its
+/// error. Chords end at the true relative poses X_WF(s)⁻¹ X_WP(s): design §3.12.
 /// @param interval  Chord::interval of the chords added.
 void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int interval, ChordPath& path);
 

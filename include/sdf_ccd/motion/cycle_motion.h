@@ -20,14 +20,14 @@ struct WaypointSpan {
 /// which the error bound does not include, and much farther they overflow.
 constexpr double kFarthestPose = 1e8;
 
-/// Where the bodies were during a cycle (t₀, t₁]. Between two times each body moves with a constant twist in the world,
-/// along the shorter rotation: rotations of half a revolution and more between two times need times in between.
+/// Where the bodies were during a cycle (t₀, t₁]. Between two times each body moves with a constant twist in the
+/// world, along the shorter rotation: rotations of half a revolution and more between two times need times in between.
 struct CycleMotion {
   std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
   std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
-  std::vector<std::string> missing;           ///< per body: why its poses are not known; empty if they are, or all are
-  std::vector<double>
-      motion_error;  ///< per body: distance of the true motion of its ball from X_WB's [m]; may be empty or infinite
+  std::vector<std::string> missing;  ///< per body: why its poses are not known, else empty; may be empty as a whole
+  /// Per body: distance of the true motion of its ball from that of X_WB [m]; may be infinite, or empty (no error).
+  std::vector<double> motion_error;
 
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
   /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs are not read.

@@ -26,24 +26,24 @@ struct MotionSource {
 struct MotionSampling {
   double tolerance = 1e-4;  ///< deviation aimed at [m]
   int max_halvings = 5;     ///< of the time between two waypoints; what deviation is left then is reported
-  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< beyond so many no time is halved any more
+  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< with this many, no more times are halved
 };
 
-/// Samples motions that are not of constant twist between their waypoints (tf2 rotates joints uniformly, a trajectory
-/// too), so that taking each body as such between the samples is wrong by no more than the tolerance: the time between
-/// two waypoints is halved as long as the bound is more than that. Its memory is used again from motion to motion.
+/// Samples motions whose twists are not constant between waypoints (tf2 and trajectories rotate joints uniformly), so
+/// that the error of assuming constant twists between the samples is within the tolerance: the time between two
+/// waypoints is halved as long as the bound exceeds it. Memory is reused from motion to motion.
 ///
-/// The bound of the deviation e(s) from the screw: e(0) = e(1) = 0, and e(½) = m is measured. What e differs by from
-/// the parabola through these is at most max|s (s − ½) (s − 1)| / 6 = √3/216 of the third derivative's bound
-/// (Lagrange's remainder), so |e| ≤ |m| + √3/216 (jerk of the motion + jerk of the screw). That holds however far
-/// bodies rotate.
+/// The bound of the deviation e(s) from the screw: e(0) = e(1) = 0, and e(½) = m is measured. The difference of e from
+/// the parabola through these three is at most max|s (s − ½) (s − 1)| / 6 = √3/216 of the third derivative's
+/// bound (Lagrange's remainder), so |e| ≤ |m| + √3/216 (jerk of the motion + jerk of the screw). That holds however
+/// far bodies rotate.
 class MotionSampler {
  public:
   /// @param balls  per body: holds its points, frame B.
   MotionSampler(std::vector<BoundingBall> balls, const MotionSampling& sampling);
 
-  /// Adds samples after those that the motion has, which are not read: between these and the first of the new ones
-  /// nothing is known.
+  /// Appends samples to those of the motion, which are not read: nothing is known of the motion between the last of
+  /// these and the first new one.
   /// @param waypoints  times, increasing [s]; all of them are kept.
   /// @param motion  `missing` is read: bodies it names are skipped. Errors do not decrease.
   /// @throws std::invalid_argument if a pose is not finite, or its rotation not orthonormal.
@@ -59,7 +59,7 @@ class MotionSampler {
   std::vector<double> jerk_, deviation_;  // per body
 };
 
-/// A motion from its begin. @param waypoints  the first is 0. @param motion  times, poses and errors are set anew.
+/// Samples a whole motion. @param waypoints  the first is 0. @param motion  its times, poses and errors are replaced.
 void sampleMotion(const std::vector<double>& waypoints, const MotionSource& source,
                   const std::vector<BoundingBall>& balls, const MotionSampling& sampling, CycleMotion& motion);
 

@@ -41,7 +41,8 @@ struct RelativeMotionBounds {
 /// relative poses at both ends do not determine it: they may rotate by more than half a revolution to each other.
 ///
 /// With twists (ω, v) in the world's axes, u the velocity of a point of P against F, b its velocity in the world:
-///   u = (ω_P − ω_F) × p + v_P − v_F,   q'' = −ω_F × u + (ω_P − ω_F) × b   (in F's axes; q the point's position in F)
+///   u = (ω_P − ω_F) × p + v_P − v_F,
+///   q'' = −ω_F × u + (ω_P − ω_F) × b   (in F's axes; q the point's position in F)
 /// where p moves by no more than the ball's speed times the time from the middle. Both vanish for bodies that move as
 /// one.
 RelativeMotionBounds relativeMotionBounds(const WorldTwist& F, const WorldTwist& P);

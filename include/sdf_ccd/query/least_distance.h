@@ -9,7 +9,7 @@ namespace sdf_ccd {
 /// The minimal distance from the surface of a moving point, or its maximal depth, within the field's accuracy.
 struct LeastDistance {
   double time;   ///< in [0, 1], where `value` is
-  double value;  ///< of the field, negative inside: the minimum, or nearly; it may be outside the bounds [m]
+  double value;  ///< of the field, negative inside: the minimum, or close to it; may be outside the bounds [m]
   double low;    ///< lower bound of the minimal true distance along the path
   double high;   ///< upper bound of it [m]
 };
@@ -17,9 +17,9 @@ struct LeastDistance {
 /// The least distance along a segment. A depth d that is reported for the whole path is wrong by no more than
 /// max(d + high, −low − d), wherever on the path the true maximum is.
 ///
-/// Errors are those of the possible minimisers: of the leaves that an adaptive grid's path crosses, or what samples
-/// of a uniform grid say of pieces of the path (see src/field/uniform/sample_bracket.h). Beyond the band they are
-/// larger, as those of DistanceField::sample() are.
+/// Only errors at possible minimisers count: of the leaves that the path crosses in an adaptive grid, or what the
+/// samples of a uniform grid say about pieces of the path (see src/field/uniform/sample_bracket.h). Beyond the band
+/// they are larger, as those of DistanceField::sample() are.
 /// @param segment  as segmentIntervals(); anywhere, also outside the field's box.
 /// @throws std::invalid_argument if the segment is not within reach.
 /// Cost: half to all of what integrateContact() takes on the same path; at most 128 samples, and all leaves on it.

@@ -65,7 +65,8 @@ void segmentIntervals(const DistanceField& field, const Segment& segment, const 
 Intervals segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options = {});
 
 /// False only if the true distance exceeds `radius` at every point of the segment (paper §3.3, Figure 3):
-/// conservative. Steps from ball to ball by field.lowerBound(). Also for segments outside the field's box.
+/// conservative. Steps from one empty sphere to the next by field.lowerBound(). Also for segments outside the field's
+/// box.
 bool mayTouch(const DistanceField& field, const Segment& segment, double radius);
 
 /// The side of the surface on which the whole segment surely is.

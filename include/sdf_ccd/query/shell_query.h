@@ -29,7 +29,7 @@ struct InsidePoints {
 };
 
 struct ShellQueryResult {
-  std::vector<ShellHit> hits;        ///< by chord, then as the tree meets their points; those of one point by time
+  std::vector<ShellHit> hits;        ///< by chord, then in the tree's order of points; those of one point by time
   std::vector<InsidePoints> inside;  ///< by chord; of other points than the chord's hits
   long nodes_visited = 0;            ///< spheres of the tree that were tested
   long points_tested = 0;            ///< points whose segments were queried
@@ -48,10 +48,9 @@ void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits);
 /// All intervals in which points of a shell are on or inside the isosurface φ = σ while they run along a path.
 ///
 /// Source: Xu & Barbič 2014, §3.3. A node of the sphere tree is skipped if its centre's segment stays farther than
-/// radius + σ + the field's error from the surface, and one that stays deeper than that is inside all the time; the
-/// result equals that of testing every point. Spheres and points meet a grid in batches (see segment_batch.h for the
-/// tolerance, and for the threads of large shells). Reuses the memory of `result`.
-/// @param shell, tree  frame P; the tree was built over the shell.
+/// radius + σ + the field's error from the surface; all points below a node that stays deeper than that are inside for
+/// the whole chord. The result equals that of testing every point. Grids are queried for spheres and points in batches
+/// (see segment_batch.h for the tolerance, and for the threads of large shells). Reuses the memory of `result`.
 /// @param path         X_FP, as chords.
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
                     const ShellQueryOptions& options, ShellQueryResult& result);

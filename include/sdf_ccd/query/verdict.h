@@ -2,7 +2,7 @@
 
 namespace sdf_ccd {
 
-/// Worse ones are larger, and count for a number of pairs.
+/// In increasing order of severity: of several pairs, the most severe verdict counts.
 enum class Verdict {
   kClear,       ///< nowhere nearer than the error bound
   kNotChecked,  ///< could not be checked, and why
@@ -17,15 +17,15 @@ struct ErrorBound {
   double field = 0.0;  ///< sampling, interpolation, rounding of the field
   double chord = 0.0;  ///< arcs taken as chords
   double root = 0.0;   ///< tolerance of contact times, as a length
-  double gap = 0.0;    ///< largest gap between surface and nearest shell point, or the triangles that stand for it; of
-                       ///< what triangles left UNCERTAIN, how near they looked too
+  double gap = 0.0;    ///< largest gap between the surface and the nearest shell point, or the triangles that stand for
+                       ///< it; where triangles leave a pair UNCERTAIN, plus the distance that they can resolve
 
-  /// For "no contact": the surface between the points counts.
+  /// For "no contact": the surface between the points counts, too.
   double total() const { return field + chord + root + gap; }
-  /// For "contact": whether a surface point of this depth is proof, whatever lies between the points. It has to be
-  /// deeper than the field's error, everywhere or, often much less, at its own location, and what the motion adds. In
-  /// the band, that is: beyond it, the field's error everywhere says only that the point is as deep as the band, which
-  /// is proof as long as the motion adds less.
+  /// For "contact": whether a surface point of this depth is proof, whatever lies between the points. It must be deeper
+  /// than what the motion adds (chord, root) plus the field's error: the bound for the band or, often much less, the
+  /// error at the point's location. This holds in the band. Beyond it, the bound for the band only implies that the
+  /// point is at least as deep as the band, which is proof as long as the motion adds less.
   /// @param depth_error  of the field at that location [m].
   bool provesContact(double depth, double depth_error) const {
     return depth > (depth_error < field ? depth_error : field) + chord + root;

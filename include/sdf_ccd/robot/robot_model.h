@@ -31,8 +31,8 @@ class RobotModel {
   /// Links in depth-first order, the root first.
   const std::vector<std::string>& links() const { return links_; }
 
-  /// Parent of a link, by its index in links(); −1 for the root. And the joint between the two, which all links except
-  /// the root have.
+  /// Parent of a link, by its index in links(); −1 for the root. And the joint between the two, which all links
+  /// except the root have.
   int parent(int link) const { return parent_[link]; }
   const urdf::Joint& jointAbove(int link) const;
 

@@ -25,7 +25,7 @@ struct Stratum {
   std::size_t built() const { return bytes.count(); }
 };
 
-/// Estimates sums over all blocks near the surface from some of them.
+/// An estimated sum over all blocks near the surface, and its variance.
 struct Sum {
   double value = 0.0, variance = 0.0;
 
@@ -62,7 +62,7 @@ class BlockSample {
   }
 
  private:
-  static constexpr std::size_t kFewest = 6;  ///< minimal number of blocks of a stratum
+  static constexpr std::size_t kFewest = 6;  ///< minimum number of built blocks of a stratum
 
   enum Kind : std::uint8_t { kPlain, kVertices, kDoubtful };
 
@@ -124,14 +124,14 @@ class BlockSample {
     return sum;
   }
 
-  /// The standard deviation of a stratum: until it has a few blocks, at least that of an exponential distribution, as
-  /// most blocks take little and a few take much.
+  /// The variance in a stratum: until kFewest blocks are built, at least that of an exponential distribution, as most
+  /// blocks cost little and a few cost much.
   static double variance(const SampleMean& mean) {
     return mean.count() < kFewest ? std::max(mean.variance(), mean.mean() * mean.mean()) : mean.variance();
   }
 
-  /// Of the strata with fewer than a few blocks the one with the fewest: two for each first, then by the square
-  /// root of its size. Null if there is none.
+  /// Of the strata with fewer than kFewest built blocks, the one to build the next block of: first each gets two, then
+  /// numbers are in proportion to the square root of the stratum's size. Null if there is none.
   Stratum* nextOfFew() {
     Stratum* best = nullptr;
     double least = 0.0;
@@ -164,15 +164,16 @@ class BlockSample {
     return best;
   }
 
-  /// Whether few blocks with long lists of triangles are all there is.
+  /// Whether the surface lies in few blocks, with long lists of triangles.
   bool isDense(double near) const {
     constexpr double kFewBlocks = 64.0, kTriangles = 64.0;
     const auto triangles = double(surface_.exact().solid().boundary().triangles.size());
     return near < kFewBlocks && triangles > kTriangles * near;
   }
 
-  /// Revisits a block, for other cells of it, if there are few. Until each stratum has some, the estimate
-  /// is too small to stop by it if the few blocks that take long have not been visited.
+  /// Builds blocks until the estimate is accurate or the time is used up. In a stratum of few blocks they are visited
+  /// again, for other cells. As long as a stratum has fewer than kFewest built blocks the estimated error does not end
+  /// the loop: the estimate is too small if the few blocks that take long have not been visited.
   void buildNear() {
     constexpr double kSecondsForFew = 40e-3, kSeconds = 15e-3, kShare = 0.03, kSure = 0.07, kUnsure = 0.15;
     const double scale = double(order_.size()) / double(tested_), start = threadSeconds();
@@ -218,7 +219,7 @@ class BlockSample {
   const Vector3i blocks_;
   const SpreadOrder order_;
   std::vector<Kind> kinds_;  ///< per block
-  std::size_t tested_ = 0;   ///< blocks; of these:
+  std::size_t tested_ = 0;   ///< number of blocks tested; these are:
   std::array<Stratum, 3> strata_;
   std::vector<std::size_t> far_;
   SampleMean far_seconds_;

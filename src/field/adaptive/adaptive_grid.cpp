@@ -81,7 +81,7 @@ void AdaptiveGrid::check() const {
     if (i >= count) fail("an index leads outside");
   };
 
-  // A node is reached from one point only, at a depth below the last: walked from the top, each must be met once.
+  // Each node may have only one parent, and be at most kMaxDepth levels below the top cells: walks from all of these.
   std::vector<std::uint8_t> depth(arrays_.nodes.size, 0);
   const auto reach = [&](std::size_t node, int d) {
     inside(node, arrays_.nodes.size);
@@ -112,7 +112,7 @@ void AdaptiveGrid::check() const {
     const NodeBases& bases = arrays_.bases[node];
     const std::array<std::uint8_t, 64>& codes = arrays_.nodes[node].codes;
     for (int i = 0; i < 64; ++i) {
-      constexpr int kFirstOfOctant = 0b101010;  // of the child's two bits along each axis the upper one
+      constexpr int kFirstOfOctant = 0b101010;  // the upper one of the child's two bits along each axis
       const std::uint8_t code = codes[i], first = codes[i & kFirstOfOctant];
       if (std::max(code, first) >= node_code::kWide && code != first) fail("a leaf fills only a part of its octant");
       if (code >= node_code::kWide) {
@@ -143,7 +143,7 @@ AdaptiveBlock AdaptiveGrid::farTopBlock(const Vector3i& low, const EmptySphere& 
 }
 
 AdaptiveBlock AdaptiveGrid::block(const Vector3i& unit) const {
-  // Sides are powers of two: shifts and masks, as a division costs as much as a miss in the cache.
+  // Sides are powers of two, so shifts and masks replace divisions, each of which costs as much as a cache miss.
   constexpr int kTop = 7;
   static_assert(1 << kTop == AdaptiveShape::kUnits, "a top cell's side");
   const int x = unit.x(), y = unit.y(), z = unit.z();

@@ -16,7 +16,8 @@ namespace sdf_ccd {
 
 /// Origin, size and accuracy of an adaptive grid.
 struct AdaptiveShape {
-  /// Node levels below the top grid; and smallest blocks along a top cell's side: half a cell of the last level.
+  /// Levels of nodes below the top grid; and units along a top cell's side. A unit is the side of the smallest block:
+  /// half a cell of the last level.
   static constexpr int kMaxDepth = 3;
   static constexpr int kUnits = 128;
 
@@ -34,17 +35,17 @@ struct AdaptiveShape {
   AlignedBox3d box() const { return {origin, origin + cell * size.cast<double>()}; }
 };
 
-/// Eight corner values in eight bytes: seven bits per corner (bit 0 of the corner's index is x, bit 1 y, bit 2 z)
-/// about an offset whose bits are the bytes' top bits.
+/// Eight corner values in eight bytes: seven bits per corner (bit 0 of the corner's index is x, bit 1 y, bit 2 z),
+/// relative to an offset whose eight bits are the top bits of the bytes.
 using LeafWord = std::uint64_t;
 
-/// How the leaves of one size are rounded. Corners of a cell of side h differ by √3 h at most, because the distance is
-/// 1-Lipschitz, so one offset and seven bits hold them to 0.7 % of h.
+/// How the leaves of one size are rounded. Corners of a cell of side h differ by √3 h at most, because the distance
+/// is 1-Lipschitz, so one offset and seven bits hold them to 0.7 % of h.
 struct LeafScale {
   double offset = 0.0;  ///< [m] per step
   double corner = 0.0;  ///< [m] per step
 
-  /// For leaves of side h whose corners lie within `largest` of zero [m].
+  /// For leaves of side h whose corner values have magnitudes of at most `largest` [m].
   static LeafScale forCell(double h, double largest) {
     const double offset = largest / 127.0;
     return {offset, (1.7320508075688772 * h + offset) / 127.0};
@@ -64,9 +65,9 @@ struct LeafScale {
   }
 };
 
-/// A leaf's own error bound, in a byte: the grid's, times 2 to the power of −code/16.
+/// A leaf's error bound as a byte: the grid's error bound times 2^(−code / 16).
 namespace leaf_error {
-/// Rounded up: to less than 4.5 % more, or to the last code's.
+/// Rounds the error up, by less than 4.5 %; smaller errors than that of code 255 get this code.
 std::uint8_t code(double error, double error_bound);
 double error(std::uint8_t code, double error_bound);
 }  // namespace leaf_error
@@ -94,10 +95,10 @@ struct AdaptiveData {
   std::vector<NodeBases> bases;  ///< one per node
   std::vector<LeafWord> leaves;
   std::vector<SplitLeaves> splits;
-  std::vector<std::uint8_t> leaf_errors;  ///< by AdaptiveBlock::index; separate, as a query's steps do not need them
+  std::vector<std::uint8_t> leaf_errors;  ///< by AdaptiveBlock::index; separate, as walks along segments skip them
 };
 
-/// The word of a top cell: a kind in its last two bits, and an index or an EmptySphere about a top cell's centre.
+/// The word of a top cell: its kind in the lowest two bits, and an index or an EmptySphere about a top cell's centre.
 namespace top_word {
 constexpr std::uint32_t kFar = 0, kLeaf = 1, kSplit = 2, kNode = 3;
 constexpr std::uint32_t kKind = 3;
@@ -105,8 +106,8 @@ constexpr std::uint32_t kKind = 3;
 
 /// A node's codes.
 namespace node_code {
-/// First code of each kind; wide: a leaf that an octant's children share, its rank among those, which come before the
-/// node's other leaves.
+/// First code of each kind. From kWide on: a leaf that the eight children of an octant share, by its rank among the
+/// node's shared leaves, which come before its other leaves.
 constexpr int kLeaf = 0, kNode = 64, kSplit = 128, kFar = 192, kWide = 248;
 constexpr int kFarSteps = 23;  ///< largest magnitude of a far child's distance
 /// A far child's distance at its centre, rounded towards zero, in steps of AdaptiveGrid::farStepFor().
@@ -125,8 +126,8 @@ struct AdaptiveBlock {
   int side;           ///< [units]
   bool leaf;          ///< false: far from the surface
   LeafWord word;      ///< of a leaf
-  std::size_t index;  ///< of a leaf: its rank among those of the array, or after them among those of the splits
-  /// Far: an empty sphere, and its side of the surface, which is also that of all of the block.
+  std::size_t index;  ///< of a leaf: its position in the array of leaves, or in that of the splits' leaves after it
+  /// Of a far block: an empty sphere, and the side of the surface on which the sphere and the whole block lie.
   Vector3d ball_center = Vector3d::Zero();  ///< [units]
   double ball_radius = 0.0;                 ///< [m]
   bool inside = false;
@@ -134,7 +135,7 @@ struct AdaptiveBlock {
 };
 
 /// Signed distances in cells whose size follows the shape of the surface (the paper's "future work"): a coarse grid
-/// over everything, cells divided 4×4×4 or 2×2×2 only where interpolation needs it, and no values where |φ| > band.
+/// over everything, cells divided 4×4×4 or 2×2×2 only where interpolation needs it, none where |φ| > band.
 ///
 /// Leaves do not share their corners' values, so the interpolation jumps by up to twice the error bound where they
 /// meet: a change of sign at a face is a crossing there (design §3.3).
@@ -152,7 +153,7 @@ class AdaptiveGrid {
     View<std::uint8_t> leaf_errors;
   };
 
-  /// The same on memory that `owner` keeps alive (a file's).
+  /// A grid on memory that `owner` keeps alive (that of a file).
   AdaptiveGrid(const AdaptiveShape& shape, const Arrays& arrays, std::shared_ptr<const void> owner);
 
   const AdaptiveShape& shape() const { return shape_; }
@@ -175,11 +176,11 @@ class AdaptiveGrid {
   std::size_t leafCount() const { return arrays_.leaves.size + 8 * arrays_.splits.size; }
   std::size_t bytes() const;
 
-  /// Distance per step of a far child, of cells of side `node_side` [m] that are divided because they may hold
-  /// |φ| ≤ band [m].
+  /// Distance per step of a node's far children [m]. The node's cell has the side `node_side` [m]; it was divided
+  /// because it may contain |φ| ≤ band [m].
   static double farStepFor(double node_side, double band) { return (band + 1.53 * node_side) / node_code::kFarSteps; }
 
-  /// The rounding of leaves of side h [m]: those whose cell, or twice as large a cell around it, may hold |φ| ≤ band.
+  /// The rounding of leaves of side h [m] whose cell, or the cell twice as large around it, may contain |φ| ≤ band.
   static LeafScale leafScaleFor(double h, double band) { return LeafScale::forCell(h, band + 3.5 * h); }
 
  private:

@@ -24,7 +24,8 @@ FieldValue leafValue(const AdaptiveGrid& grid, const LocatedBlock& at) {
   return {trilinear(corners, at.u), trilinearGradient(corners, at.u) / (at.block.side * grid.shape().unit())};
 }
 
-/// The distance in a far block: at least that of its sphere's surface, at most that by its centre's distance.
+/// Bounds in a far block. |φ| is at least the distance to the surface of its empty sphere (and the band), and at most
+/// the upper bound at the block's centre plus the distance from there.
 DistanceBounds farBounds(const AdaptiveGrid& grid, const LocatedBlock& at) {
   const AdaptiveShape& shape = grid.shape();
   const Vector3d from_low = at.block.side * at.u, half = Vector3d::Constant(0.5 * at.block.side);
@@ -46,7 +47,7 @@ FieldSample centerSample(const AdaptiveGrid& grid, const Vector3i& cell) {
   return {0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low), Vector3d::Zero()};
 }
 
-/// Far from the surface: interpolated between the centres of the top cells, within the bounds of the block's centre.
+/// The sample in a far block: interpolated between the centres of the top cells and clamped to farBounds().
 FieldSample farSample(const AdaptiveGrid& grid, const LocatedBlock& at, const Vector3d& p_F) {
   const AdaptiveShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.cell - Vector3d::Constant(0.5);

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// Leaves for a cell's octants, where they are proved; the first ones that were tried.
+/// The proved leaves of a cell's octants; only the first `tried` octants were tried.
 struct BlockBuilder::OctantLeaves {
   std::array<std::optional<FittedLeaf>, 8> leaf;
   int tried = 0;

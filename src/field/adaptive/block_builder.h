@@ -18,12 +18,12 @@ namespace sdf_ccd {
 struct BuiltCell {
   enum Kind { kFar, kLeaf, kWide, kSplit, kNode } kind = kFar;
   double distance = 0.0;  ///< far: at the centre
-  FittedLeaf leaf;        ///< wide: of the octant that the cell is one eighth of
+  FittedLeaf leaf;        ///< wide: the leaf that all eight cells of the octant share
   std::array<FittedLeaf, 8> split;
   std::unique_ptr<std::array<BuiltCell, 64>> children;
 };
 
-/// In a node, of the k-th cell in an octant.
+/// Index in a node of the k-th cell in an octant.
 inline int childIndex(int octant, int k) {
   const Vector3i c = 2 * cubeCorner(octant) + cubeCorner(k);
   return c.x() + 4 * (c.y() + 4 * c.z());
@@ -32,7 +32,7 @@ inline int childIndex(int octant, int k) {
 /// Receives the cells of a builder: stores the top ones, counts all, and may skip cells.
 class CellTaker {
  public:
-  static constexpr int kFarCell = -1, kCube = -2;  ///< instead of a depth; a cube of top cells near the surface
+  static constexpr int kFarCell = -1, kCube = -2;  ///< instead of a depth; kCube: top cells near the surface
 
   virtual ~CellTaker() = default;
 
@@ -57,7 +57,7 @@ class BlockBuilder {
 
   Vector3i blocks() const { return (shape_.size.array() + (kSide - 1)) / kSide; }
   std::size_t count() const { return std::size_t(blocks().x()) * blocks().y() * blocks().z(); }
-  /// The i-th one, x first.
+  /// The i-th block, x fastest.
   Vector3i block(std::size_t i) const {
     const Vector3i blocks = this->blocks();
     const std::size_t row = i / blocks.x();
@@ -71,7 +71,7 @@ class BlockBuilder {
   /// May be called from several threads at once.
   void build(const Vector3i& block, const SignedSurface::Nearest& at_center, CellTaker& taker) const;
 
-  /// Whether a leaf at the last depth was not proved.
+  /// Whether a leaf at the last depth could not be proved to meet the error bound.
   bool capped() const { return capped_; }
 
  private:
@@ -97,13 +97,13 @@ class BlockBuilder {
   }
 
   void buildNear(const Block& block, const NearTriangles& near, CellTaker& taker) const;
-  /// Cells that are all far: one by one, each search starting from the last one's result.
+  /// Measures the distances at the centres of cells that are all far; each search starts from the previous result.
   void measureFar(const Block& block, SignedSurface::Nearest last, CellTaker& taker) const;
   BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth, CellTaker& taker) const;
   BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants, CellTaker& taker) const;
-  /// Whether a proved leaf shows that |φ| exceeds the band all over it, on its cell's centre's side.
+  /// Whether a proved leaf shows that |φ| exceeds the band in all of it, on the side where the cell's centre lies.
   bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
-  /// Whether a far cell at this depth can tell its side: the rounded distance of its centre is not zero.
+  /// Whether a far cell at this depth can store its side: the distance at its centre does not round to zero.
   bool holdsFar(double center_distance, int depth) const;
 
   const SurfaceIndex& surface_;

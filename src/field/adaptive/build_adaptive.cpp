@@ -33,7 +33,7 @@ class AdaptiveBuilder : private CellTaker {
   void take(std::size_t index, BuiltCell&& cell) override { built_.emplace_back(index, std::move(cell)); }
 
   void buildBlocks(const Progress& progress);
-  /// For all top cells; those near the surface are replaced later.
+  /// Sets the words of all top cells; those of cells near the surface are replaced later.
   void setEmptySpheres();
   void flatten(const BuiltCell& cell, std::size_t node, int depth);
   void addLeaf(const FittedLeaf& leaf);
@@ -49,7 +49,7 @@ class AdaptiveBuilder : private CellTaker {
   const CancelPoint cancel_;
   std::atomic<std::size_t> bytes_{0};
   AdaptiveData data_;
-  std::vector<std::uint8_t> split_errors_;  ///< those of the splits' leaves; in the data they follow the others
+  std::vector<std::uint8_t> split_errors_;  ///< of the splits' leaves; appended to AdaptiveData::leaf_errors last
 };
 
 void AdaptiveBuilder::count(std::size_t bytes) {
@@ -154,7 +154,7 @@ AdaptiveGrid AdaptiveBuilder::build(const Progress& progress) {
   buildBlocks(progress);
 
   if (blocks_.capped()) {
-    // Leaves of the last depth that are not proved get the bound of any 1-Lipschitz function.
+    // Leaves of the last depth that are not proved have the error bound of any 1-Lipschitz function.
     const double side = shape_.unit();
     shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
   }

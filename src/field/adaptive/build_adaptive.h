@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 
 /// An adaptive grid whose interpolation is proved to differ by at most options.max_error [m] from the distance, where
-/// |φ| ≤ band; for options that are valid.
+/// |φ| ≤ band. The options must be valid.
 /// @throws std::length_error if it would exceed options.max_bytes.
 std::shared_ptr<const AdaptiveGrid> buildAdaptive(const Solid& solid, const FieldOptions& options,
                                                   const Progress& progress);

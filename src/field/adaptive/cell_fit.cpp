@@ -151,12 +151,12 @@ std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& n
   Corners corners = cornersOf(cube);
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
   if (std::abs(mean - at(middle)) > 2.0 * most) return std::nullopt;
-  // Curvature pulls the interpolant to one side: half of that, taken off, halves the largest error.
+  // Curvature makes the interpolant deviate to one side: subtracting half of that halves the largest error.
   const Lattice exact = latticeOf(cube, near);
   const Deviation seen = deviationOf(difference(refined(corners), exact));
   if (seen.above + seen.below > 2.0 * most) return std::nullopt;
   for (double& value : corners) value -= 0.5 * (seen.above - seen.below);
-  // Where that is wrong for the points between, their errors give the direction of the next correction.
+  // If the error between these points is too large after this correction, it determines the next one.
   const GradientBound bound(near);
   constexpr int kTries = 4;
   for (int i = 0; i < kTries; ++i) {

@@ -20,8 +20,9 @@ struct FittedLeaf {
 /// A cell's signed distances at a lattice of 9×9×9 points, computed when needed, and the proofs of leaves for the
 /// cell.
 ///
-/// The proof. A leaf's interpolant is, in every part of the cell, that of its own values at the part's corners: see
-/// GradientBound for its error there. Parts are halved until it is proved, with fewer triangles near them.
+/// The proof. In every part of the cell, a leaf's interpolant is the trilinear one of its values at the part's corners,
+/// so GradientBound bounds its error there. Parts are divided until the leaf is proved: smaller parts have fewer
+/// triangles near them.
 class CellFit {
  public:
   /// @param near  of the cell.
@@ -34,7 +35,7 @@ class CellFit {
   std::optional<FittedLeaf> leaf(const LeafScale& scale, double most);
   std::optional<FittedLeaf> octantLeaf(int k, const LeafScale& scale, double most);
 
-  /// The exact distances at an octant's corners, rounded; the bound is that of any 1-Lipschitz function.
+  /// The leaf of the exact distances at an octant's corners, rounded; its bound holds for any 1-Lipschitz function.
   FittedLeaf roundedLeaf(int k, const LeafScale& scale);
 
   NearOctants& octants();
@@ -62,15 +63,16 @@ class CellFit {
   std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
   /// Computes the missing distances at the cube's points, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
-  /// Those at the corners of a cube, which have been computed before.
+  /// The distances at the corners of a cube, which must have been computed before.
   Corners cornersOf(const Cube& cube) const;
   /// The distances at the points of a cube.
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
-  /// Of one of two steps, whose middles are not kept.
+  /// latticeOf() a cube of two steps, whose middle points are not kept.
   Lattice finestLattice(const Cube& cube, const NearTriangles& near) const;
-  /// Bound of an interpolant with these values at the cube's corners on |interpolant − φ| in the cube: the proved one
-  /// if it is at most `most`, else an error found that exceeds it.
+  /// Bounds interpolant − φ in a cube. The result is proved if it is at most `most`; else it only says that no such
+  /// bound was proved.
   /// @param exact  the distances at the cube's points.
+  /// @param leaf   the interpolant's values at the cube's corners.
   Deviation deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound, const Lattice& exact,
                       const Corners& leaf, double most);
   Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
@@ -80,7 +82,7 @@ class CellFit {
   std::optional<NearOctants> octants_;
   Vector3d low_;
   double step_;
-  std::array<double, kSide * kSide * kSide> values_;  ///< NaN: not taken yet
+  std::array<double, kSide * kSide * kSide> values_;  ///< NaN: not computed yet
 };
 
 }  // namespace sdf_ccd

@@ -9,15 +9,15 @@
 
 namespace sdf_ccd {
 
-/// Builds only some of the cells that a builder visits, and counts each of them for those that it represents (Knuth
-/// 1975, "Estimating the efficiency of backtrack programs", with several branches taken). What is counted is right on
+/// Builds only some of the cells that a builder visits, and weights each by the number of cells that it represents
+/// (Knuth 1975, "Estimating the efficiency of backtrack programs", with several branches taken). The sums are right on
 /// average.
 class ThinnedCells : public CellTaker {
  public:
-  /// Shares of the cells of the upper levels that are built: powers of the golden section, so that not the same
-  /// children of all cells are met. Measured on 9 meshes: with fewer cells of more blocks the error is smaller in the
-  /// same time, down to kMore. Where there are few blocks, of long lists of triangles, that alone would be much of all
-  /// work.
+  /// Shares of the cells of the upper levels that are built: powers of the golden section, so that not always the same
+  /// children of a cell are built. Measured on 9 meshes: building fewer cells of more blocks gives a smaller error in
+  /// the same time, down to kMore. Where there are few blocks with long lists of triangles, that share would be a large
+  /// part of all work: kFewer is for these.
   static constexpr double kMore = 0.3819660112501051, kFewer = 0.1458980337503154;
 
   explicit ThinnedCells(double upper_share = kMore) : upper_share_(upper_share) { phases_.fill(0.5); }
@@ -28,7 +28,7 @@ class ThinnedCells : public CellTaker {
 
   void start() { last_ = threadSeconds(); }
 
-  /// What was counted since start().
+  /// The sums since start().
   Counted stop() {
     mark();
     return std::exchange(counted_, {});

@@ -8,8 +8,8 @@
 
 namespace sdf_ccd {
 
-/// Signed distances at grid points: of a brick, its halves, their halves, each with the triangles that may be nearest
-/// to its points, until those are few.
+/// Signed distances at the points of a brick. The brick is divided into octants, and these again, each with a list of
+/// the triangles that may be nearest to its points, until the lists are short.
 class BrickSampler {
  public:
   BrickSampler(const Solid& solid, const GridShape& shape);
@@ -36,7 +36,8 @@ class BrickSampler {
   }
 
   void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, float* samples) const;
-  /// If triangles are small compared with cells the lists are long: each sample starts from its neighbour's triangle.
+  /// For triangles that are small compared with cells, where the lists would be long: searches the tree for each
+  /// sample, starting from its neighbour's triangle.
   void fillFromTree(const Vector3i& brick, float* samples) const;
 
   std::optional<SurfaceIndex> index_;  ///< unless triangles are small compared with cells

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kLayers = 12;  ///< of samples, to either side; farther away the surface has changed direction
+constexpr int kLayers = 12;  ///< of samples, on either side; farther away the surface's normal has changed
 
 /// The sample at a corner of a cell [m], if its brick has samples.
 std::optional<double> sampleAt(const SparseGrid& grid, const Vector3i& corner) {
@@ -20,7 +20,7 @@ std::optional<double> sampleAt(const SparseGrid& grid, const Vector3i& corner) {
   return grid.sample(slot, corner - GridShape::kBrick * brick);
 }
 
-/// A sample, and the upper bound of its error [m].
+/// A sample and an upper bound of its error [m].
 struct Sample {
   Vector3d corner;  ///< in cells
   double value, rounding;

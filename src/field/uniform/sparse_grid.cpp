@@ -25,7 +25,7 @@ std::array<double, 8> cornersOf(const GridShape& shape, View<float> corners, con
   return c;
 }
 
-/// In one pass that the compiler turns into vectors: a number less itself is zero.
+/// A finite number minus itself is zero; the compiler vectorises this loop.
 bool allFinite(View<float> values) {
   bool finite = true;
   for (std::size_t i = 0; i < values.size; ++i) finite &= values[i] - values[i] == 0.0F;

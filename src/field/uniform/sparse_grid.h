@@ -24,10 +24,10 @@ struct GridShape {
   Vector3i bricks = Vector3i::Zero();  ///< per axis
   double band = 0.0;                   ///< [m]
   AlignedBox3d surface_box;            ///< of the mesh [m]
-  double step = 0.0;                   ///< that samples count in whole numbers of 16 bits [m]
+  double step = 0.0;                   ///< quantisation step of the samples, which are integers of 16 bits [m]
 
-  static constexpr double kMaxSteps = 32767.0;  ///< of a sample
-  /// For samples whose magnitude is at most `largest` [m].
+  static constexpr double kMaxSteps = 32767.0;  ///< largest magnitude of a sample
+  /// The step for samples whose magnitude is at most `largest` [m].
   static double stepFor(double largest) { return largest / kMaxSteps; }
   std::int16_t inSteps(double metres) const { return static_cast<std::int16_t>(std::lround(metres / step)); }
 
@@ -48,11 +48,11 @@ struct GridShape {
 /// The values of a grid: those of a 1-Lipschitz function, so that they bound the distance to the surface.
 struct GridData {
   std::vector<float> corners;         ///< distance at every brick's corners, x fastest [m]
-  std::vector<std::int32_t> slots;    ///< per brick: where its samples lie, or kFar
+  std::vector<std::int32_t> slots;    ///< per brick: index of its block of samples, or kFar
   std::vector<std::int16_t> samples;  ///< kSamples per slot, x fastest [GridShape::step]
 };
 
-/// The word of a brick: if its last bit is set a slot, above it; else an EmptySphere about a brick's corner.
+/// The word of a brick: if the lowest bit is set, the others are a slot; else an EmptySphere about a brick's corner.
 namespace brick_word {
 inline std::uint32_t slot(std::int32_t slot) {
   return static_cast<std::uint32_t>(slot) << 1 | 1U;
@@ -64,14 +64,14 @@ inline bool isFar(std::uint32_t word) {
 
 /// Samples of a signed distance, dense in bricks near the surface, one per brick corner elsewhere.
 ///
-/// Memory order: x fastest, then y, then z. A brick has samples unless |φ| > band + cell all over it; instead of those
-/// a far brick has an EmptySphere, by which a query advances (design §3.3): farther than by the paper's min/max octree
-/// (§3.2), and without its memory.
+/// Memory order: x fastest, then y, then z. A brick has samples unless |φ| > band + cell in all of it. Such a far
+/// brick has an EmptySphere instead, which a query skips (design §3.3): the skips are longer than with the paper's
+/// min/max octree (§3.2), and need none of its memory.
 class SparseGrid {
  public:
   static constexpr std::int32_t kFar = -1;
 
-  /// @throws std::invalid_argument if sizes do not fit each other.
+  /// @throws std::invalid_argument if the shape is not valid or the arrays' sizes do not match it.
   SparseGrid(const GridShape& shape, GridData data);
 
   struct Arrays {
@@ -80,7 +80,7 @@ class SparseGrid {
     View<std::int16_t> samples;  ///< as GridData
   };
 
-  /// The same on memory that `owner` keeps alive (a file's).
+  /// A grid on memory that `owner` keeps alive (that of a file).
   SparseGrid(const GridShape& shape, const Arrays& arrays, double error_bound, std::shared_ptr<const void> owner);
 
   const GridShape& shape() const { return shape_; }
@@ -92,7 +92,7 @@ class SparseGrid {
   double rounding() const { return 0.5 * shape_.step; }
 
   /// Bound on |interpolated − true distance| in a brick with samples [m]: for exact samples of a 1-Lipschitz function
-  /// Jensen's inequality on the trilinear weights gives √(Σ u(1−u)) h ≤ √3/2 h (design §3.3), plus rounding().
+  /// Jensen's inequality on trilinear weights gives √(Σ u(1−u)) h ≤ √3/2 h (design §3.3), plus rounding().
   double errorBound() const { return error_bound_; }
 
   std::size_t bytes() const;
@@ -115,12 +115,12 @@ class SparseGrid {
   /// Distances at a brick's corners, ordered like cellCorners().
   std::array<double, 8> brickCorners(const Vector3i& brick) const;
 
-  /// Radius of balls, per step [m].
+  /// Length of a step of EmptySphere::steps [m].
   double ballStep() const { return GridShape::kBrick * shape_.cell * EmptySphere::step(shape_.bricks); }
 
   std::uint32_t word(const Vector3i& brick) const { return arrays_.words[shape_.brickIndex(brick)]; }
 
-  /// Of a brick's samples, or kFar.
+  /// The slot of a brick's samples, or kFar.
   std::int32_t slot(const Vector3i& brick) const {
     const std::uint32_t w = word(brick);
     return brick_word::isFar(w) ? kFar : static_cast<std::int32_t>(w >> 1);
@@ -151,8 +151,8 @@ inline double trilinear(const std::array<double, 8>& c, const Vector3d& u) {
 /// Its gradient per unit of (u, v, w).
 Vector3d trilinearGradient(const std::array<double, 8>& corners, const Vector3d& u);
 
-/// Half the diagonal of a unit cube. Also the most that trilinear interpolation of exact corner values of a 1-Lipschitz
-/// function is wrong by, per side of the cell (see lipschitzError(), in the middle).
+/// Half the diagonal of a unit cube. Also the maximum error, in sides of the cell, of the trilinear interpolation of
+/// exact corner values of a 1-Lipschitz function (lipschitzError() at the centre).
 constexpr double kHalfSqrt3 = 0.8660254037844386;
 
 /// Bound on |trilinear − f| for exact corner values of a 1-Lipschitz f on a cube of side h [m] (design §3.3).

@@ -34,14 +34,14 @@ FieldValue interpolateIn(const LocatedCell& cell) {
   return {trilinear(cell.corners, cell.u), trilinearGradient(cell.corners, cell.u) / cell.side};
 }
 
-/// Where the brick has no samples |φ| exceeds the band, whatever the coarse interpolation says.
+/// The interpolated value; in a brick without samples, where |φ| exceeds the band, at least the band.
 double farValue(const SparseGrid& grid, const LocatedCell& cell, double interpolated) {
   if (cell.sampled) return interpolated;
   const double band = grid.shape().band;
   return cell.corners[0] > 0.0 ? std::max(interpolated, band) : std::min(interpolated, -band);
 }
 
-/// Of the interpolated distance in its cell or brick [m].
+/// Error bound of the distance interpolated in a cell or brick [m].
 double errorAt(const SparseGrid& grid, const LocatedCell& cell, double interpolated) {
   return lipschitzError(cell.u, cell.side) + (cell.sampled ? grid.rounding() : 0.0) +
          4.0 * std::numeric_limits<float>::epsilon() * std::abs(interpolated);

@@ -59,7 +59,7 @@ class BrickSample {
     test_seconds_ = (threadSeconds() - start) / double(tested_);
   }
 
-  /// Distances at bricks' corners, each but the first in a row from the one before.
+  /// Measures the time of a distance at a brick's corner, found from that at the corner before it.
   void measureCorners() {
     constexpr std::size_t kMaxSamples = 128;
     const SpreadOrder order(shape_.brickCount());

@@ -11,10 +11,10 @@ namespace sdf_ccd {
 /// @throws std::length_error if it would have too many cells along one side.
 GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& options);
 
-/// Least magnitude of the distances at a brick's corners [m]. @param corners  of all bricks, ordered as cornerIndex().
+/// Smallest |φ| at a brick's corners [m]. @param corners  of all bricks, ordered as cornerIndex().
 double nearestCorner(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick);
 
-/// @throws std::length_error if that exceeds the options' limit; the message names the cell size that would fit.
+/// @throws std::length_error if `bytes` exceeds options.max_bytes; the message names the cell size that would fit.
 void requireBytes(std::size_t bytes, const GridShape& shape, const FieldOptions& options);
 
 }  // namespace sdf_ccd

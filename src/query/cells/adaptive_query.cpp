@@ -28,7 +28,7 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
       passFree(block.low, block.side, ball, ball_exit, walk, intervals);
     }
     if (stopsAtEnter(options.mode) && !intervals.empty()) break;
-    // Complete once another span follows it.
+    // The first interval is complete once the walk is beyond its end.
     const bool first_only = options.mode == SegmentMode::kFirstInterval;
     if (first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
   }

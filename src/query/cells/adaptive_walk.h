@@ -13,7 +13,7 @@ inline GridWalk walkThrough(const AdaptiveGrid& grid, const Segment& segment) {
   return {{grid.shape().origin, grid.shape().unit(), grid.shape().units()}, segment};
 }
 
-/// A far block's sphere: the true distance exceeds `margin` [m] all over it, on one side. Slightly reduced: the sphere
+/// A far block's empty sphere, reduced so that |φ| exceeds `margin` [m] in all of it; and a little more, as the sphere
 /// is in metres and the walk in units.
 inline FreeBall emptySphere(const AdaptiveGrid& grid, const AdaptiveBlock& block, double margin) {
   const AdaptiveShape& shape = grid.shape();

@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// Where a segment leaves a sphere that contains its point at t; t if it does not.
+/// The parameter at which a segment leaves a sphere that contains its point at t; t if the sphere does not contain it.
 class BallExit {
  public:
   explicit BallExit(const Segment& segment)
@@ -20,7 +20,7 @@ class BallExit {
   double operator()(const Vector3d& center, double radius, double t) const {
     const double free = radius - rounding_;
     if (!(free > 0.0) || !(length2_ > 0.0)) return t;
-    // From the point at t: seen from the start of a long segment the sphere is too small for doubles.
+    // Relative to the point at t: relative to the start of a long segment, rounding would exceed the sphere's size.
     const Vector3d from = start_ + t * step_ - center;
     const double half_b = from.dot(step_), c = from.squaredNorm() - free * free;
     if (!(c < 0.0)) return t;

@@ -13,7 +13,7 @@ void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals) {
 
 void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals) {
-  // A sphere that contains the block is left later; but not by a segment of zero length.
+  // A sphere that contains the block is left after the block, except by a segment of zero length.
   const CellLattice& lattice = walk.lattice();
   const double half = 0.5 * side * lattice.cell;
   const Vector3d center = lattice.origin + lattice.cell * low.cast<double>() + Vector3d::Constant(half);

@@ -16,18 +16,18 @@ struct WalkedCell {
   double t_exit;  ///< where the walk leaves it
 };
 
-/// A sphere without the value sigma, all on one side of it.
+/// A sphere in which the field is nowhere sigma, so that all of it is on one side of the isosurface.
 struct FreeBall {
   Vector3d center;  ///< [m]
   double radius;    ///< [m]
   bool inside;
 };
 
-/// Advances a walk to t, with all points up to there on one side: appends the span if that is the inside.
+/// Advances a walk to t, if all points up to there are on one side; appends the span if that is the inside.
 void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals);
 
-/// Advances a walk out of a block of cells [low, low + side) that is as free as a sphere next to it, and on to the exit
-/// of that sphere.
+/// Advances a walk out of a block of cells [low, low + side) that lies on the same side of the isosurface as an empty
+/// sphere, and on to the exit from that sphere.
 void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals);
 

@@ -20,7 +20,7 @@ FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, const EmptySph
 }
 
 /// The sphere about the sample nearest to a point of a sampled brick. With v the sample and h the cell no point within
-/// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3); v is reduced by the rounding of it and its neighbours.
+/// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3); v is reduced by the samples' rounding.
 FreeBall sampleBall(const SparseGrid& grid, const Vector3i& brick, std::int32_t slot, const Vector3d& p_F,
                     double sigma) {
   const GridShape& shape = grid.shape();
@@ -62,7 +62,7 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
       }
     }
     if (stopsAtEnter(options.mode) && !intervals.empty()) break;
-    // Complete once another span follows it.
+    // The first interval is complete once the walk is beyond its end.
     const bool first_only = options.mode == SegmentMode::kFirstInterval;
     if (first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
   }

@@ -74,7 +74,7 @@ class GridWalk {
   }
 
  private:
-  /// Along one axis, in [low, high].
+  /// The cell along axis k at the current parameter, clamped to [low, high].
   int cellAt(int k, double low, double high) const {
     return static_cast<int>(std::min(std::max(start_[k] + t_ * step_[k], low), high));
   }
@@ -89,7 +89,7 @@ class GridWalk {
   Vector3i cell_ = Vector3i::Zero();
   double t_ = 0.0, t_end_ = 1.0;
   bool inside_ = false;
-  // what exit() found
+  // results of exit()
   Vector3i low_ = Vector3i::Zero(), high_ = Vector3i::Zero();
   double t_exit_ = 0.0;
   int axis_ = -1;

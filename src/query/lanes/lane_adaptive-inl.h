@@ -89,7 +89,7 @@ inline Blocks locateBelow(const AdaptiveLanes& g, const Lanes& lanes, const Fetc
 }
 
 inline void fetchLeaves(const AdaptiveLanes& g, const RayQueue& queue, Fetched& fetched) {
-  // By index rather than by a branch: which of the two it is cannot be foreseen.
+  // Selected by an index rather than a branch, which the processor could not predict.
   const LeafWord* const leaves[] = {g.leaves, g.splits ? g.splits->leaves.data() : nullptr};
   const std::int32_t* index = queue.index.data();
   std::int32_t* pair = fetched.pairs[0].data();
@@ -99,7 +99,7 @@ inline void fetchLeaves(const AdaptiveLanes& g, const RayQueue& queue, Fetched& 
   }
 }
 
-/// In steps of the corners.
+/// The corner values of each lane's leaf, in steps of LeafCorners::step.
 inline LeafCorners leafCorners(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched, int first) {
   VI low, high;
   hn::LoadInterleaved2(n, fetched.pairs[0].data() + 2 * first, low, high);

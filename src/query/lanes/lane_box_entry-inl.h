@@ -22,17 +22,16 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Segments that enter the grid, clipped to its box: in double precision if one extends far outside. Each
-/// step is done for all of them before the next, as vectors that are read just after parts of them were written stall.
-/// No vector straddles two cache lines.
+/// Segments clipped to the grid's box, in double precision if they extend far outside it. Each step is done for all of
+/// them before the next, as reading a vector just after writing parts of it stalls. No vector straddles cache lines.
 struct HWY_ALIGN_MAX BoxEntry {
   static constexpr int kMaxSegments = 128;
 
   float o[3][kMaxSegments], d[3][kMaxSegments];
-  float *t0, *t1;         ///< the part of each segment within the box; none: t0 > t1
-  bool doubtful = false;  ///< one may not be within reach
+  float *t0, *t1;         ///< the part of each segment within the box; t0 > t1 if there is none
+  bool doubtful = false;  ///< whether one of the segments may not be within reach
 
-  /// Takes 1 to kMaxSegments segments; the last one also fills its vector.
+  /// Takes 1 to kMaxSegments segments; copies of the last one fill up its vector.
   /// @param begins, ends  where t0 and t1 are written
   BoxEntry(const LaneBox& g, const Segment* segments, int count, float* begins, float* ends) : t0(begins), t1(ends) {
     HWY_ALIGN float numbers[kNumbers * kMaxSegments];
@@ -64,7 +63,7 @@ struct HWY_ALIGN_MAX BoxEntry {
 
   static int lanes() { return static_cast<int>(hn::Lanes(single)); }
 
-  /// Starts and ends in single precision once they are relative to the grid's origin [units]; numbers x, y, z, x, ...
+  /// Converts starts and ends to single precision, after subtracting the grid's origin [units]; in the same order.
   static void convert(const LaneBox& g, const Segment* segments, int count, float* relative) {
     constexpr Wide wide;
     constexpr hn::Rebind<float, Wide> narrow;
@@ -116,7 +115,7 @@ struct HWY_ALIGN_MAX BoxEntry {
     const auto zero = hn::Zero(single), one = hn::Set(single, 1.0F);
     for (int i = 0; i < count; i += lanes()) {
       Rays<Single> rays;
-      auto inside = hn::Eq(one, one), surely_near = inside;  // false for NaN: no comparison holds of it
+      auto inside = hn::Eq(one, one), surely_near = inside;  // false for NaN, which fails every comparison
       for (int k = 0; k < 3; ++k) {
         rays.at[k] = hn::LoadU(single, o[k] + i);
         rays.displacement[k] = hn::LoadU(single, d[k] + i);
@@ -138,7 +137,7 @@ struct HWY_ALIGN_MAX BoxEntry {
     }
   }
 
-  /// A segment that extends farther is clipped again, in double precision.
+  /// Clips a segment again, in double precision, if it extends farther than nearReach().
   void clipFar(const LaneBox& g, const Segment& segment, int i) {
     constexpr OneWide wide;
     const double reach = kSurelyWithinReach * g.units_per_metre;
@@ -157,7 +156,7 @@ struct HWY_ALIGN_MAX BoxEntry {
 
   static constexpr double kSurelyWithinReach = 4e11;  ///< from the grid's origin, and along the segment [m]
 
-  /// Clips segments to the box. @param inside  lanes whose segment is all inside the box.
+  /// Clips segments to the box. @param inside  lanes whose segment lies entirely inside the box.
   template <class Tag>
   static Part<Tag> clip(Tag tag, const LaneBox& g, hn::Mask<Tag> inside, Rays<Tag>& rays) {
     using T = hn::TFromD<Tag>;

@@ -15,7 +15,7 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Each lane's leaf: its eight corners and the isovalue, in steps of the leaf's own length.
+/// Each lane's leaf: its eight corner values and the isovalue, in multiples of `step`.
 struct LeafCorners {
   HWY_INLINE LeafCorners() {}  // as Blocks()
 
@@ -74,7 +74,7 @@ inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Ex
   const MF in_start = hn::Le(c0, zero), in_end = hn::Le(at_end, zero);
   const MF crossing = hn::Xor(in_start, in_end);
   const VF c33 = hn::Mul(c3, real(3.0F));
-  // Its Bézier points change sign at least as often as it does.
+  // The Bézier coefficients of the cubic change sign at least as often as it does.
   const VF third = real(1.0F / 3.0F);
   const VF b1 = hn::MulAdd(c1, third, c0);
   const VF b2 = hn::MulAdd(hn::Add(c1, c2), third, b1);
@@ -92,14 +92,15 @@ inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Ex
       return hn::And(hn::Ge(discriminant, zero), hn::And(hn::Gt(u, zero), hn::Lt(u, one)));
     };
     const MF turn1 = turnsAt(u1), turn2 = turnsAt(u2);
-    // More than one root: an extremum on the other side than both ends, or any two extrema between ends that differ.
+    // There may be several roots if an extremum's sign differs from that of both ends, or if there are two extrema
+    // between ends whose signs differ.
     const MF other1 = hn::And(turn1, hn::Xor(hn::Le(value(u1), zero), in_start));
     const MF other2 = hn::And(turn2, hn::Xor(hn::Le(value(u2), zero), in_start));
     several = hn::Or(hn::AndNot(crossing, hn::Or(other1, other2)), hn::And(crossing, hn::And(turn1, turn2)));
     several = hn::And(several, may_turn);
   }
 
-  // The root of the others: Newton's steps within a shrinking bracket.
+  // The only root of the other lanes that cross: by Newton's method within a shrinking bracket.
   VF lo = zero, hi = one;
   VF u = hn::Div(c0, hn::Sub(c0, hn::IfThenElse(crossing, at_end, hn::Add(c0, one))));
   const MF sought = hn::AndNot(several, crossing);
@@ -113,8 +114,8 @@ inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Ex
     const VF newton = hn::Sub(u, hn::Div(at, slope));
     const MF good = hn::And(hn::Ge(newton, lo), hn::Le(newton, hi));
     const VF next = hn::IfThenElse(good, newton, hn::Mul(hn::Add(lo, hi), real(0.5F)));
-    // After a step this short the next would be lost in rounding. Lanes that are there stay, so that no lane's result
-    // depends on its neighbours.
+    // After a step this short the next one would be lost in rounding. Such lanes do not change any more, so that no
+    // lane's result depends on its neighbours.
     const VF step = hn::Abs(hn::Sub(next, u));
     u = hn::IfThenElse(loose, next, u);
     loose = hn::And(loose, hn::Gt(step, real(1e-4F)));

@@ -31,9 +31,9 @@ AdaptiveLanes::AdaptiveLanes(const AdaptiveGrid& grid, double sigma_metres) {
   const double to_units = units_per_metre;
   sigma = static_cast<float>(sigma_metres * to_units);
   margin = static_cast<float>((std::abs(sigma_metres) + shape.error_bound) * to_units);
-  // At this distance and beyond leaves may be wrong; reduced by the rounding of single precision.
+  // The error of the leaf's value, that of the leaves beyond, and the rounding of single precision.
   leaf_margin = static_cast<float>(2.0 * shape.error_bound * to_units + 0.02);
-  // All of them are linear in the side.
+  // All these steps are linear in the side.
   const double none = AdaptiveGrid::farStepFor(0.0, shape.band),
                unit = AdaptiveGrid::farStepFor(shape.unit(), shape.band);
   far_step = static_cast<float>(none * to_units);
@@ -54,7 +54,7 @@ UniformLanes::UniformLanes(const SparseGrid& grid, double sigma_metres) {
   per_sample = static_cast<float>(shape.step * units_per_metre);
   rounding = static_cast<float>(2.0 * grid.rounding() * units_per_metre);
   margin = static_cast<float>((std::abs(sigma_metres) + grid.errorBound()) * units_per_metre);
-  leaf_margin = std::numeric_limits<float>::max();  // the balls about the next cell's samples reach further
+  leaf_margin = std::numeric_limits<float>::max();  // the balls about the next cell's samples extend farther
 }
 
 }  // namespace sdf_ccd

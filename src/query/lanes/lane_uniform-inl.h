@@ -17,7 +17,7 @@ namespace sdf_ccd {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Decodes bricks: last bit 1, and a slot above it; or a distance.
+/// Decodes the words of bricks: if the lowest bit is 1, a slot in the others; else an empty sphere.
 inline Blocks locateTop(const UniformLanes& g, VI word, const VI* /*cell*/) {
   Blocks b;
   b.far = hn::Eq(hn::And(word, whole(1)), hn::Zero(n));
@@ -90,7 +90,7 @@ inline void fetchLeaves(const UniformLanes& g, const RayQueue& queue, Fetched& f
   }
 }
 
-/// Of each lane's cell, in steps.
+/// The corner values of each lane's cell, in steps.
 inline LeafCorners leafCorners(const UniformLanes& g, const Lanes& /*lanes*/, const Fetched& fetched, int first) {
   LeafCorners corners;
   for (int k = 0; k < 4; ++k) {

@@ -39,7 +39,7 @@ inline MI asWhole(MF m) {
   return hn::RebindMask(n, m);
 }
 
-/// first, first + 1, ... (hn::Iota() writes them one by one, and waits to read them.)
+/// first, first + 1, ... (hn::Iota() writes the numbers one by one and stalls when it reads them.)
 inline VI countFrom(int first) {
   return hn::Add(whole(first), hn::Load(n, kLaneNumbers.data()));
 }
@@ -68,7 +68,7 @@ struct Lanes {
     log_side = hn::IfThenElseZero(used, hn::LoadU(n, queue.log_side.data() + first));
   }
 
-  /// Lanes that enter the grid.
+  /// Segments that enter the grid, from index `first` of the entry on.
   Lanes(const BoxEntry& entry, int first, int first_id)
       : t(real(0.0F)), enter(real(-1.0F)), id(countFrom(first_id + first)), index(hn::Zero(n)), log_side(hn::Zero(n)) {
     for (int k = 0; k < 3; ++k) {
@@ -82,7 +82,7 @@ struct Lanes {
 };
 
 /// Moves the lanes of a mask to the front. The permutation is computed once for all vectors that are moved alike;
-/// Highway's Compress() computes it each time, and GCC copies the table that it reads it from.
+/// Highway's Compress() computes it each time, from a table that GCC copies.
 class Front {
  public:
   explicit Front(MI which) : which_(which), indices_(indices(which)) {}
@@ -109,12 +109,12 @@ class Front {
   Indices indices_;
 };
 
-/// Puts the lanes of a mask at the end of a queue.
+/// Appends the lanes of a mask to a queue.
 template <bool keeps_enter>
 HWY_INLINE void append(MI which, const Lanes& lanes, VI index, VI log_side, RayQueue& queue) {
   const int end = queue.size;
   const Front front(which);
-  // Whole vectors: the lanes beyond the end are overwritten next.
+  // Stores whole vectors; the next call overwrites the lanes beyond the new end.
   const auto put = [&](VF v, RayQueue::Column<float>& column) { hn::StoreU(front(v), f, column.data() + end); };
   const auto putWhole = [&](VI v, RayQueue::Column<std::int32_t>& column) {
     hn::StoreU(front(v), n, column.data() + end);
@@ -144,12 +144,12 @@ HWY_INLINE void append(MI which, VI id, VF enter, VF exit, RayHits& hits) {
 
 /// The block that each lane is in.
 struct Blocks {
-  HWY_INLINE Blocks() {}  // the compiler's own one is not compiled for this target: on Arm it cannot be called
+  HWY_INLINE Blocks() {}  // the implicit constructor is not compiled for this target: on Arm it cannot be called
 
   VI log_side;
   VI index;  ///< index of a leaf or node
   MI far;
-  MI node;  ///< must be descended further; neither far nor node: a leaf
+  MI node;  ///< a node, to be descended further; a block that is neither far nor a node is a leaf
   // Where `far`: an empty sphere.
   VF ball[3];  ///< its centre, from the block's first corner [units]
   VF radius;   ///< [units]
@@ -174,7 +174,7 @@ inline void setEmptySphere(const LaneBox& g, VI word, Blocks& b) {
 HWY_INLINE void findCells(const LaneBox& g, Lanes& lanes) {
   for (int k = 0; k < 3; ++k) {
     const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
-    // Towards zero; what is below is clamped.
+    // Rounded towards zero; negative values are clamped.
     lanes.cell[k] = hn::Min(hn::Max(hn::ConvertTo(n, lanes.at(k)), hn::Zero(n)), last);
   }
 }
@@ -222,14 +222,14 @@ HWY_INLINE Exits exitsOf(const Lanes& lanes, VI log_side) {
   return e;
 }
 
-/// Steps lanes to t: through the exit's face, or (`jump`) anywhere. @return lanes that have left the grid.
+/// Advances lanes to t: through the exit's face, or (`jump`) to any cell. @return lanes that have left the grid.
 HWY_INLINE MI advance(const LaneBox& g, const Exits& e, MF jump, VF t, MI moving, Lanes& lanes) {
   MI outside = none();
   VI next[3];
   for (int k = 0; k < 3; ++k) {
     const VI high = hn::Add(e.low[k], e.side);
     const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
-    // Towards zero; what is below is clamped.
+    // Rounded towards zero; negative values are clamped.
     const VI at = hn::ConvertTo(n, hn::MulAdd(lanes.d[k], t, lanes.o[k]));
     const VI within = hn::Min(hn::Max(at, e.low[k]), hn::Sub(high, whole(1)));
     const MF forward = hn::Gt(lanes.d[k], real(0.0F));

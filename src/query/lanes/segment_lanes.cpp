@@ -78,7 +78,7 @@ class Follower {
     queue.size = 0;
   }
 
-  /// Fills up with segments from index `first` on. @return the first one that is not enqueued.
+  /// Enqueues as many segments as fit, from index `first` on. @return the first one that is not enqueued.
   int enqueue(const Segment* segments, int first, int count) {
     while (first < count && RayQueue::kCapacity - active() >= BoxEntry::kMaxSegments) {
       const int group = std::min(BoxEntry::kMaxSegments, count - first);
@@ -108,7 +108,7 @@ class Follower {
     for (int i = 0; i < count; i += width) {
       Lanes lanes(entry, i, first);
       for (int k = 0; k < 3; ++k) lanes.cell[k] = hn::LoadU(n, cell[k] + i);
-      // The next segments to enqueue, and, as they may be in slow memory, some of those after them.
+      // Prefetches the segments to enqueue next and, as they may be in slow memory, some of those after them.
       prefetch(segments + first + count + i, static_cast<std::size_t>(width));
       prefetch<CacheLevel::kSecond>(segments + first + 4 * count + i, static_cast<std::size_t>(width));
       const MI in_box = asWhole(hn::Le(hn::LoadU(f, entry.t0 + i), hn::LoadU(f, entry.t1 + i)));
@@ -117,7 +117,8 @@ class Follower {
     }
   }
 
-  /// For lanes that are inside (or outside) from t on, and not before: begins or ends their hits.
+  /// Begins or ends the hits of those lanes `of` whose side changes at t.
+  /// @param inside  lanes that are inside from t on.
   /// @return lanes that are complete.
   HWY_INLINE MI flip(MI inside, MI of, VF t, Lanes& lanes) {
     if constexpr (first_only) {
@@ -150,7 +151,7 @@ class Follower {
     wait(which, lanes, topIndex(g_, lanes.cell), lanes.log_side, work_.top[next_]);
   }
 
-  /// The same for lanes that come from other cells: those in the same brick skip its look-up.
+  /// The same for lanes that come from other cells: those that stay in their brick need no look-up of its word.
   HWY_INLINE void enterTopFrom(const VI* from, const Lanes& lanes, MI which) {
     if constexpr (std::is_same_v<Grid, UniformLanes>) {
       VI changed = hn::Zero(n);
@@ -170,7 +171,7 @@ class Follower {
     sort(at, lanes, used, nodes);
   }
 
-  /// Lanes at blocks: passes far ones, enqueues the others.
+  /// Passes far blocks; enqueues the lanes at other blocks.
   HWY_INLINE void sort(const Blocks& at, Lanes& lanes, MI used, RayQueue& nodes) {
     const MI far = hn::And(used, at.far), node = hn::And(used, at.node);
     const MI leaf = hn::AndNot(hn::Or(at.far, at.node), used);
@@ -179,8 +180,8 @@ class Follower {
     if (!hn::AllFalse(n, far)) enterTop(lanes, passFar(lanes, at, far));
   }
 
-  /// Where lanes leave a sphere that contains them; t if it does not. In coordinates relative to the lanes' positions:
-  /// these are small, so the rounding errors are small too.
+  /// The parameters at which lanes leave spheres that contain them; t where a sphere does not. Computed relative to the
+  /// lanes' positions: such coordinates are small, and so are their rounding errors.
   static HWY_INLINE VF ballExit(const Lanes& lanes, const VF* center, VF radius2) {
     VF b = real(0.0F), c = real(0.0F), length2 = real(1e-20F);
     for (int k = 0; k < 3; ++k) {
@@ -203,7 +204,7 @@ class Follower {
     return hn::AndNot(done, live);
   }
 
-  /// Passes far blocks: to the exit of a sphere that is free of the isosurface, or of the block.
+  /// Passes far blocks: to the exit from the empty sphere, or from the block.
   /// @return lanes that are neither complete nor hit; they are in their new cells.
   HWY_INLINE MI passFar(Lanes& lanes, const Blocks& at, MI live) {
     live = hn::AndNot(flip(at.inside, live, lanes.t, lanes), live);
@@ -211,7 +212,7 @@ class Follower {
     const VF half = hn::Mul(hn::ConvertTo(f, side), real(0.5F));
     const VF rounded = hn::MulAdd(at.radius, real(1.0F - 1e-5F), real(-0.01F));
     const VF radius = hn::Max(hn::Sub(rounded, real(g_.margin)), real(0.0F)), radius2 = hn::Mul(radius, radius);
-    VF center[3], farthest2 = real(0.0F);  // squared distance of the block's farthest corner from it
+    VF center[3], farthest2 = real(0.0F);  // squared distance from it to the block's farthest corner
     for (int k = 0; k < 3; ++k) {
       center[k] = hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), at.ball[k]);
       const VF to_corner = hn::Add(hn::Abs(hn::Sub(at.ball[k], half)), half);
@@ -235,12 +236,12 @@ class Follower {
     return moveOn(lanes, exits, jump, hn::IfThenElse(jump, t_ball, exits.t), live);
   }
 
-  /// One level down, according to the node's code for the lane's child.
+  /// Descends one level, according to the node's code for the lane's child.
   HWY_INLINE void descend(const AdaptiveLanes& grid, Lanes& lanes, MI used, int first) {
     sort(locateBelow(grid, lanes, work_.fetched, first), lanes, used, work_.node[next_]);
   }
 
-  /// In a brick: through the sphere about the nearest sample, if that takes the lane out of its cell; else to the cell.
+  /// In a brick: advances through the sphere about the nearest sample if that leaves the cell; else enqueues the cell.
   HWY_INLINE void descend(const UniformLanes& grid, Lanes& lanes, MI used, int first) {
     const VI log_cell = whole(UniformLanes::kLogCell);
     const SampleBall ball = nearestBall(grid, lanes, work_.fetched, first);
@@ -271,7 +272,7 @@ class Follower {
     over = hn::Or(over, flip(in_end, rest, crossing.t_root, lanes));
     if (!hn::AllFalse(n, hard)) over = hn::Or(over, crossHardLeaves(crossing, hard, t_exit, lanes));
     const MI going = hn::AndNot(over, used);
-    // Through the face, or out of the empty sphere about the exit point, whose radius is the leaf's value.
+    // Through the face, or to the exit from the empty sphere about the exit point, whose radius is the leaf's value.
     VF length2 = real(1e-20F);
     for (int k = 0; k < 3; ++k) length2 = hn::MulAdd(lanes.d[k], lanes.d[k], length2);
     const VF free = hn::MulSub(hn::Abs(crossing.at_end), corners.step, real(g_.leaf_margin));
@@ -298,7 +299,7 @@ class Follower {
     return hn::Ne(hn::Load(n, overs.value), hn::Zero(n));
   }
 
-  /// A leaf with several roots, by the exact method. @return true if the ray is complete.
+  /// Crosses a leaf with several roots by the exact method. @return whether the ray is complete.
   bool hardLeaf(const CellCubic& cubic, std::int32_t id, float start, float end, float& enter) {
     const CellIntervals found = nonPositive(cubic);
     const auto timeOf = [&](double u) { return static_cast<float>(start + u * (double(end) - double(start))); };
@@ -324,7 +325,7 @@ class Follower {
   const Grid& g_;
   RayWork& work_;
   int refused_ = -1;  ///< index of a segment that is not within reach
-  int next_ = 0;      ///< index of the queue being written, of each pair
+  int next_ = 0;      ///< in each pair of queues, the index of the one being written
 };
 
 }  // namespace

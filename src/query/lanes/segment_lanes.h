@@ -21,11 +21,11 @@ struct LaneBox {
   const std::uint32_t* top;              ///< a word per top cell, x fastest
   float ball_step;                       ///< of EmptySphere [units]
   float ball_offset;  ///< position of a top cell in the lattice of spheres' centres, from its first corner [units]
-  float margin;       ///< a sphere of the true distance minus this has no point where the field is sigma [units]
-  float leaf_margin;  ///< a sphere of a leaf's distance from sigma minus this has none beyond the leaf [units]
+  float margin;       ///< if a sphere's radius is |φ| minus this, the field is nowhere sigma in it [units]
+  float leaf_margin;  ///< the same for |leaf's value − sigma|, beyond the leaf [units]
 };
 
-/// An adaptive grid: raw words.
+/// An adaptive grid: its raw arrays.
 struct AdaptiveLanes : LaneBox {
   AdaptiveLanes(const AdaptiveGrid& grid, double sigma);
 
@@ -42,14 +42,14 @@ struct AdaptiveLanes : LaneBox {
 
 /// A uniform grid: a top cell is a brick.
 struct UniformLanes : LaneBox {
-  static constexpr int kLogCell = 4;  ///< of the units along a cell's side
+  static constexpr int kLogCell = 4;  ///< log2 of the units along a cell's side
 
   UniformLanes(const SparseGrid& grid, double sigma);
 
   const std::int16_t* samples;  ///< [steps]
   float sigma;                  ///< [steps]
   float per_sample;             ///< units in a step
-  float rounding;               ///< upper bound of how much two samples may differ more than their distances do [units]
+  float rounding;               ///< by which two samples' difference may exceed that of their true distances [units]
 };
 
 /// For each mask of eight lanes: the indices of the set ones, in order; then zeros.
@@ -71,7 +71,7 @@ alignas(64) inline constexpr std::array<std::int32_t, 16> kLaneNumbers{0, 1, 2, 
 /// Segments that wait for the same kind of step, one array per quantity. A segment runs from o to o + d within the
 /// grid's box while its parameter t goes from 0 to 1; lengths in units.
 struct alignas(64) RayQueue {
-  static constexpr int kCapacity = 512;  ///< and upper bound of active rays: their vectors are full, and fit the cache
+  static constexpr int kCapacity = 512;  ///< also of active rays: enough to fill vectors, few enough for the cache
   static constexpr int kSlack = 32;      ///< beyond the end, so that whole vectors may be read and written
   template <class T>
   using Column = std::array<T, kCapacity + kSlack>;
@@ -135,7 +135,7 @@ struct RayWork {
   std::vector<std::int32_t> unfinished;  ///< to be queried one by one: rays that were not completed
 };
 
-/// Follows segments 0 to count − 1 to their ends, or to the begin of their first hit (the only part found of it).
+/// Follows segments 0 to count − 1 to their ends, or to the beginning of their first hit, without computing its end.
 /// @return the index of a segment that is not within reach; −1 if there is none.
 int followRays(const AdaptiveLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work);
 int followRays(const UniformLanes& grid, bool first_only, const Segment* segments, int count, RayWork& work);

@@ -50,7 +50,7 @@ HWY_INLINE FreeBalls emptySpheres(const Blocks& at, const Lanes& lanes) {
   return balls;
 }
 
-/// Around the points of leaves that are nearest to the lanes.
+/// Empty spheres about the lanes' positions, clamped to their leaves.
 HWY_INLINE FreeBalls leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched) {
   const LeafCorners corners = leafCorners(g, lanes, fetched, 0);
   const VI side = hn::Shl(whole(1), lanes.log_side), mask = hn::Neg(side);
@@ -71,7 +71,7 @@ HWY_INLINE FreeBalls leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const
   return balls;
 }
 
-/// Around the samples that are nearest to the lanes.
+/// Empty spheres about the samples that are nearest to the lanes.
 HWY_INLINE FreeBalls sampleBalls(const UniformLanes& g, const Lanes& lanes, const Fetched& fetched) {
   const NearestSample nearest(lanes);
   const VI word = hn::LoadU(n, fetched.word.data());
@@ -81,8 +81,8 @@ HWY_INLINE FreeBalls sampleBalls(const UniformLanes& g, const Lanes& lanes, cons
   return balls;
 }
 
-/// Advances vectors of spheres from one empty sphere to the next until all lanes have a result: neighbours in a tree
-/// mostly need the same steps.
+/// Advances vectors of spheres from one empty sphere to the next until all lanes have a result; neighbours in a tree
+/// usually need the same steps.
 template <class Grid>
 class Sweeper {
  public:
@@ -173,9 +173,9 @@ class Sweeper {
     return asWhole(hn::Gt(from, to));
   }
 
-  /// The paths of lanes relative to empty spheres, reduced by the lanes' radii and margins.
+  /// The paths of lanes relative to empty spheres whose radii are reduced by the lanes' radii and margins.
   struct Passage {
-    VF along;    ///< vector from the empty sphere's centre, times d
+    VF along;    ///< dot product of d and the vector from the empty sphere's centre
     VF from2;    ///< distance from the empty sphere's centre, squared
     VF length2;  ///< of d
     VF radius, margin;
@@ -185,7 +185,7 @@ class Sweeper {
       return hn::And(hn::Gt(radius, real(0.0F)), hn::Lt(farthest2, hn::Mul(radius, radius)));
     }
 
-    /// Whether the empty sphere contains the lane, and extends far enough to be faster than the exact test.
+    /// Whether the empty sphere contains the lane, and is large enough to be faster than the exact test.
     MF isWide() const {
       return hn::And(hn::Gt(radius, margin),
                      hn::And(hn::Gt(radius, real(0.0F)), hn::Lt(from2, hn::Mul(radius, radius))));
@@ -212,7 +212,7 @@ class Sweeper {
     return passage;
   }
 
-  /// From the empty sphere about the middle to the end, and then to the start. @return the sides.
+  /// Follows paths from the empty sphere about the middle to the end, then to the start. @return the sides.
   HWY_NOINLINE VI followLong(Lanes& lanes, MI inside, const Passage& middle, MI active, VI side) {
     const VF one = real(1.0F), minus_one = real(-1.0F);
     VF high = middle.exit(one), low = middle.exit(minus_one);  // between them all points are on one side
@@ -233,7 +233,7 @@ class Sweeper {
     return side;
   }
 
-  /// Empty spheres that may contain the lanes: from the data next to them.
+  /// Empty spheres that may contain the lanes, from the grid's data at their positions.
   HWY_INLINE FreeBalls ballsAt(Lanes& lanes, MI active) {
     findCells(g_, lanes);
     hn::StoreU(topIndex(g_, lanes.cell), n, work_.waiting.index.data());
@@ -279,7 +279,7 @@ class Sweeper {
     balls.replace(brick, sampleBalls(grid, lanes, work_.fetched));
   }
 
-  /// Fetches the memory of the lanes' blocks; the other lanes fetch that of one of these.
+  /// Enqueues the lanes of a mask for their blocks' memory; the other lanes get the block of one of these.
   HWY_INLINE void await(MI which, VI index, const Lanes& lanes) {
     RayQueue& queue = work_.waiting;
     hn::StoreU(index, n, queue.index.data());

@@ -41,7 +41,7 @@ struct SphereSweep {
 
   /// Transforms of a point (x, y, z, 1) [m]: to its position at the chord's middle; to its displacement from there.
   std::array<std::array<float, 4>, 3> middle, displacement;
-  float max_displacement;  ///< upper bound of the spheres' displacements
+  float max_displacement;  ///< upper bound of the spheres' displacements from their positions at the middle
   float rounding;          ///< upper bound of the error of single precision; not finite if that is too large
   float outside, inside;   ///< margins
   std::array<float, 3> surface_low, surface_high;  ///< box around the surface
@@ -53,8 +53,8 @@ struct SphereWork {
   Fetched fetched;
 };
 
-/// On which side of the surface each sphere surely is all along a chord, as sweptSide() with the radius added to its
-/// margins; conservative too. Uniform grids: those whose samples are distances (UniformLanes::exact).
+/// Finds the side of the surface on which each sphere surely stays along a whole chord, as sweptSide() with the radius
+/// added to its margins; conservative too.
 void sweepSpheres(const AdaptiveLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work);
 void sweepSpheres(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work);
 

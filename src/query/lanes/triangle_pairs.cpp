@@ -25,7 +25,7 @@ HWY_INLINE V real(double x) {
 }
 
 struct Point {
-  HWY_INLINE Point() {}  // the compiler's own one is not compiled for this target
+  HWY_INLINE Point() {}  // the implicit constructor is not compiled for this target
   HWY_INLINE Point(V x0, V y0, V z0) : x(x0), y(y0), z(z0) {}
   HWY_INLINE explicit Point(const Vector3d& p) : x(real(p.x())), y(real(p.y())), z(real(p.z())) {}
 
@@ -158,7 +158,7 @@ struct Shortest {
 HWY_INLINE V clamped(V x) {
   return hn::Min(hn::Max(x, real(0.0)), real(1.0));
 }
-/// 0 if x is tiny.
+/// 1 / x; 0 if x is tiny.
 HWY_INLINE V inverseOf(V x) {
   const M sound = hn::Gt(x, real(1e-280));
   return hn::IfThenElseZero(sound, hn::Div(real(1.0), hn::IfThenElse(sound, x, real(1.0))));
@@ -185,7 +185,8 @@ HWY_INLINE Point betweenEdges(const Edge& a, const Edge& b) {
   return along(along(Point(hn::Neg(w.x), hn::Neg(w.y), hn::Neg(w.z)), t, b.direction), hn::Neg(s), a.direction);
 }
 
-/// From corners of one to the face of the other, where their feet are within it. @param sign  of the displacement.
+/// Offers the displacements between a triangle's face and the other's corners, where their projections lie in the face.
+/// @param sign  of the displacement.
 HWY_INLINE void offerFace(const Triangle& face, const Triangle& corners, double sign, Shortest& best) {
   const Point ab = face.p[1] - face.p[0], ac = face.p[2] - face.p[0], normal = cross(ab, ac);
   const V area2 = dot(normal, normal), inverse = inverseOf(area2);

@@ -46,8 +46,8 @@ struct EndPoses {
 /// Gaps at both ends: along the triangles' normals and a given direction of A's frame, whichever is largest.
 void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs& pairs);
 
-/// The same along the segment between the closest points of A and of B, each corner of B halfway between its poses.
-/// There the gap is near its maximum.
+/// The same along the segment between the closest points of A and of B, with each corner of B halfway between its
+/// positions at both ends: the gap along it is nearly the largest.
 void closestGaps(const EndPoses& poses, TrianglePairs& pairs);
 
 }  // namespace sdf_ccd

@@ -6,7 +6,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr const char* kStalls = "no new transforms";
-constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // beyond them clocks stand still or overflow [s]
+constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // limits set by clocks [s]
 
 }  // namespace
 
@@ -17,8 +17,8 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   request.max_points = parameters.max_points;
   request.refine = parameters.refine;
   TfTracker::Step last = TfTracker::Step::kWaiting;
-  ros::Time last_cycle;  // 0: none since time has jumped
-  // Where transforms come again, the next cycle reaches back to the last one.
+  ros::Time last_cycle;  // 0: none since the last jump of time
+  // When transforms resume, the next cycle begins at the end of the last one.
   const auto tellGap = [&](const ros::Time& now) {
     const ros::Time from = loop.cycle().end;
     if (!last_cycle.isZero()) observer.onGap({from, from + (now - last_cycle)}, kStalls, now);
@@ -43,7 +43,8 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   ros::Time now = motion.begin();
   const auto runUntil = [&](const ros::Time& time) {
     for (; now < time; now += period) {
-      // Nothing happens before the next transforms, be they years away: clocks of robots are set while they record.
+      // No cycle can begin before the next transforms, which may be years later: robots' clocks are set while they
+      // record.
       if (stepAt(now) == TfTracker::Step::kStalled && time - now > period) now = time - period;
     }
   };

@@ -5,29 +5,29 @@
 
 namespace sdf_ccd {
 
-/// Is told of a bag's check, in the order of the bag's clock.
+/// Receives the results of checkBag(), in the order of the bag's clock.
 class BagObserver {
  public:
   virtual ~BagObserver() = default;
 
-  /// Before any cycle that uses them.
+  /// Called before any cycle that uses these transforms.
   virtual void onTransforms(const RecordedTransforms& transforms) = 0;
 
-  /// The loop has a new cycle.
+  /// Called after each new cycle of the loop.
   virtual void onCycle(const ros::Time& now) = 0;
 
-  /// Nothing is checked after the last cycle. Time has jumped, so that what was found before is about another
-  /// time, or no transforms have come for max_latency; told when it begins.
+  /// Called when nothing is checked after the last cycle from now on: time has jumped, so that earlier results belong
+  /// to another time, or no transforms have come for max_latency.
   virtual void onUnchecked(const std::string& reason, const ros::Time& now) = 0;
 
-  /// No cycle has been run over a part of the bag, which is over now: transforms have ended, or were refused. By the
-  /// clock of the transforms, from the last cycle's end on.
+  /// Called at the end of a part of the bag without cycles: transforms have ended, or were refused. The gap begins at
+  /// the end of the last cycle, in the time of the transforms.
   virtual void onGap(const TimePart& gap, const std::string& reason, const ros::Time& now) = 0;
 };
 
-/// Runs the monitor's loop over what a bag recorded, as fast as it goes. The ROS clock is the bag's, as with
-/// `rosbag play --clock`; a cycle is due every 1 / rate of it, as with a live monitor that is never late, and one at
-/// the bag's end.
+/// Runs the monitor's loop over the contents of a bag, as fast as possible. The ROS clock follows the bag, as with
+/// `rosbag play --clock`; one cycle is due every 1 / rate of it, as with a live monitor that is never late, and one at
+/// the end of the bag.
 void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters, MonitorLoop& loop,
               BagObserver& observer);
 

@@ -18,7 +18,7 @@ BagWriter::~BagWriter() {
   try {
     if (bag_) close();
   } catch (const std::runtime_error&) {
-    // as documented
+    // see the destructor's declaration
   }
 }
 
@@ -27,7 +27,7 @@ void BagWriter::close() {
 }
 
 void BagWriter::abandon(int error_number, const std::string& reason) {
-  // Its destructor would try to write again what cannot be written, and throw: it is not run. The program ends soon.
+  // The bag's destructor would try again to write, and throw; so it is never run. The program ends soon.
   static_cast<void>(bag_.release());
   throw std::runtime_error(name_ + ": cannot write: " + (error_number != 0 ? std::strerror(error_number) : reason));
 }

@@ -8,15 +8,15 @@
 
 namespace sdf_ccd {
 
-/// A bag that is written, compressed with LZ4. A rosbag::Bag whose disk is full throws from its destructor too, which
-/// ends the program; this one does not.
+/// Writes a bag, compressed with LZ4. On a full disk the destructor of rosbag::Bag throws, which ends the program; this
+/// one's does not.
 class BagWriter {
  public:
   /// @param file  to write.
-  /// @param name  what errors call it.
-  /// @throws std::runtime_error, as all that follows, if it cannot be written.
+  /// @param name  of the bag in error messages.
+  /// @throws std::runtime_error if it cannot be written; so do all other functions.
   BagWriter(const std::string& file, std::string name);
-  ~BagWriter();  ///< without close(), what could not be written is lost without a word
+  ~BagWriter();  ///< without close(), data that cannot be written is lost silently
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
@@ -26,7 +26,7 @@ class BagWriter {
     guarded([&] { bag_->write(topic, time, message, connection); });
   }
 
-  /// Writes what is left: the last chunk, and the index.
+  /// Writes the last chunk and the index.
   void close();
 
  private:

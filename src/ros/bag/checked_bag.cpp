@@ -10,7 +10,7 @@ namespace {
 
 const std::string kMonitor = "/collision_monitor/";
 
-/// Bodies that touch another.
+/// Bodies that are in contact with another body.
 std::set<int> touching(const CycleResult& result) {
   std::set<int> bodies;
   for (const PairResult& pair : result.pairs) {
@@ -32,7 +32,7 @@ void CheckedBag::addScene(const SceneDescription& description, const ros::Time& 
 
 void CheckedBag::addTransforms(const RecordedTransforms& transforms) {
   if (!transforms.is_static) return bag_.write("/tf", transforms.recorded, transforms.message);
-  // A player latches one message of a topic: it holds all.
+  // A player latches only the last message of a topic, so each message holds all static transforms.
   for (const geometry_msgs::TransformStamped& transform : transforms.message.transforms) {
     static_transforms_[withoutLeadingSlash(transform.child_frame_id)] = transform;
   }

@@ -11,35 +11,35 @@
 
 namespace sdf_ccd {
 
-/// Writes what a check found to a bag, with the transforms it was found from, so that rviz shows it as if live.
+/// Writes the results of a check to a bag, with the transforms that were checked, so that rviz shows them as if live.
 ///
-/// /tf, /tf_static  tf2_msgs/TFMessage  as they were followed
-/// Below /collision_monitor/, as the nodelet publishes them:
-///   contacts         sdf_ccd/ContactArray            every cycle, when there begin to be none, and of each gap
+/// /tf, /tf_static  tf2_msgs/TFMessage  the transforms that were checked
+/// Below /collision_monitor/, as the nodelet publishes it:
+///   contacts         sdf_ccd/ContactArray            every cycle; when cycles stop; after each gap
 ///   state            sdf_ccd/MonitorState            the same
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle in which the link is in contact
-///   markers          visualization_msgs/MarkerArray  contacts and status to look at
+///   markers          visualization_msgs/MarkerArray  contacts and status
 ///   links            visualization_msgs/MarkerArray  when a link's verdict changes
-///   plan, world      once
+///   plan, world                                      once
 class CheckedBag {
  public:
-  /// @param bag    open, and empty; closed by whoever opened it. It throws where it cannot be written.
-  /// @param loop   is asked for each cycle. Both must outlive this.
-  /// @param scene  what the loop's was built from.
+  /// @param bag    open and empty; the caller closes it. Its functions throw if it cannot be written.
+  /// @param loop   its last cycle is written by addCycle(). Loop and bag must outlive this.
+  /// @param scene  description from which the loop's scene was built.
   CheckedBag(BagWriter& bag, const MonitorLoop& loop, const SceneDescription& scene, const MarkerOptions& markers);
 
-  /// The plan and the world, at the bag's begin.
+  /// Writes the plan and the world, at the beginning of the bag.
   void addScene(const SceneDescription& description, const ros::Time& begin);
 
   void addTransforms(const RecordedTransforms& transforms);
 
-  /// The loop's last cycle.
+  /// Writes the loop's last cycle.
   void addCycle(const ContactArray& contacts, const ros::Time& now);
 
-  /// Nothing is checked after the last cycle: no markers, and messages that say so.
+  /// Writes that nothing is checked after the last cycle, and deletes the markers.
   void addUnchecked(const std::string& reason, const ros::Time& now);
 
-  /// toGap(), when it is over.
+  /// Writes the result of toGap(), at the end of the gap.
   void addGap(const ContactArray& gap, const ros::Time& now) { bag_.write("/collision_monitor/contacts", now, gap); }
 
  private:

@@ -11,27 +11,27 @@
 
 namespace sdf_ccd {
 
-/// The transforms that robot_state_publisher sends for a robot: of each link in its parent's frame. Planar and floating
-/// joints have none.
+/// The transforms that robot_state_publisher sends for a robot: the pose of each link in its parent's frame. Planar and
+/// floating joints have none.
 class JointFrames {
  public:
-  /// @param prefix  put before the links' names: "", or ending in a slash.
+  /// @param prefix  of the links' frames: "", or a name that ends in a slash.
   JointFrames(std::shared_ptr<const RobotModel> robot, const std::string& prefix);
 
-  /// Frames of all links but the root, which a bag's tf may name; and whether a joint of the robot has this name.
+  /// Frames of all links but the root, which a bag's tf may contain; and whether the robot has a joint of this name.
   std::vector<std::string> frames() const;
   bool knows(const std::string& joint) const;
 
-  /// Of the links on fixed joints whose frame is wanted.
+  /// Transforms of the links on fixed joints whose frames are wanted.
   tf2_msgs::TFMessage fixed(const ros::Time& stamp, const std::function<bool(const std::string&)>& is_wanted) const;
 
-  /// Of the links on the joints that the message gives a position for, and on those that mimic them. Names that are not
-  /// the robot's, and positions that are not finite, are passed over.
+  /// Transforms of the links on the joints for which the message gives a position, and on those that mimic them. Names
+  /// that are not joints of the robot, and positions that are not finite, are ignored.
   tf2_msgs::TFMessage moved(const sensor_msgs::JointState& joints, const ros::Time& stamp) const;
 
  private:
   struct Link {
-    const urdf::Joint* joint;   // to its parent
+    const urdf::Joint* joint;   // from its parent
     std::size_t index, parent;  // among the robot's links
   };
 

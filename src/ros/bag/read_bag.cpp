@@ -9,7 +9,7 @@ namespace sdf_ccd {
 
 void requireBag(const std::string& file) {
   if (std::filesystem::is_directory(file)) throw std::runtime_error(file + ": is a directory, not a bag");
-  const std::string kBegin = "#ROSBAG V";  // of every version
+  const std::string kBegin = "#ROSBAG V";  // of all format versions
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(file + ": cannot be opened: " + std::strerror(errno));
   std::string begin(kBegin.size(), '\0');

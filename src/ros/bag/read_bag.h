@@ -7,10 +7,10 @@
 
 namespace sdf_ccd {
 
-/// Throws if the file is missing or no bag. rosbag calls both damaged.
+/// Throws if the file is missing or not a bag; rosbag would report both as a damaged bag.
 void requireBag(const std::string& file);
 
-/// Calls what reads a bag, and says what rosbag throws so that it names the file and what to do.
+/// Calls a function that reads a bag and translates what rosbag throws into messages with the file's name and a remedy.
 /// @throws std::runtime_error
 template <class Call>
 void readBag(const std::string& file, const Call& call) {
@@ -20,7 +20,7 @@ void readBag(const std::string& file, const Call& call) {
   } catch (const rosbag::BagUnindexedException&) {
     throw std::runtime_error(file + ": has no index, as if its recording had not ended: try `rosbag reindex " + file +
                              "`");
-  } catch (const ros::Exception& error) {  // of the bag's format, or of a message's
+  } catch (const ros::Exception& error) {  // about the bag's format or a message's
     throw std::runtime_error(file + ": is cut short or damaged: " + error.what() + ": try `rosbag reindex " + file +
                              "`, which keeps what can be read");
   }

@@ -66,7 +66,7 @@ void RecordedMotion::findTopics() {
   begin_ = first + ros::Duration(options_.start);
   end_ = options_.duration < (last - begin_).toSec() ? begin_ + ros::Duration(options_.duration) : last;
 
-  const std::string tf_type = ros::message_traits::md5sum<tf2_msgs::TFMessage>();  // tf/tfMessage has the same
+  const std::string tf_type = ros::message_traits::md5sum<tf2_msgs::TFMessage>();  // that of tf/tfMessage is the same
   std::set<std::string> tf, joint_states;
   for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
     const std::string name = withoutLeadingSlash(connection->topic);

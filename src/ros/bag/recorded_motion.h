@@ -21,21 +21,21 @@ struct RecordedMotionOptions {
   std::string joint_states;  ///< topic of joint states; empty: joint_states, else the only one of their type
 };
 
-/// Transforms, and when they were recorded.
+/// Transforms, and the time at which they were recorded.
 struct RecordedTransforms {
   ros::Time recorded;
   tf2_msgs::TFMessage message;
   bool is_static = false;
 };
 
-/// How a bag says that a robot moved: by tf, or, where tf names none of its links, by joint states, from which
-/// transforms are made as robot_state_publisher makes them. Links on fixed joints that tf does not name are where the
-/// URDF puts them.
+/// The motion of a robot that a bag recorded: from tf or, if tf contains none of the links, from joint states, which
+/// are converted to transforms as by robot_state_publisher. Links on fixed joints that are not in tf have the poses of
+/// the URDF.
 class RecordedMotion {
  public:
-  /// Finds out which frames the bag names; reads it until all that are wanted are found.
-  /// @throws std::runtime_error that names the bag, if it is missing, empty, damaged or not indexed, or says nothing of
-  /// the robot's links or the fixed frame.
+  /// Finds the frames in the bag; reads it until all frames that are needed are found.
+  /// @throws std::runtime_error that names the bag, if it is missing, empty, damaged or not indexed, or contains
+  /// nothing about the robot's links or the fixed frame.
   RecordedMotion(const std::string& file, const DescribedScene& described, const RecordedMotionOptions& options);
 
   ros::Time begin() const { return begin_; }
@@ -44,13 +44,13 @@ class RecordedMotion {
   /// "tf", "tf, and the URDF for 3 fixed links", "/joint_states"
   std::string source() const;
 
-  /// Hands over all transforms in the order of their recording, first of all those static ones that were recorded
-  /// before the begin.
+  /// Passes all transforms to `each` in the order of their recording, but first the static ones that were recorded
+  /// before begin().
   /// @throws std::runtime_error that names the bag, if it is damaged.
   void play(const std::function<void(const RecordedTransforms&)>& each) const;
 
-  /// What is wrong with the joint states that were played: positions that are not finite, which are passed over, and
-  /// joints of the robot that none of them names.
+  /// Problems of the joint states that were played: positions that are not finite, which were ignored, and joints of
+  /// the robot that no message names.
   std::vector<std::string> warnings() const;
 
  private:
@@ -63,14 +63,14 @@ class RecordedMotion {
   std::string file_;
   RecordedMotionOptions options_;
   JointFrames joints_;
-  mutable JointWatch joint_watch_;         // of what was played
-  mutable std::set<std::string> unnamed_;  // joints that move by themselves, and that nothing that was played names
+  mutable JointWatch joint_watch_;         // of the messages played
+  mutable std::set<std::string> unnamed_;  // joints that move independently and are named in no message played
   rosbag::Bag bag_;
   ros::Time begin_, end_;
-  std::vector<std::string> tf_topics_;           // /tf and /tf_static, those that are there
-  std::vector<std::string> joint_state_topics_;  // all of the type; then the one that is followed, or none
-  std::set<std::string> tf_frames_;              // that tf places in another, as far as was looked
-  std::size_t fixed_links_ = 0;                  // that the URDF places
+  std::vector<std::string> tf_topics_;           // /tf and /tf_static, if present
+  std::vector<std::string> joint_state_topics_;  // all of the type; later the one that is used, or none
+  std::set<std::string> tf_frames_;              // child frames in tf, as far as the bag was read
+  std::size_t fixed_links_ = 0;                  // number of links with the pose of the URDF
 };
 
 }  // namespace sdf_ccd

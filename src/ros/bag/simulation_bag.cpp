@@ -14,13 +14,13 @@ using visualization_msgs::Marker;
 constexpr double kTimeZero = 1.0;   // [s]
 constexpr double kPlaneSize = 2.0;  // [m]
 
-// rviz forgets all markers some frames after a bag's time jumps back to its start.
+// rviz deletes all markers some frames after a bag's time has jumped back to its start.
 constexpr double kMarkersOftenUntil = 0.5;  // [s]
 constexpr double kMarkersOften = 0.1;       // [s]
 constexpr double kMarkersLater = 1.0;       // [s]
 
 void setColor(bool fixed, bool plane, std::size_t body, Marker& marker) {
-  // Colours that stay apart, one after the other.
+  // Colours that are easy to tell apart, one per body in turn.
   constexpr std::array<std::array<float, 3>, 6> kColors = {{{0.30F, 0.45F, 0.69F},
                                                             {0.87F, 0.52F, 0.32F},
                                                             {0.33F, 0.66F, 0.41F},

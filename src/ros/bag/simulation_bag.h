@@ -9,20 +9,20 @@
 
 namespace sdf_ccd {
 
-/// Writes a simulation to a bag that rviz shows as it moves.
+/// Writes a simulation to a bag that rviz can play.
 ///
 /// `/tf`: every body in the frame `scene` (the scene's frame O), which `/tf_static` puts into `world`.
-/// `/simulation/bodies` (visualization_msgs/MarkerArray): the bodies' meshes, locked to their frames, with the stamp 0:
-/// wherever the frames are by the newest transform. Repeated every second, so that a viewer that comes late gets them,
-/// and ten times a second in the first half second, so that one that plays the bag in a loop and forgets them when time
-/// jumps back gets them again. Time begins at 1 s, as 0 means "no time" to ROS.
+/// `/simulation/bodies` (visualization_msgs/MarkerArray): the bodies' meshes, locked to their frames, with the stamp 0,
+/// that is, at the newest transform. They are repeated every second for viewers that start late, and ten times a second
+/// in the first half second for a viewer that plays the bag in a loop and deletes them when time jumps back. Time
+/// begins at 1 s, as 0 means "no time" in ROS.
 class SimulationBag {
  public:
-  /// @param bag  open, and empty; closed by whoever opened it, and must outlive this. It throws where it cannot be
+  /// @param bag  open and empty; the caller closes it, and it must outlive this. Its functions throw if it cannot be
   ///             written.
   SimulationBag(BagWriter& bag, const SimulationSetup& setup);
 
-  /// Poses at `time` [s] of the simulation; call with times that increase.
+  /// Writes the poses at `time` [s] of the simulation; the times must increase.
   void add(double time, const std::vector<BodyState>& states);
 
  private:

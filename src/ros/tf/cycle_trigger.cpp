@@ -8,7 +8,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 nanoseconds toNanoseconds(double seconds) {
-  return nanoseconds(static_cast<nanoseconds::rep>(1e9 * std::min(seconds, 1e6)));  // longer ones overflow clocks
+  return nanoseconds(static_cast<nanoseconds::rep>(1e9 * std::min(seconds, 1e6)));  // clocks overflow beyond
 }
 
 }  // namespace

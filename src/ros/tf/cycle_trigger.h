@@ -9,58 +9,59 @@
 
 namespace sdf_ccd {
 
-/// What begins a cycle.
+/// Event that triggers a cycle.
 enum class TriggerKind {
-  kTimer,        ///< the rate
+  kTimer,        ///< the timer
   kTf,           ///< any moving transform
-  kJointStates,  ///< joint states
-  kFrames,       ///< the last of a group of frames: when all of them have come since the last cycle
+  kJointStates,  ///< a message of joint states
+  kFrames,       ///< a group of frames: when each of them has received a transform since the last cycle
 };
 
 struct TriggerOptions {
   TriggerKind kind = TriggerKind::kTimer;
-  std::vector<std::string> frames;  ///< of kFrames, without leading slashes
-  double period = 1.0;              ///< between two cycles, see dueAfter(); a timer's [s]
-  double patience = 0.1;            ///< without news a cycle begins all the same after so long [s]
+  std::vector<std::string> frames;  ///< the group of kFrames, without leading slashes
+  double period = 1.0;              ///< between two cycles, see dueAfter(); of the timer [s]
+  double patience = 0.1;            ///< longest wait for an event; then a cycle begins without one [s]
 };
 
-/// The first of the times begin + k × period (k > 0) that is later than now: what began too late does not shift those
-/// that come after it, and what was missed is left out.
+/// The first of the times begin + k × period (k > 0) that is later than `now`. A cycle that begins late does not delay
+/// the following ones; missed cycles are skipped.
 std::chrono::nanoseconds nextOnGrid(std::chrono::nanoseconds begin, std::chrono::nanoseconds now,
                                     std::chrono::nanoseconds period);
 
-/// From when on news may begin the next cycle, after one that might have begun at `due` and has at `begun`. News that
-/// come once a period, some of them late by up to half of it, thus begin a cycle each: the late ones do not shift those
-/// that come after them. From a cycle to the next it is half a period at least, to the n-th after it n - 1/2 periods.
+/// Earliest time at which an event may trigger the next cycle, if the last one could begin at `due` and began at
+/// `begun`. Events that arrive once per period, some of them up to half a period late, thus trigger one cycle each, and
+/// a late one does not delay those after it. Successive cycles are at least half a period apart; a cycle and the n-th
+/// one after it, at least n - 1/2 periods.
 std::chrono::nanoseconds dueAfter(std::chrono::nanoseconds due, std::chrono::nanoseconds begun,
                                   std::chrono::nanoseconds period);
 
-/// Says when the next cycle is due. One thread waits; any may bring news.
+/// Decides when the next cycle is due. One thread waits; any thread may report events.
 class CycleTrigger {
  public:
-  /// Also while a thread waits, whose cycle is due no later than the new period tells.
+  /// May be called while a thread waits; the cycle that it waits for is then due within one new period.
   void setOptions(const TriggerOptions& options);
 
-  /// News: transforms of these frames, without leading slashes; joint states.
+  /// Report an event: a transform of this frame (without leading slashes), any moving transforms, joint states.
   void onFrame(const std::string& child);
   void onTransforms() { bring(TriggerKind::kTf); }
   void onJointStates() { bring(TriggerKind::kJointStates); }
 
-  /// Whether it needs the names of frames.
+  /// Whether onFrame() has to be called.
   bool wantsFrames() const;
 
-  /// The first frame of the group of which no transform has come so far: cycles then begin after `patience` only. Empty
-  /// if all have come, or none is waited for.
+  /// The first frame of the group of which no transform has arrived so far: cycles then begin only after `patience`.
+  /// Empty if all have arrived, or none is waited for.
   std::string awaitedFrame() const;
 
-  /// Until the next cycle is due. @return false, and at once, after stop().
-  /// @param woken  called, by the thread that waits, for each wake() or several.
+  /// Blocks until the next cycle is due. @return false, at once, after stop().
+  /// @param woken  called by the waiting thread, once for one or several calls of wake().
   bool wait(const std::function<void()>& woken = {});
 
-  /// Something is to be done between two cycles, at once if one waits.
+  /// Requests a call of `woken` between two cycles; at once if a thread waits.
   void wake();
 
-  /// Until so much time has passed [s], whatever comes. @return false, and at once, after stop().
+  /// Blocks for this time [s], whatever events arrive. @return false, at once, after stop().
   bool waitFor(double seconds);
 
   void stop();
@@ -76,7 +77,7 @@ class CycleTrigger {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   TriggerOptions options_;
-  std::vector<char> has_come_;  // per frame of the group, since the last cycle
+  std::vector<char> has_come_;  // per frame of the group: a transform has arrived since the last cycle
   std::size_t to_come_ = 0;
   std::vector<char> has_ever_come_;  // the same, since the options were set
   bool news_ = false;

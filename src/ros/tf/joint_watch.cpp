@@ -11,7 +11,7 @@ JointWatch::JointWatch(const RobotModel& robot) {
 
 void JointWatch::add(const sensor_msgs::JointState& joints) {
   const std::size_t positions = std::min(joints.name.size(), joints.position.size());
-  if (positions > 0 && joints.position.size() != joints.name.size()) {  // none at all are those who send velocities
+  if (positions > 0 && joints.position.size() != joints.name.size()) {  // a message of velocities has none
     const std::lock_guard<std::mutex> lock(mutex_);
     incomplete_ += std::any_of(joints.name.begin(), joints.name.end(),
                                [&](const std::string& name) { return counts_.count(name) > 0; });

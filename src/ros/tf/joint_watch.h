@@ -12,22 +12,22 @@
 
 namespace sdf_ccd {
 
-/// Counts positions in joint states that are not finite, of the robot's joints, and messages about them that do not
-/// give a position per name: whoever makes transforms of them makes some that say nothing, or none, and it is the joint
-/// that has to be found. Thread-safe.
+/// Counts the positions of the robot's joints in joint states that are not finite, and the messages that do not give
+/// one position per name. From such a message a publisher of transforms makes invalid transforms or none; the counts
+/// name the joint at fault. Thread-safe.
 class JointWatch {
  public:
   explicit JointWatch(const RobotModel& robot);
 
   void add(const sensor_msgs::JointState& joints);
 
-  /// "60 positions of joint elbow in joint_states are not finite", per joint, and "30 messages of joint_states do not
-  /// give a position per name"; `topic` is named as given.
+  /// One line per joint, "60 positions of joint elbow in joint_states are not finite", and "30 messages of joint_states
+  /// do not give a position per name"; `topic` is printed as given.
   std::vector<std::string> lines(const std::string& topic) const;
 
  private:
   mutable std::mutex mutex_;
-  std::map<std::string, std::size_t> counts_;  // of all joints of the robot
+  std::map<std::string, std::size_t> counts_;  // per joint of the robot
   std::size_t incomplete_ = 0;                 // messages
 };
 

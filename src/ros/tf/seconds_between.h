@@ -6,10 +6,10 @@
 
 namespace sdf_ccd {
 
-constexpr double kLongestDuration = 2147483647.0;  // ROS can tell times apart that are as far from each other [s]
+constexpr double kLongestDuration = 2147483647.0;  // longest difference of two times that ROS can compute [s]
 
-/// to - from [s], of times or durations, however far apart. A ros::Duration holds no more than 2^31 s, and what ROS
-/// subtracts throws beyond; clocks, stamps and requests that others send may be that far apart.
+/// to - from [s], of times or durations. A ros::Duration holds at most 2^31 s, and subtraction in ROS throws beyond;
+/// clocks, stamps and requests from other nodes may be that far apart.
 template <class Time>
 double secondsBetween(const Time& from, const Time& to) {
   constexpr std::int64_t kPerSecond = 1000000000;

@@ -11,9 +11,9 @@ namespace sdf_ccd {
 namespace {
 
 const TimePart kNever{ros::TIME_MAX, ros::Time()};
-constexpr std::size_t kNamed = 8;  // of a loop's frames
+constexpr std::size_t kNamed = 8;  // frames of a loop that a message names
 
-/// What is wrong with more edges above a frame than may be: "… a loop: hand in arm in base in hand".
+/// Describes a chain with more edges above a frame than allowed: "… a loop: hand in arm in base in hand".
 std::string endlessText(const TfTree& tree, const std::string& frame, const std::vector<int>& edges) {
   const std::string text = "the transforms above " + frame + " are ";
   std::vector<int> loop;
@@ -90,7 +90,7 @@ void TfChains::find(const TfTree& tree, int fixed_frame, const std::string& fram
   for (auto edge = up_.rbegin(); edge != up_.rend(); ++edge) way.step = stepTo(*edge, {*edge, way.step, false});
 }
 
-/// Ways that lead to the same frame are the same up to there.
+/// Chains that lead to the same frame share their steps up to it.
 int TfChains::stepTo(int frame, const Step& step) {
   int& known = steps_to_[frame];
   if (known < 0) {
@@ -168,7 +168,8 @@ void TfChains::copy(const TfTree& tree, const std::vector<TimePart>& parts, cons
   }
 }
 
-/// What is not known; of several problems, the one nearest to the fixed frame.
+/// What is known of the chain up to a step over a part of the time; of several problems, the one nearest to the fixed
+/// frame.
 const TfChains::Account& TfChains::account(const TfTree& tree, int step, const TimePart& part) {
   Account& own = accounts_[step];
   if (own.part.from == part.from && own.part.until == part.until) return own;

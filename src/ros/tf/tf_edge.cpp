@@ -3,8 +3,8 @@
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);        // publishers may disagree by less
-constexpr std::size_t kMostBehind = 1000;  // records that one that comes late may lie behind
+const ros::Duration kJumpBack(1.0);        // clocks of publishers may disagree by less
+constexpr std::size_t kMostBehind = 1000;  // a late transform is inserted only before at most this many records
 
 }  // namespace
 
@@ -16,7 +16,8 @@ void TfEdge::record(const TfPose& pose, const TfKeep& keep, TfCounts& counts) {
   if (pose.stamp > records.back().stamp) {
     behind_count_ = 0;
     records.pushBack(pose);
-    // Between a transform that came late under another parent and this one, others were known once.
+    // A record older than dropped_until came late, under another parent. Interpolating from it to this one would cross
+    // a period in which other transforms were known.
     while (records.front().stamp < dropped_until && pose.stamp > dropped_until) records.dropFront(1);
     drop(keep);
   } else if (hasGoneBack(pose)) {
@@ -40,7 +41,7 @@ void TfEdge::recordBehind(const TfPose& pose, const TfKeep& keep, TfCounts& coun
     records.insert(next, pose);
     return drop(keep);
   }
-  // To put it in its place would cost more the more often it happens: nothing is known any more up to there.
+  // Each insertion would cost more the more often this happens. Instead, all records up to its time are dropped.
   dropped_until = pose.stamp;
   is_cut = true;
   records.dropFront(next);
@@ -53,7 +54,7 @@ void TfEdge::recordBefore(const TfPose& pose, bool is_same_parent, const TfKeep&
   } else if (is_cut) {
     noteLate({dropped_until, records.front().stamp});
   } else if (is_same_parent && pose.stamp >= before(records.back().stamp, keep.duration)) {
-    records.insert(0, pose);  // nothing was known there
+    records.insert(0, pose);  // no motion was known at that time
     drop(keep);
   }
 }

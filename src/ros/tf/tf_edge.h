@@ -9,32 +9,33 @@
 
 namespace sdf_ccd {
 
-/// The time minus the duration, or 0 if there is none before it.
+/// time - duration, or 0 if that is negative.
 ros::Time before(const ros::Time& time, const ros::Duration& duration);
 
-/// How much is kept of an edge.
+/// Limits of what is kept of an edge.
 struct TfKeep {
-  ros::Duration duration;  ///< behind its newest transform
+  ros::Duration duration;  ///< before its newest transform
   std::size_t records = 0;
 };
 
-/// What happens to edges, counted.
+/// Counts of events, over all edges.
 struct TfCounts {
-  long changes = 0;       ///< otherwise than by moving
-  long out_of_order = 0;  ///< transforms that came behind newer ones of the same frame
+  long changes = 0;       ///< changes otherwise than by moving
+  long out_of_order = 0;  ///< transforms that arrived after newer ones of the same frame
 };
 
 /// The transforms of a frame in its parent.
 struct TfEdge {
   bool is_static = false;
-  TfPoses records;          ///< one if static; none: no transform of the frame is known
-  ros::Time dropped_until;  ///< up to here older transforms were known once
-  bool is_cut = false;      ///< what was dropped went on to the records
-  long version = 0;         ///< TfCounts::changes at the last one
-  std::string change;       ///< what that was, as in "hand …"
-  ros::Time heard;          ///< the clock at the last transform
+  TfPoses records;          ///< one if static; empty if no transform of the frame is known
+  ros::Time dropped_until;  ///< transforms up to this time were known and have been dropped
+  bool is_cut = false;      ///< the dropped transforms continued to the first record, without a change between them
+  long version = 0;         ///< value of TfCounts::changes after the last change
+  std::string change;       ///< what that change was, to be read after the frame's name
+  ros::Time heard;          ///< time of the clock when the last transform arrived
 
-  /// Where the frame's motion is another than what was known before: told, and then forgotten, by the history.
+  /// Period in which the frame's motion differs from what was known before. The history reports it once, then resets
+  /// it.
   struct Late {
     ros::Time since, until;
   };
@@ -42,34 +43,36 @@ struct TfEdge {
 
   bool isKnown() const { return !records.empty(); }
 
-  /// What the frame was before a change was known up to dropped_until, or the change was said to be earlier.
+  /// Time from which on the frame is known: not before dropped_until, up to where the frame was known as it was before
+  /// a change, even if the change itself is stamped earlier.
   ros::Time first() const { return is_static ? dropped_until : std::max(records.front().stamp, dropped_until); }
 
-  /// Takes a transform by the same parent, both moving.
+  /// Records a transform of a moving frame in the same parent.
   void record(const TfPose& pose, const TfKeep& keep, TfCounts& counts);
 
-  /// Takes one of a time before all that is known.
+  /// Handles a transform stamped before all records.
   void recordBefore(const TfPose& pose, bool is_same_parent, const TfKeep& keep, TfCounts& counts);
 
-  /// Whether the stamps go on far behind the newest. Call it once per transform.
+  /// Whether the stamps have gone back: kGoesOn transforms in a row are far older than the newest one. Call it once per
+  /// transform.
   bool hasGoneBack(const TfPose& pose);
 
-  /// Nothing of before holds any more.
+  /// Drops all records and starts with this one.
   void beginAnew(const TfPose& pose, const std::string& what_has_changed, TfCounts& counts);
 
-  /// Drops what is too old, or too much.
+  /// Drops the records beyond the limits.
   void drop(const TfKeep& keep);
 
   void noteLate(const Late& more);
 
-  /// Forgets the transforms.
+  /// Drops all records.
   void clear();
 
  private:
   void recordBehind(const TfPose& pose, const TfKeep& keep, TfCounts& counts);
 
-  static constexpr std::size_t kGoesOn = 2;  // so many far behind the newest, one after the other, are no late ones
-  std::array<TfPose, kGoesOn> behind_;       // the last ones, as long as all of them are far behind the newest
+  static constexpr std::size_t kGoesOn = 2;  // this many in a row far behind the newest: the stamps have gone back
+  std::array<TfPose, kGoesOn> behind_;       // the last transforms, while all of them are far behind the newest
   std::size_t behind_count_ = 0;
 };
 

@@ -8,15 +8,15 @@
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);                  // a wall clock may be set back by less
+const ros::Duration kJumpBack(1.0);                  // smaller corrections of a wall clock are ignored
 const ros::Duration kSimJumpBack(0.1);               // two threads may see a simulated clock this much apart
-constexpr std::uint32_t kLastSecond = 1u << 31;      // differences of later stamps are no ros::Duration
-constexpr std::size_t kLongestName = 256;            // of a frame
-constexpr std::size_t kMostOthers[] = {1000, 5000};  // frames that are not followed: moving, static
+constexpr std::uint32_t kLastSecond = 1u << 31;      // ros::Duration cannot hold differences to later stamps
+constexpr std::size_t kLongestName = 256;            // characters in a frame's name
+constexpr std::size_t kMostOthers[] = {1000, 5000};  // known frames that are not followed: moving, static
 constexpr std::size_t kMostOtherRecords = 200;       // of one of them
-constexpr double kMostRecords = 1e6;                 // of all frames that are followed
-constexpr double kFewestRecords = 1000.0;            // of one of them, however many there are
-constexpr double kRecordsPerSecond = 2000.0;         // of one of them, if there are few
+constexpr double kMostRecords = 1e6;                 // of all followed frames together
+constexpr double kFewestRecords = 1000.0;            // of one followed frame, however many there are
+constexpr double kRecordsPerSecond = 2000.0;         // of one followed frame, if there are few
 const ros::Duration kSweepPeriod(1.0);
 
 std::string_view bare(std::string_view frame) {
@@ -74,7 +74,7 @@ void TfHistory::refuse(const std::string& why) {
   refusal_ = why;
 }
 
-/// Whether a transform says nothing.
+/// Whether a transform is invalid; it is then counted and ignored.
 bool TfHistory::isRefused(const geometry_msgs::TransformStamped& transform, const Names& names, bool is_static) {
   const std::string &child = transform.child_frame_id, &parent = transform.header.frame_id;
   const ros::Time& stamp = transform.header.stamp;
@@ -95,7 +95,7 @@ bool TfHistory::isRefused(const geometry_msgs::TransformStamped& transform, cons
   return true;
 }
 
-/// Who sends transforms, sends them in the same order every time.
+/// Expects the child that followed the last one before: publishers send their transforms in the same order every time.
 int TfHistory::findChild(std::string_view name) {
   int* const follower = last_child_ == TfTree::kNone ? nullptr : &followers_[last_child_];
   int child = follower ? *follower : TfTree::kNone;
@@ -122,7 +122,7 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
     return;
   }
   const ros::Time& sent = transform.header.stamp;
-  const ros::Time stamp = is_static ? ros::Time() : ros::Time(sent.sec, sent.nsec);  // nsec may be above a second
+  const ros::Time stamp = is_static ? ros::Time() : ros::Time(sent.sec, sent.nsec);  // nsec may exceed one second
   const TfPose pose = toTfPose(stamp, transform.transform);
   if (child == TfTree::kNone) {
     child = last_child_ = tree_.add(names.child);
@@ -148,11 +148,11 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
     }
     ros::Time last = edge.dropped_until;
     if (!is_new && !edge.is_static) last = std::max(last, edge.records.back().stamp);
-    if (!clock_.isZero()) last = std::min(last, clock_);  // farther no cycle has gone
+    if (!clock_.isZero()) last = std::min(last, clock_);  // no cycle has gone beyond the clock
     edge.beginAnew(pose, change, counts_);
     edge.dropped_until = last;
     setParent(child, tree_.add(names.parent), is_static);
-    // Cycles may have gone beyond the stamp already, by what the frame was before.
+    // Cycles may have gone beyond the stamp already, with the frame's former transforms.
     if (!is_new && !is_static) edge.noteLate({stamp, ros::TIME_MAX});
   }
   if (edge.late && !was_late) late_.push_back(child);
@@ -170,7 +170,7 @@ void TfHistory::setParent(int frame, int parent, bool is_static) {
   static_missed_ |= tree_.root(parent, above) != fixed_;
 }
 
-/// Makes room for others, as moving frames are known again as soon as they come again.
+/// Makes room for other frames; a moving frame becomes known again with its next transform.
 void TfHistory::forgetSilentOthers() {
   swept_ = clock_;
   const ros::Time silent_since = before(clock_, keep_);

@@ -8,10 +8,10 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kMaxNormError = 1e-2;   // of the squared length; tf2's
-constexpr double kTinyHalfAngle = 1e-9;  // below it slerp's weights are those of a line [rad]
+constexpr double kMaxNormError = 1e-2;   // of the squared length, as in tf2
+constexpr double kTinyHalfAngle = 1e-9;  // below it slerp's weights are linear in double precision [rad]
 
-/// In [0, π/2]; from the difference and the sum, so that small angles are not lost as by the arc cosine of tf2.
+/// Half the rotation angle, in [0, π/2], from |a - b| and |a + b|: the arc cosine that tf2 uses loses small angles.
 double halfAngle(const Quaterniond& a, const Quaterniond& b) {
   const double difference = (a.coeffs() - b.coeffs()).norm(), sum = (a.coeffs() + b.coeffs()).norm();
   return 2.0 * std::atan2(std::min(difference, sum), std::max(difference, sum));

@@ -12,35 +12,35 @@ struct TfPose {
   ros::Time stamp;
   Quaterniond rotation = Quaterniond::Identity();  ///< of unit length
   Vector3d translation = Vector3d::Zero();         ///< [m]
-  const char* problem = nullptr;                   ///< what is wrong with it, as in "hand …"; null if nothing is
+  const char* problem = nullptr;  ///< what is wrong with it, to be read after the frame's name; null if it is valid
 
   Isometry3d isometry() const { return Eigen::Translation3d(translation) * rotation; }
 };
 
-/// Numbers that are not finite, translations beyond kFarthestPose and quaternions whose squared length is off by more
-/// than a hundredth (tf2 ignores those) are a problem; other quaternions are normalised.
+/// Sets TfPose::problem for numbers that are not finite, translations beyond kFarthestPose and quaternions whose
+/// squared length is off by more than 0.01 (tf2 ignores those); other quaternions are normalised.
 TfPose toTfPose(const ros::Time& stamp, const geometry_msgs::Transform& transform);
 
-/// Whether the frame rests between them.
+/// Whether the poses are equal: the frame rests between them.
 bool isSamePlace(const TfPose& a, const TfPose& b);
 
-/// Between two transforms as tf2 interpolates: the translation evenly on a line, the rotation evenly about one axis,
-/// the shorter way round (slerp).
+/// Interpolation between two transforms as in tf2: the translation linearly, the rotation at a constant rate about one
+/// axis, along the shorter arc (slerp).
 class TfInterpolation {
  public:
   TfInterpolation() = default;
   TfInterpolation(const TfPose& a, const TfPose& b);
 
-  /// @param share  of the time from a to b, in [0, 1].
+  /// @param share  fraction of the time from a to b, in [0, 1].
   Isometry3d at(double share) const;
 
-  /// How far the frame turns [rad].
+  /// Rotation angle from a to b [rad].
   double angle() const { return 2.0 * half_angle_; }
 
  private:
-  Quaterniond a_ = Quaterniond::Identity(), b_ = Quaterniond::Identity();  // no more than half a turn apart
+  Quaterniond a_ = Quaterniond::Identity(), b_ = Quaterniond::Identity();  // with a_ · b_ >= 0: the shorter arc
   Vector3d from_ = Vector3d::Zero(), way_ = Vector3d::Zero();
-  double half_angle_ = 0.0, inverse_sine_ = 0.0;  // between the quaternions; 0 if they are as good as the same
+  double half_angle_ = 0.0, inverse_sine_ = 0.0;  // angle between the quaternions; 0 if they are equal to rounding
 };
 
 }  // namespace sdf_ccd

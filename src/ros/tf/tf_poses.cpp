@@ -5,19 +5,19 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kFewest = 8;  // that room is made for
-constexpr std::size_t kFew = 64;    // whose room is kept by clear()
+constexpr std::size_t kFewest = 8;  // smallest capacity
+constexpr std::size_t kFew = 64;    // capacity that clear() keeps
 
 }  // namespace
 
 std::size_t TfPoses::lastUpTo(const ros::Time& time) const {
-  std::size_t after = size_;  // from here on all are after the time
+  std::size_t after = size_;  // all records from here on are later than `time`
   std::size_t step = 1;
   while (after > 0 && (*this)[after - std::min(step, after)].stamp > time) {
     after -= std::min(step, after);
     step *= 2;
   }
-  // The one looked at last is not after it, or there is none.
+  // The record at after - step is not later than `time`, or there is none.
   std::size_t low = after - std::min(step, after);
   while (low < after) {
     const std::size_t middle = low + (after - low) / 2;

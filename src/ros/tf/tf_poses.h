@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// Transforms of a frame by their stamps, which increase. A ring: it takes memory only when it has to hold more than
+/// Transforms of a frame with increasing stamps, in a ring buffer: memory is allocated only if it has to hold more than
 /// ever before.
 class TfPoses {
  public:
@@ -17,15 +17,15 @@ class TfPoses {
   const TfPose& front() const { return (*this)[0]; }
   const TfPose& back() const { return (*this)[size_ - 1]; }
 
-  /// The last that is not after the time; 0 if all are. Times near the newest are found soonest.
+  /// Index of the last one that is not later than `time`; 0 if all are. Times near the newest are found fastest.
   std::size_t lastUpTo(const ros::Time& time) const;
 
-  /// Forgets all, and gives back what many took.
+  /// Removes all and frees the memory of a large ring.
   void clear();
 
   void pushBack(const TfPose& pose) { insert(size_, pose); }
 
-  /// Behind the first `i` ones.
+  /// Inserts one after the first `i`.
   void insert(std::size_t i, const TfPose& pose);
 
   void dropFront(std::size_t count);

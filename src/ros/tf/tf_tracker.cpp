@@ -10,12 +10,12 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kJumpBack = 1.0;           // as of TfHistory [s]
-constexpr double kJumpAhead = 2e9;          // beyond, times of a cycle are no ros::Duration [s]
-constexpr double kBackPerTime = 4.0;        // time checked again, over the time itself
-constexpr std::size_t kMostPoses = 300000;  // of all bodies in a cycle: about 100 MB with what is made of them
+constexpr double kJumpBack = 1.0;           // as in TfHistory [s]
+constexpr double kJumpAhead = 2e9;          // longer differences may not fit a ros::Duration [s]
+constexpr double kBackPerTime = 4.0;        // time that may be checked again, per time checked
+constexpr std::size_t kMostPoses = 300000;  // of all bodies in a cycle: about 100 MB with the data computed from them
 
-/// Adds to those of the same frame.
+/// Adds it to the entry of the same frame, if there is one.
 void merge(const LateTransforms& late, std::vector<LateTransforms>& all) {
   const auto same =
       std::find_if(all.begin(), all.end(), [&](const LateTransforms& other) { return other.frame == late.frame; });
@@ -101,7 +101,7 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   look(now, missing);
   const ros::Time end = is_first ? ros::Time() : foremostEnd(missing);
   const double ahead = is_first ? 0.0 : secondsBetween(last_end_, end);
-  // The clock has gone back, or all frames have begun anew far behind; or the clock was set far ahead.
+  // The clock has gone back, or all frames have started anew far in the past; or the clock was set far ahead.
   if (history_.takeJump() || -ahead > kJumpBack || ahead > kJumpAhead) {
     reset();
     return Step::kJump;
@@ -129,7 +129,7 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   try {
     follow(cycle);
   } catch (const std::exception& error) {
-    setMissing(error.what(), cycle);  // so that the pairs' times are told as not checked, and not lost
+    setMissing(error.what(), cycle);  // the pairs' times are then reported as not checked, and not lost
   }
   setSpans(cycle);
   return Step::kCycle;
@@ -142,7 +142,7 @@ void TfTracker::look(const ros::Time& now, std::vector<std::string>& missing) {
   for (const TfSpan& span : spans_) newest = std::max(newest, span.last);
   // Transforms may be stamped ahead of the clock, or come from a bag that is played without one.
   reference_ = now.isZero() || newest.isZero() ? std::max(now, newest) : std::min(now, newest);
-  // Where time is simulated, a bag may bring older stamps than the clock's; the wall clock tells their age.
+  // With simulated time a bag may bring stamps older than the clock; otherwise the wall clock tells their age.
   const ros::Time& clock = ros::Time::isSimTime() ? reference_ : now;
   ends_.assign(bodies_.size(), ros::TIME_MAX);
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
@@ -165,7 +165,7 @@ bool TfTracker::hasChanged(std::size_t body) const {
   return versions_[body] != 0 && versions_[body] != spans_[body].version;
 }
 
-/// Pairs that were checked by an interpolation that is known now to be wrong begin there again.
+/// Sets back the pairs that were checked with an interpolation now known to be wrong.
 void TfTracker::goBackToLate() {
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     for (const LateTransforms& late : spans_[body].late) {
@@ -191,19 +191,19 @@ void TfTracker::goBackToLate() {
   }
 }
 
-/// All bodies that go back in a cycle share the time that is checked again.
+/// All bodies that are set back in one cycle share the time that is checked again.
 bool TfTracker::mayGoBack(double age) {
   if (age > time_to_go_back_) return false;
   goes_back_ = std::max(goes_back_, age);
   return true;
 }
 
-/// The first cycle begins where all bodies are known, or, after some time, all but those that are missing.
+/// Begins the first cycle where all bodies are known or, after some time, all but those that are missing.
 bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missing) {
   const auto earliest = std::min_element(ends_.begin(), ends_.end());
   const ros::Time start = earliest == ends_.end() || *earliest == ros::TIME_MAX ? reference_ : *earliest;
   for (std::size_t body = 0; body < bodies_.size() && !waited_enough; ++body) {
-    if (!missing[body].empty() || spans_[body].first > start) return false;  // it may be on the way
+    if (!missing[body].empty() || spans_[body].first > start) return false;  // its transforms may still arrive
   }
   if (start.isZero()) return false;
   begin_ = last_end_ = start;
@@ -213,7 +213,7 @@ bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missin
 }
 
 ros::Time TfTracker::foremostEnd(const std::vector<std::string>& missing) const {
-  bool is_one = true;  // the end of all that is in a pair and moves
+  bool is_one = true;  // whether all paired bodies that move have the same end
   ros::Time foremost;
   for (std::size_t body = 0; body < bodies_.size() && is_one; ++body) {
     if (!is_paired_[body]) continue;
@@ -230,7 +230,7 @@ ros::Time TfTracker::foremostEnd(const std::vector<std::string>& missing) const 
   return foremost.isZero() ? reference_ : foremost;
 }
 
-/// Mostly all pairs go on together, and nothing is to be said of each.
+/// Usually all pairs advance together, and their times need not be stored one by one.
 bool TfTracker::goTogether(const TrackedCycle& cycle) const {
   if (!are_together_) return false;
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
@@ -239,7 +239,7 @@ bool TfTracker::goTogether(const TrackedCycle& cycle) const {
   return true;
 }
 
-/// Writes down the times of pairs that have gone together so far.
+/// Stores the times of each pair, if the pairs have advanced together so far.
 void TfTracker::takeApart() {
   if (are_together_) times_.assign(pairs_.size(), together_);
   are_together_ = false;

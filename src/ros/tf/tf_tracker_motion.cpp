@@ -1,4 +1,4 @@
-// How a TfTracker follows the bodies over a cycle.
+// Part of TfTracker: the bodies' motion over a cycle.
 #include <algorithm>
 #include <stdexcept>
 
@@ -14,14 +14,14 @@ bool operator==(const TimePart& a, const TimePart& b) {
   return a.from == b.from && a.until == b.until;
 }
 
-/// Sorts the values from a place on, each once.
+/// Sorts the values from an index on and removes duplicates.
 void sortOnce(std::vector<double>& values, std::size_t from) {
   const auto first = values.begin() + static_cast<std::ptrdiff_t>(from);
   std::sort(first, values.end());
   values.erase(std::unique(first, values.end()), values.end());
 }
 
-/// From when to when a body is needed, by the clock of samples [s].
+/// Period in which a body is needed, in the time of the samples [s].
 struct Needed {
   double from, until;
 };
@@ -31,8 +31,8 @@ Needed secondsOf(const TimePart& part, const ros::Time& origin) {
 
 }  // namespace
 
-/// The motion is sampled where pairs need it, in parts that may lie apart: a frame that lags behind lets no body be
-/// followed over the time since then again.
+/// Samples the motion where pairs need it, in parts that may lie apart: if one frame lags behind, the other bodies are
+/// not sampled again over the time since then.
 void TfTracker::follow(TrackedCycle& cycle) {
   CycleMotion& motion = cycle.motion;
   motion.times.clear();
@@ -54,8 +54,8 @@ void TfTracker::follow(TrackedCycle& cycle) {
   findJumps(motion);
 }
 
-/// Nothing moves like that: a map's frame was set elsewhere, say. What is swept on the way was not, and to test all of
-/// it takes seconds.
+/// Reports bodies that move faster than any robot: a map's frame was set to another pose, for example. Such a body
+/// swept nothing on its path, and testing all of the path would take seconds.
 void TfTracker::findJumps(CycleMotion& motion) const {
   constexpr double kFastest = 1000.0, kJump = 100.0;  // [m/s, m]
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
@@ -69,7 +69,8 @@ void TfTracker::findJumps(CycleMotion& motion) const {
   }
 }
 
-/// Disjoint, increasing, and all that pairs are checked over; of pairs that are not checked, the ends.
+/// Finds the disjoint, increasing parts over which pairs are checked; of pairs that are not checked, the ends of their
+/// times.
 void TfTracker::findWindows(const TrackedCycle& cycle) {
   windows_.clear();
   if (are_together_) return windows_.push_back(together_);
@@ -115,7 +116,7 @@ void TfTracker::findNeeded(const TimePart& part, const TrackedCycle& cycle) {
   }
 }
 
-/// Copies what the pairs need of each body's motion, and finds what is not known of it.
+/// Copies the parts of each body's motion that its pairs need, and finds what is not known of them.
 void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& missing) {
   history_.copy(chains_, needed_, cycle.origin, window_);
   const double length = secondsBetween(cycle.start, cycle.end);
@@ -174,7 +175,7 @@ void TfTracker::setMissing(const std::string& why, TrackedCycle& cycle) {
   motion.motion_error.assign(bodies_.size(), 0.0);
 }
 
-/// Recorded transforms, and the ends of the part and of pairs' times within it.
+/// Finds the recorded transforms, and the ends of the part and of pairs' times within it.
 void TfTracker::findSampleTimes(const TimePart& part, TrackedCycle& cycle) {
   std::vector<double>& times = sample_times_;
   times = {(part.from - cycle.origin).toSec(), (part.until - cycle.origin).toSec()};
@@ -190,7 +191,7 @@ void TfTracker::findSampleTimes(const TimePart& part, TrackedCycle& cycle) {
   sortOnce(cycle.recorded, first);
 }
 
-/// There are many pairs, and few times among them.
+/// There are many pairs, but few different times.
 void TfTracker::addPairTimes(const TimePart& part, const ros::Time& origin) {
   pair_times_.clear();
   for (const TimePart& pair : times_) {
@@ -204,7 +205,7 @@ void TfTracker::addPairTimes(const TimePart& part, const ros::Time& origin) {
   for (const ros::Time& end : pair_times_) sample_times_.push_back((end - origin).toSec());
 }
 
-/// Outside the part that its pairs need a body rests, so that it costs nothing there.
+/// Outside the part that its pairs need, a body is at rest and costs nothing.
 void TfTracker::posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) {
   const Needed together = secondsOf(together_, window_.origin());
   for (std::size_t body = 0; body < bodies_.size(); ++body) {

@@ -26,7 +26,7 @@ void TfTree::wantBesides(const std::vector<std::string>& names) {
     wanted_.push_back(frame);
   }
   for (const int frame : before) dropIfUnused(frame);
-  ++followed_topology_;  // what was no frame may be one
+  ++followed_topology_;  // a name without a number may have one now
   followWanted();
 }
 
@@ -109,7 +109,7 @@ void TfTree::setFollowed(int frame, bool is_followed) {
   turned_.push_back(frame);
 }
 
-/// With all above.
+/// Follows the frame and all frames above it.
 void TfTree::follow(int frame) {
   if (follows_all_ || frames_[frame].is_followed) return;
   for (std::size_t i = 0; frame != kNone && i <= kMostAbove && !frames_[frame].is_followed; ++i) {
@@ -119,7 +119,7 @@ void TfTree::follow(int frame) {
   if (followed_ > most_followed_) followWanted();
 }
 
-/// This costs a constant per frame that is followed.
+/// Determines the followed frames anew; amortised, a constant cost per followed frame.
 void TfTree::followWanted() {
   std::vector<char> is_above(frames_.size(), 0);
   std::size_t count = 0;

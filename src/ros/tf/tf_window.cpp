@@ -10,7 +10,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kNoPiece = std::numeric_limits<std::size_t>::max();
 
-/// The last of increasing times that is not after the given one; the first if all are.
+/// Index of the last of increasing times that is not later than `time`; 0 if all are.
 std::size_t indexBefore(const std::vector<double>& times, double time) {
   const auto after = std::upper_bound(times.begin(), times.end(), time);
   return after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
@@ -66,7 +66,7 @@ void TfWindow::addRecordedTimes(const std::vector<std::size_t>& frames, std::vec
     const Frame& frame = frames_[index];
     for (int i = frame.source.step; i >= 0; i = steps_[i].before) {
       Step& step = steps_[i];
-      if (step.listed_from == frame.from && step.listed_until == frame.until) break;  // and all before it
+      if (step.listed_from == frame.from && step.listed_until == frame.until) break;  // all before it too
       step.listed_from = frame.from;
       step.listed_until = frame.until;
       if (step.times.size() < 2) continue;

@@ -23,7 +23,8 @@ Isometry3d lookup(const TfHistory& history, const std::string& frame, const ros:
   return X_WF;
 }
 
-/// Where a frame is in another one, at a time or, for 0, at the latest at which both are known: one may lag behind.
+/// Pose of a frame in another one at a time or, if that is 0, at the latest time at which both are known, as one may
+/// lag behind.
 Isometry3d poseOf(const TfHistory& history, const std::string& frame, const std::string& in, ros::Time time) {
   if (time.isZero()) {
     const TfSpan a = history.span(frame), b = history.span(in);
@@ -68,7 +69,7 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
     if (!body.is_world) {
       fixed->links.push_back(body);
     } else if (!body.map.empty()) {
-      setTiles({body});  // that is awaited
+      setTiles({body});  // the awaited map
     } else {
       objects_[body.name] = {body, "", {}, ++count_, true};
     }
@@ -117,7 +118,7 @@ ChangingScene::Object& ChangingScene::find(const std::string& name) {
   return found->second;
 }
 
-/// A frame that names the object itself has no meaning.
+/// The tf frame in the header of a change; `otherwise` if it is empty.
 std::string ChangingScene::frameOf(const SceneChange& change, const std::string& otherwise) const {
   const std::string frame = withoutLeadingSlash(change.header.frame_id);
   if (frame.size() > RequestLimits().name || frame != shownText(frame)) refuse("frame " + shownText(frame) + " is none");
@@ -144,7 +145,7 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
   return body;
 }
 
-/// For an object to have.
+/// Throws unless an object may have this name.
 void ChangingScene::requireFree(const std::string& name) const {
   if (const std::string why = whyNoName(name); !why.empty()) refuse(why);
   if (fixed_->link_names.count(name) > 0) refuse(name + " is a link of the robot");
@@ -243,7 +244,9 @@ const ChangingScene::Rule* ChangingScene::lastRule(const std::string& a, const s
   return found == rules_.rend() ? nullptr : &*found;
 }
 
-/// Of an object that is not as at start-up, and a body that is not both of the world with it.
+/// Why the pair of an object that has changed since start-up and another body, not both of the world, is left out;
+/// empty if it is checked.
+/// @param proved  receives whether they cannot touch, so that no rule can add the pair.
 std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const {
   const std::string& name = object.body.name;
   const auto known = objects_.find(other.name);
@@ -281,7 +284,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   const auto objectOf = [&](std::size_t body) -> const Object* {
     return body < fixed_->links.size() || body >= first_tile ? nullptr : ordered[body - fixed_->links.size()];
   };
-  // What start-up said of what is as it was.
+  // Pairs that were left out at start-up, of bodies that have not changed since.
   std::set<std::string> as_first;
   for (const BodyDescription& link : fixed_->links) as_first.insert(link.name);
   for (const Object* object : ordered)

@@ -14,59 +14,60 @@
 
 namespace sdf_ccd {
 
-/// What changes of a scene are made with.
+/// Resources for changes of the scene.
 struct ChangeSources {
   const TfHistory& history;
   const RequestFiles& files;
   RequestLimits limits;
-  std::size_t triangles = RequestLimits().triangles;  ///< that the call may still hold
-  std::vector<std::string> warnings;                  ///< gets what is to be known
+  std::size_t triangles = RequestLimits().triangles;  ///< number that the call may still contain
+  std::vector<std::string> warnings;                  ///< receives notes for the caller
 };
 
-/// The objects of the world and what calls have said of pairs, as update_scene changes them (SceneChange.msg). A copy
-/// is cheap beside what a change costs, so that a call changes a copy, and all or none of its changes count.
+/// The objects of the world and the rules about pairs, as update_scene changes them (SceneChange.msg). A copy costs
+/// little compared with a change: a call changes a copy, so that either all of its changes take effect or none.
 class ChangingScene {
  public:
-  /// @param first  the scene that was built at start-up.
+  /// @param first  description of the scene that was built at start-up.
   ChangingScene(const DescribedScene& described, const PairRules& rules, const SceneDescription& first);
 
-  /// @throws std::exception with the reason; then this is to be thrown away.
+  /// @throws std::exception with the reason; this object must then be discarded.
   void apply(const SceneChange& change, ChangeSources& sources);
 
-  /// Sets an object, or replaces it, by a body of the world.
+  /// Adds a body of the world as an object, or replaces the object of its name.
   void set(BodyDescription body);
 
-  /// The tiles of a live map, in the place of those before.
+  /// Replaces the tiles of the live map.
   void setTiles(std::vector<BodyDescription> tiles) {
     tiles_ = std::make_shared<const std::vector<BodyDescription>>(std::move(tiles));
   }
 
-  /// All of it, to be built. @throws std::length_error if that is more than may be.
+  /// The complete scene, to be built. @throws std::length_error if it exceeds the limits.
   SceneDescription description(const RequestLimits& limits) const;
 
-  /// The pairs that were left out at start-up as out of reach and still are, with their bodies' places in a
+  /// The pairs that were left out at start-up as out of reach and still are, with their bodies' indices in
   /// description().
   std::vector<UnreachablePair> unreachable(const SceneDescription& description) const;
 
   std::vector<std::string> objects() const;
 
-  /// The world's objects as MoveIt's .scene has them, in the fixed frame.
-  /// @throws std::runtime_error if tf does not know where one is, or one has no such text (a map).
+  /// The world's objects in MoveIt's .scene format, in the fixed frame. Maps, which it cannot hold, are left out with a
+  /// warning.
+  /// @throws std::exception if tf does not know an object's pose, or an object's name cannot be saved.
   std::string text(const ChangeSources& sources, std::vector<std::string>& warnings) const;
 
  private:
   struct Object {
     BodyDescription body;
-    std::string link;  // that it is attached to; empty if it is not
+    std::string link;  // link that it is attached to; empty if there is none
     std::vector<std::string> touch_links;
-    std::size_t since = 0;      // the order in which objects came
-    bool is_as_first = false;   // as at start-up
+    std::size_t since = 0;     // rank in the order in which objects were added
+    bool is_as_first = false;  // unchanged since start-up
   };
   struct Rule {
     PairRule pair;
     bool is_allowed;
   };
-  struct Fixed;  // what does not change: the links, and what start-up said
+  struct Fixed;  // data that does not change: the links, and what start-up left out
 
   void add(const SceneChange& change, ChangeSources& sources);
   void move(const SceneChange& change);

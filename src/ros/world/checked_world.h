@@ -9,10 +9,10 @@
 
 namespace sdf_ccd {
 
-/// A version of the world, and what is known of it beside the core: never changed, and shared by cycles and answers.
+/// A version of the world and the data about it that the core does not hold; immutable, shared by cycles and queries.
 struct CheckedWorld {
   std::shared_ptr<const WorldSnapshot> snapshot;
-  std::vector<UnreachablePair> unreachable;  ///< left out, as long as joints keep to their limits
+  std::vector<UnreachablePair> unreachable;  ///< left out as long as the joints keep to their limits
   std::vector<TrackedBody> bodies;
 
   CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out)
@@ -23,7 +23,7 @@ struct CheckedWorld {
   const SceneDescription& description() const { return *snapshot->description; }
 };
 
-/// The world that a scene was built for, when nothing has changed it yet: version 1.
+/// The world of a scene that nothing has changed yet: version 1.
 inline std::shared_ptr<const CheckedWorld> firstWorld(std::shared_ptr<const Scene> scene,
                                                       const SceneDescription& description,
                                                       const std::vector<UnreachablePair>& unreachable) {

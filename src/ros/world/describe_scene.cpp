@@ -49,7 +49,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   described.fixed_frame = parameters.fixed_frame.empty() ? described.root_frame : parameters.fixed_frame;
   described.scene = describeRobot(*robot, srdf, loader, parameters.robot, described.warnings);
 
-  // The core knows the robot's frames by the names of its links, tf by these with the prefix.
+  // In the core, the robot's frames have the names of its links; in tf they also have the prefix.
   const auto frameOf = [&](const std::string& frame) {
     const std::string resolved = frame.empty() ? described.fixed_frame : withoutLeadingSlash(frame);
     return resolved == described.root_frame ? robot->root() : resolved;

@@ -4,15 +4,15 @@
 
 namespace sdf_ccd {
 
-/// What fetching one file over the network may take.
+/// Limits for fetching one file over the network.
 struct FetchLimits {
   double seconds = 30.0;
   std::size_t bytes = std::size_t{256} << 20;
 };
 
-/// The content behind an http:// or https:// URI, by the program sdf_ccd_fetch: a process that can be left at any
-/// moment.
-/// @throws std::runtime_error with the reason; Cancelled, within 20 ms of a CancelScope's asking for it.
+/// The content of an http:// or https:// URI, fetched by the program sdf_ccd_fetch in a process that can be stopped at
+/// any time.
+/// @throws std::runtime_error with the reason; Cancelled within 20 ms after a CancelScope has requested it.
 std::string fetchHttp(const std::string& uri, const FetchLimits& limits = {});
 
 }  // namespace sdf_ccd

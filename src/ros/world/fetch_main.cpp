@@ -1,5 +1,5 @@
-// Writes what is behind an http:// or https:// URI to stdout, or the reason why not: sdf_ccd_fetch URI MAX_BYTES. In a
-// process of its own, as resource_retriever has neither a limit of time nor one of size; see ros/fetch_http.h.
+// Writes the content of an http:// or https:// URI to stdout, or the reason why it cannot: sdf_ccd_fetch URI MAX_BYTES.
+// It is a separate process because resource_retriever limits neither time nor size; see ros/world/fetch_http.h.
 
 #include <signal.h>
 #include <sys/prctl.h>
@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr rlim_t kMemory = rlim_t{512} << 20;  // beside what is fetched, twice as its buffer grows
+constexpr rlim_t kMemory = rlim_t{512} << 20;  // besides the content, whose growing buffer needs twice its size
 
 void send(const void* from, std::size_t size) {
   const char* bytes = static_cast<const char*>(from);

@@ -15,7 +15,7 @@ namespace {
   throw std::invalid_argument(what);
 }
 
-/// Not of NaN, which lpNorm() may pass over.
+/// False for NaN, which lpNorm() may ignore.
 bool isNear(const Vector3d& v) {
   return (v.array().abs() <= kFarthestPose).all();
 }

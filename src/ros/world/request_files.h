@@ -7,17 +7,17 @@
 
 namespace sdf_ccd {
 
-/// What files a request over the network may name: those below some folders, whatever links lead there.
+/// The files that a request over the network may name: those below certain folders, after links are resolved.
 class RequestFiles {
  public:
-  /// @param roots   folders, which need not exist yet; none: no file may be named.
-  /// @param loader  of package://, http:// and https://, which are not held against the roots.
+  /// @param roots   folders, which need not exist yet; empty: no file may be named.
+  /// @param loader  of package://, http:// and https://, which need not be below the roots.
   RequestFiles(std::vector<std::string> roots, ResourceLoader loader);
 
-  /// The file's path. @throws std::runtime_error if it is below no root.
+  /// The file's path, without links. @throws std::runtime_error if it is below none of the roots.
   std::string path(const std::string& file) const;
 
-  /// What a URI or path names, as ResourceLoader.
+  /// The content of a URI or path, see ResourceLoader.
   Resource resource(const std::string& uri) const;
 
  private:

@@ -69,7 +69,8 @@ BodyDescription toBody(const std::string& name, const OctomapObject& octomap, co
     geometry.shape = std::make_shared<const TriangleMesh>(loadOctomapSurface(octomap.file, resolution));
     geometry.source = octomap.file;
     geometry.watertight_voxels = true;
-    // The field's error, √3/2 of a cell, is then less than the depth of a single voxel's middle: none is lost.
+    // The field's error, √3/2 of a cell, is then less than the depth at the centre of a single voxel: no voxel is
+    // lost.
     geometry.cell_size = octomap.cell_size > 0.0 ? octomap.cell_size : 0.5 * resolution;
     body.geometry.push_back(std::move(geometry));
   } catch (const std::exception& error) {
@@ -82,7 +83,7 @@ BodyDescription awaitedTile(const std::string& frame, const std::string& why) {
   BodyDescription body = emptyBody(std::string(LiveMapParameters::kName) + "/awaited", frame, Isometry3d::Identity());
   body.map = LiveMapParameters::kName;
   body.failure = why;
-  GeometryDescription voxel;  // stands for those that come
+  GeometryDescription voxel;  // represents the voxels to come
   voxel.shape = std::make_shared<const TriangleMesh>(tessellate(Box{Vector3d::Constant(0.1)}, 0.01));
   voxel.source = body.name;
   voxel.watertight_voxels = true;

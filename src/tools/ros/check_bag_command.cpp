@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFastestRate = 1e4;  // of cycles, each over all pairs [Hz]
+constexpr double kFastestRate = 1e4;  // of cycles [Hz]; each cycle covers all pairs
 
 struct Arguments {
   std::string bag;
@@ -51,7 +51,7 @@ struct CheckFiles {
         bag(bag_path.part(), bag_path.path()),
         report(directory) {}
 
-  /// @param title  of the plot.
+  /// @param title  title of the plot.
   void commit(const std::string& title) {
     bag.close();
     for (OutputFile* file : {&plan, &summary}) file->close();
@@ -60,7 +60,7 @@ struct CheckFiles {
     for (OutputFile* file : {&plan, &summary}) file->commit();
   }
 
-  Interrupt interrupt;  ///< no files may be left then
+  Interrupt interrupt;  ///< an interrupted check leaves no files
   OutputDirectory directory;
   OutputFile summary, plan;
   OutputPath bag_path;
@@ -68,7 +68,7 @@ struct CheckFiles {
   CycleReport report;
 };
 
-/// Passes the loop's results to the files, and shows progress.
+/// Writes the monitor loop's results to the files, and shows progress.
 class Recorder : public BagObserver {
  public:
   Recorder(const RecordedMotion& motion, const MonitorLoop& loop, CheckedBag& bag, CheckFiles& files)
@@ -155,8 +155,9 @@ bool areBodiesCheckedTogether(const Scene& scene, const std::vector<bool>& was_c
   return false;
 }
 
-/// Prints what was never checked to stderr; true if there is nothing.
-/// @param begin  of the bag.
+/// Prints what was never checked to stderr.
+/// @param begin  start time of the bag.
+/// @return true if everything was checked at least once and without gaps.
 bool isComplete(const CycleStatistics& statistics, const Scene& scene, const std::vector<bool>& was_checked,
                 const ros::Time& begin) {
   bool is_complete = statistics.hasCheckedCycle();
@@ -238,7 +239,7 @@ void checkThenRun(const Arguments& arguments) {
   if (arguments.threads > 0) {
     limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
   }
-  console_bridge::noOutputHandler();  // what is not checked because of broken transforms is reported
+  console_bridge::noOutputHandler();  // tf's own messages: the effects of broken transforms are reported
   try {
     run(arguments);
   } catch (const Interrupted&) {

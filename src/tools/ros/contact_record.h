@@ -9,12 +9,12 @@
 
 namespace sdf_ccd::tools {
 
-/// The contacts in messages, each as in its last message.
+/// Collects the contacts of messages; of each contact, the state in the last message that holds it.
 class ContactRecords {
  public:
   void add(const ContactArray& message);
 
-  /// All contacts up to now, by their begin.
+  /// All contacts added so far, sorted by begin.
   std::vector<Contact> contacts() const;
 
  private:

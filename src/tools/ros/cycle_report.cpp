@@ -15,7 +15,7 @@ CycleReport::CycleReport(const OutputDirectory& directory)
 }
 
 void CycleReport::add(const ContactArray& message) {
-  if (message.cycle_start == message.header.stamp) return;  // a message without a cycle
+  if (message.cycle_start == message.header.stamp) return;  // the message covers no time
   statistics_.add(message);
   cycles_file_.stream() << toRow(toRecord(message));
 }

@@ -17,7 +17,7 @@ class CycleReport {
 
   const CycleStatistics& statistics() const { return statistics_; }
 
-  /// @param title  of the plot.
+  /// @param title  title of the plot.
   /// @return false if there is no plot: no gnuplot, or no cycle that has a bound.
   bool commit(const std::string& title);
 

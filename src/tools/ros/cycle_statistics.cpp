@@ -11,9 +11,9 @@
 namespace sdf_ccd::tools {
 namespace {
 
-constexpr std::size_t kNamed = 10;  // of a list in a summary
+constexpr std::size_t kNamed = 10;  // printed items of a list
 
-/// In thousandths, between slashes.
+/// The quantiles times 1000 (seconds as ms, metres as mm), separated by slashes.
 std::string quantiles(std::vector<double> values, const std::vector<double>& shares) {
   std::string text;
   for (const double share : shares)
@@ -29,7 +29,7 @@ std::string secondsSince(const ros::Time& begin, const ros::Time& time) {
   return rounded((time - begin).toSec(), 3) + " s";
 }
 
-/// A heading and the first items.
+/// A heading, the first items, and the number of those left out.
 std::string list(const std::string& heading, const std::vector<std::string>& items) {
   std::string text = heading + "\n";
   for (std::size_t i = 0; i < std::min(kNamed, items.size()); ++i) text += "  " + items[i] + "\n";
@@ -37,7 +37,7 @@ std::string list(const std::string& heading, const std::vector<std::string>& ite
   return text;
 }
 
-/// A reason without the parts that differ between pairs and cycles: the links' names, and numbers.
+/// A reason with the parts that differ between pairs and cycles replaced: links' names by *, numbers by #.
 std::string kindOf(std::string reason, const std::vector<std::string>& names) {
   for (const std::string& body : names) {
     for (std::size_t at = reason.find(body); !body.empty() && at != std::string::npos; at = reason.find(body, at + 1)) {
@@ -108,7 +108,8 @@ std::string CycleStatistics::verdictLine() const {
   return text + "\n";
 }
 
-/// Of cycles as a whole, the most frequent one first; an example of those that differ by numbers.
+/// Why whole cycles are NOT_CHECKED, the most frequent reason first. Reasons that differ only by numbers are counted
+/// together, and one of them is printed.
 std::string CycleStatistics::reasonLines() const {
   std::map<std::string, std::pair<std::size_t, std::string>> by_kind;
   for (const CycleRecord& cycle : cycles_) {
@@ -182,7 +183,7 @@ std::string CycleStatistics::uncertainLines() const {
   return list("uncertain        " + std::to_string(items.size()) + " pairs, in some cycle", items);
 }
 
-/// By reason, the most frequent one first.
+/// Grouped by reason, the most frequent first.
 std::vector<CycleStatistics::Unchecked> CycleStatistics::unchecked() const {
   std::map<std::string, Unchecked> reasons;
   const auto addAll = [&](const std::map<std::string, Count>& counts, std::size_t Unchecked::*kind) {
@@ -221,7 +222,7 @@ std::string CycleStatistics::notCheckedLines() const {
   return list("not checked      " + counted(bodies, pairs) + ", in some cycle", items);
 }
 
-/// Empty if no transforms came after newer ones.
+/// Empty if no transforms arrived late, after the cycle that needed them.
 std::string CycleStatistics::contradictedLine(const ros::Time& begin) const {
   const auto isContradicting = [](const CycleRecord& cycle) { return !cycle.contradicted_since.isZero(); };
   const auto first = std::find_if(cycles_.begin(), cycles_.end(), isContradicting);

@@ -17,7 +17,7 @@ class CycleStatistics {
 
   const std::vector<CycleRecord>& cycles() const { return cycles_; }
 
-  /// Where no cycle was run, as "from 1.4 s to 4 s, as no new transforms"; by `begin`, as summary().
+  /// Times over which no cycle was run, as "from 1.4 s to 4 s, as no new transforms", relative to `begin`.
   std::vector<std::string> gaps(const ros::Time& begin) const;
   std::vector<Contact> contacts() const { return contacts_.contacts(); }
 
@@ -25,30 +25,32 @@ class CycleStatistics {
   /// bodies that are not checked, so a pair whose bodies are only known at different times is not among them.
   std::set<std::string> neverChecked() const;
 
-  /// Whether some cycle was checked completely, with a verdict other than NOT_CHECKED.
+  /// Whether any cycle as a whole has a verdict other than NOT_CHECKED.
   bool hasCheckedCycle() const;
 
   /// "body: reason" or "body - body: reason", an example of the most frequent reason for NOT_CHECKED; empty if
   /// everything was checked.
   std::string whyNotChecked() const;
 
-  /// Cycles by verdict, what was checked, pairs in contact and uncertain ones, run times and error bounds.
+  /// Cycles by verdict, the time that was checked, pairs in contact, uncertain and not checked, run times and error
+  /// bounds.
   /// @param begin  time zero of the summary.
   std::string summary(const ros::Time& begin) const;
 
-  /// Median, 99th percentile and longest; median and largest. A line each, where there are any.
+  /// A line with the run times' median, 99th percentile and maximum, and one with the error bounds' median and maximum;
+  /// either is left out if there is no data.
   std::vector<std::string> runTimesAndBounds() const;
 
  private:
-  /// Of a pair, or of a body with all of its pairs.
+  /// Counts of a pair, or of a body with all of its pairs.
   struct Count {
     std::size_t in_contact = 0, uncertain = 0, not_checked = 0;  // cycles
-    std::string reason, kind;                                    // the first one for NOT_CHECKED
+    std::string reason, kind;                                    // of the first NOT_CHECKED
 
     void addUnchecked(const std::string& why, const std::vector<std::string>& names);
   };
 
-  /// Pairs and bodies that were not checked for the same reason, up to names and numbers in it.
+  /// Pairs and bodies that were not checked for the same reason, apart from names and numbers in its text.
   struct Unchecked {
     std::string example;  // "body - body: reason", "body: reason"
     std::size_t pairs = 0, bodies = 0, cycles = 0, most_cycles = 0;
@@ -68,7 +70,7 @@ class CycleStatistics {
   std::vector<CycleRecord> cycles_, gaps_;
   ContactRecords contacts_;
   std::map<std::string, Count> pairs_;   // by "body - body"
-  std::map<std::string, Count> bodies_;  // that were not checked
+  std::map<std::string, Count> bodies_;  // only those that were not checked
   std::set<std::string> late_frames_;
 };
 

@@ -13,7 +13,7 @@
 namespace sdf_ccd::tools {
 namespace {
 
-constexpr double kAcross = 500.0, kUp = 300.0;  // distinguishable dots in a panel
+constexpr double kAcross = 500.0, kUp = 300.0;  // dots that a panel can show side by side
 
 struct Point {
   double x, y;
@@ -65,7 +65,8 @@ set format y '%g'
 set ylabel 'run time [ms]'
 )";
 
-/// Keeps one of points that would be drawn over each other: an hour of cycles would make a file that no viewer opens.
+/// Keeps one of the points that would be drawn at the same dot: otherwise an hour of cycles makes a file that no viewer
+/// opens.
 std::vector<Point> thinned(const std::vector<Point>& points) {
   if (points.empty()) return {};
   Point low = points.front(), high = points.front();
@@ -84,7 +85,7 @@ std::vector<Point> thinned(const std::vector<Point>& points) {
   return kept;
 }
 
-/// `$name0`, `$name1`, … of the verdicts.
+/// Writes the gnuplot data blocks `$name0`, `$name1`, …, one per verdict.
 void writeData(const std::string& name, const Points& points, std::ostringstream& script) {
   for (std::size_t v = 0; v < points.size(); ++v) {
     script << "$" << name << v << " << EOD\n";
@@ -106,12 +107,12 @@ void writePlot(const std::string& name, const Points& points, const std::string&
 }
 
 std::string scriptOf(const std::vector<CycleRecord>& cycles, const PlotTitle& title, const std::string& svg) {
-  // Logarithms of run times, so that points are thinned as they are drawn.
+  // Points are thinned on the scale on which they are drawn, so run times are logarithms here.
   Points error_time, error, run_time;
   double first = 0.0, last = 0.0;
   for (const CycleRecord& cycle : cycles) {
     const auto v = std::size_t(std::find(kVerdicts.begin(), kVerdicts.end(), cycle.verdict) - kVerdicts.begin());
-    const double time = (cycle.end - cycles.front().start).toSec();  // less than 0 after a jump back
+    const double time = (cycle.end - cycles.front().start).toSec();  // negative after time has jumped back
     const double took = std::log10(std::max(1e3 * cycle.run_time, 1e-6));
     first = std::min(first, time);
     last = std::max(last, time);

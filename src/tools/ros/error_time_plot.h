@@ -7,13 +7,13 @@
 
 namespace sdf_ccd::tools {
 
-/// A line of each.
+/// One line each.
 struct PlotTitle {
   std::string title, subtitle;
 };
 
-/// Draws with gnuplot: the error bound of each cycle over its run time, and both over time, coloured by verdict. Cycles
-/// that checked no pair have no bound, and are drawn only with their run times.
+/// Draws with gnuplot the error bound of each cycle over its run time, and both over time, coloured by verdict. Cycles
+/// that checked no pair have no error bound; only their run times are drawn.
 /// @param svg  file to write.
 /// @return false, and writes nothing, if gnuplot is missing or fails, or no cycle has a bound.
 bool plotErrorTime(const std::vector<CycleRecord>& cycles, const PlotTitle& title, const std::string& svg);

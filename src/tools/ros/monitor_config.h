@@ -15,7 +15,8 @@ struct MonitorConfig {
   std::optional<double> max_error;  ///< [m]
 };
 
-/// Reads them. An unknown parameter, which on a parameter server may be another node's, is an error in a file.
+/// Reads the files and applies the options. An unknown parameter is an error here; on a parameter server it may belong
+/// to another node.
 /// @throws std::runtime_error that names the file, or the parameter and its value.
 MonitorParameters readParameters(const MonitorConfig& config);
 

@@ -24,7 +24,7 @@ std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const
 bool areAllMade(const Scene& scene) {
   bool are_made = true;
   for (const Body& body : scene.bodies) {
-    if (body.failure.empty() || !body.map.empty()) continue;  // a map comes later
+    if (body.failure.empty() || !body.map.empty()) continue;  // a map's body is built when the first map arrives
     std::cerr << "sdf_ccd: not checked: " << body.failure << std::endl;
     are_made = false;
   }

@@ -9,17 +9,17 @@
 
 namespace sdf_ccd::tools {
 
-/// Thrown when the user interrupts the work; no std::exception, which would count as one body's failure.
+/// Thrown when the user interrupts the work. Not a std::exception, which would be taken for the failure of one body.
 struct Interrupted {};
 
-/// The robot and world of the parameters; relative paths of the URDF at `urdf` start from its folder.
+/// Describes the robot and world of the parameters. Relative paths in the URDF are resolved from the folder of `urdf`.
 DescribedScene describeMonitored(const MonitorParameters& parameters, const std::string& urdf);
 
 /// Builds the scene as the monitor does at start-up, with a progress bar. @throws Interrupted.
 std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const ScenePlan& plan,
                                           const BodyOptions& options, const Interrupt& interrupt);
 
-/// Prints the bodies that could not be built, which no cycle checks, to stderr; true if there are none.
+/// Prints the bodies that could not be built, which no cycle checks, to stderr. @return true if there are none.
 bool areAllMade(const Scene& scene);
 
 /// The plan's table, and a line for each warning.

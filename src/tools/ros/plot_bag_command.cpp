@@ -34,7 +34,7 @@ std::string topicOf(const rosbag::Bag& bag, const Arguments& arguments) {
   return topic;
 }
 
-/// Adds all messages of the topic; the start of the first cycle.
+/// Adds all messages of the topic to the report. @return the start of the first cycle.
 ros::Time addAll(const rosbag::Bag& bag, const std::string& topic, CycleReport& report) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   ProgressBar bar("contacts");

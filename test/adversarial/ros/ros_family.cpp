@@ -14,8 +14,8 @@
 namespace sdf_ccd::test {
 namespace {
 
-constexpr Real kUnseen = 1e-7L;  ///< stamps are whole nanoseconds, and so are the times of poses [m]
-constexpr Real kUnknown = 1e3L;  ///< no body is farther from another: nothing is known [m]
+constexpr Real kUnseen = 1e-7L;  ///< resolution, as stamps are whole nanoseconds [m]
+constexpr Real kUnknown = 1e3L;  ///< larger separations mean that nothing is known [m]
 
 const char* toText(Trouble trouble) {
   const char* texts[] = {
@@ -23,7 +23,7 @@ const char* toText(Trouble trouble) {
   return texts[int(trouble)];
 }
 
-/// An arm, a hand and a plate at rest.
+/// An arm, a hand and a plate that rests.
 class World {
  public:
   World() {
@@ -74,7 +74,7 @@ void shiftBase(const Vector3d& by, std::vector<TfEvent>& events) {
   }
 }
 
-/// Moves the hand's base so that it comes as near to another body as wanted.
+/// Moves the hand's base so that the minimum separation of the hand from another body is `wanted` [m].
 void aim(const World& world, std::size_t other, double wanted, std::vector<TfEvent>& events) {
   for (int i = 0; i < 3; ++i) {
     TfTruth truth;
@@ -91,7 +91,7 @@ void aim(const World& world, std::size_t other, double wanted, std::vector<TfEve
   }
 }
 
-/// Plays one stream and judges every cycle by the transforms that had arrived.
+/// Plays a stream and judges every cycle by the transforms that have arrived.
 class Play {
  public:
   Play(const World& world, const MonitorParameters& parameters, Trouble trouble, Tally& tally)
@@ -102,7 +102,7 @@ class Play {
   void take(const TfEvent& event) {
     if (event.jumps_back) {
       truths_[0].forgetMoving();
-      // Of two clocks none is known to be the right one: what one of both says need not be forgotten.
+      // With two clocks it is unknown which one is right, so one of the truths keeps the transforms.
       if (trouble_ == Trouble::kLoop) truths_[1].forgetMoving();
     }
     tf2_msgs::TFMessage message;
@@ -141,7 +141,8 @@ class Play {
     }
   }
 
-  /// What was delayed while its cycle was CLEAR as a whole, by all transforms: they came late, but in order.
+  /// Judges pairs that were delayed in a cycle that was CLEAR as a whole, by all transforms. Only for streams whose
+  /// transforms arrive late but in order.
   void finish() {
     if (trouble_ != Trouble::kLate && trouble_ != Trouble::kSilent && trouble_ != Trouble::kNone) return;
     for (const Unseen& unseen : unseen_) judgeClear(unseen.pair, unseen.start, unseen.end, " with a delayed pair");
@@ -153,7 +154,7 @@ class Play {
     ros::Time start, end;
   };
 
-  /// The least separation as each truth has it.
+  /// Minimum separation according to each truth.
   std::array<LeastValue, 2> least(const PairResult& pair, const ros::Time& from, const ros::Time& to,
                                   const LeastOptions& options) const {
     const auto ask = [&](const TfTruth& truth) {
@@ -193,7 +194,7 @@ class Play {
 
   const World& world_;
   MonitorLoop loop_;
-  std::array<TfTruth, 2> truths_;  ///< where time jumps back, the second forgets nothing but in a loop
+  std::array<TfTruth, 2> truths_;  ///< after a jump back in time, the second keeps its transforms, except in a loop
   Trouble trouble_;
   Tally& tally_;
   std::vector<Unseen> unseen_;

@@ -4,7 +4,8 @@
 
 namespace sdf_ccd::test {
 
-/// Transforms as robots, bags and faulty clocks send them, through the history, the tracker and the monitor.
+/// The family `ros`: streams of transforms as robots, bags and faulty clocks send them, passed through the history, the
+/// tracker and the monitor.
 Tally rosStreams(std::uint64_t seed, long cases);
 
 }  // namespace sdf_ccd::test

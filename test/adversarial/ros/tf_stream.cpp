@@ -25,7 +25,7 @@ geometry_msgs::TransformStamped transform(const std::string& parent, const std::
   return message;
 }
 
-/// A joint that turns and swings.
+/// A joint that rotates at a constant rate, with oscillations.
 struct JointMotion {
   std::string parent, child;
   Vector3d axis, place, swing;
@@ -49,7 +49,7 @@ JointMotion randomJoint(Random& random, const std::string& parent, const std::st
   joint.swing = uniform(random, 0.0, 0.1) * direction(random);
   joint.frequency = uniform(random, 0.5, 6.0);
   joint.period = random() % 2 ? 0.1 : uniform(random, 0.02, 0.12);
-  // Never so far between two transforms that they do not tell which way.
+  // Slow enough that two successive transforms determine the direction of rotation.
   joint.rate = random() % 4 == 0 ? 0.0 : uniform(random, -fastest, fastest);
   joint.amplitude = uniform(random, 0.0, 0.5);
   joint.phase = uniform(random, 0.0, 6.0);

@@ -9,15 +9,15 @@
 
 namespace sdf_ccd::test {
 
-/// What goes wrong on the way.
+/// Fault of a stream.
 enum class Trouble {
   kNone,
   kLate,              ///< one joint's transforms come up to 0.4 s late
-  kSilent,            ///< one joint says nothing for a while
-  kOutOfOrder,        ///< neighbours arrive in the wrong order
-  kTwoClocks,         ///< two publishers of one frame, their clocks apart
-  kLoop,              ///< a bag that begins again
-  kStaticThenMoving,  ///< a frame on /tf_static first, then on /tf
+  kSilent,            ///< one joint sends nothing for a while
+  kOutOfOrder,        ///< some transforms arrive after their successors
+  kTwoClocks,         ///< two publishers of one frame, whose clocks differ
+  kLoop,              ///< a bag that is repeated
+  kStaticThenMoving,  ///< a frame first on /tf_static, then on /tf
   kMovingThenStatic,
 };
 constexpr int kTroubles = 8;
@@ -26,10 +26,11 @@ struct TfEvent {
   double arrival = 0.0;  ///< [s]
   geometry_msgs::TransformStamped transform;
   bool is_static = false;
-  bool jumps_back = false;  ///< time begins again with this one
+  bool jumps_back = false;  ///< time jumps back with this transform
 };
 
-/// Some seconds of an arm (frame `arm` on `world`) beside a hand (`hand` on `base` on `world`), in order of arrival.
+/// Three seconds of an arm (frame `arm` below `world`) and a hand (`hand` below `base` below `world`), sorted by
+/// arrival.
 std::vector<TfEvent> randomStream(Random& random, Trouble trouble);
 
 }  // namespace sdf_ccd::test

@@ -29,7 +29,7 @@ void TfTruth::add(const geometry_msgs::TransformStamped& transform, bool is_stat
   const Real time = seconds(transform.header.stamp);
   const auto next = std::lower_bound(edge.samples.begin(), edge.samples.end(), time,
                                      [](const Sample& sample, Real t) { return sample.time < t; });
-  if (next != edge.samples.end() && next->time == time) return;  // the first one counts
+  if (next != edge.samples.end() && next->time == time) return;  // the first one with this stamp is kept
   edge.samples.insert(next, {time, poseOf(transform.transform)});
 }
 
@@ -76,7 +76,7 @@ LongPose TfTruth::pose(const Chain& chain, Real time) {
   return X;
 }
 
-/// No point of the body moves faster [m/s]: each joint turns what hangs on it.
+/// Upper bound of the speed of the body's points [m/s]; each joint moves all that is below it.
 Real TfTruth::speed(const Chain& chain, const Pieces& pieces) {
   Real reach = 0, speed = 0;
   for (const Convex& piece : pieces)
@@ -107,7 +107,7 @@ LeastValue TfTruth::least(const Carried& a, const Carried& b, const ros::Time& f
       return separation(*a.pieces, pose(chain_a, time), *b.pieces, pose(chain_b, time)).value;
     };
     LeastOptions here = options;
-    here.above = std::min(options.above, all.high);  // what is farther than what is known already does not matter
+    here.above = std::min(options.above, all.high);  // only values below the smallest one so far matter
     const LeastValue found =
         leastValue(value, cuts[i], cuts[i + 1], speed(chain_a, *a.pieces) + speed(chain_b, *b.pieces), here);
     all.low = std::min(all.low, found.low);

@@ -10,32 +10,33 @@
 #include "oracle/convex.h"
 #include "oracle/least_value.h"
 
-/// What transforms say of the bodies between their stamps: each joint turns evenly and shifts straight (tf2's slerp and
-/// lerp), in long double and without tf2.
+/// Exact motion of bodies between the stamps of transforms: each joint rotates at a constant rate and translates
+/// linearly (tf2's slerp and lerp), computed in long double and without tf2.
 namespace sdf_ccd::test {
 
 class TfTruth {
  public:
-  /// Takes over a transform as it arrives. What is static holds from the last moving transform of that frame on.
+  /// Adds an arriving transform. A static transform is valid after the last moving transform of its frame.
   void add(const geometry_msgs::TransformStamped& transform, bool is_static);
 
-  /// Time has jumped back: only static transforms remain.
+  /// Removes all but static transforms, after a jump back in time.
   void forgetMoving();
 
-  /// A body that a frame carries.
+  /// A body attached to a frame.
   struct Carried {
     std::string frame;
     const Pieces* pieces;
   };
 
-  /// Least separation of two bodies over what is known of [from, to] [m]; low and high are infinite if nothing is.
+  /// Minimum separation of two bodies over the known parts of [from, to] [m]; low and high are infinite if there are
+  /// none.
   LeastValue least(const Carried& a, const Carried& b, const ros::Time& from, const ros::Time& to,
                    const LeastOptions& options) const;
 
-  /// Times `at` of LeastValue are seconds from this time on.
+  /// The time `at` of a LeastValue counts seconds from this time.
   static constexpr double kEpoch = 1000.0;
 
-  /// Where it is, by the last of `least`: the axis from A to B.
+  /// Separation, with its axis from A to B, at such a time.
   Separation at(const Carried& a, const Carried& b, Real time) const;
 
  private:
@@ -46,18 +47,18 @@ class TfTruth {
   struct Edge {
     std::string parent;
     std::vector<Sample> samples;  // by time
-    bool is_static = false;       // after the last sample
+    bool is_static = false;       // valid after the last sample
     LongPose rest;
   };
-  /// One joint within a time in which none of its transforms is stamped.
+  /// A joint between two successive transforms.
   struct Joint {
     Real start, length;
     LongPose X;
-    Vector3l turn, shift;  // over the length
+    Vector3l turn, shift;  // rotation vector and translation over the length
 
     LongPose pose(Real time) const;
   };
-  using Chain = std::vector<Joint>;  // from the root on
+  using Chain = std::vector<Joint>;  // beginning at the root
 
   std::vector<const Edge*> edges(const std::string& frame) const;
   bool chain(const std::string& frame, Real middle, Chain& joints) const;
