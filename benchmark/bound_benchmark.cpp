@@ -35,7 +35,7 @@ class FieldStudy {
       : field_(field), mesh_(mesh), rounding_(1e-12 * boundingBox(mesh.mesh()).sizes().maxCoeff()) {}
 
   /// Distances and their bounds at points.
-  void askPlaces(const std::vector<ExactPlace>& places) {
+  void checkPoints(const std::vector<ExactPlace>& places) {
     for (const ExactPlace& place : places) {
       const FieldSample sample = field_.sample(place.p);
       const bool near = std::abs(place.distance) <= field_.band();
@@ -46,7 +46,7 @@ class FieldStudy {
   }
 
   /// Intervals and times of impact of segments that start outside.
-  void askSegments(const std::vector<Segment>& segments) {
+  void checkSegments(const std::vector<Segment>& segments) {
     for (const Segment& segment : segments) {
       const double length = (segment.end - segment.start).norm();
       for (const Interval& interval : segmentIntervals(field_, segment)) {
@@ -66,7 +66,7 @@ class FieldStudy {
   }
 
   /// Depths of points moving along segments.
-  void askDepths(const std::vector<Segment>& segments) {
+  void checkDepths(const std::vector<Segment>& segments) {
     const std::vector<SiblingField> no_siblings;
     for (const Segment& segment : segments) {
       Isometry3d X_end = Isometry3d::Identity();
@@ -135,7 +135,7 @@ double cellAtSurface(const DistanceField& field, const ExactSurface& mesh) {
   const AdaptiveGrid& grid = *field.adaptive();
   const AdaptiveShape& shape = grid.shape();
   Random random(7);
-  const precision::SurfacePlaces surface(mesh.mesh());
+  const precision::SurfaceSampler surface(mesh.mesh());
   std::vector<double> sides(1001);
   for (double& side : sides) {
     const Vector3d p = (surface(random) - shape.origin) / shape.unit();
@@ -182,11 +182,11 @@ void study(const NamedMesh& named, const StudyOptions& options) {
   for (const StudyField& wanted : studyFields(named, options)) {
     withField(named, wanted, [&](const DistanceField& field) {
       FieldStudy study(field, mesh);
-      study.askPlaces(places);
-      study.askPlaces(placesOfField(field, mesh, options.segments, random));
-      study.askSegments(segments);
-      study.askSegments(segmentsOfField(field, mesh, options.segments, random));
-      study.askDepths(some_segments);
+      study.checkPoints(places);
+      study.checkPoints(placesOfField(field, mesh, options.segments, random));
+      study.checkSegments(segments);
+      study.checkSegments(segmentsOfField(field, mesh, options.segments, random));
+      study.checkDepths(some_segments);
       const VerdictTally verdict = verdicts.run(wanted.options);
       study.tallies().insert({{"verdict", verdict.verdicts}, {"clearance", verdict.clearance}});
       study.tallies().insert({"pair_depth", verdict.depth});

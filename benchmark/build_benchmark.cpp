@@ -36,7 +36,7 @@ struct ExactPoints {
 ExactPoints pointsNear(const NamedMesh& named, const TriangleTree& tree, double reach) {
   test::Random random(1);
   ExactPoints exact;
-  const precision::SurfacePlaces surface(named.mesh);
+  const precision::SurfaceSampler surface(named.mesh);
   while (exact.points.size() < kPoints) {
     const Vector3d p = surface(random);
     exact.add(tree, p + test::uniform(random, 0.0, reach) * test::direction(random));

@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLength = 0.5;          // of an edge, in joint space [rad]
-constexpr double kMostMisses = 1e-4;     // of the edges; a system that misses fewer is not refined further
+constexpr double kMaxMissShare = 1e-4;   // of the edges; a system that misses fewer is not refined further
 constexpr int kFinest = 512;             // poses per edge, for the reference
 constexpr double kSecondsPerRun = 20.0;  // a system expected to take longer is left out
 constexpr std::uint64_t kSeed = 1;
@@ -109,7 +109,7 @@ class Study {
     row("sdf_ccd", "edges", double(edges_.size()), "edges");
     measureOurs();
     findTruth();
-    tellOurs();
+    printOurs();
     for (const MonitorPeerFactory& factory : monitorPeers()) {
       MonitorSystems systems;
       factory(world_.scene, scene_->pairs, systems);
@@ -167,7 +167,7 @@ class Study {
     row("truth", "touching", double(std::count(truth_.begin(), truth_.end(), true)), "edges");
   }
 
-  void tellOurs() const {
+  void printOurs() const {
     double bound = 0.0;
     long uncertain = 0, misses = 0;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -195,7 +195,7 @@ class Study {
       const std::string name = system.name() + "_" + std::to_string(parts);
       row(name, "us_edge", 1e6 * seconds / double(edges_.size()), "us");
       row(name, "misses", double(misses), "edges");
-      if (double(misses) < kMostMisses * double(edges_.size()) || seconds > kSecondsPerRun) return;
+      if (double(misses) < kMaxMissShare * double(edges_.size()) || seconds > kSecondsPerRun) return;
     }
   }
 

@@ -23,7 +23,7 @@ constexpr int kThreads = 2;
 struct PlainShell {
   PlainShell(const TriangleMesh& mesh, std::size_t points) {
     test::Random random(1);
-    const precision::SurfacePlaces surface(mesh);
+    const precision::SurfaceSampler surface(mesh);
     while (shell.points.size() < points) shell.points.push_back(surface(random));
     shell.normals.assign(points, Vector3f::Zero());
     shell.areas.assign(points, 0.0F);

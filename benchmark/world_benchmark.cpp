@@ -3,9 +3,9 @@
 // compared with a new monitor.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
-#include <array>
 #include <fstream>
 #include <map>
 #include <random>
@@ -60,8 +60,7 @@ BodyDescription bodyOf(const std::string& name, const Primitive& primitive, bool
 /// A swinging arm of boxes in a row.
 std::vector<BodyDescription> links() {
   std::vector<BodyDescription> links;
-  for (int i = 0; i < kLinks; ++i)
-    links.push_back(bodyOf("link" + std::to_string(i), Box{{0.05, 0.04, 0.04}}, false));
+  for (int i = 0; i < kLinks; ++i) links.push_back(bodyOf("link" + std::to_string(i), Box{{0.05, 0.04, 0.04}}, false));
   return links;
 }
 
@@ -248,7 +247,8 @@ class Study {
     const auto take = [&](int scan) {
       VoxelMap::Change change = map.take(room.scan(changed, scan, options), {});
       for (std::size_t i = 0; i < change.made.size(); ++i) {
-        editor.provide(std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry[0].shape), change.fields[i]);
+        editor.provide(std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry[0].shape),
+                       change.fields[i]);
         tiles[change.made[i].name] = std::move(change.made[i]);
       }
       for (const std::string& gone : change.removed) tiles.erase(gone);
@@ -299,7 +299,7 @@ class Study {
         bodies[std::min(any, bodies.size() - 1)].X_frame_B.translation() = Vector3d(place(random), place(random), 0.5);
       }
       monitor.change(editor.next(description));
-      const SaidOfCycle said = monitor.firstCycle();
+      const CycleVerdicts said = monitor.firstCycle();
       const CycleResult anew = Monitor(said.world->scene, {}).run(said.motion, {false, 0, false, false});
       for (std::size_t p = 0; p < anew.pairs.size(); ++p) {
         contacts += anew.pairs[p].verdict == Verdict::kContact;

@@ -18,6 +18,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   };
   ReadLimits limits;
   limits.memory = std::uint64_t{1} << 29;
-  fuzz::attempt([&] { validate(takeAnswer(source, limits).mesh); });
+  fuzz::attempt([&] { validate(receiveAnswer(source, limits).mesh); });
   return 0;
 }

@@ -6,7 +6,7 @@
 
 namespace {
 
-constexpr std::size_t kMostDigits = 2;
+constexpr std::size_t kMaxDigits = 2;
 
 bool isSmall(const std::string& text) {
   std::size_t digits = 0;
@@ -15,7 +15,7 @@ bool isSmall(const std::string& text) {
     const bool is_digit = c >= '0' && c <= '9';
     is_fraction = is_digit ? is_fraction : c == '.';
     digits = is_digit && !is_fraction ? digits + 1 : 0;
-    return digits > kMostDigits;
+    return digits > kMaxDigits;
   });
 }
 

@@ -11,7 +11,6 @@
 #endif
 
 #include "import/read_answer.h"
-#include "mended.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/shapes.h"
@@ -19,6 +18,7 @@
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/shell/point_shell.h"
 #include "sdf_ccd/shell/sample_surface.h"
+#include "valid_file.h"
 
 namespace sdf_ccd::fuzz {
 namespace {
@@ -82,7 +82,8 @@ class Seeds {
     // The message holds the file without its header, which ends with the line "data".
     const auto voxelMap = [&](const std::string& file, char kind) {
       const std::string data = "data\n";
-      add("voxel_map", std::string(1, 'a' + kind), std::string{kind, 1, kind, 0} + file.substr(file.find(data) + data.size()));
+      add("voxel_map", std::string(1, 'a' + kind),
+          std::string{kind, 1, kind, 0} + file.substr(file.find(data) + data.size()));
     };
     voxelMap(binary.str(), 0);
     voxelMap(full.str(), 1);
@@ -137,7 +138,8 @@ class Seeds {
     copy("simulation", source_ / "fuzz/seeds/boxes.yaml");
     copy("simulation", source_ / "config/scenes/stack.yaml");
     add("moveit_scene", "objects",
-        "name\n* a\n0 0 0\n0 0 0 1\n2\nbox\n1 2 3\n0 0 0\n0 0 0 1\n0 0 0 0\nmesh\n3 1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n0 0 2\n0 0 0 1\n0 0 "
+        "name\n* a\n0 0 0\n0 0 0 1\n2\nbox\n1 2 3\n0 0 0\n0 0 0 1\n0 0 0 0\nmesh\n3 1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n0 0 "
+        "2\n0 0 0 1\n0 0 "
         "0 0\n1\nsub\n0 0 0\n0 0 0 1\n.\n");
     add("moveit_scene", "before", "(noname)+\n* b\n1\nplane\n0 0 1 0\n0 0 0\n0 0 0 1\n1 0 0 1\n.\n");
     add("segments", "header", "ox,oy,oz,ex,ey,ez\n0,0,0,1,1,1\n-1e-3, 2.5,0,1,.5,0x1p3\r\n\n");

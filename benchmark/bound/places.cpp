@@ -71,7 +71,7 @@ std::vector<ExactPlace> placesOfMesh(const ExactSurface& mesh, std::size_t count
   std::vector<ExactPlace> places;
   const auto add = [&](const Vector3d& p) { places.push_back({p, mesh.distance(p)}); };
   for (std::size_t i = 0; i < count; ++i) add(uniformIn(random, box));
-  const SurfacePlaces surface(mesh.mesh());
+  const SurfaceSampler surface(mesh.mesh());
   for (std::size_t i = 0; i < count; ++i) {
     add(surface(random) + uniform(random, 0.0, 0.02 * side) * direction(random));
   }
@@ -90,7 +90,7 @@ std::vector<ExactPlace> placesOfField(const DistanceField& field, const ExactSur
   const double side = sideOf(mesh), band = field.band();
   std::vector<ExactPlace> places;
   const auto add = [&](const Vector3d& p) { places.push_back({p, mesh.distance(p)}); };
-  const SurfacePlaces surface(mesh.mesh());
+  const SurfaceSampler surface(mesh.mesh());
   for (std::size_t i = 0; i < count; ++i) {
     const int axis = int(random() % 3);
     Vector3d on = onFace(field, surface(random) + uniform(random, 0.0, band) * direction(random), axis);
@@ -115,7 +115,7 @@ std::vector<Segment> segmentsOfMesh(const ExactSurface& mesh, std::size_t count,
     return starts_outside;
   };
   for (std::size_t i = 0; i < count;) i += add(uniformIn(random, box), uniformIn(random, box));
-  const SurfacePlaces surface(mesh.mesh());
+  const SurfaceSampler surface(mesh.mesh());
   for (std::size_t i = 0; i < count;) {
     const Vector3d start = surface(random) + uniform(random, 0.0, 0.03 * side) * direction(random);
     i += add(start, start + 0.02 * side * direction(random));
@@ -138,7 +138,7 @@ std::vector<Segment> segmentsOfMesh(const ExactSurface& mesh, std::size_t count,
 std::vector<Segment> segmentsOfField(const DistanceField& field, const ExactSurface& mesh, std::size_t count,
                                      Random& random) {
   const double side = sideOf(mesh);
-  const SurfacePlaces surface(mesh.mesh());
+  const SurfaceSampler surface(mesh.mesh());
   std::vector<Segment> segments;
   while (segments.size() < count) {
     const int axis = int(random() % 3);

@@ -36,7 +36,7 @@ BodyDescription described(const std::string& name, const TriangleMesh& mesh) {
 VerdictStudy::VerdictStudy(const ExactSurface& mesh, int motions)
     : mesh_(mesh), model_(fclModel(mesh.mesh())), side_(boundingBox(mesh.mesh()).sizes().maxCoeff()) {
   Random random(5);
-  const SurfacePlaces places(mesh.mesh());
+  const SurfaceSampler places(mesh.mesh());
   surface_ = mesh.mesh().vertices;
   while (surface_.size() > kSurfacePlaces) {
     std::swap(surface_[random() % surface_.size()], surface_.back());

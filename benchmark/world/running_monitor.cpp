@@ -58,7 +58,7 @@ std::vector<double> RunningMonitor::takeAdoptions() {
   return std::move(adoptions_);
 }
 
-SaidOfCycle RunningMonitor::firstCycle() {
+CycleVerdicts RunningMonitor::firstCycle() {
   const std::lock_guard<std::mutex> lock(mutex_);
   return first_;
 }

@@ -14,7 +14,7 @@
 namespace sdf_ccd::benchmark {
 
 /// The result of a cycle, with its world and motion, so that it can be verified.
-struct SaidOfCycle {
+struct CycleVerdicts {
   std::shared_ptr<const WorldSnapshot> world;
   CycleMotion motion;
   std::vector<Verdict> verdicts;  ///< per pair
@@ -39,7 +39,7 @@ class RunningMonitor {
   std::vector<double> takeAdoptions();
 
   /// Result of the first cycle with the latest world.
-  SaidOfCycle firstCycle();
+  CycleVerdicts firstCycle();
 
  private:
   struct Offer {
@@ -61,7 +61,7 @@ class RunningMonitor {
   std::atomic<bool> is_checked_{false}, stop_{false};
   std::mutex mutex_;
   std::vector<double> times_, adoptions_;  // guarded by mutex_, like first_
-  SaidOfCycle first_;
+  CycleVerdicts first_;
   std::thread thread_;
 };
 

@@ -269,7 +269,7 @@ void appendTo(std::string& key, const std::optional<T>& number) {
 std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                        GeometryKeys& keys) {
   const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache,
-               exact_depths, is_shared, max_error, is_shared_out] = options;
+               exact_depths, is_shared, max_error, divides_max_error] = options;
   static_cast<void>(cache);
   static_cast<void>(is_shared);
   const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
@@ -279,7 +279,7 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   const auto add = [&](const auto&... values) { (appendTo(key, values), ...); };
   add(cells, cell_size, field_error, band, max_bytes);
   add(spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points);
-  add(points_across, cells_across, motion_margin, motion_error, exact_depths, max_error, is_shared_out);
+  add(points_across, cells_across, motion_margin, motion_error, exact_depths, max_error, divides_max_error);
   add(field, shell, edges_only, decides, witnesses);
   for (const GeometryDescription& geometry : description.geometry) key += geometry.source + '\n';
   return key;

@@ -15,23 +15,23 @@ BodyOptions optionsForContacts(const std::optional<double>& accuracy) {
   if (accuracy) return options;
   options.points_across = kPointsAcross;
   options.cells_across = kPointsAcross / kCell;
-  options.shell.max_points = kMostShellPoints;
-  options.field.max_bytes = kMostFieldBytes;
+  options.shell.max_points = kMaxShellPoints;
+  options.field.max_bytes = kMaxFieldBytes;
   return options;
 }
 
 BodyOptions optionsFor(const Accuracy& accuracy) {
-  const ErrorBudget budget = shareOut(accuracy.max_error);
+  const ErrorBudget budget = divideErrorBudget(accuracy.max_error);
   BodyOptions options;
   options.field.max_error = budget.field;
-  options.field.max_bytes = kMostFieldBytes;
+  options.field.max_bytes = kMaxFieldBytes;
   options.shell.spacing = budget.face_spacing;
   options.shell.edge_gap = budget.edge_gap;
-  options.shell.max_points = kMostShellPoints;
+  options.shell.max_points = kMaxShellPoints;
   options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
   options.motion_error = options.motion_margin - budget.chord_tolerance;
   options.max_error = accuracy.max_error;
-  options.is_shared_out = true;
+  options.divides_max_error = true;
   options.cache_directory = accuracy.cache_directory;
   return options;
 }

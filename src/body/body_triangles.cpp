@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kMostTriangles = 500'000;
+constexpr std::size_t kMaxTriangles = 500'000;
 
 /// Deviation of a cylinder's triangles: a hundredth of the required error of verdicts [m], or more for large cylinders,
 /// which would need more than a few thousand triangles.
@@ -89,7 +89,7 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
       continue;
     }
     all.add(pool.find(geometry).mesh, geometry.X_BG);
-    if (all.triangles.size() > kMostTriangles) return nullptr;
+    if (all.triangles.size() > kMaxTriangles) return nullptr;
   }
   if (all.triangles.empty()) return nullptr;
   auto made = std::make_shared<BodyTriangles>(BoxTree(all.triangles));
@@ -116,7 +116,7 @@ bool mayHaveTriangles(const BodyDescription& description) {
     if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape))
       count += *mesh ? (*mesh)->triangles.size() : 0;
   }
-  return count <= kMostTriangles;
+  return count <= kMaxTriangles;
 }
 
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {

@@ -29,7 +29,7 @@ inline void setFineness(double fineness, ShellOptions& shell) {
 
 /// Whether fields and shells that would be too large are made coarser.
 inline bool mayBeCoarser(const BodyOptions& options) {
-  return options.is_shared_out || options.points_across > 0.0;
+  return options.divides_max_error || options.points_across > 0.0;
 }
 
 }  // namespace sdf_ccd

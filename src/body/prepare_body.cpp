@@ -30,7 +30,7 @@ Body prepareBody(const std::string& name, const TriangleMesh& mesh, const Accura
 
 Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
   BodyOptions options = optionsFor(accuracy);
-  options.is_shared_out = false;  // too large means an error, not a coarser body
+  options.divides_max_error = false;  // too large means an error, not a coarser body
   MeshPool pool(options);
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();

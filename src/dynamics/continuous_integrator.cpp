@@ -11,7 +11,7 @@ class ContinuousIntegrator : public Integrator {
   void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) override {
     report = {};
     if (average_.empty()) {  // before the first step the bodies are assumed to be at rest
-      standStill(states, duration, motion_);
+      restMotion(states, duration, motion_);
       integrateAll(duration);
     }
     for (Wrench& wrench : average_) wrench = duration * wrench;
@@ -22,7 +22,7 @@ class ContinuousIntegrator : public Integrator {
     drift(world_, velocities_, duration, step, states, motion_);
     integrateAll(duration);
 
-    standStill(states, duration, pose_);
+    restMotion(states, duration, pose_);
     endContacts(world_, pose_, search_, contacts_);
     measure(contacts_, report);
   }

@@ -34,7 +34,7 @@ class DiscreteIntegrator : public Integrator {
 
  private:
   void find(const std::vector<BodyState>& states) {
-    standStill(states, 1.0, motion_);
+    restMotion(states, 1.0, motion_);
     endContacts(world_, motion_, search_, contacts_);
   }
 

@@ -45,7 +45,7 @@ void measureContacts(const RigidWorld& world, const std::vector<BodyState>& stat
   ContactSearch search(world);
   StepMotion motion;
   std::vector<PairContacts> contacts;
-  standStill(states, 1.0, motion);
+  restMotion(states, 1.0, motion);
   endContacts(world, motion, search, contacts);
   measure(contacts, report);
 }

@@ -28,7 +28,7 @@ class ImplicitIntegrator : public Integrator {
     report = {};
     report.impulses.resize(states.size());
     if (!startsWhereLastEnded(states)) {
-      standStill(states, 1.0, motion_);
+      restMotion(states, 1.0, motion_);
       endContacts(world_, motion_, search_, contacts_);
     }
     elastic_energy_ = elasticEnergy(contacts_);

@@ -55,7 +55,7 @@ void requireBounded(const RigidBody& body, const BodyState& state, const Vector3
 
 }  // namespace
 
-void turnFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vector3d& spin_B) {
+void rotateFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vector3d& spin_B) {
   const double speed = spin_B.norm();
   if (speed == 0.0 || duration == 0.0) return;
   const Vector3d L = inertia_B * spin_B;
@@ -75,7 +75,7 @@ void turnFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vect
   R_OB = orthonormal(R_OB);
 }
 
-void standStill(const std::vector<BodyState>& states, double duration, StepMotion& motion) {
+void restMotion(const std::vector<BodyState>& states, double duration, StepMotion& motion) {
   motion.times = {0.0, duration};
   motion.X_OB.resize(states.size());
   for (std::size_t b = 0; b < states.size(); ++b) motion.X_OB[b].assign(2, states[b].X_OB);
@@ -100,7 +100,7 @@ void drift(const RigidWorld& world, const std::vector<Vector3d>& velocities, dou
     const Vector3d start = state.X_OB.translation();
     Matrix3d R_OB = state.X_OB.linear();
     for (int k = 1; k <= pieces; ++k) {
-      turnFreely(world.bodies[b].inertia, motion.times[k] - motion.times[k - 1], R_OB, state.spin_B);
+      rotateFreely(world.bodies[b].inertia, motion.times[k] - motion.times[k - 1], R_OB, state.spin_B);
       motion.X_OB[b][k].linear() = R_OB;
       motion.X_OB[b][k].translation() = start + motion.times[k] * velocities[b];
     }

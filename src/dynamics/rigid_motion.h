@@ -11,7 +11,7 @@ namespace sdf_ccd {
 ///
 /// Source: Simo & Wong 1991, Int. J. Numer. Meth. Eng. 31, the conserving algorithm for SO(3).
 /// A body with constant spin (a sphere, a spin about a principal axis) rotates exactly.
-void turnFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vector3d& spin_B);
+void rotateFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vector3d& spin_B);
 
 /// Poses of all bodies during a step: at its start, its end, and at times between so that no body rotates by more than
 /// a radian from one time to the next.
@@ -21,7 +21,7 @@ struct StepMotion {
 };
 
 /// All bodies at rest in their poses, for `duration` [s].
-void standStill(const std::vector<BodyState>& states, double duration, StepMotion& motion);
+void restMotion(const std::vector<BodyState>& states, double duration, StepMotion& motion);
 
 /// Moves all bodies for `duration` under no force. Reuses the memory of `motion`.
 /// @param velocities  per body: of its origin [m/s]; state.velocity is neither read nor changed.

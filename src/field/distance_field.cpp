@@ -76,7 +76,7 @@ FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
   // point: then the upper bound is the length of the path through the nearest cap.
   const double near = std::abs(known.value) + known.error;
   const bool by_cap = openings_->isWithin(p_F, near);
-  const double far = by_cap ? std::max(near, openings_->meshWithin(p_F)) : near;
+  const double far = by_cap ? std::max(near, openings_->meshDistanceBound(p_F)) : near;
   if (known.value < 0.0 || (by_cap && known.value < known.error)) {
     known.error = far + std::abs(known.value);  // the point may be on either side
   } else if (by_cap) {

@@ -32,7 +32,7 @@ double reach(const SurfaceIndex& surface, const SpaceCube& cube, double distance
 /// @param length        of the displacement [m].
 /// @param other         the other triangle's distances from the cube's corners [m].
 SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& displacement, double length, double side,
-                                 const PlaceLanes::Lane& other) {
+                                 const PointLanes::Lane& other) {
   // All multiplied by the length, which avoids the division; a displacement of length zero proves nothing.
   const Vector3d slope = 0.5 * side * displacement;
   const Doubles across = {-slope.x() - slope.y(), slope.x() - slope.y(), slope.y() - slope.x(), slope.x() + slope.y()};
@@ -44,8 +44,9 @@ SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& displacement, 
 
 /// Lists the triangles of `around` that may be closest to a point of an octant, without the one nearest to its centre.
 /// Returns the list's end.
-SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const WayLanes* ways, int octant, int nearest,
-                                     double max_distance, const PlaceLanes::Lane& at_corners, std::int32_t* list) {
+SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const DisplacementLanes* ways, int octant,
+                                     int nearest, double max_distance, const PointLanes::Lane& at_corners,
+                                     std::int32_t* list) {
   const double side = 0.5 * around.cube().side, max_distance2 = max_distance * max_distance;
   for (std::size_t i = 0; i < around.size(); ++i) {
     const double distance2 = ways[i].distance2[octant];
@@ -57,8 +58,8 @@ SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const WayLanes
 }
 
 /// Upper bounds of the distances from a cube's corners to a triangle, rounding included.
-PlaceLanes::Lane distancesAtCorners(const SurfaceIndex& surface, int triangle, const SpaceCube& cube, double size) {
-  PlaceLanes corners;
+PointLanes::Lane distancesAtCorners(const SurfaceIndex& surface, int triangle, const SpaceCube& cube, double size) {
+  PointLanes corners;
   for (int c = 0; c < 8; ++c) corners.set(c, cube.corner(c));
   ClosestLanes closest;
   closest.distance2.fill(kInfinity);
@@ -85,9 +86,9 @@ SurfaceIndex::SurfaceIndex(Solid solid) : exact_(std::move(solid)) {
   }
 }
 
-void SurfaceIndex::offer(int i, const Vector3d& axis, const PlaceLanes& points, ClosestLanes& closest) const {
+void SurfaceIndex::offer(int i, const Vector3d& axis, const PointLanes& points, ClosestLanes& closest) const {
   if (!face(i).sliver) return sdf_ccd::offer(flat_[static_cast<std::size_t>(i)], axis, points, closest);
-  for (int k = 0; k < PlaceLanes::kCount; ++k) {
+  for (int k = 0; k < PointLanes::kCount; ++k) {
     const Vector3d p = points.at(k), displacement = p - triangle(i).closest(p);
     if (displacement.squaredNorm() >= closest.distance2[k]) continue;
     closest.distance2[k] = displacement.squaredNorm();
@@ -95,9 +96,9 @@ void SurfaceIndex::offer(int i, const Vector3d& axis, const PlaceLanes& points, 
   }
 }
 
-void SurfaceIndex::ways(int i, const PlaceLanes& points, WayLanes& ways) const {
+void SurfaceIndex::ways(int i, const PointLanes& points, DisplacementLanes& ways) const {
   if (!face(i).sliver) return sdf_ccd::ways(flat_[static_cast<std::size_t>(i)], points, ways);
-  for (int k = 0; k < PlaceLanes::kCount; ++k) {
+  for (int k = 0; k < PointLanes::kCount; ++k) {
     const Vector3d p = points.at(k), displacement = p - triangle(i).closest(p);
     ways.distance2[k] = displacement.squaredNorm();
     ways.x[k] = displacement.x();
@@ -194,7 +195,7 @@ int NearTriangles::signFarther(const Vector3d& p, double distance) const {
   return exact.inside(p) ? -1 : 1;
 }
 
-void NearTriangles::signedDistances(const PlaceLanes& points, int count, PlaceLanes::Lane& distances) const {
+void NearTriangles::signedDistances(const PointLanes& points, int count, PointLanes::Lane& distances) const {
   if (!(cone_.sine < 1.0)) {
     for (int k = 0; k < count; ++k) distances[k] = signedDistance(points.at(k));
     return;
@@ -202,7 +203,7 @@ void NearTriangles::signedDistances(const PlaceLanes& points, int count, PlaceLa
   ClosestLanes closest;
   closest.distance2.fill(kInfinity);
   for (std::size_t i = 0; i < count_; ++i) surface_->offer(ids_[i], cone_.axis, points, closest);
-  for (int k = 0; k < PlaceLanes::kCount; ++k) {
+  for (int k = 0; k < PointLanes::kCount; ++k) {
     const double d = std::sqrt(closest.distance2[k]);
     distances[k] = closest.side[k] < 0.0 ? -d : d;
   }
@@ -210,7 +211,7 @@ void NearTriangles::signedDistances(const PlaceLanes& points, int count, PlaceLa
 
 NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const SignedSurface::Nearest& nearest) {
   const double max_distance = reach(surface, cube, nearest.distance);
-  const PlaceLanes::Lane at_corners = distancesAtCorners(surface, nearest.triangle, cube, max_distance);
+  const PointLanes::Lane at_corners = distancesAtCorners(surface, nearest.triangle, cube, max_distance);
   ids_.push_back(nearest.triangle);
   const auto may_matter = [&](const Vector3d& center, double radius) {
     const Vector3d displacement = cube.center - center;
@@ -225,10 +226,10 @@ NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const Sig
 }
 
 NearOctants::NearOctants(const NearTriangles& around) : around_(around), ways_(around.size()), ids_(around.size()) {
-  WayLanes* const ways = ways_.get();
-  PlaceLanes centers;
+  DisplacementLanes* const ways = ways_.get();
+  PointLanes centers;
   for (int k = 0; k < 8; ++k) centers.set(k, around_.cube().octant(k).center);
-  PlaceLanes::Lane best2;
+  PointLanes::Lane best2;
   best2.fill(kInfinity);
   std::array<std::size_t, 8> best{};
   for (std::size_t i = 0; i < around_.size(); ++i) {
@@ -247,7 +248,7 @@ NearOctants::NearOctants(const NearTriangles& around) : around_(around), ways_(a
 }
 
 int NearOctants::sign(int k, std::size_t nearest) const {
-  const WayLanes* const ways = ways_.get();
+  const DisplacementLanes* const ways = ways_.get();
   const auto sideOf = [](double along) { return along < 0.0 ? -1 : 1; };
   const DirectionCone& cone = around_.gradientCone();
   if (cone.sine < 1.0) return sideOf(ways[nearest].at(k).dot(cone.axis));
@@ -272,7 +273,7 @@ const NearTriangles& NearOctants::operator[](int k) {
   *first = nearest_[k];
   const SpaceCube octant = around_.cube().octant(k);
   const double max_distance = reach(around_.surface(), octant, distances_[k]);
-  const PlaceLanes::Lane at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, max_distance);
+  const PointLanes::Lane at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, max_distance);
   const std::int32_t* const last = listNear(around_, ways_.get(), k, nearest_[k], max_distance, at_corners, first + 1);
   near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};
   return near;

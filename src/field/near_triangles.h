@@ -37,8 +37,8 @@ class SurfaceIndex {
   const Face& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
 
   /// As the functions of triangle_lanes.h, but for slivers too.
-  void offer(int i, const Vector3d& axis, const PlaceLanes& points, ClosestLanes& closest) const;
-  void ways(int i, const PlaceLanes& points, WayLanes& ways) const;
+  void offer(int i, const Vector3d& axis, const PointLanes& points, ClosestLanes& closest) const;
+  void ways(int i, const PointLanes& points, DisplacementLanes& ways) const;
 
  private:
   /// Relative rounding of squared distances, which is largest for slivers. A false tie costs little: if the triangles
@@ -85,7 +85,7 @@ class NearTriangles {
   double signedDistance(const Vector3d& p) const;
 
   /// Signed distances at eight points of the cube, of which `count` are needed.
-  void signedDistances(const PlaceLanes& points, int count, PlaceLanes::Lane& distances) const;
+  void signedDistances(const PointLanes& points, int count, PointLanes::Lane& distances) const;
 
   /// Contains the gradient of the signed distance at all points of the cube where it is defined.
   const DirectionCone& gradientCone() const { return cone_; }
@@ -132,14 +132,14 @@ class DistanceWriter {
   void add(int index, const Vector3d& point) {
     indices_[count_] = index;
     points_.set(count_, point);
-    if (++count_ == PlaceLanes::kCount) flush();
+    if (++count_ == PointLanes::kCount) flush();
   }
 
  private:
   void flush() {
     if (count_ == 0) return;
-    for (int k = count_; k < PlaceLanes::kCount; ++k) points_.copy(0, k);
-    PlaceLanes::Lane distances;
+    for (int k = count_; k < PointLanes::kCount; ++k) points_.copy(0, k);
+    PointLanes::Lane distances;
     near_.signedDistances(points_, count_, distances);
     for (int k = 0; k < count_; ++k) values_[indices_[k]] = static_cast<Value>(distances[k]);
     count_ = 0;
@@ -147,8 +147,8 @@ class DistanceWriter {
 
   const NearTriangles& near_;
   Value* values_;
-  PlaceLanes points_;
-  std::array<int, PlaceLanes::kCount> indices_;
+  PointLanes points_;
+  std::array<int, PointLanes::kCount> indices_;
   int count_ = 0;
 };
 
@@ -198,7 +198,7 @@ class NearOctants {
   };
 
   const NearTriangles& around_;
-  Room<WayLanes, 1> ways_;               ///< per triangle: displacements from it to the octants' centres
+  Room<DisplacementLanes, 1> ways_;      ///< per triangle: displacements from it to the octants' centres
   Room<std::int32_t, 8> ids_;            ///< per octant: a list with room for all triangles
   std::array<std::int32_t, 8> nearest_;  ///< the triangle nearest to each octant's centre
   std::array<double, 8> distances_;

@@ -19,7 +19,7 @@ OpeningCaps::OpeningCaps(TriangleMesh mesh, std::vector<double> reach)
   }
 }
 
-double OpeningCaps::meshWithin(const Vector3d& p_F) const {
+double OpeningCaps::meshDistanceBound(const Vector3d& p_F) const {
   const TriangleTree::ClosestPoint nearest = tree_.closestPoint(p_F);
   return nearest.distance + reach_[static_cast<std::size_t>(nearest.triangle)];
 }

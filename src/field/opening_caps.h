@@ -23,7 +23,7 @@ class OpeningCaps {
   bool isWithin(const Vector3d& p_F, double distance) const { return tree_.closestPoint(p_F, distance).triangle >= 0; }
 
   /// Upper bound of the distance from the mesh alone [m]: the path through the nearest cap.
-  double meshWithin(const Vector3d& p_F) const;
+  double meshDistanceBound(const Vector3d& p_F) const;
 
   std::size_t bytes() const;
 

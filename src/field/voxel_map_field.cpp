@@ -271,14 +271,14 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
 
 FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options) {
   constexpr double kSeconds = 15e-3;
-  constexpr std::size_t kFewest = 8;
+  constexpr std::size_t kMin = 8;
   validate(options);
   const MapGrid map(solid, options);
   const std::size_t blocks = static_cast<std::size_t>(map.blocks().prod());
   const SpreadOrder order(blocks);
   std::size_t tested = 0, bricks = 0;
   const double start = threadSeconds();
-  for (; tested < blocks && (tested < kFewest || threadSeconds() - start < kSeconds); ++tested) {
+  for (; tested < blocks && (tested < kMin || threadSeconds() - start < kSeconds); ++tested) {
     std::vector<std::size_t> found;
     BrickSamples samples;
     map.make(

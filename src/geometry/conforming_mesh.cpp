@@ -59,7 +59,7 @@ bool isSeam(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
 
 /// Per edge, the vertices on it from its lower end to the higher one.
 std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double tolerance) {
-  constexpr std::size_t kMostPerEdge = 16;  // on average; more are not a tessellation but noise
+  constexpr std::size_t kMaxPerEdge = 16;  // on average; more are not a tessellation but noise
   const std::vector<Edge> edges = unbalancedEdges(mesh);
   std::map<Edge, Points> on;
   if (edges.empty()) return on;
@@ -75,7 +75,7 @@ std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double toleranc
       const Vector3d &a = mesh.vertices[edges[i].first], &b = mesh.vertices[edges[i].second];
       if ((p - a).norm() <= tolerance || (p - b).norm() <= tolerance) continue;
       on[edges[i]].push_back(vertex);
-      if (++count > kMostPerEdge * edges.size()) return {};
+      if (++count > kMaxPerEdge * edges.size()) return {};
     }
   }
   for (auto& [edge, vertices] : on) sortAlong(mesh, edge, vertices);
@@ -133,14 +133,14 @@ ConformingMesh joinedWithin(TriangleMesh mesh, double tolerance) {
 
 ConformingMesh conformingMesh(const TriangleMesh& mesh) {
   constexpr double kDoubleDigits = 0x1p-48, kFloatDigits = 0x1p-22;  // of the largest coordinate
-  constexpr double kMost = 1e-6;                                     // of the mesh's size, far from the origin
+  constexpr double kMax = 1e-6;                                      // of the mesh's size, far from the origin
   ConformingMesh result{mesh, std::vector<std::int32_t>(mesh.triangles.size())};
   std::iota(result.source.begin(), result.source.end(), 0);
   if (unbalancedEdges(mesh).empty()) return result;
   const AlignedBox3d box = boundingBox(mesh);
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   for (const double digits : {kDoubleDigits, kFloatDigits}) {
-    ConformingMesh next = joinedWithin(mesh, std::min(digits * reach, kMost * box.sizes().maxCoeff()));
+    ConformingMesh next = joinedWithin(mesh, std::min(digits * reach, kMax * box.sizes().maxCoeff()));
     if (!isOdd(next.mesh)) return next;
   }
   return result;

@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kMostVertices = 100;  // for the smallest triangulation, whose cost grows with their cube
+constexpr std::size_t kMaxVertices = 100;  // for the smallest triangulation, whose cost grows with their cube
 
 double areaOf(const std::vector<Vector3d>& vertices, int a, int b, int c) {
   return 0.5 * (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).norm();
@@ -36,7 +36,7 @@ std::vector<int> shortened(const std::vector<Vector3d>& vertices, const std::vec
     ears.emplace(size[i], i);
   };
   for (int i = 0; i < n; ++i) measure(i);
-  while (ears.size() > kMostVertices) {
+  while (ears.size() > kMaxVertices) {
     const int tip = ears.begin()->second, last = before[tip], next = after[tip];
     ears.erase(ears.begin());
     addTriangle(vertices, {loop[last], loop[tip], loop[next]}, cap);
@@ -101,7 +101,7 @@ std::vector<int> bridged(const std::vector<Vector3d>& vertices, const std::vecto
 
 LoopCap capLoop(const std::vector<Vector3d>& vertices, const std::vector<int>& loop) {
   LoopCap cap;
-  triangulate(vertices, loop.size() > kMostVertices ? shortened(vertices, loop, cap) : loop, cap);
+  triangulate(vertices, loop.size() > kMaxVertices ? shortened(vertices, loop, cap) : loop, cap);
   return cap;
 }
 
@@ -109,14 +109,14 @@ std::vector<LoopCap> capLoops(const std::vector<Vector3d>& vertices, const std::
   std::vector<LoopCap> caps;
   for (const std::vector<int>& loop : loops) caps.push_back(capLoop(vertices, loop));
   // Only the largest openings matter, and trying all pairs of many would take long.
-  constexpr std::size_t kMostLoops = 12, kLongestLoop = 1000;
+  constexpr std::size_t kMaxLoops = 12, kLongestLoop = 1000;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].size() <= kLongestLoop) order.push_back(i);
   }
   std::sort(order.begin(), order.end(),
             [&](std::size_t i, std::size_t k) { return std::pair(-caps[i].area, i) < std::pair(-caps[k].area, k); });
-  order.resize(std::min(order.size(), kMostLoops));
+  order.resize(std::min(order.size(), kMaxLoops));
   std::vector<char> done(loops.size(), 0);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (done[order[i]]) continue;

@@ -149,7 +149,7 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_turned));
   TriangleMesh hiding = likeness;
   hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
-  const std::vector<char> from_behind = seenFromBehind(hiding, patches);
+  const std::vector<char> from_behind = openPatchesToFlip(hiding, patches);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     quality.inverted_sheets += from_behind[i];
     if (from_behind[i] != 0) flip(likeness, patches[i]);

@@ -129,7 +129,7 @@ class Caster {
 
 }  // namespace
 
-std::vector<char> seenFromBehind(const TriangleMesh& mesh, const std::vector<Patch>& patches) {
+std::vector<char> openPatchesToFlip(const TriangleMesh& mesh, const std::vector<Patch>& patches) {
   constexpr int kSweeps = 16;
   constexpr std::size_t kManyPatches = 4096;
   std::vector<char> turned(patches.size(), 0);

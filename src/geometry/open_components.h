@@ -20,6 +20,6 @@ namespace sdf_ccd {
 /// most two million rays.
 /// @param mesh  closed patches correctly oriented; about 1 m large and near the origin. Triangles that belong to no
 /// patch occlude others.
-std::vector<char> seenFromBehind(const TriangleMesh& mesh, const std::vector<Patch>& patches);
+std::vector<char> openPatchesToFlip(const TriangleMesh& mesh, const std::vector<Patch>& patches);
 
 }  // namespace sdf_ccd

@@ -10,7 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 bool isKept(Sides sides) {
-  return sides != Sides::kBuried && sides != Sides::kCovered;
+  return sides != Sides::kInterior && sides != Sides::kDuplicate;
 }
 
 /// Collects the triangles and pieces of a mesh that are kept.
@@ -36,7 +36,7 @@ class BoundaryWriter {
     const auto has = [&](Sides sides) {
       return std::any_of(parts.begin(), parts.end(), [&](const SurfacePart& part) { return part.sides == sides; });
     };
-    const bool one = parts.size() == 1, clipped = has(Sides::kBuried) || has(Sides::kCovered);
+    const bool one = parts.size() == 1, clipped = has(Sides::kInterior) || has(Sides::kDuplicate);
     if (one || (!clipped && !(has(Sides::kOutward) && has(Sides::kInward)))) {
       if (one) return addWhole(triangle, parts.front().sides, parts.front().tells_sides);
       add(mesh_.triangles[triangle], Sides::kUnknown, false);
@@ -156,8 +156,9 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (!cuts.of[i].empty()) cut.push_back(static_cast<int>(i));
   }
-  const bool as_it_is = cut.empty() && std::all_of(sides.begin(), sides.end(),
-                                                   [](Sides s) { return s != Sides::kBuried && s != Sides::kInward; });
+  const bool as_it_is = cut.empty() && std::all_of(sides.begin(), sides.end(), [](Sides s) {
+                          return s != Sides::kInterior && s != Sides::kInward;
+                        });
   if (as_it_is) return;
 
   const TriangleCutter cutter(mesh, *all, interior_, tolerance);

@@ -34,7 +34,7 @@ Sides SideTest::at(const Place& place, const std::vector<int>& layers, std::size
   if (step <= 4.0 * tolerance_.layer) return Sides::kUnknown;
   const bool front = interior_.contains(place.point + step * place.normal, visited);
   const bool back = interior_.contains(place.point - step * place.normal, visited);
-  if (front) return back ? Sides::kBuried : Sides::kInward;
+  if (front) return back ? Sides::kInterior : Sides::kInward;
   return back ? Sides::kOutward : Sides::kSheet;
 }
 

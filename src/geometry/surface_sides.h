@@ -11,12 +11,12 @@ namespace sdf_ccd {
 
 /// What lies before and behind a flat piece of a closed mesh's surface.
 enum class Sides : std::uint8_t {
-  kUnknown,  ///< not certain
-  kOutward,  ///< outside before it, inside behind it
-  kInward,   ///< the reverse: of a part that is inside out
-  kBuried,   ///< inside on both sides
-  kCovered,  ///< lies on another triangle, which stands for both
-  kSheet,    ///< outside on both sides: two faces that lie on each other
+  kUnknown,    ///< not certain
+  kOutward,    ///< outside before it, inside behind it
+  kInward,     ///< the reverse: of a part that is inside out
+  kInterior,   ///< inside on both sides
+  kDuplicate,  ///< lies on another triangle, which stands for both
+  kSheet,      ///< outside on both sides: two faces that lie on each other
 };
 
 /// Determines the sides of flat pieces of a closed mesh.

@@ -243,7 +243,7 @@ class TriangleCutter::Task {
     // Faces that lie on each other all have the same sides, in either orientation. The first one is kept.
     const bool has_sides = found == Sides::kOutward || found == Sides::kInward;
     const bool is_first = layers.empty() || layers.front() > triangle_;
-    return has_sides && !is_first ? Sides::kCovered : found;
+    return has_sides && !is_first ? Sides::kDuplicate : found;
   }
 
   const TriangleCutter& cutter_;

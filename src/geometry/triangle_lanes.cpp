@@ -22,7 +22,7 @@ struct Way {
 };
 
 /// In the plane, from the nearest of the edges' closest points; zero if the query point projects into the triangle.
-SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PlaceLanes& places, int k) {
+SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PointLanes& places, int k) {
   const Doubles x = load(places.x.data() + k) - t.origin[0], y = load(places.y.data() + k) - t.origin[1],
                 z = load(places.z.data() + k) - t.origin[2];
   const Doubles u = t.u[0] * x + t.u[1] * y + t.u[2] * z;
@@ -68,11 +68,11 @@ FlatTriangle::FlatTriangle(const Vector3d& pa, const Vector3d& pb, const Vector3
   inverse_ca2 = 1.0 / (c * c + height * height);
 }
 
-SDF_CCD_LANES void offer(const FlatTriangle& t, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest) {
+SDF_CCD_LANES void offer(const FlatTriangle& t, const Vector3d& axis, const PointLanes& places, ClosestLanes& closest) {
   const double au = t.u[0] * axis[0] + t.u[1] * axis[1] + t.u[2] * axis[2];
   const double av = t.v[0] * axis[0] + t.v[1] * axis[1] + t.v[2] * axis[2];
   const double an = t.normal[0] * axis[0] + t.normal[1] * axis[1] + t.normal[2] * axis[2];
-  for (int k = 0; k < PlaceLanes::kCount; k += kWidth) {
+  for (int k = 0; k < PointLanes::kCount; k += kWidth) {
     const Way way = wayTo(t, places, k);
     const Doubles distance2 = way.squared(), held2 = load(closest.distance2.data() + k);
     const Doubles side = way.u * au + way.v * av + way.normal * an, held = load(closest.side.data() + k);
@@ -81,8 +81,8 @@ SDF_CCD_LANES void offer(const FlatTriangle& t, const Vector3d& axis, const Plac
   }
 }
 
-SDF_CCD_LANES void ways(const FlatTriangle& t, const PlaceLanes& places, WayLanes& ways) {
-  for (int k = 0; k < PlaceLanes::kCount; k += kWidth) {
+SDF_CCD_LANES void ways(const FlatTriangle& t, const PointLanes& places, DisplacementLanes& ways) {
+  for (int k = 0; k < PointLanes::kCount; k += kWidth) {
     const Way way = wayTo(t, places, k);
     store(way.squared(), ways.distance2.data() + k);
     store(way.u * t.u[0] + way.v * t.v[0] + way.normal * t.normal[0], ways.x.data() + k);

@@ -21,7 +21,7 @@ struct FlatTriangle {
 };
 
 /// Eight query points.
-struct PlaceLanes {
+struct PointLanes {
   static constexpr int kCount = 8;
   using Lane = std::array<double, kCount>;
   alignas(64) Lane x, y, z;
@@ -41,21 +41,21 @@ struct PlaceLanes {
 
 /// For each of eight query points, the closest point on several triangles.
 struct ClosestLanes {
-  alignas(64) PlaceLanes::Lane distance2;  ///< [m²]
-  alignas(64) PlaceLanes::Lane side;       ///< displacement from the closest point, along the axis [m]
+  alignas(64) PointLanes::Lane distance2;  ///< [m²]
+  alignas(64) PointLanes::Lane side;       ///< displacement from the closest point, along the axis [m]
 };
 
 /// Displacements of eight query points from the triangle's closest points.
-struct WayLanes {
-  alignas(64) PlaceLanes::Lane distance2;  ///< [m²]
-  alignas(64) PlaceLanes::Lane x, y, z;    ///< from the closest point to the query point [m]
+struct DisplacementLanes {
+  alignas(64) PointLanes::Lane distance2;  ///< [m²]
+  alignas(64) PointLanes::Lane x, y, z;    ///< from the closest point to the query point [m]
 
   Vector3d at(int k) const { return {x[k], y[k], z[k]}; }
 };
 
 /// Replaces the closest points held so far where the triangle is nearer.
-void offer(const FlatTriangle& triangle, const Vector3d& axis, const PlaceLanes& places, ClosestLanes& closest);
+void offer(const FlatTriangle& triangle, const Vector3d& axis, const PointLanes& places, ClosestLanes& closest);
 
-void ways(const FlatTriangle& triangle, const PlaceLanes& places, WayLanes& ways);
+void ways(const FlatTriangle& triangle, const PointLanes& places, DisplacementLanes& ways);
 
 }  // namespace sdf_ccd

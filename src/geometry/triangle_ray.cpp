@@ -28,8 +28,8 @@ double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& directi
   if (determinant == 0.0) return TriangleTree::kInfinity;
   const Vector3d from = p - t.a(), along = from.cross(ab);
   const double u = from.dot(across) / determinant, v = direction.dot(along) / determinant;
-  constexpr double kLeast = -1e-12;
-  double least_u = kLeast, least_v = kLeast, least_w = kLeast;
+  constexpr double kMin = -1e-12;
+  double least_u = kMin, least_v = kMin, least_w = kMin;
   if (slack > 0.0) {  // the change of the coordinates over that distance across the ray
     const double steep = slack / std::abs(determinant);
     least_u -= steep * across.norm();

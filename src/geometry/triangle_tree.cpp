@@ -15,7 +15,7 @@ constexpr int kStackSize = 3 * 96 + 1;
 
 /// Nodes nearer than this times their radius are opened whatever the bound: the remainder's bound requires this
 /// distance.
-constexpr double kLeastAccuracy = 2.0;
+constexpr double kMinAccuracy = 2.0;
 
 struct Pending {
   double bound2;              ///< lower bound of the squared distance [m²]
@@ -154,7 +154,7 @@ double TriangleTree::windingNumber(const Vector3d& p, double accuracy) const {
 bool TriangleTree::inside(const Vector3d& p, Inside rule, std::size_t* visited) const {
   constexpr double kRounding = 1e-6;
   // Near an open mesh, bounds below one half decide; a little more accuracy mostly meets them at once.
-  const double accuracy = rule == Inside::kAboveHalf ? 2.5 : kLeastAccuracy;
+  const double accuracy = rule == Inside::kAboveHalf ? 2.5 : kMinAccuracy;
   BoundedNumber number;
   for (const double bound : {kInfinity, 5e-3, 5e-4, 5e-5, 0.0}) {
     number = boundedNumber(p, accuracy, bound);

@@ -10,7 +10,7 @@ namespace sdf_ccd {
 
 TriangleMesh loadOctomapSurface(const std::string& path, double& resolution) {
   try {
-    ReadMesh read = readApart("octomap", readRegularFile(path));
+    ReadMesh read = readSandboxed("octomap", readRegularFile(path));
     resolution = read.resolution;
     return std::move(read.mesh);
   } catch (const std::exception& error) {

@@ -56,7 +56,7 @@ std::string reasonOf(int status, const ReadLimits& limits) {
 
 }  // namespace
 
-ReadMesh readApart(const std::string& format, const std::string& bytes) {
+ReadMesh readSandboxed(const std::string& format, const std::string& bytes) {
   const ReadLimits limits = limitsOf(format, bytes.size());
   const std::string program = helperProgram("sdf_ccd_read", "SDF_CCD_READER");
   const Descriptor input = memoryFile(bytes);
@@ -69,7 +69,7 @@ ReadMesh readApart(const std::string& format, const std::string& bytes) {
     return count;
   };
   try {
-    return takeAnswer(source, limits);
+    return receiveAnswer(source, limits);
   } catch (const ChildProcess::Late&) {
     throw std::runtime_error(stopped(numberText(limits.wall_seconds) + " s"));
   }

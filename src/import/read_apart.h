@@ -16,6 +16,6 @@ struct ReadMesh {
 /// A crash of that process, or an invalid answer, becomes an exception.
 /// @param format  the ending of a mesh's file name, or `octomap`.
 /// @throws std::runtime_error with the reason, without the file's name; Cancelled.
-ReadMesh readApart(const std::string& format, const std::string& bytes);
+ReadMesh readSandboxed(const std::string& format, const std::string& bytes);
 
 }  // namespace sdf_ccd

@@ -8,7 +8,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
-constexpr std::uint64_t kLeast = 512 * kMiB;
+constexpr std::uint64_t kMin = 512 * kMiB;
 constexpr double kCpuSeconds = 5.0, kCpuSecondsPerMiB = 1.0;
 constexpr double kWallPerCpu = 6.0;  // allows for other load and for swapping
 
@@ -21,8 +21,8 @@ std::uint64_t computersMemory() {
 
 ReadLimits limitsOf(const std::string& format, std::uint64_t bytes) {
   ReadLimits limits;
-  limits.memory = format == "octomap" ? std::min(kLeast + 2000 * bytes, 6144 * kMiB) : kLeast + 32 * bytes;
-  limits.memory = std::min(limits.memory, std::max(kLeast, computersMemory() / 4 * 3));
+  limits.memory = format == "octomap" ? std::min(kMin + 2000 * bytes, 6144 * kMiB) : kMin + 32 * bytes;
+  limits.memory = std::min(limits.memory, std::max(kMin, computersMemory() / 4 * 3));
   limits.cpu_seconds = kCpuSeconds + kCpuSecondsPerMiB * static_cast<double>(bytes) / static_cast<double>(kMiB);
   limits.wall_seconds = kWallPerCpu * limits.cpu_seconds;
   return limits;

@@ -80,7 +80,7 @@ class AnswerReader {
 
 }  // namespace
 
-ReadMesh takeAnswer(const ByteSource& source, const ReadLimits& limits) {
+ReadMesh receiveAnswer(const ByteSource& source, const ReadLimits& limits) {
   return AnswerReader(source, limits).read();
 }
 

@@ -15,7 +15,7 @@ using ByteSource = std::function<std::size_t(char* to, std::size_t size)>;
 /// compromised. Memory grows only with the data received.
 /// @throws std::runtime_error with the error that the answer holds, or why the answer is invalid; exceptions of the
 /// source.
-ReadMesh takeAnswer(const ByteSource& source, const ReadLimits& limits);
+ReadMesh receiveAnswer(const ByteSource& source, const ReadLimits& limits);
 
 /// The message for exceeded memory limits.
 std::string tooMuchMemory(const ReadLimits& limits);

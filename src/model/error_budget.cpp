@@ -18,7 +18,7 @@ constexpr double kMinError = 1e-9;  // [m]: rounding adds up to more
 
 }  // namespace
 
-ErrorBudget shareOut(double max_error) {
+ErrorBudget divideErrorBudget(double max_error) {
   if (!(max_error > 0.0) || !std::isfinite(max_error))
     throw std::invalid_argument("max_error must be positive, not " + numberText(max_error) + " m");
   if (max_error < kMinError)

@@ -24,6 +24,6 @@ struct ErrorBudget {
 /// and 0.1 to 3.2 MB. So time favours a larger share for the field and memory one for the shell, and neither
 /// changes fast around equal shares: at 55 to 35 a time of 8/e + 1/g is 7 % above its minimum, a memory of 1/e +
 /// 3/g 25 %.
-ErrorBudget shareOut(double max_error);
+ErrorBudget divideErrorBudget(double max_error);
 
 }  // namespace sdf_ccd

@@ -51,7 +51,7 @@ std::string megabytes(double bytes) {
 /// The limit that the cost certainly exceeds; empty if there is none.
 std::string exceededLimit(const SceneCost& cost, const BodyOptions& options) {
   if (cost.bytes > machineBytes()) return "this machine has " + megabytes(machineBytes());
-  if (!options.is_shared_out) return "";  // building will name the bodies whose settings exceed a limit
+  if (!options.divides_max_error) return "";  // building will name the bodies whose settings exceed a limit
   const auto most_bytes = static_cast<double>(options.field.max_bytes);
   const auto most_points = static_cast<double>(options.shell.max_points);
   for (const BodyCost& body : cost.bodies) {
@@ -70,8 +70,8 @@ std::string exceededLimit(const SceneCost& cost, const BodyOptions& options) {
 void requireAffordable(const SceneCost& cost, const BodyOptions& options) {
   const std::string limit = exceededLimit(cost, options);
   if (limit.empty()) return;
-  const std::string what =
-      options.is_shared_out ? "a max_error of " + numberText(*options.max_error) + " m" : "such fine fields and shells";
+  const std::string what = options.divides_max_error ? "a max_error of " + numberText(*options.max_error) + " m"
+                                                     : "such fine fields and shells";
   throw std::length_error(what + " would take " + summary(cost) + "; " + limit);
 }
 

@@ -24,7 +24,7 @@ constexpr double kUp = 1.0 + 0x1p-22;
 constexpr double kNoise = 0x1p-19;  // 32 u
 
 /// Lengths below this have squares that underflow in single precision.
-constexpr double kLeast = 1e-18;  // [m]
+constexpr double kMin = 1e-18;  // [m]
 
 /// Bitwise equality.
 bool same(const Isometry3d& a, const Isometry3d& b) {
@@ -39,12 +39,12 @@ bool same(const Isometry3d& a, const Isometry3d& b) {
 }
 
 /// Upper bound of the norm, without a square root.
-double normAbove(const Vector3d& v) {
+double normUpperBound(const Vector3d& v) {
   return v.lpNorm<1>();
 }
 
 /// Upper bound of poseDefect(), without a square root.
-double defectAbove(const Isometry3d& X_WB) {
+double defectUpperBound(const Isometry3d& X_WB) {
   const auto column = [&](int k) { return X_WB.matrix().col(k).head<3>(); };
   const auto product = [&](int i, int k) { return std::abs(column(i).dot(column(k)) - (i == k ? 1.0 : 0.0)); };
   return product(0, 0) + product(1, 1) + product(2, 2) + 2.0 * (product(0, 1) + product(1, 2) + product(2, 0)) +
@@ -108,7 +108,7 @@ BodyTwists::BodyTwists(const Scene& scene)
   for (const PlannedPair& pair : scene.pairs)
     for (const int body : {pair.body_a, pair.body_b}) ++pairs[static_cast<std::size_t>(body)];
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    is_open_[b] = !ballHolds(scene.bodies[b]);
+    is_open_[b] = !ballContainsBody(scene.bodies[b]);
     lose(b);
     if (pairs[b] == 0 || !scene.bodies[b].failure.empty()) continue;
     if (paired_.empty() || pairs[b] > pairs[anchor_]) anchor_ = b;
@@ -204,10 +204,10 @@ bool BodyTwists::enter(std::size_t b, const Isometry3d& X_WB) {
   constexpr double kDefect = 0.9e-6;  // ScrewMotion takes a little more
   body.X_WB = X_WB;
   body.center_W = X_WB * scene_.bodies[b].ball.center;
-  body.defect = defectAbove(X_WB);
+  body.defect = defectUpperBound(X_WB);
   // False for NaN too, which makes the centre NaN. end() excludes reflections, where a body is not yet followed.
   body.is_known = body.defect < kDefect && X_WB.translation().cwiseAbs().maxCoeff() <= kFarthestPose &&
-                  normAbove(body.center_W) < std::numeric_limits<double>::infinity();
+                  normUpperBound(body.center_W) < std::numeric_limits<double>::infinity();
   return body.is_known;
 }
 
@@ -246,8 +246,8 @@ void BodyTwists::move(std::size_t b, const Isometry3d& X_WB) {
   body.tilt = std::max(body.tilt, body.defect);
   body.rounding = std::max(body.rounding, poseRounding(X_WB));
   twist.turn_noise = 16.0 * body.tilt;  // bound for cross products of rotations that are not exactly orthonormal
-  twist.shift_noise =
-      0x1p-48 * (normAbove(X_start.translation()) + normAbove(X_WB.translation()) + normAbove(ball.center));
+  twist.shift_noise = 0x1p-48 * (normUpperBound(X_start.translation()) + normUpperBound(X_WB.translation()) +
+                                 normUpperBound(ball.center));
   write(b, twist);
 }
 
@@ -260,12 +260,12 @@ void BodyTwists::write(std::size_t b, const Twist& twist) {
     at(TwistRow::kVelocity, b, k) = static_cast<float>(twist.velocity[k]);
     at(TwistRow::kPoint, b, k) = static_cast<float>(point[k]);
   }
-  const double far = normAbove(point) + twist.reach + twist.shift + normAbove(scene_.bodies[b].ball.center);
+  const double far = normUpperBound(point) + twist.reach + twist.shift + normUpperBound(scene_.bodies[b].ball.center);
   body.farthest = std::max(body.farthest, far);
   at(TwistRow::kReach, b) = up(twist.reach);
   at(TwistRow::kOpen, b) = is_open_[b] ? std::numeric_limits<float>::infinity() : 0.0F;
-  at(TwistRow::kTurnNoise, b) = up(kNoise * normAbove(twist.omega) + twist.turn_noise);
-  at(TwistRow::kShiftNoise, b) = up(kNoise * normAbove(twist.velocity) + twist.shift_noise + kLeast);
+  at(TwistRow::kTurnNoise, b) = up(kNoise * normUpperBound(twist.omega) + twist.turn_noise);
+  at(TwistRow::kShiftNoise, b) = up(kNoise * normUpperBound(twist.velocity) + twist.shift_noise + kMin);
   at(TwistRow::kFar, b) = up(far);
   at(TwistRow::kFarthest, b) = up(body.farthest);
   // The motion error of a half-space holds within kHalfSpaceRadius and grows in proportion to the distance beyond.

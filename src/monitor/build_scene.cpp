@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 class Pace {
  public:
   Pace(const SceneDescription& description, const SceneCost* expected) {
-    constexpr double kLeast = 1e-3;  // of any body [s]
+    constexpr double kMin = 1e-3;  // of any body [s]
     std::unordered_map<std::string, const BodyCost*> costs;
     if (expected)
       for (const BodyCost& cost : expected->bodies) costs[cost.name] = &cost;
@@ -32,7 +32,7 @@ class Pace {
       const bool known = found != costs.end();
       fields_.push_back(known ? found->second->field_seconds : expected ? 0.0 : 1.0);
       before_.push_back(all_);
-      all_ += (known ? found->second->seconds : fields_.back()) + kLeast;
+      all_ += (known ? found->second->seconds : fields_.back()) + kMin;
     }
   }
 
@@ -125,7 +125,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     scene.reports.push_back(std::move(built.report));
   }
   for (const PlannedPair& pair : scene.pairs) {
-    if (!mayHoldNothing(bodies[pair.body_a]) && !mayHoldNothing(bodies[pair.body_b])) continue;
+    if (!isInsideUncertain(bodies[pair.body_a]) && !isInsideUncertain(bodies[pair.body_b])) continue;
     for (const int i : {pair.body_a, pair.body_b}) {
       Body& body = bodies[i];
       if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);

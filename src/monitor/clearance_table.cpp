@@ -112,7 +112,7 @@ void addTravel(const ScanArrays& s) {
 /// Sets `slack` to what remains after the error, and `budget` for the pairs that are not due. @return the largest error
 /// and its slot.
 SDF_CCD_LANES
-QuietPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
+SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
   Floats best = Floats{} - 1.0F;
   Ints best_block = {};
   const Floats zero = {};
@@ -141,7 +141,7 @@ QuietPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_block
     found += quiet_lanes != -kFloatWidth;
   }
   *due_count = found;
-  QuietPairs quiet;
+  SkippedPairs quiet;
   for (int lane = 0; lane < kFloatWidth; ++lane) {
     if (!(best[lane] > quiet.error)) continue;
     quiet.error = best[lane];
@@ -200,12 +200,12 @@ void ClearanceTable::advance(const BodyTwists& bodies) {
   has_spent_ = true;
 }
 
-QuietPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePair>& due) {
+SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePair>& due) {
   due.clear();
   std::size_t count = 0;
-  QuietPairs quiet = scanPairs({bodies.row(TwistRow::kOmega), bodies.stride(), &blocks_.data()->body_a, blocks_.size(),
-                                budget_.data(), spent_.data(), slack_.data(), error_.data()},
-                               has_spent_, due_blocks_.data(), &count);
+  SkippedPairs quiet = scanPairs({bodies.row(TwistRow::kOmega), bodies.stride(), &blocks_.data()->body_a,
+                                  blocks_.size(), budget_.data(), spent_.data(), slack_.data(), error_.data()},
+                                 has_spent_, due_blocks_.data(), &count);
   if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
   has_spent_ = false;
   if (quiet.pair >= 0) quiet.pair = pairs_[static_cast<std::size_t>(quiet.pair)];

@@ -16,7 +16,7 @@ struct DuePair {
 };
 
 /// Summary of a scan over the pairs that are not due.
-struct QuietPairs {
+struct SkippedPairs {
   float error = -1.0F;  ///< their largest error bound [m]; negative if there are none
   int pair = -1;        ///< the pair with that bound
 };
@@ -70,7 +70,7 @@ class ClearanceTable {
   /// The same for the last step. Pairs are due if their budget is used up, or if one of their bodies is not followed;
   /// their budgets stay as they were at the cycle's start.
   /// @param due  receives the due pairs, the most urgent first; its memory is reused.
-  QuietPairs finish(const BodyTwists& bodies, std::vector<DuePair>& due);
+  SkippedPairs finish(const BodyTwists& bodies, std::vector<DuePair>& due);
 
  private:
   struct Block {

@@ -6,7 +6,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kMostPieces = 20000;  // takes some tens of milliseconds
+constexpr int kMaxPieces = 20000;  // takes some tens of milliseconds
 
 bool canBeMeasured(const Body& body) {
   return body.triangles && !body.triangles->solids.empty();
@@ -108,7 +108,7 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
       ways.emplace_back(&direction, motion);
     }
   }
-  search.run(kMostPieces);
+  search.run(kMaxPieces);
   ContactPoint point = result.deepest;
   if (search.found()) {
     const DeepestPoint& found = search.deepest();

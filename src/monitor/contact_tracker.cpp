@@ -120,7 +120,7 @@ void ContactTracker::adopt(Change& change) {
     if (contact.is_open) {
       close(contact, true);
       list(static_cast<int>(i));
-      contact.is_unsaid = true;
+      contact.is_unreported = true;
     }
     if (!contact.is_listed) free_.push_back(static_cast<int>(i));
   }
@@ -132,26 +132,26 @@ void ContactTracker::settle() {
   for (const int slot : listed_) {
     Slot& contact = contacts_[slot];
     contact.said.begins = false;
-    if (contact.is_unsaid) {
-      unsaid_.push_back(slot);
+    if (contact.is_unreported) {
+      unreported_.push_back(slot);
       continue;
     }
     contact.said.ends = false;
     contact.is_listed = contact.is_open;
     if (!contact.is_open && (contact.group < 0 || last_[contact.group] != slot)) free_.push_back(slot);
   }
-  const auto isOver = [&](int slot) { return !contacts_[slot].is_listed || contacts_[slot].is_unsaid; };
+  const auto isOver = [&](int slot) { return !contacts_[slot].is_listed || contacts_[slot].is_unreported; };
   listed_.erase(std::remove_if(listed_.begin(), listed_.end(), isOver), listed_.end());
 }
 
-void ContactTracker::sayUnsaid() {
-  for (const int slot : unsaid_) contacts_[slot].is_unsaid = false;
-  listed_.insert(listed_.end(), unsaid_.begin(), unsaid_.end());
-  unsaid_.clear();
+void ContactTracker::reportPending() {
+  for (const int slot : unreported_) contacts_[slot].is_unreported = false;
+  listed_.insert(listed_.end(), unreported_.begin(), unreported_.end());
+  unreported_.clear();
 }
 
 void ContactTracker::lose() {
-  sayUnsaid();
+  reportPending();
   for (const int slot : listed_) {
     if (contacts_[slot].is_open) close(contacts_[slot], true);
   }
@@ -159,7 +159,7 @@ void ContactTracker::lose() {
   std::fill(last_.begin(), last_.end(), -1);
   for (const int slot : listed_) {
     contacts_[slot].group = -1;
-    contacts_[slot].is_unsaid = false;
+    contacts_[slot].is_unreported = false;
   }
   free_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -169,28 +169,28 @@ void ContactTracker::lose() {
 
 void ContactTracker::update(const ObservedCycle& cycle) {
   settle();
-  sayUnsaid();
+  reportPending();
   ++cycle_;
-  stays_.clear();
+  touches_.clear();
   if (cycle.result.verdict != Verdict::kClear) {
     for (std::size_t i = 0; i < groups_.of_pair.size(); ++i) {
       const PairResult& pair = cycle.result.pairs[i];
       if (pair.span.empty()) continue;
       for (std::size_t k = 0; k < pair.intervals.size(); ++k)
-        stays_.push_back({groups_.of_pair[i], pair.intervals[k].enter, static_cast<int>(i), static_cast<int>(k)});
+        touches_.push_back({groups_.of_pair[i], pair.intervals[k].enter, static_cast<int>(i), static_cast<int>(k)});
     }
-    std::sort(stays_.begin(), stays_.end(), [](const Stay& a, const Stay& b) {
+    std::sort(touches_.begin(), touches_.end(), [](const TouchInterval& a, const TouchInterval& b) {
       return std::tie(a.group, a.enter, a.pair, a.interval) < std::tie(b.group, b.enter, b.pair, b.interval);
     });
   }
-  for (const Stay& stay : stays_) takeStay(cycle, stay);
+  for (const TouchInterval& stay : touches_) addTouch(cycle, stay);
   if (open_ == 0) return;
   for (const int slot : listed_) {
     if (contacts_[slot].is_open) closeIfOver(cycle, contacts_[slot]);
   }
 }
 
-void ContactTracker::takeStay(const ObservedCycle& cycle, const Stay& stay) {
+void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& stay) {
   const PairResult& pair = cycle.result.pairs[stay.pair];
   const Interval& interval = pair.intervals[stay.interval];
   const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
@@ -261,7 +261,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
     free_.push_back(static_cast<int>(contacts_.size()));
     contacts_.emplace_back();
     free_.reserve(contacts_.capacity());
-    unsaid_.reserve(contacts_.capacity());
+    unreported_.reserve(contacts_.capacity());
   }
   const int index = free_.back();
   free_.pop_back();

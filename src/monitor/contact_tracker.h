@@ -110,32 +110,32 @@ class ContactTracker {
     int group = -1;        // group of pairs; −1: free
     bool is_open = false;  // it has not ended
     bool is_listed = false;
-    bool is_unsaid = false;  // it ended with its world, and no cycle has come since
+    bool is_unreported = false;  // it ended with its world, and no cycle has come since
     bool has_deepest = false;
     double reach = 0.0;       // where refined: upper bound of the depth [m]
     std::uint64_t cycle = 0;  // last cycle in which it was seen
   };
 
-  struct Stay {  // one interval of a pair in a cycle
+  struct TouchInterval {  // one interval of a pair in a cycle
     int group;
     double enter;  // [s]
     int pair, interval;
   };
 
-  void takeStay(const ObservedCycle& cycle, const Stay& stay);
+  void addTouch(const ObservedCycle& cycle, const TouchInterval& stay);
   void closeIfOver(const ObservedCycle& cycle, Slot& slot);
   Slot& slotFor(std::size_t group, Time start, Time end);
   void close(Slot& slot, bool is_lost);
   void list(int slot);
-  void sayUnsaid();
+  void reportPending();
 
   Groups groups_;
   std::vector<int> last_;  // per group: slot of its last contact; −1: none
   std::vector<Slot> contacts_;
   std::vector<int> free_;
   std::vector<int> listed_;
-  std::vector<int> unsaid_;  // to be listed with the next cycle
-  std::vector<Stay> stays_;  // of the cycle
+  std::vector<int> unreported_;         // to be listed with the next cycle
+  std::vector<TouchInterval> touches_;  // of the cycle
   std::size_t open_ = 0;
   std::uint64_t next_id_ = 1;
   std::uint64_t cycle_ = 0;

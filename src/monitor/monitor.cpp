@@ -153,8 +153,8 @@ Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& optio
     throw std::invalid_argument("monitor: chord tolerance " + numberText(options.chords.tolerance) + " m");
   if (options.chords.max_chords < 1)
     throw std::invalid_argument("monitor: max_chords " + std::to_string(options.chords.max_chords));
-  if (!(options.max_error >= kLeastMaxError && options.max_error <= kLargestMaxError))
-    throw std::invalid_argument("monitor: max_error must be from " + numberText(kLeastMaxError) + " to " +
+  if (!(options.max_error >= kMinMaxError && options.max_error <= kLargestMaxError))
+    throw std::invalid_argument("monitor: max_error must be from " + numberText(kMinMaxError) + " to " +
                                 numberText(kLargestMaxError) + " m, not " + numberText(options.max_error));
   if (!scene) throw std::invalid_argument("monitor: no scene");
   impl_ = std::make_unique<Impl>(std::move(scene), options, memory ? std::move(memory) : makeMonitorMemory());
@@ -280,8 +280,8 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
 void Monitor::Impl::summarise() {
   CycleSummary summary(result);
   for (const DuePair& due : schedule->due()) summary.add(result.pairs[static_cast<std::size_t>(due.pair)]);
-  const int worst = schedule->worstQuiet();
-  summary.addSkipped(schedule->quietCount(), worst < 0 ? ErrorBound() : errorOf(worst));
+  const int worst = schedule->worstSkipped();
+  summary.addSkipped(schedule->skippedCount(), worst < 0 ? ErrorBound() : errorOf(worst));
   summary.finish();
 }
 

@@ -75,7 +75,7 @@ std::string overBudget(const Scene& scene) {
     if (hasTriangles(scene, pair)) continue;
     const double total = pairBound(scene, pair).total() + scene.motion_margin;
     if (total <= *scene.max_error) continue;
-    for (const Reason& reason : reasons(scene, pair, shareOut(*scene.max_error))) {
+    for (const Reason& reason : reasons(scene, pair, divideErrorBudget(*scene.max_error))) {
       auto& known = largest[reason.key];
       if (total > known.first) known = {total, reason.text};
     }

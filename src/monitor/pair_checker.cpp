@@ -55,8 +55,8 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
       pair_(pair),
       siblings_(siblings),
       options_(options),
-      balls_hold_(ballHolds(scene.bodies[pair.body_a]) && ballHolds(scene.bodies[pair.body_b])),
-      open_(mayHoldNothing(scene.bodies[pair.body_a]) || mayHoldNothing(scene.bodies[pair.body_b])) {
+      balls_contain_bodies_(ballContainsBody(scene.bodies[pair.body_a]) && ballContainsBody(scene.bodies[pair.body_b])),
+      open_(isInsideUncertain(scene.bodies[pair.body_a]) || isInsideUncertain(scene.bodies[pair.body_b])) {
   const auto addRole = [&](int shell, int field, ShellPurpose purpose) {
     PairRole role(scene, shell, field, purpose);
     if (role.shell().size() > 0 && !scene.bodies[field].parts.empty()) roles_.push_back(role);
@@ -100,7 +100,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   clear(result);
   if (!canBeChecked(motion, bodies, result)) return;
   double apart = kUnknown;
-  if (balls_hold_) {
+  if (balls_contain_bodies_) {
     apart = ballClearance(bodies, result.span);
     motion_error_ = 0.0;
     for (const int body : {pair_.body_a, pair_.body_b}) {
@@ -116,7 +116,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   motion_error_ += givenError(motion);
   result.error = bound();
   result.error.chord = motion_error_;
-  if (balls_hold_ && apart > margin() + motion_error_) {
+  if (balls_contain_bodies_ && apart > margin() + motion_error_) {
     remember(apart, motion.X_WB[pair_.body_a][result.span.last], motion.X_WB[pair_.body_b][result.span.last]);
     setClear(apart, result);
     result.skipped = outside_ = true;
@@ -237,7 +237,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     setRoles(bodies, result.span);
     motion_error_ += given_error;
     setError(bound_, kRootTolerance * travel_, result);
-  } else if (clearFromAfar(margin, result)) {
+  } else if (isClearByBalls(margin, result)) {
     return doubt(result);
   }
 
@@ -333,7 +333,7 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
 }
 
 /// Whether the ball of one role's shell alone proves that the bodies stay apart.
-bool PairChecker::clearFromAfar(double margin, PairResult& result) {
+bool PairChecker::isClearByBalls(double margin, PairResult& result) {
   for (const PairRole& role : roles_) {
     const RelativeMotion& motion = role.motion();
     if (!role.ballHoldsBody() || !(role.ballClearance(motion.start()) - motion.travel() > margin)) continue;
@@ -354,8 +354,8 @@ void PairChecker::cutRoles(PairResult& result) {
 std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const {
   const bool b_has_fields = !scene_.bodies[pair_.body_b].parts.empty();
   const int a = b_has_fields ? pair_.body_a : pair_.body_b, b = b_has_fields ? pair_.body_b : pair_.body_a;
-  constexpr std::size_t kMostTimes = 8;
-  const std::size_t stride = (span.last - span.first) / kMostTimes + 1;
+  constexpr std::size_t kMaxTimes = 8;
+  const std::size_t stride = (span.last - span.first) / kMaxTimes + 1;
   for (std::size_t back = 0; back <= span.last - span.first; back += stride) {
     const std::size_t waypoint = span.last - back;
     const Isometry3d &X_WA = motion.X_WB[a][waypoint], &X_WB = motion.X_WB[b][waypoint];

@@ -90,7 +90,7 @@ class PairChecker {
   bool isCertain(const PairResult& result) const;
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
-  bool clearFromAfar(double margin, PairResult& result);
+  bool isClearByBalls(double margin, PairResult& result);
   double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;
   void cutRoles(PairResult& result);
   std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const;
@@ -102,7 +102,7 @@ class PairChecker {
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
   std::vector<PairRole> roles_;                  // one to four
-  bool balls_hold_;                              // the bodies' balls contain all of them
+  bool balls_contain_bodies_;                    // the bodies' balls contain all of them
   bool open_;                                    // a point inside some field may be outside its body
   std::optional<SurfacePair> surfaces_;          // if both bodies have triangles
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles

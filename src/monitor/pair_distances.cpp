@@ -47,7 +47,7 @@ void PairDistances::forget() {
   if (is_empty_) return;
   for (Pair& pair : pairs_) {
     pair.is_known = pair.is_near = false;
-    pair.known_within = kNowhere;
+    pair.known_within = kNotMeasured;
   }
   near_.clear();
   is_empty_ = true;
@@ -85,7 +85,7 @@ const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion
       has_unknown_ |= !known.is_near && known.known_within < range;
     } else if (pair.verdict == Verdict::kNotChecked) {
       known.is_near = known.is_known = false;
-      known.known_within = kNowhere;
+      known.known_within = kNotMeasured;
     } else {
       measure(i, motion, pair, range, record);
       known.known_within = range;
@@ -131,7 +131,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
     found.normal_W = result.deepest.normal_W;
     pair.is_known = false;
   } else {
-    pair.is_known = ballHolds(scene_->bodies[result.body_b]);  // stored for isFar(), which moves body B's ball
+    pair.is_known = ballContainsBody(scene_->bodies[result.body_b]);  // stored for isFar(), which moves body B's ball
     pair.at_least = is_within ? found.distance - found.error : range;
     pair.X_FP = X_AB;
     if (!is_within) return;
@@ -218,7 +218,7 @@ bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is
 
 /// Motion over the last step. P is the body whose ball contains it: the ball of a half-space does not.
 PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const {
-  const bool f_is_a = ballHolds(scene_->bodies[body_b]);
+  const bool f_is_a = ballContainsBody(scene_->bodies[body_b]);
   const auto &X_WF = motion.X_WB[f_is_a ? body_a : body_b], &X_WP = motion.X_WB[f_is_a ? body_b : body_a];
   return {f_is_a, relativePose(X_WF[last - 1], X_WP[last - 1]), relativePose(X_WF[last], X_WP[last]),
           scene_->bodies[f_is_a ? body_b : body_a].ball};

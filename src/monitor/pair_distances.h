@@ -70,10 +70,10 @@ class PairDistances {
   void take(PairDistances& before, const std::vector<int>& pairs_now);
 
  private:
-  static constexpr double kNowhere = -1.0;  // below any range
+  static constexpr double kNotMeasured = -1.0;  // below any range
 
   struct Pair {
-    double known_within = kNowhere;  // range of the last measurement [m]; kNowhere: not measured
+    double known_within = kNotMeasured;  // range of the last measurement [m]; kNotMeasured: not measured
     bool is_known = false;
     double at_least = 0.0;  // lower bound of the distance at X_FP [m]; valid if is_known
     Isometry3d X_FP = Isometry3d::Identity();

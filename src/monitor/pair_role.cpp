@@ -15,7 +15,7 @@ PairRole::PairRole(const Scene& scene, int shell_body, int field_body, ShellPurp
       shell_(purpose == ShellPurpose::kWitnesses ? &*shell_body_->witnesses : &*shell_body_->shell),
       tree_(purpose == ShellPurpose::kWitnesses ? &*shell_body_->witness_tree : &*shell_body_->tree),
       purpose_(purpose),
-      ball_holds_body_(ballHolds(*shell_body_)),
+      ball_holds_body_(ballContainsBody(*shell_body_)),
       motion_(scene, field_body, shell_body) {}
 
 void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory) {
@@ -24,7 +24,7 @@ void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span, Ro
 }
 
 double PairRole::fieldErrorScale() const {
-  if (ballHolds(*field_body_)) return 1.0;
+  if (ballContainsBody(*field_body_)) return 1.0;
   return std::max(1.0, motion_.reach() / kHalfSpaceRadius);
 }
 

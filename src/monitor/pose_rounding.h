@@ -22,7 +22,7 @@ inline double poseRounding(const Isometry3d& X_WB) {
 }
 
 /// Whether the body's ball contains all of it; false for a body with a half-space.
-inline bool ballHolds(const Body& body) {
+inline bool ballContainsBody(const Body& body) {
   return std::all_of(body.parts.begin(), body.parts.end(),
                      [](const BodyPart& part) { return part.field.surfaceBox().sizes().allFinite(); });
 }

@@ -82,8 +82,8 @@ class CostEstimate {
     // A build that exceeds the limit ends there, and a coarser field is built instead.
     const auto most = static_cast<double>(field.max_bytes);
     double one_thread = 0.0;
-    constexpr int kMostCoarser = 40;
-    for (int i = 0; i < kMostCoarser && options_.is_shared_out && field.max_error && expected.bytes > most &&
+    constexpr int kMaxCoarser = 40;
+    for (int i = 0; i < kMaxCoarser && options_.divides_max_error && field.max_error && expected.bytes > most &&
                     expected.bytes < kHopeless * most;
          ++i) {
       one_thread += expected.seconds * most / expected.bytes;

@@ -25,10 +25,10 @@ class Schedule {
   /// Whether all pairs are checked over the whole cycle that was processed last.
   bool isAllWhole() const { return all_whole_; }
   const std::vector<DuePair>& due() const { return due_; }
-  int quietCount() const { return static_cast<int>(scene_.pairs.size() - due_.size()); }
+  int skippedCount() const { return static_cast<int>(scene_.pairs.size() - due_.size()); }
 
   /// The pair with the largest error bound among those that are not due; −1 if all are due.
-  int worstQuiet() const { return quiet_.pair; }
+  int worstSkipped() const { return quiet_.pair; }
 
   /// For a pair that is not due: upper bound of the motion's part of its error, and lower bound of its distance at the
   /// cycle's end [m].
@@ -65,7 +65,7 @@ class Schedule {
   BodyTwists bodies_;
   ClearanceTable table_;
   std::vector<DuePair> due_;
-  QuietPairs quiet_;
+  SkippedPairs quiet_;
   std::vector<char> is_paired_;  // per body: it is in a pair; swapped with is_whole_ by take()
   std::vector<char> is_whole_;   // per body: a pair of it is checked over the whole cycle
   bool all_whole_ = false;

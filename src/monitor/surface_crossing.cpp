@@ -22,8 +22,8 @@ class PointWalk {
   /// @param direction  of time, 1 or −1.
   bool reaches(int side, int chord, double s, int direction) {
     setChord(chord);
-    constexpr int kMostSteps = 64;
-    for (int i = 0; i < kMostSteps; ++i) {
+    constexpr int kMaxSteps = 64;
+    for (int i = 0; i < kMaxSteps; ++i) {
       const Vector3d p = start_ + s * way_;
       const FieldSample sample = field_.sample(p);
       const double error = sample.error + path_error_, beyond = side * sample.value;
@@ -91,11 +91,11 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
   const double size =
       box_a.min().norm() + box_a.sizes().norm() + box_b.min().norm() + box_b.sizes().norm() + X_BA.translation().norm();
   const double error = pose_error + a.surface->deviation + b.surface->deviation + 1e-12 * size;
-  constexpr int kMostTests = 100000;
+  constexpr int kMaxTests = 100000;
   int tests = 0;
   CancelTicks<> cancel;
   std::optional<SurfaceCrossing> found;
-  const auto done = [&] { return found || tests > kMostTests; };
+  const auto done = [&] { return found || tests > kMaxTests; };
   const auto test = [&](const Corners& t_A, int triangle_b) {
     ++tests;
     const Corners t_B = cornersOf(b.surface->mesh, triangle_b);
@@ -118,7 +118,7 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
   return found;
 }
 
-bool mayHoldNothing(const Body& body) {
+bool isInsideUncertain(const Body& body) {
   return body.doubtful || std::any_of(body.parts.begin(), body.parts.end(),
                                       [](const BodyPart& part) { return part.field.openings() != nullptr; });
 }

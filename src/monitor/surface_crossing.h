@@ -35,6 +35,6 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
 
 /// Whether a point inside the body's fields may be outside the body: a field has openings, or the inside of a mesh is
 /// doubtful.
-bool mayHoldNothing(const Body& body);
+bool isInsideUncertain(const Body& body);
 
 }  // namespace sdf_ccd

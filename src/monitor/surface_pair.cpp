@@ -107,9 +107,9 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
 void SurfacePair::lookCloser(const BoxTree& f, const BoxTree& p, std::size_t step, SeparationOptions options,
                              SeparationWitness& witness, SeparationMemory& memory, Separation& found) const {
   constexpr double kFiner = 0.02;
-  constexpr int kMostTests = 2000;
+  constexpr int kMaxTests = 2000;
   options.resolution *= kFiner;
-  options.max_tests = std::min(kMostTests, options.max_tests - found.tests);
+  options.max_tests = std::min(kMaxTests, options.max_tests - found.tests);
   if (options.max_tests <= 0) return;
   const Separation closer = separation(f, p, motion_.motion(step), options, witness, memory);
   const int tests = found.tests + closer.tests;
@@ -133,7 +133,7 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) c
 
 std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr int kMostHalvings = 60;
+  constexpr int kMaxHalvings = 60;
   const BoxTree &f = field_->triangles->tree, &p = shell_->triangles->tree;
   SeparationOptions options;
   // Poses within a step differ from the step's own by rounding.
@@ -157,7 +157,7 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
     if (found.state == SeparationState::kApart) continue;
     double apart = 0.0, end = 1.0, crossing = kInfinity;  // apart until; not known apart at; crossing at
     if (found.state == SeparationState::kCrossing) end = crossing = found.s;
-    for (int i = 0; !touch && i < kMostHalvings && (end - apart) * motion_.bounds(step).travel > resolution_; ++i) {
+    for (int i = 0; !touch && i < kMaxHalvings && (end - apart) * motion_.bounds(step).travel > resolution_; ++i) {
       const double middle = 0.5 * (apart + end);
       const Separation part = over(step, apart, middle);
       if (part.state == SeparationState::kApart) {

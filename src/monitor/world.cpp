@@ -218,7 +218,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   };
   for (std::size_t b = 0; b < count; ++b) prepare(b);
   for (std::size_t b = 0; b < count; ++b) prepare(b);  // a body of equal geometry may have replaced one since
-  const auto isOpen = [&](int b) { return prepared[b] && mayHoldNothing(*prepared[b]->body); };
+  const auto isOpen = [&](int b) { return prepared[b] && isInsideUncertain(*prepared[b]->body); };
   for (const PlannedPair& pair : plan.pairs) {
     if (!isOpen(pair.body_a) && !isOpen(pair.body_b)) continue;
     for (const int b : {pair.body_a, pair.body_b}) {

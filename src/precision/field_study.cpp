@@ -52,7 +52,7 @@ struct ExactDepths {
 
   ExactDepths(const ExactSurface& mesh, int count) {
     const double deepest = kDeepest * sideOf(mesh.mesh());
-    const SurfacePlaces surface(mesh.mesh());
+    const SurfaceSampler surface(mesh.mesh());
     Random random(2);
     for (int tries = 0; int(points.size()) < count; ++tries) {
       if (tries > 1000 * count) throw std::runtime_error("no point is inside the mesh");

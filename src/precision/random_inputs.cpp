@@ -31,17 +31,17 @@ Matrix3d rotation(Random& random) {
   return Quaterniond(v * std::sin(a), v * std::cos(a), w * std::sin(b), w * std::cos(b)).toRotationMatrix();
 }
 
-SurfacePlaces::SurfacePlaces(const TriangleMesh& mesh) : mesh_(mesh) {
+SurfaceSampler::SurfaceSampler(const TriangleMesh& mesh) : mesh_(mesh) {
   double sum = 0.0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) areas_.push_back(sum += areaNormal(mesh, int(i)).norm());
 }
 
-int SurfacePlaces::triangle(Random& random) const {
+int SurfaceSampler::triangle(Random& random) const {
   const auto at = std::upper_bound(areas_.begin(), areas_.end() - 1, uniform(random, 0.0, areas_.back()));
   return int(at - areas_.begin());
 }
 
-Vector3d SurfacePlaces::place(Random& random, int triangle) const {
+Vector3d SurfaceSampler::place(Random& random, int triangle) const {
   const Vector3i& t = mesh_.triangles[triangle];
   const double r = std::sqrt(uniform(random, 0.0, 1.0)), s = uniform(random, 0.0, 1.0);
   return (1.0 - r) * mesh_.vertices[t[0]] + r * ((1.0 - s) * mesh_.vertices[t[1]] + s * mesh_.vertices[t[2]]);

@@ -21,10 +21,10 @@ Vector3d direction(Random& random);
 Matrix3d rotation(Random& random);
 
 /// Draws independent points on a mesh's surface, uniform by area.
-class SurfacePlaces {
+class SurfaceSampler {
  public:
   /// @param mesh  must outlive this.
-  explicit SurfacePlaces(const TriangleMesh& mesh);
+  explicit SurfaceSampler(const TriangleMesh& mesh);
 
   Vector3d operator()(Random& random) const { return place(random, triangle(random)); }
 

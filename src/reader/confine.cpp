@@ -95,7 +95,7 @@ constexpr bool kSanitized = false;
 
 }  // namespace
 
-void leaveHost() {
+void detachFromHost() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
   struct pollfd answer = {STDOUT_FILENO, 0, 0};
   if (::poll(&answer, 1, 0) > 0 && (answer.revents & POLLERR)) ::_exit(0);  // the host ended before the prctl() call

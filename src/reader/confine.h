@@ -4,8 +4,8 @@
 
 namespace sdf_ccd {
 
-/// Drops all privileges that reading does not need. Call it, after leaveHost(), before this process looks at untrusted
-/// data.
+/// Drops all privileges that reading does not need. Call it, after detachFromHost(), before this process looks at
+/// untrusted data.
 ///
 /// Afterwards the process has only stdin, stdout and stderr open; it cannot exceed the memory, CPU time and stack of
 /// the limits; it cannot open files or sockets, start processes, threads or programs, write to regular files, dump
@@ -18,6 +18,6 @@ void confine(const ReadLimits& limits);
 
 /// The part of the confinement that needs no limits, to be called first: closes all files but stdin, stdout and stderr,
 /// and lets this process be killed with the host, and first when memory is short.
-void leaveHost();
+void detachFromHost();
 
 }  // namespace sdf_ccd

@@ -22,7 +22,7 @@ TriangleMesh parse(const std::string& bytes, const std::string& format) {
 
 }  // namespace
 
-TriangleMesh parseMeshHere(const std::string& bytes, const std::string& format) {
+TriangleMesh parseMeshUnconfined(const std::string& bytes, const std::string& format) {
   if (bytes.empty()) throw std::runtime_error("empty");
   TriangleMesh mesh = welded(parse(bytes, format));
   validate(mesh);

@@ -10,6 +10,6 @@ namespace sdf_ccd {
 /// other code calls parseMesh(), which runs that program.
 /// @param format  `stl`, `obj`, `off`, `ply` or `dae`.
 /// @throws std::exception with the reason.
-TriangleMesh parseMeshHere(const std::string& bytes, const std::string& format);
+TriangleMesh parseMeshUnconfined(const std::string& bytes, const std::string& format);
 
 }  // namespace sdf_ccd

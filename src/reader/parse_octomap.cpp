@@ -108,7 +108,7 @@ ReadMesh surfaceOf(const Tree& tree, double resolution, std::uint64_t max_memory
 
 }  // namespace
 
-ReadMesh parseOctomapHere(const std::string& bytes, std::uint64_t max_memory) {
+ReadMesh parseOctomapUnconfined(const std::string& bytes, std::uint64_t max_memory) {
   const OctreeFile file = checkOctreeFile(bytes);
   std::istringstream stream(withPlainHead(file, bytes));
   if (file.format != OctreeFile::Format::kFull) {
@@ -132,7 +132,7 @@ ReadMesh parseOctomapHere(const std::string& bytes, std::uint64_t max_memory) {
 
 namespace sdf_ccd {
 
-ReadMesh parseOctomapHere(const std::string&, std::uint64_t) {
+ReadMesh parseOctomapUnconfined(const std::string&, std::uint64_t) {
   throw std::runtime_error("this build has no OctoMap, so it reads no .bt and .ot files");
 }
 

@@ -11,6 +11,6 @@ namespace sdf_ccd {
 /// and for fuzzing. All other code calls loadOctomapSurface(), which runs that program.
 /// @param max_memory  upper bound of the surface's memory [bytes]; the faces are counted before they are created.
 /// @throws std::exception with the reason.
-ReadMesh parseOctomapHere(const std::string& bytes, std::uint64_t max_memory);
+ReadMesh parseOctomapUnconfined(const std::string& bytes, std::uint64_t max_memory);
 
 }  // namespace sdf_ccd

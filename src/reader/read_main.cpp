@@ -79,7 +79,7 @@ void takeMemoryInLargePieces() {
 }
 
 void answer(const std::string& format) {
-  leaveHost();
+  detachFromHost();
   struct stat input;
   if (::fstat(STDIN_FILENO, &input) != 0) ::_exit(kExitNoHost);
   const ReadLimits limits = limitsOf(format, static_cast<std::uint64_t>(input.st_size));
@@ -88,7 +88,8 @@ void answer(const std::string& format) {
   confine(limits);
   try {
     const std::string bytes = readInput(static_cast<std::size_t>(input.st_size));
-    sendMesh(format == "octomap" ? parseOctomapHere(bytes, limits.memory) : ReadMesh{parseMeshHere(bytes, format)});
+    sendMesh(format == "octomap" ? parseOctomapUnconfined(bytes, limits.memory)
+                                 : ReadMesh{parseMeshUnconfined(bytes, format)});
   } catch (const std::exception& error) {
     sendReason(error.what());
   }

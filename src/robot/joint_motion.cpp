@@ -42,11 +42,11 @@ double jointPosition(const urdf::Joint& joint, const Isometry3d& X_JC) {
 }
 
 Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint) {
-  constexpr double kShare = 0.1, kLeast = 0.01;  // of the range, and [m]
+  constexpr double kShare = 0.1, kMin = 0.01;  // of the range, and [m]
   Range range(-kInfinity, kInfinity);
   if (hasLimits(joint)) {
     const double lower = joint.limits->lower, upper = joint.limits->upper;
-    const double margin = std::max(kLeast, kShare * (upper - lower));
+    const double margin = std::max(kMin, kShare * (upper - lower));
     range = {lower - margin, upper + margin};
   }
   if (joint.mimic) {

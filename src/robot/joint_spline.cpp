@@ -9,7 +9,8 @@
 
 namespace sdf_ccd {
 
-JointSpline::JointSpline(JointSplineOrder order, const JointKnot& start, const JointKnot& end, double duration)
+JointSpline::JointSpline(JointSplineOrder order, const JointSplinePoint& start, const JointSplinePoint& end,
+                         double duration)
     : duration_(duration) {
   // Time is relative to the duration: velocities are multiplied by the duration, accelerations by its square.
   const double T = duration, p0 = start.position, p1 = end.position;
@@ -54,10 +55,10 @@ double JointSpline::largestAcceleration() const {
 }
 
 int piecesWithin(const JointSpline& spline, double duration, double tolerance) {
-  constexpr double kMost = 1e6;
+  constexpr double kMax = 1e6;
   const double acceleration = spline.largestAcceleration();
   const double pieces = std::max(1.0, std::ceil(duration * std::sqrt(acceleration / (8.0 * tolerance))));
-  if (!(pieces <= kMost)) {
+  if (!(pieces <= kMax)) {
     throw std::invalid_argument("a joint accelerates by " + numberText(acceleration) + " per s² for " +
                                 numberText(duration) + " s: more than can be checked");
   }

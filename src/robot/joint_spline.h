@@ -6,7 +6,7 @@
 namespace sdf_ccd {
 
 /// Values of a joint at one time; velocities and accelerations are optional.
-struct JointKnot {
+struct JointSplinePoint {
   double position = 0.0;      ///< [rad, m]
   double velocity = 0.0;      ///< [1/s]
   double acceleration = 0.0;  ///< [1/s²]
@@ -22,7 +22,7 @@ enum class JointSplineOrder { kLinear, kCubic, kQuintic };
 class JointSpline {
  public:
   /// @param duration  positive [s].
-  JointSpline(JointSplineOrder order, const JointKnot& start, const JointKnot& end, double duration);
+  JointSpline(JointSplineOrder order, const JointSplinePoint& start, const JointSplinePoint& end, double duration);
 
   double position(double time) const;
 

@@ -130,10 +130,10 @@ void orderLimits(urdf::Joint& joint, std::vector<std::string>& warnings) {
 
 std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml, std::vector<std::string>& warnings) {
   const auto model = parse(xml);
-  constexpr std::size_t kMostLinks = 10'000;
-  if (model->links_.size() > kMostLinks) {
+  constexpr std::size_t kMaxLinks = 10'000;
+  if (model->links_.size() > kMaxLinks) {
     throw std::runtime_error("the URDF has " + std::to_string(model->links_.size()) + " links, more than " +
-                             std::to_string(kMostLinks));
+                             std::to_string(kMaxLinks));
   }
   for (const auto& joint : model->joints_) checkJoint(*model, *joint.second);
   checkTree(*model);

@@ -82,12 +82,12 @@ bool outOfReach(const RobotModel& robot, const BodyDescription& object, const Is
 
 /// describeRobot() visits all pairs, and the joints between their links.
 void requireFewPairs(const RobotModel& robot, std::size_t links) {
-  constexpr std::size_t kMostPairs = 300000;
+  constexpr std::size_t kMaxPairs = 300000;
   const std::size_t pairs = links * (links - std::min<std::size_t>(links, 1)) / 2;
-  if (pairs <= kMostPairs) return;
+  if (pairs <= kMaxPairs) return;
   throw std::length_error("robot " + robot.urdf().getName() + " has " + std::to_string(links) +
                           " links with collision elements, which are " + std::to_string(pairs) + " pairs; at most " +
-                          std::to_string(kMostPairs) + " can be checked");
+                          std::to_string(kMaxPairs) + " can be checked");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kMostPieces = 100000;
+constexpr std::size_t kMaxPieces = 100000;
 
 void requireSizes(const std::vector<std::string>& joints, const std::vector<JointWaypoint>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -28,7 +28,7 @@ JointSplineOrder orderBetween(const JointWaypoint& start, const JointWaypoint& e
   return has_accelerations ? JointSplineOrder::kQuintic : JointSplineOrder::kCubic;
 }
 
-JointKnot knotOf(const JointWaypoint& point, std::size_t joint) {
+JointSplinePoint splinePointOf(const JointWaypoint& point, std::size_t joint) {
   return {point.positions[joint], point.velocities.empty() ? 0.0 : point.velocities[joint],
           point.accelerations.empty() ? 0.0 : point.accelerations[joint]};
 }
@@ -54,11 +54,11 @@ RobotTrajectory splined(const std::vector<std::string>& joints, const std::vecto
       std::vector<JointSpline> splines;
       int pieces = 1;
       for (std::size_t k = 0; k < joints.size() && order != JointSplineOrder::kLinear; ++k) {
-        splines.emplace_back(order, knotOf(start, k), knotOf(end, k), duration);
+        splines.emplace_back(order, splinePointOf(start, k), splinePointOf(end, k), duration);
         pieces = std::max(pieces, piecesWithin(splines.back(), duration, tolerance));
       }
-      if (result.times.size() + static_cast<std::size_t>(pieces) > kMostPieces) {
-        throw std::invalid_argument("the trajectory's splines take more than " + std::to_string(kMostPieces) +
+      if (result.times.size() + static_cast<std::size_t>(pieces) > kMaxPieces) {
+        throw std::invalid_argument("the trajectory's splines take more than " + std::to_string(kMaxPieces) +
                                     " pieces: ask for it in parts");
       }
       if (order != JointSplineOrder::kLinear) result.joint_error = tolerance;

@@ -71,9 +71,9 @@ CycleResult checkMotion(std::shared_ptr<const Scene> scene, const MonitorOptions
 namespace {
 
 /// Checks pieces of motions, reusing the memory of checks from one to the next.
-class MotionLooker {
+class MotionChecker {
  public:
-  MotionLooker(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const MotionsRequest& wanted)
+  MotionChecker(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const MotionsRequest& wanted)
       : monitor_(std::move(scene), options), wanted_(wanted) {
     request_.wrenches = false;
     request_.contacts = false;
@@ -130,12 +130,12 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
     throw std::invalid_argument("check motions: a margin of " + numberText(request.margin) + " m");
   if (request.tolerances.empty()) throw std::invalid_argument("check motions: no tolerances");
   std::vector<MotionVerdict> verdicts(count);
-  tbb::enumerable_thread_specific<std::unique_ptr<MotionLooker>> lookers;
+  tbb::enumerable_thread_specific<std::unique_ptr<MotionChecker>> lookers;
   parallelRanges(std::size_t{0}, count, [&](std::size_t first, std::size_t last) {
     // A monitor's own parallel loop may start other motions while it waits: these must not use the same monitor.
     tbb::this_task_arena::isolate([&] {
-      std::unique_ptr<MotionLooker>& looker = lookers.local();
-      if (!looker) looker = std::make_unique<MotionLooker>(scene, options, request);
+      std::unique_ptr<MotionChecker>& looker = lookers.local();
+      if (!looker) looker = std::make_unique<MotionChecker>(scene, options, request);
       for (std::size_t i = first; i < last; ++i) {
         checkCancelled();
         for (const double tolerance : request.tolerances) {

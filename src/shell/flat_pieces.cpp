@@ -10,7 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 /// A flat piece has no triangle whose normal is more than 60 degrees from that of the plane, however small its heights.
-constexpr double kLeastFacing = 0.5;
+constexpr double kMinFacing = 0.5;
 
 /// The triangle across each side; -1 unless there is exactly one, with a consistent orientation.
 std::vector<Vector3i> neighbours(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
@@ -44,7 +44,7 @@ std::vector<int> growPieces(const TriangleMesh& mesh, const std::vector<Vector3d
     const Vector3d& normal = normals[seed];
     const Vector3d& point = mesh.vertices[mesh.triangles[seed][0]];
     const auto fits = [&](int triangle) {
-      if (normals[triangle].dot(normal) < kLeastFacing) return false;
+      if (normals[triangle].dot(normal) < kMinFacing) return false;
       const Vector3i& t = mesh.triangles[triangle];
       return std::all_of(t.data(), t.data() + 3,
                          [&](int v) { return std::abs(normal.dot(mesh.vertices[v] - point)) <= flatness; });

@@ -36,7 +36,7 @@ void raise(double value, std::atomic<double>& largest) {
 /// Adds the cells of one triangle to its points' areas.
 using Shares = std::vector<std::pair<std::int32_t, double>>;
 
-void shareOut(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& pieces, Shares& shares) {
+void divideErrorBudget(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& pieces, Shares& shares) {
   const auto belongsToOne = [&](const ContestedPiece& contested) {
     if (contested.size() > 1) return false;
     shares.emplace_back(contested.begin->index, contested.piece.area());
@@ -104,7 +104,7 @@ std::vector<double> nearestAreas(const TriangleMesh& mesh, const PointShell& she
       const SurfacePiece whole = SurfacePiece::of(mesh, i);
       Vector3d facing = areaNormal(mesh, i);
       if (nearest.find(whole.corners[0], facing).index < 0) facing.setZero();
-      shareOut(whole, facing, pieces, shares[chunk]);
+      divideErrorBudget(whole, facing, pieces, shares[chunk]);
     }
   });
   std::vector<double> areas(shell.size(), 0.0);

@@ -35,7 +35,7 @@ BodyOptions limits(const FieldOptions& field) {
   BodyOptions options;
   options.field = field;
   options.max_error = field.max_error;
-  options.is_shared_out = field.max_error.has_value();
+  options.divides_max_error = field.max_error.has_value();
   return options;
 }
 
@@ -62,8 +62,8 @@ void BuildCost::add(const std::string& name, PooledMesh& mesh, const FieldOption
 }
 
 std::string BuildCost::whatFits() const {
-  constexpr int kMost = 1024;
-  for (int times = 2; times <= kMost; times *= 2) {
+  constexpr int kMax = 1024;
+  for (int times = 2; times <= kMax; times *= 2) {
     SceneCost cost;
     try {
       for (const Wanted& wanted : wanted_)

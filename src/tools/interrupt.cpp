@@ -5,16 +5,16 @@ namespace {
 
 constexpr std::array<int, 2> kSignals = {SIGINT, SIGTERM};
 
-volatile std::sig_atomic_t asked_by = 0;
+volatile std::sig_atomic_t received_signal = 0;
 
 void remember(int signal) {
-  asked_by = signal;
+  received_signal = signal;
 }
 
 }  // namespace
 
 Interrupt::Interrupt() {
-  asked_by = 0;
+  received_signal = 0;
   struct sigaction action = {};
   action.sa_handler = remember;
   action.sa_flags = SA_RESETHAND | SA_RESTART;
@@ -26,7 +26,7 @@ Interrupt::~Interrupt() {
 }
 
 bool Interrupt::requested() const {
-  return asked_by != 0;
+  return received_signal != 0;
 }
 
 }  // namespace sdf_ccd::tools

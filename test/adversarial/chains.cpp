@@ -9,7 +9,7 @@
 namespace sdf_ccd::test {
 namespace {
 
-constexpr int kMostJoints = 7;
+constexpr int kMaxJoints = 7;
 
 /// Rounded up, so that it stays an upper bound.
 double raised(Real x) {
@@ -52,7 +52,7 @@ Real ChainJoint::derivative(int order) const {
 }
 
 ChainPair::Chain ChainPair::randomChain(Random& random) {
-  Chain chain(1 + random() % kMostJoints);
+  Chain chain(1 + random() % kMaxJoints);
   const double largest = logUniform(random, 0.05, 3.0);
   const int laws = int(random() % 4);  // three: each joint has a random law
   for (ChainJoint& joint : chain) {

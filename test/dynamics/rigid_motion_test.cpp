@@ -20,7 +20,7 @@ TEST(RigidMotion, FreeTurnsKeepEnergyAndAngularMomentum) {
     Vector3d spin = direction(random) * turn;
     const Vector3d L = kUneven * spin;
     const double energy = spin.dot(L);
-    for (int i = 0; i < 20; ++i) turnFreely(kUneven, 1.0, R, spin);
+    for (int i = 0; i < 20; ++i) rotateFreely(kUneven, 1.0, R, spin);
     EXPECT_NEAR(spin.dot(kUneven * spin), energy, 1e-10 * energy) << turn;
     EXPECT_LT((R * (kUneven * spin) - L).norm(), 1e-10 * L.norm()) << turn;
   }
@@ -29,7 +29,7 @@ TEST(RigidMotion, FreeTurnsKeepEnergyAndAngularMomentum) {
 TEST(RigidMotion, SpinAboutAPrincipalAxisIsExact) {
   Matrix3d R = Matrix3d::Identity();
   Vector3d spin(0, 0, 7.0);
-  turnFreely(kUneven, 2.0, R, spin);
+  rotateFreely(kUneven, 2.0, R, spin);
   EXPECT_LT((R - Eigen::AngleAxisd(14.0, Vector3d::UnitZ()).toRotationMatrix()).norm(), 1e-12);
   EXPECT_EQ(spin, Vector3d(0, 0, 7.0));
 }
@@ -42,7 +42,7 @@ TEST(RigidMotion, DiscPrecessesAtItsClosedFormRate) {
   const Vector3d L = disc * spin;
   const double T = 1.7;
   const Vector3d expected = Eigen::AngleAxisd(L.norm() * T, L.normalized()) * Vector3d::UnitZ();
-  turnFreely(disc, T, R, spin);
+  rotateFreely(disc, T, R, spin);
   EXPECT_LT((R.col(2) - expected).norm(), 2e-3);  // second order in the 0.1 rad of a substep
 }
 

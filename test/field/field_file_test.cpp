@@ -126,7 +126,7 @@ TEST_F(FieldFile, BadOpeningsAreRefused) {
     saveField(buildField(test::binMesh(0.3), options), path("a.field"));
     const std::string kind = options.max_error ? "adaptive field" : "field";
     const std::size_t first = options.max_error ? 7 : 4;  // of the three sections
-    const test::MendedFile good(path("a.field"), kind, kVersion);
+    const test::EditedFile good(path("a.field"), kind, kVersion);
     const auto loadWith = [&](std::size_t section, auto change) {
       good.write(path("b.field"), [&](auto& sections) { change(sections[first + section]); });
       return loadField(path("b.field"));
@@ -173,7 +173,7 @@ void FieldFile::expectDamageIsNoticed(const FieldOptions& options) const {
 /// The checksum is valid, but the grid's step is not.
 TEST_F(FieldFile, BadStepsAreRefused) {
   saveField(buildField(mesh_, options_), path("a.field"));
-  const test::MendedFile good(path("a.field"), "field", kVersion);
+  const test::EditedFile good(path("a.field"), "field", kVersion);
   const auto loadWith = [&](double step) {
     good.write(path("b.field"), [&](auto& sections) {
       test::put(step, sections[0].size() - sizeof step, sections[0]);  // the shape ends with it
@@ -191,7 +191,7 @@ TEST_F(FieldFile, NoNumbersBreakQueries) {
   int refused = 0, asked = 0;
   for (const FieldOptions& options : {options_, adaptive()}) {
     saveField(buildField(test::binMesh(0.3), options), path("a.field"));
-    const test::MendedFile good(path("a.field"), options.max_error ? "adaptive field" : "field", kVersion);
+    const test::EditedFile good(path("a.field"), options.max_error ? "adaptive field" : "field", kVersion);
     test::Random random(3);
     for (int i = 0; i < 1500; ++i) {
       good.write(path("b.field"), [&](auto& sections) { test::breakNumbers(random, sections); });

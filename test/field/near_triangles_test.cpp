@@ -31,14 +31,14 @@ class NearTrianglesTest : public testing::Test {
     const Vector3d reach = Vector3d::Constant(0.5 * near.cube().side);
     const DirectionCone cone = near.gradientCone();
     ASSERT_NEAR(near.centerDistance(), surface_->signedDistance(near.cube().center), 1e-12);
-    PlaceLanes places;
-    PlaceLanes::Lane distances;
-    for (int k = 0; k < PlaceLanes::kCount; ++k) {
+    PointLanes places;
+    PointLanes::Lane distances;
+    for (int k = 0; k < PointLanes::kCount; ++k) {
       const Vector3d corner = near.cube().corner(k), center = near.cube().center;
       places.set(k, k % 2 == 0 ? corner : test::uniformIn(random_, {center - reach, center + reach}));
     }
-    near.signedDistances(places, PlaceLanes::kCount, distances);
-    for (int k = 0; k < PlaceLanes::kCount; ++k) {
+    near.signedDistances(places, PointLanes::kCount, distances);
+    for (int k = 0; k < PointLanes::kCount; ++k) {
       const Vector3d p = places.at(k);
       const double exact = surface_->signedDistance(p);
       ASSERT_NEAR(distances[k], exact, 1e-12);

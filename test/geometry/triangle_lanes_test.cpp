@@ -13,13 +13,13 @@ using test::Random;
 
 struct Case {
   Vector3d a, b, c;
-  PlaceLanes places;
+  PointLanes places;
 };
 
 Case randomCase(Random& random) {
   const AlignedBox3d box(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
   Case made{test::uniformIn(random, box), test::uniformIn(random, box), test::uniformIn(random, box), {}};
-  for (int k = 0; k < PlaceLanes::kCount; ++k) made.places.set(k, 2.0 * test::uniformIn(random, box));
+  for (int k = 0; k < PointLanes::kCount; ++k) made.places.set(k, 2.0 * test::uniformIn(random, box));
   // Among them corners and points in the plane.
   made.places.set(0, made.b);
   made.places.set(1, 0.5 * (made.a + made.c));
@@ -33,9 +33,9 @@ TEST(TriangleLanes, WaysAreThoseFromTheClosestPoint) {
     const Case made = randomCase(random);
     const MeasuredTriangle triangle(made.a, made.b, made.c);
     if (triangle.sliver()) continue;
-    WayLanes found;
+    DisplacementLanes found;
     ways({made.a, made.b, made.c}, made.places, found);
-    for (int k = 0; k < PlaceLanes::kCount; ++k) {
+    for (int k = 0; k < PointLanes::kCount; ++k) {
       const Vector3d way = made.places.at(k) - triangle.closest(made.places.at(k));
       ASSERT_NEAR((found.at(k) - way).norm(), 0.0, 1e-11);
       ASSERT_NEAR(found.distance2[k], way.squaredNorm(), 1e-11);
@@ -46,24 +46,24 @@ TEST(TriangleLanes, WaysAreThoseFromTheClosestPoint) {
 TEST(TriangleLanes, NearestOfSeveralIsKept) {
   Random random(2);
   for (int i = 0; i < 5000; ++i) {
-    const PlaceLanes places = randomCase(random).places;
+    const PointLanes places = randomCase(random).places;
     const Vector3d axis = test::direction(random);
     ClosestLanes closest;
     closest.distance2.fill(std::numeric_limits<double>::infinity());
-    PlaceLanes::Lane best2 = closest.distance2, side{};
+    PointLanes::Lane best2 = closest.distance2, side{};
     for (int n = 0; n < 5; ++n) {
       const Case made = randomCase(random);
       const MeasuredTriangle triangle(made.a, made.b, made.c);
       if (triangle.sliver()) continue;
       offer({made.a, made.b, made.c}, axis, places, closest);
-      for (int k = 0; k < PlaceLanes::kCount; ++k) {
+      for (int k = 0; k < PointLanes::kCount; ++k) {
         const Vector3d way = places.at(k) - triangle.closest(places.at(k));
         if (way.squaredNorm() >= best2[k]) continue;
         best2[k] = way.squaredNorm();
         side[k] = way.dot(axis);
       }
     }
-    for (int k = 0; k < PlaceLanes::kCount; ++k) {
+    for (int k = 0; k < PointLanes::kCount; ++k) {
       ASSERT_NEAR(closest.distance2[k], best2[k], 1e-11);
       ASSERT_NEAR(closest.side[k], side[k], 1e-6);
     }

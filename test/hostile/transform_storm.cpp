@@ -112,7 +112,7 @@ class Storm {
  private:
   static geometry_msgs::TransformStamped hostileValue(long count, const std::string& root, const std::string& link,
                                                       const ros::Time& now) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kMost = std::numeric_limits<double>::max();
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kMax = std::numeric_limits<double>::max();
     constexpr std::uint32_t kLast = std::numeric_limits<std::uint32_t>::max();
     auto sent = stamped(root, link, now);
     switch (count % 16) {
@@ -142,7 +142,7 @@ class Storm {
         sent.transform.translation.x = kNone;
         break;
       case 7:
-        sent.transform.translation.y = kMost;
+        sent.transform.translation.y = kMax;
         break;
       case 8:
         sent.transform.rotation.w = kNone;
@@ -151,7 +151,7 @@ class Storm {
         sent.transform.rotation.w = 5e-324;
         break;
       case 10:
-        sent.transform.rotation.w = kMost;
+        sent.transform.rotation.w = kMax;
         break;
       case 11:
         sent.header.frame_id = link;

@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 const std::string kBox = test::binaryStl(test::boxMesh({1, 2, 3}), "box");
 
 std::string failureOf(const std::string& format, const std::string& bytes) {
-  return test::failureOf([&] { readApart(format, bytes); });
+  return test::failureOf([&] { readSandboxed(format, bytes); });
 }
 
 double secondsSince(Clock::time_point start) {
@@ -83,8 +83,8 @@ pid_t waitForChild(pid_t of) {
 using ReadApart = test::FakeReader;
 
 TEST_F(ReadApart, GivesTheMesh) {
-  EXPECT_EQ(readApart("stl", kBox).mesh.triangles.size(), 12u);
-  EXPECT_NEAR(signedVolume(readApart("stl", kBox).mesh), 48.0, 1e-9);
+  EXPECT_EQ(readSandboxed("stl", kBox).mesh.triangles.size(), 12u);
+  EXPECT_NEAR(signedVolume(readSandboxed("stl", kBox).mesh), 48.0, 1e-9);
 }
 
 TEST_F(ReadApart, WhateverEndsTheReaderIsAnErrorThatSaysSo) {
@@ -160,7 +160,7 @@ TEST_F(ReadApart, SilentReaderIsLeftWhenCancelled) {
     asked = true;
   });
   const CancelScope scope(asked);
-  EXPECT_THROW(readApart("stl", kBox), Cancelled);
+  EXPECT_THROW(readSandboxed("stl", kBox), Cancelled);
   canceller.join();
   EXPECT_LT(secondsSince(start), 0.15);
   EXPECT_TRUE(childrenOf(::getpid()).empty());
@@ -174,7 +174,7 @@ TEST_F(ReadApart, ManyThreadsAtOnce) {
       const double width = 1.0 + i;
       const std::string bytes = test::binaryStl(test::boxMesh({width, 1, 1}), "box");
       for (int round = 0; round < 20; ++round) {
-        good += std::abs(signedVolume(readApart("stl", bytes).mesh) - 8.0 * width) < 1e-6;
+        good += std::abs(signedVolume(readSandboxed("stl", bytes).mesh) - 8.0 * width) < 1e-6;
       }
     });
   }
@@ -184,7 +184,7 @@ TEST_F(ReadApart, ManyThreadsAtOnce) {
 }
 
 TEST_F(ReadApart, WhateverTheHostDoesWithSignalsAndStandardFiles) {
-  const auto reads = [] { return readApart("stl", kBox).mesh.triangles.size() == 12; };
+  const auto reads = [] { return readSandboxed("stl", kBox).mesh.triangles.size() == 12; };
   EXPECT_TRUE(inProcess([&] { return ::signal(SIGCHLD, SIG_IGN) != SIG_ERR && reads(); }));
   EXPECT_TRUE(inProcess([&] { return ::signal(SIGPIPE, SIG_DFL) != SIG_ERR && reads(); }));
   EXPECT_TRUE(inProcess([&] {

@@ -37,7 +37,7 @@ TEST(CancelBuild, EndsSoonAtAnyMomentOfUniformFields) {
 TEST(CancelBuild, EndsSoonAtAnyMomentUnderMaxError) {
   BodyOptions options;
   options.max_error = 3e-3;
-  options.is_shared_out = true;
+  options.divides_max_error = true;
   options.field.max_error = 1.65e-3;
   options.shell.edge_gap = 1.05e-3;
   options.shell.spacing = 5e-3;

@@ -226,7 +226,7 @@ TEST(ClearanceTable, PairsAreDueInTheOrderOfUrgency) {
   }
   table.forget(7);
   bodies.begin(still, whole);
-  const QuietPairs quiet = table.finish(bodies, due);
+  const SkippedPairs quiet = table.finish(bodies, due);
   ASSERT_EQ(due.size(), 6u);
   EXPECT_EQ(due[0].pair, 7);
   for (int k = 1; k < 6; ++k) EXPECT_EQ(due[std::size_t(k)].pair, k - 1);

@@ -18,7 +18,7 @@ using namespace test;
 
 MonitorOptions chords(double max_error) {
   MonitorOptions options = soft();
-  options.chords.tolerance = shareOut(max_error).chord_tolerance;
+  options.chords.tolerance = divideErrorBudget(max_error).chord_tolerance;
   return options;
 }
 
@@ -87,7 +87,7 @@ TEST(MaxError, ABodyOfSeveralElementsIsHeldToItsShare) {
   for (const double max_error : {0.005, 0.002}) {
     const auto scene = build({hand, body("other", meshShape(boxMesh({0.1, 0.05, 0.03})))}, optionsFor({max_error}));
     EXPECT_LE(scene->contact_bound.total(), max_error);
-    EXPECT_LE(scene->reports[0].gap, shareOut(max_error).edge_gap * (1.0 + 1e-9));
+    EXPECT_LE(scene->reports[0].gap, divideErrorBudget(max_error).edge_gap * (1.0 + 1e-9));
   }
 }
 
@@ -129,7 +129,7 @@ TEST(MaxError, WhatWouldBeTooLargeIsMadeCoarserAndSaysSo) {
   EXPECT_NE(scene->reports[0].warnings[0].find("m instead"), std::string::npos) << scene->reports[0].warnings[0];
   EXPECT_EQ(scene->reports[1].warnings.size(), 1u);
   EXPECT_NE(planTable(*scene).find("within the max_error of 0.50"), std::string::npos) << planTable(*scene);
-  options.is_shared_out = false;  // explicit settings are not changed
+  options.divides_max_error = false;  // explicit settings are not changed
   EXPECT_NE(build(description, options)->bodies[0].failure, "");
 }
 

@@ -12,11 +12,11 @@
 namespace sdf_ccd::test {
 
 /// Changes the sections of a checked file, and writes it with a valid checksum.
-class MendedFile {
+class EditedFile {
  public:
   using Sections = std::vector<std::string>;
 
-  MendedFile(const std::string& path, std::string kind, std::uint32_t version)
+  EditedFile(const std::string& path, std::string kind, std::uint32_t version)
       : kind_(std::move(kind)), version_(version) {
     const auto file = CheckedFile::open(path, {kind_, version_});
     for (std::size_t i = 0; i < file->sectionCount(); ++i) {
@@ -49,7 +49,7 @@ void put(Value value, std::size_t offset, std::string& section) {
 }
 
 /// Overwrites some bytes with numbers that no writer produces: NaN, infinities, huge or negative numbers, random bits.
-inline void breakNumbers(Random& random, MendedFile::Sections& sections) {
+inline void breakNumbers(Random& random, EditedFile::Sections& sections) {
   const int count = 1 + int(random() % 3);
   for (int i = 0; i < count; ++i) {
     std::string& section = sections[random() % sections.size()];

@@ -18,11 +18,11 @@
 namespace sdf_ccd {
 namespace {
 
-/// Whether an attempt succeeds in a child process that has called leaveHost() and confine().
+/// Whether an attempt succeeds in a child process that has called detachFromHost() and confine().
 bool possible(const std::function<bool()>& attempt) {
   const pid_t pid = ::fork();
   if (pid == 0) {
-    leaveHost();
+    detachFromHost();
     confine(limitsOf("stl", 1000));
     ::_exit(attempt() ? 1 : 0);
   }

@@ -40,7 +40,7 @@ enum class Outcome { kMesh, kRefused };
 /// Parses a file. Whatever its bytes, it must give a valid mesh or an exception with a message.
 Outcome read(const File& file) {
   try {
-    validate(parseMeshHere(file.bytes, file.format));
+    validate(parseMeshUnconfined(file.bytes, file.format));
     return Outcome::kMesh;
   } catch (const std::exception& error) {
     EXPECT_NE(std::string(error.what()), "");
@@ -103,7 +103,7 @@ TEST(DamagedFile, EveryFormatReadsEveryOther) {
   for (const std::string& bytes : contents) {
     for (const char* format : {"stl", "obj", "off", "ply", "dae", "blend", ""}) read({format, bytes});
     try {
-      parseOctomapHere(bytes, 1 << 29);
+      parseOctomapUnconfined(bytes, 1 << 29);
       ADD_FAILURE() << "no map";
     } catch (const std::exception&) {
     }
@@ -124,7 +124,7 @@ TEST(DamagedFile, OctomapHeadsMeanTheSameToWhoChecksAndWhoReads) {
     EXPECT_EQ(plain.substr(plain.size() - 10), parent + node);
     EXPECT_EQ(plain.find("data"), plain.size() - 15);
     try {
-      parseOctomapHere(bytes, 1 << 29);
+      parseOctomapUnconfined(bytes, 1 << 29);
     } catch (const std::exception&) {
     }
   }

@@ -30,7 +30,7 @@ TEST(MeshFormats, PolygonsOfAnyNumberOfCorners) {
                std::to_string(corners + i) + "\n";
     }
     const std::string count = std::to_string(corners);
-    const TriangleMesh mesh = parseMeshHere(off + count + low + "\n" + count + high + "\n" + sides, "off");
+    const TriangleMesh mesh = parseMeshUnconfined(off + count + low + "\n" + count + high + "\n" + sides, "off");
     EXPECT_NEAR(signedVolume(mesh), 0.5 * corners * std::sin(2 * M_PI / corners), 1e-5) << corners;
     EXPECT_EQ(mesh.triangles.size(), 4u * static_cast<unsigned>(corners) - 4);
   }
@@ -42,13 +42,13 @@ TEST(MeshFormats, ObjWithAllThatItAllows) {
   const std::string more = "o top\n# C:\\models\\\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nvn 0 0 1\nvt 0 0\n";
   const std::string faces =
       "f 4/1/1 3/1 2//1 1\nf -4 -3 \\\n -2 -1\nf 1 2 6 5 # front\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\np 1\n";
-  EXPECT_NEAR(signedVolume(parseMeshHere(vertices + more + faces, "obj")), 8.0, 1e-9);
+  EXPECT_NEAR(signedVolume(parseMeshUnconfined(vertices + more + faces, "obj")), 8.0, 1e-9);
 }
 
 TEST(MeshFormats, PlyInEitherByteOrderWithOtherElementsBetween) {
   const TriangleMesh box = test::boxMesh({1, 2, 3});
   for (const bool is_big : {false, true}) {
-    EXPECT_NEAR(signedVolume(parseMeshHere(test::binaryPly(box, is_big), "ply")), kVolume, 1e-9);
+    EXPECT_NEAR(signedVolume(parseMeshUnconfined(test::binaryPly(box, is_big), "ply")), kVolume, 1e-9);
   }
 }
 
@@ -56,7 +56,7 @@ TEST(MeshFormats, PlyStrips) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\n"
       "property double z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n";
-  const TriangleMesh mesh = parseMeshHere(head + "0 0 0 1 0 0 0 1 0 1 1 0 2 2 0\n8 0 1 2 3 -1 1 4 3\n", "ply");
+  const TriangleMesh mesh = parseMeshUnconfined(head + "0 0 0 1 0 0 0 1 0 1 1 0 2 2 0\n8 0 1 2 3 -1 1 4 3\n", "ply");
   ASSERT_EQ(mesh.triangles.size(), 3u);
   for (int i = 0; i < 3; ++i) EXPECT_GT(areaNormal(mesh, i).z(), 0.0) << i;
 }
@@ -65,18 +65,18 @@ TEST(MeshFormats, OffWithColoursAndNormals) {
   const std::string faces = "3 0 2 1 255 0 0\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
   for (const char* head : {"COFF\n", "NOFF ", "STCNOFF # all\n", ""}) {
     const std::string bytes = std::string(head) + "4 4 6\n0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n0 0 1 1 1 1\n" + faces;
-    EXPECT_NEAR(signedVolume(parseMeshHere(bytes, "off")), 1.0 / 6.0, 1e-9) << head;
+    EXPECT_NEAR(signedVolume(parseMeshUnconfined(bytes, "off")), 1.0 / 6.0, 1e-9) << head;
   }
   for (const char* head : {"4OFF\n", "nOFF 3\n", "OFF BINARY\n", "PLY\n"}) {
-    EXPECT_THROW(parseMeshHere(std::string(head) + "4 4 6\n" + faces, "off"), std::runtime_error) << head;
+    EXPECT_THROW(parseMeshUnconfined(std::string(head) + "4 4 6\n" + faces, "off"), std::runtime_error) << head;
   }
 }
 
 TEST(MeshFormats, AsciiStlOfSeveralSolids) {
   std::string solid = "solid a name with vertex and facet\n" + test::asciiStl(test::boxMesh({1, 2, 3})).substr(11);
-  EXPECT_NEAR(signedVolume(parseMeshHere(solid + test::asciiStl(test::boxMesh({1, 1, 1})), "stl")), kVolume + 8.0,
+  EXPECT_NEAR(signedVolume(parseMeshUnconfined(solid + test::asciiStl(test::boxMesh({1, 1, 1})), "stl")), kVolume + 8.0,
               1e-9);
-  EXPECT_THROW(parseMeshHere(solid.substr(0, solid.rfind("endsolid")), "stl"), std::runtime_error);
+  EXPECT_THROW(parseMeshUnconfined(solid.substr(0, solid.rfind("endsolid")), "stl"), std::runtime_error);
 }
 
 TEST(MeshFormats, DaePolygonsAndTransforms) {
@@ -84,7 +84,7 @@ TEST(MeshFormats, DaePolygonsAndTransforms) {
                                           std::string("<node><matrix>0 -1 0 7 1 0 0 0 0 0 1 0 0 0 0 1</matrix>"
                                                       "<scale>1 1 2</scale>") +
                                               test::kDaeInstance + "</node>");
-  const TriangleMesh turned = parseMeshHere(triangles, "dae");
+  const TriangleMesh turned = parseMeshUnconfined(triangles, "dae");
   EXPECT_NEAR(signedVolume(turned), 2 * kVolume, 1e-9);
   EXPECT_TRUE(boundingBox(turned).min().isApprox(Vector3d(5, -1, -6), 1e-12)) << boundingBox(turned).min().transpose();
 
@@ -103,13 +103,13 @@ TEST(MeshFormats, DaePolygonsAndTransforms) {
         "<polygons count=\"1\">" + input + corners + "</polygons>",
         "<trifans count=\"1\">" + input + corners + "</trifans>",
         "<tristrips count=\"1\">" + input + "<p>0 0 1 0 3 0 2 0</p></tristrips>"}) {
-    const TriangleMesh mesh = parseMeshHere(with(primitive), "dae");
+    const TriangleMesh mesh = parseMeshUnconfined(with(primitive), "dae");
     EXPECT_NEAR(surfaceArea(mesh), 1.0, 1e-12) << primitive;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) EXPECT_GT(areaNormal(mesh, static_cast<int>(i)).z(), 0.0);
   }
-  EXPECT_THROW(
-      parseMeshHere(with("<polylist count=\"1\">" + input + "<vcount>5</vcount>" + corners + "</polylist>"), "dae"),
-      std::runtime_error);
+  EXPECT_THROW(parseMeshUnconfined(
+                   with("<polylist count=\"1\">" + input + "<vcount>5</vcount>" + corners + "</polylist>"), "dae"),
+               std::runtime_error);
 }
 
 }  // namespace

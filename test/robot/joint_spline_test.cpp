@@ -13,7 +13,7 @@ namespace {
 using test::Random;
 using test::uniform;
 
-JointKnot anyKnot(Random& random) {
+JointSplinePoint anyKnot(Random& random) {
   return {uniform(random, -3, 3), uniform(random, -2, 2), uniform(random, -5, 5)};
 }
 
@@ -29,7 +29,7 @@ double accelerationOf(const JointSpline& spline, double time) {
 TEST(JointSpline, HasWhatIsGivenAtBothEnds) {
   Random random(2);
   for (int i = 0; i < 200; ++i) {
-    const JointKnot start = anyKnot(random), end = anyKnot(random);
+    const JointSplinePoint start = anyKnot(random), end = anyKnot(random);
     const double T = uniform(random, 0.5, 3.0);
     for (const JointSplineOrder order :
          {JointSplineOrder::kLinear, JointSplineOrder::kCubic, JointSplineOrder::kQuintic}) {
@@ -54,7 +54,7 @@ TEST(JointSpline, PiecesStrayByNoMoreThanTheToleranceAndNotMuchLess) {
   Random random(3);
   double largest = 0.0;
   for (int i = 0; i < 200; ++i) {
-    const JointKnot start = anyKnot(random), end = anyKnot(random);
+    const JointSplinePoint start = anyKnot(random), end = anyKnot(random);
     const double T = uniform(random, 0.1, 3.0), tolerance = std::pow(10.0, uniform(random, -5.0, -2.0));
     const JointSpline spline(i % 2 ? JointSplineOrder::kCubic : JointSplineOrder::kQuintic, start, end, T);
     const int pieces = piecesWithin(spline, T, tolerance);

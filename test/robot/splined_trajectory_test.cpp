@@ -61,7 +61,8 @@ TEST(SplinedTrajectory, NoPointOfABodyStraysFartherFromTheSplineThanItSays) {
       JointPositions truth;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto knot = [&](const JointWaypoint& p) {
-          return JointKnot{p.positions[k], kind > 0 ? p.velocities[k] : 0.0, kind > 1 ? p.accelerations[k] : 0.0};
+          return JointSplinePoint{p.positions[k], kind > 0 ? p.velocities[k] : 0.0,
+                                  kind > 1 ? p.accelerations[k] : 0.0};
         };
         truth[joints[k]] =
             JointSpline(order, knot(points[from]), knot(points[from + 1]), 0.7).position(time - points[from].time);

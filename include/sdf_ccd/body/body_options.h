@@ -44,7 +44,7 @@ struct BodyOptions {
   /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a
   /// field or shell that would be too large is made coarser, and its body's report says so; else the body cannot be
   /// checked.
-  bool is_shared_out = false;
+  bool divides_max_error = false;
 };
 
 /// Fields and shells for contacts alone, where triangles decide the verdicts.
@@ -53,10 +53,10 @@ struct BodyOptions {
 BodyOptions optionsForContacts(const std::optional<double>& accuracy = {});
 
 /// Limits of a body's field and shell, whatever the required accuracy.
-constexpr std::size_t kMostFieldBytes = std::size_t{256} << 20, kMostShellPoints = 3'000'000;
+constexpr std::size_t kMaxFieldBytes = std::size_t{256} << 20, kMaxShellPoints = 3'000'000;
 
 /// The options that meet an accuracy: its max_error is divided among field, edges and motions as 55 : 35 : 9, with the
-/// limits kMostFieldBytes and kMostShellPoints.
+/// limits kMaxFieldBytes and kMaxShellPoints.
 /// @throws std::invalid_argument if it is below a nanometre.
 BodyOptions optionsFor(const Accuracy& accuracy);
 

@@ -99,7 +99,7 @@ struct CycleResult {
   double run_time = 0.0;  ///< [s]
 };
 
-constexpr double kLeastMaxError = 1e-5, kLargestMaxError = 1e-2;  // [m]
+constexpr double kMinMaxError = 1e-5, kLargestMaxError = 1e-2;  // [m]
 
 struct MonitorOptions {
   ContactOptions contact;
@@ -107,7 +107,7 @@ struct MonitorOptions {
 
   /// For pairs that are decided by triangles [m]: surfaces are proved to be apart if they come no closer than half of
   /// this plus the errors of the motions and the triangles; pairs that come closer may stay UNCERTAIN. From
-  /// kLeastMaxError to kLargestMaxError.
+  /// kMinMaxError to kLargestMaxError.
   double max_error = 1e-4;
 };
 

@@ -62,7 +62,7 @@ class BlockSample {
   }
 
  private:
-  static constexpr std::size_t kFewest = 6;  ///< minimum number of built blocks of a stratum
+  static constexpr std::size_t kMin = 6;  ///< minimum number of built blocks of a stratum
 
   enum Kind : std::uint8_t { kPlain, kVertices, kDoubtful };
 
@@ -104,9 +104,9 @@ class BlockSample {
   /// Finds which blocks are near the surface, within a time limit.
   void findNear(double start) {
     constexpr double kSeconds = 5e-3;
-    constexpr std::size_t kFewest = 64, kChecked = 16;
+    constexpr std::size_t kMin = 64, kChecked = 16;
     for (; tested_ < order_.size(); ++tested_) {
-      if (tested_ >= kFewest && tested_ % kChecked == 0 && threadSeconds() - start > kSeconds) break;
+      if (tested_ >= kMin && tested_ % kChecked == 0 && threadSeconds() - start > kSeconds) break;
       const std::size_t i = order_[tested_];
       const bool far =
           builder_.isFar(surface_.exact().tree().closestPoint(builder_.center(builder_.block(i))).distance);
@@ -124,19 +124,19 @@ class BlockSample {
     return sum;
   }
 
-  /// The variance in a stratum: until kFewest blocks are built, at least that of an exponential distribution, as most
+  /// The variance in a stratum: until kMin blocks are built, at least that of an exponential distribution, as most
   /// blocks cost little and a few cost much.
   static double variance(const SampleMean& mean) {
-    return mean.count() < kFewest ? std::max(mean.variance(), mean.mean() * mean.mean()) : mean.variance();
+    return mean.count() < kMin ? std::max(mean.variance(), mean.mean() * mean.mean()) : mean.variance();
   }
 
-  /// Of the strata with fewer than kFewest built blocks, the one to build the next block of: first each gets two, then
+  /// Of the strata with fewer than kMin built blocks, the one to build the next block of: first each gets two, then
   /// numbers are in proportion to the square root of the stratum's size. Null if there is none.
   Stratum* nextOfFew() {
     Stratum* best = nullptr;
     double least = 0.0;
     for (Stratum& stratum : strata_) {
-      if (stratum.blocks.empty() || stratum.built() >= kFewest) continue;
+      if (stratum.blocks.empty() || stratum.built() >= kMin) continue;
       const double has =
           stratum.built() < 2 ? -2.0 + double(stratum.built()) : double(stratum.built()) / std::sqrt(stratum.size());
       if (best && has >= least) continue;
@@ -172,7 +172,7 @@ class BlockSample {
   }
 
   /// Builds blocks until the estimate is accurate or the time is used up. In a stratum of few blocks they are visited
-  /// again, for other cells. As long as a stratum has fewer than kFewest built blocks the estimated error does not end
+  /// again, for other cells. As long as a stratum has fewer than kMin built blocks the estimated error does not end
   /// the loop: the estimate is too small if the few blocks that take long have not been visited.
   void buildNear() {
     constexpr double kSecondsForFew = 40e-3, kSeconds = 15e-3, kShare = 0.03, kSure = 0.07, kUnsure = 0.15;
@@ -184,7 +184,7 @@ class BlockSample {
       const Sum bytes = sum(&Stratum::bytes), seconds = sum(&Stratum::seconds);
       Stratum* const stratum = next(bytes, seconds);
       if (!stratum) return;
-      const bool few = stratum->built() < kFewest;
+      const bool few = stratum->built() < kMin;
       const double error = std::max(bytes.relativeError(), seconds.relativeError());
       if (stratum->built() > 0) {
         const double all = scale * seconds.value;

@@ -47,11 +47,11 @@ class BrickSample {
   /// Finds which bricks need samples, within a time limit.
   void findNeeded() {
     constexpr double kSeconds = 5e-3;
-    constexpr std::size_t kFewest = 256;
+    constexpr std::size_t kMin = 256;
     const SpreadOrder order(shape_.brickCount());
     const double reach = shape_.band + shape_.cell + kHalfSqrt3 * side(), start = threadSeconds();
     for (; tested_ < order.size(); ++tested_) {
-      if (tested_ >= kFewest && tested_ % 16 == 0 && threadSeconds() - start > kSeconds) break;
+      if (tested_ >= kMin && tested_ % 16 == 0 && threadSeconds() - start > kSeconds) break;
       const Vector3i brick = at(order[tested_]);
       const Vector3d center = shape_.origin + side() * (brick.cast<double>().array() + 0.5).matrix();
       if (sampler_.surface().tree().closestPoint(center, reach).distance < reach) needed_.push_back(brick);
@@ -74,15 +74,15 @@ class BrickSample {
 
   void measureNeeded() {
     constexpr double kSeconds = 15e-3, kShareOfAll = 0.03, kSure = 0.05;
-    constexpr std::size_t kFewest = 8;
+    constexpr std::size_t kMin = 8;
     std::array<float, GridShape::kSamples> samples;
     const SpreadOrder order(needed_.size());
     const double whole = double(needed_.size()) / double(tested_) * double(shape_.brickCount());
     const double start = threadSeconds();
     for (std::size_t k = 0; k < needed_.size(); ++k) {
       const double begin = threadSeconds();
-      if (k >= kFewest && begin - start > std::max(kSeconds, kShareOfAll * whole * brick_seconds_.mean())) break;
-      if (k >= 4 * kFewest && brick_seconds_.relativeError() < kSure) break;
+      if (k >= kMin && begin - start > std::max(kSeconds, kShareOfAll * whole * brick_seconds_.mean())) break;
+      if (k >= 4 * kMin && brick_seconds_.relativeError() < kSure) break;
       sampler_.fill(needed_[order[k]], samples.data());
       brick_seconds_.add(threadSeconds() - begin);
     }

@@ -24,7 +24,7 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
       walk.advance();
     } else {
       // All of the block is on one side, and so is the sphere about its centre that extends to the isosurface.
-      const FreeBall ball = emptySphere(grid, block, margin);
+      const EmptyBall ball = emptySphere(grid, block, margin);
       passFree(block.low, block.side, ball, ball_exit, walk, intervals);
     }
     if (stopsAtEnter(options.mode) && !intervals.empty()) break;

@@ -15,7 +15,7 @@ inline GridWalk walkThrough(const AdaptiveGrid& grid, const Segment& segment) {
 
 /// A far block's empty sphere, reduced so that |φ| exceeds `margin` [m] in all of it; and a little more, as the sphere
 /// is in metres and the walk in units.
-inline FreeBall emptySphere(const AdaptiveGrid& grid, const AdaptiveBlock& block, double margin) {
+inline EmptyBall emptySphere(const AdaptiveGrid& grid, const AdaptiveBlock& block, double margin) {
   const AdaptiveShape& shape = grid.shape();
   return {shape.origin + shape.unit() * block.ball_center, (block.ball_radius - margin) * (1.0 - 1e-9), block.inside};
 }

@@ -11,7 +11,7 @@ void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals) {
   walk.skipTo(t);
 }
 
-void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
+void passFree(const Vector3i& low, int side, const EmptyBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals) {
   // A sphere that contains the block is left after the block, except by a segment of zero length.
   const CellLattice& lattice = walk.lattice();

@@ -17,7 +17,7 @@ struct WalkedCell {
 };
 
 /// A sphere in which the field is nowhere sigma, so that all of it is on one side of the isosurface.
-struct FreeBall {
+struct EmptyBall {
   Vector3d center;  ///< [m]
   double radius;    ///< [m]
   bool inside;
@@ -28,7 +28,7 @@ void passTo(double t, bool inside, GridWalk& walk, Intervals& intervals);
 
 /// Advances a walk out of a block of cells [low, low + side) that lies on the same side of the isosurface as an empty
 /// sphere, and on to the exit from that sphere.
-void passFree(const Vector3i& low, int side, const FreeBall& ball, const BallExit& ball_exit, GridWalk& walk,
+void passFree(const Vector3i& low, int side, const EmptyBall& ball, const BallExit& ball_exit, GridWalk& walk,
               Intervals& intervals);
 
 /// The trilinear function of a cell's corner values along the walk, from its position to its exit, minus sigma.

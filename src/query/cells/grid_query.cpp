@@ -13,7 +13,7 @@ namespace {
 constexpr int kBrick = GridShape::kBrick;
 
 /// The empty sphere of a far brick.
-FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, const EmptySphere& ball, double sigma) {
+EmptyBall brickBall(const SparseGrid& grid, const Vector3i& brick, const EmptySphere& ball, double sigma) {
   const GridShape& shape = grid.shape();
   return {shape.origin + kBrick * shape.cell * (brick + ball.offset).cast<double>(),
           ball.steps * grid.ballStep() - std::abs(sigma) - grid.errorBound(), ball.inside};
@@ -21,8 +21,8 @@ FreeBall brickBall(const SparseGrid& grid, const Vector3i& brick, const EmptySph
 
 /// The sphere about the sample nearest to a point of a sampled brick. With v the sample and h the cell no point within
 /// √((v − σ)² − ¾h²) can be interpolated to σ (design §3.3); v is reduced by the samples' rounding.
-FreeBall sampleBall(const SparseGrid& grid, const Vector3i& brick, std::int32_t slot, const Vector3d& p_F,
-                    double sigma) {
+EmptyBall sampleBall(const SparseGrid& grid, const Vector3i& brick, std::int32_t slot, const Vector3d& p_F,
+                     double sigma) {
   const GridShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.cell - (kBrick * brick).cast<double>();
   const Vector3i i = (g.array() + 0.5).floor().max(0.0).min(double(kBrick)).matrix().cast<int>();
@@ -45,12 +45,12 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
     const Vector3i brick = walk.cell() / kBrick;
     const std::uint32_t word = grid.word(brick);
     if (brick_word::isFar(word)) {
-      const FreeBall ball = brickBall(grid, brick, EmptySphere::of(word), sigma);
+      const EmptyBall ball = brickBall(grid, brick, EmptySphere::of(word), sigma);
       passFree(kBrick * brick, kBrick, ball, ball_exit, walk, intervals);
     } else {
       const std::int32_t slot = grid.slot(brick);
       const Vector3d point = segment.start + walk.t() * (segment.end - segment.start);
-      const FreeBall ball = sampleBall(grid, brick, slot, point, sigma);
+      const EmptyBall ball = sampleBall(grid, brick, slot, point, sigma);
       const double t_exit = walk.exit(walk.cell(), walk.cell().array() + 1);
       const double t_ball = ball_exit(ball.center, ball.radius, walk.t());
       if (t_ball > t_exit) {

@@ -1,9 +1,9 @@
 // Included once for each kind of processor that vector code is compiled for.
-#if defined(SDF_CCD_LANE_EVEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef SDF_CCD_LANE_EVEN_INL_H_
-#undef SDF_CCD_LANE_EVEN_INL_H_
+#if defined(SDF_CCD_LANE_UNIFORM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SDF_CCD_LANE_UNIFORM_INL_H_
+#undef SDF_CCD_LANE_UNIFORM_INL_H_
 #else
-#define SDF_CCD_LANE_EVEN_INL_H_
+#define SDF_CCD_LANE_UNIFORM_INL_H_
 #endif
 
 #include <cstring>

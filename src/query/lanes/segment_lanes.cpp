@@ -270,7 +270,7 @@ class Follower {
     MI over = flip(in_start, easy, lanes.t, lanes);
     const MI rest = hn::And(hn::AndNot(over, easy), hn::Xor(in_start, in_end));
     over = hn::Or(over, flip(in_end, rest, crossing.t_root, lanes));
-    if (!hn::AllFalse(n, hard)) over = hn::Or(over, crossHardLeaves(crossing, hard, t_exit, lanes));
+    if (!hn::AllFalse(n, hard)) over = hn::Or(over, solveLeavesExactly(crossing, hard, t_exit, lanes));
     const MI going = hn::AndNot(over, used);
     // Through the face, or to the exit from the empty sphere about the exit point, whose radius is the leaf's value.
     VF length2 = real(1e-20F);
@@ -285,7 +285,7 @@ class Follower {
   }
 
   /// @return lanes that are complete.
-  MI crossHardLeaves(const Crossing& crossing, MI hard, VF t_exit, Lanes& lanes) {
+  MI solveLeavesExactly(const Crossing& crossing, MI hard, VF t_exit, Lanes& lanes) {
     const Unpacked<std::int32_t> ids(lanes.id);
     const Unpacked<float> k0(crossing.c[0]), k1(crossing.c[1]), k2(crossing.c[2]), k3(crossing.c[3]), starts(lanes.t),
         ends(t_exit);
@@ -293,14 +293,14 @@ class Follower {
     Unpacked<std::int32_t> overs(hn::Zero(n));
     forEach(hard, [&](std::size_t i) {
       const CellCubic cubic{{double(k0[i]), double(k1[i]), double(k2[i]), double(k3[i])}};
-      overs.value[i] = hardLeaf(cubic, ids[i], starts[i], ends[i], enters.value[i]) ? -1 : 0;
+      overs.value[i] = solveLeafExactly(cubic, ids[i], starts[i], ends[i], enters.value[i]) ? -1 : 0;
     });
     lanes.enter = hn::Load(f, enters.value);
     return hn::Ne(hn::Load(n, overs.value), hn::Zero(n));
   }
 
   /// Crosses a leaf with several roots by the exact method. @return whether the ray is complete.
-  bool hardLeaf(const CellCubic& cubic, std::int32_t id, float start, float end, float& enter) {
+  bool solveLeafExactly(const CellCubic& cubic, std::int32_t id, float start, float end, float& enter) {
     const CellIntervals found = nonPositive(cubic);
     const auto timeOf = [&](double u) { return static_cast<float>(start + u * (double(end) - double(start))); };
     const bool at_start = found.count > 0 && found.interval[0].enter == 0.0;

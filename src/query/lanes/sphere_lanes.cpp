@@ -19,8 +19,8 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// Empty spheres [units].
-struct FreeBalls {
-  HWY_INLINE FreeBalls() {}  // as Blocks()
+struct EmptySpheres {
+  HWY_INLINE EmptySpheres() {}  // as Blocks()
 
   VF center[3];
   VF radius;  ///< negative: none
@@ -33,7 +33,7 @@ struct FreeBalls {
   }
   void setRadius(VF of, float less) { radius = hn::MulAdd(of, real(1.0F - 1e-5F), real(-0.01F - less)); }
 
-  void replace(MI which, const FreeBalls& by) {
+  void replace(MI which, const EmptySpheres& by) {
     for (int k = 0; k < 3; ++k) center[k] = hn::IfThenElse(asReal(which), by.center[k], center[k]);
     radius = hn::IfThenElse(asReal(which), by.radius, radius);
     inside = hn::Or(hn::And(which, by.inside), hn::AndNot(which, inside));
@@ -41,9 +41,9 @@ struct FreeBalls {
 };
 
 /// The empty spheres of far blocks.
-HWY_INLINE FreeBalls emptySpheres(const Blocks& at, const Lanes& lanes) {
+HWY_INLINE EmptySpheres emptySpheres(const Blocks& at, const Lanes& lanes) {
   const VI mask = hn::Neg(hn::Shl(whole(1), at.log_side));
-  FreeBalls balls;
+  EmptySpheres balls;
   for (int k = 0; k < 3; ++k) balls.center[k] = hn::Add(hn::ConvertTo(f, hn::And(lanes.cell[k], mask)), at.ball[k]);
   balls.setRadius(at.radius, 0.0F);
   balls.inside = at.inside;
@@ -51,11 +51,11 @@ HWY_INLINE FreeBalls emptySpheres(const Blocks& at, const Lanes& lanes) {
 }
 
 /// Empty spheres about the lanes' positions, clamped to their leaves.
-HWY_INLINE FreeBalls leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched) {
+HWY_INLINE EmptySpheres leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const Fetched& fetched) {
   const LeafCorners corners = leafCorners(g, lanes, fetched, 0);
   const VI side = hn::Shl(whole(1), lanes.log_side), mask = hn::Neg(side);
   const VF length = hn::ConvertTo(f, side), per_side = hn::Div(real(1.0F), length);
-  FreeBalls balls;
+  EmptySpheres balls;
   VF u[3];
   for (int k = 0; k < 3; ++k) {
     const VF low = hn::ConvertTo(f, hn::And(lanes.cell[k], mask));
@@ -72,10 +72,10 @@ HWY_INLINE FreeBalls leafBalls(const AdaptiveLanes& g, const Lanes& lanes, const
 }
 
 /// Empty spheres about the samples that are nearest to the lanes.
-HWY_INLINE FreeBalls sampleBalls(const UniformLanes& g, const Lanes& lanes, const Fetched& fetched) {
+HWY_INLINE EmptySpheres sampleBalls(const UniformLanes& g, const Lanes& lanes, const Fetched& fetched) {
   const NearestSample nearest(lanes);
   const VI word = hn::LoadU(n, fetched.word.data());
-  FreeBalls balls;
+  EmptySpheres balls;
   for (int k = 0; k < 3; ++k) balls.center[k] = nearest.center[k];
   balls.setDistance(hn::Mul(hn::ConvertTo(f, word), real(g.per_sample)), g.rounding);
   return balls;
@@ -107,7 +107,7 @@ class Sweeper {
     VI side = hn::IfThenElse(apart, whole(kOutside), whole(kUnknown));
     const MI active = hn::AndNot(apart, hn::FirstN(n, static_cast<std::size_t>(group_.size - first)));
     if (!hn::AllFalse(n, active)) {
-      const FreeBalls balls = ballsAt(lanes, active);
+      const EmptySpheres balls = ballsAt(lanes, active);
       const Passage middle = passageOf(balls, lanes);
       const MI all = hn::And(active, asWhole(middle.holdsAll()));
       side = hn::IfThenElse(all, hn::IfThenElse(balls.inside, whole(kInside), whole(kOutside)), side);
@@ -198,7 +198,7 @@ class Sweeper {
     }
   };
 
-  HWY_INLINE Passage passageOf(const FreeBalls& balls, const Lanes& lanes) const {
+  HWY_INLINE Passage passageOf(const EmptySpheres& balls, const Lanes& lanes) const {
     Passage passage{real(0.0F), real(0.0F), real(1e-20F), {}, {}};
     for (int k = 0; k < 3; ++k) {
       const VF from = hn::Sub(lanes.at(k), balls.center[k]);
@@ -219,7 +219,7 @@ class Sweeper {
     for (int i = 1; i < kMaxBalls; ++i) {
       const MF forward = hn::Lt(high, one);
       lanes.t = hn::IfThenElse(forward, high, low);
-      const FreeBalls balls = ballsAt(lanes, active);
+      const EmptySpheres balls = ballsAt(lanes, active);
       const Passage passage = passageOf(balls, lanes);
       active = hn::And(active, hn::AndNot(hn::Xor(inside, balls.inside), asWhole(passage.isWide())));
       const VF next = hn::Add(lanes.t, passage.exit(hn::IfThenElse(forward, one, minus_one)));
@@ -234,18 +234,18 @@ class Sweeper {
   }
 
   /// Empty spheres that may contain the lanes, from the grid's data at their positions.
-  HWY_INLINE FreeBalls ballsAt(Lanes& lanes, MI active) {
+  HWY_INLINE EmptySpheres ballsAt(Lanes& lanes, MI active) {
     findCells(g_, lanes);
     hn::StoreU(topIndex(g_, lanes.cell), n, work_.waiting.index.data());
     std::int32_t* word = work_.fetched.word.data();
     fetchTop(g_, work_.waiting.index.data(), static_cast<int>(hn::Lanes(n)), word);
     const Blocks at = locateTop(g_, hn::LoadU(n, word), lanes.cell);
-    FreeBalls balls = emptySpheres(at, lanes);
+    EmptySpheres balls = emptySpheres(at, lanes);
     descend(g_, at, active, lanes, balls);
     return balls;
   }
 
-  HWY_INLINE void descend(const AdaptiveLanes& grid, Blocks at, MI active, Lanes& lanes, FreeBalls& balls) {
+  HWY_INLINE void descend(const AdaptiveLanes& grid, Blocks at, MI active, Lanes& lanes, EmptySpheres& balls) {
     MI node = hn::And(active, at.node), leaf = hn::AndNot(hn::Or(at.far, at.node), active);
     VI index = at.index;
     lanes.log_side = at.log_side;
@@ -265,7 +265,7 @@ class Sweeper {
     balls.replace(leaf, leafBalls(grid, lanes, work_.fetched));
   }
 
-  HWY_INLINE void descend(const UniformLanes& grid, const Blocks& at, MI active, Lanes& lanes, FreeBalls& balls) {
+  HWY_INLINE void descend(const UniformLanes& grid, const Blocks& at, MI active, Lanes& lanes, EmptySpheres& balls) {
     const MI brick = hn::And(active, at.node);
     if (hn::AllFalse(n, brick)) return;
     RayQueue& queue = work_.waiting;
@@ -303,7 +303,7 @@ void sweepAdaptive(const AdaptiveLanes& grid, const SphereSweep& sweep, SphereGr
   Sweeper(grid, sweep, group, work).run();
 }
 
-void sweepEven(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
+void sweepUniform(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
   Sweeper(grid, sweep, group, work).run();
 }
 
@@ -315,14 +315,14 @@ HWY_AFTER_NAMESPACE();
 namespace sdf_ccd {
 
 HWY_EXPORT(sweepAdaptive);
-HWY_EXPORT(sweepEven);
+HWY_EXPORT(sweepUniform);
 
 void sweepSpheres(const AdaptiveLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
   HWY_DYNAMIC_DISPATCH(sweepAdaptive)(grid, sweep, group, work);
 }
 
 void sweepSpheres(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work) {
-  HWY_DYNAMIC_DISPATCH(sweepEven)(grid, sweep, group, work);
+  HWY_DYNAMIC_DISPATCH(sweepUniform)(grid, sweep, group, work);
 }
 
 SphereSweep::SphereSweep(const DistanceField& field, const LaneBox& box, const Chord& chord,

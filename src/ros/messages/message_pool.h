@@ -19,13 +19,13 @@ class MessagePool {
       if (messages_[next_].use_count() == 1) return messages_[next_];
     }
     // A subscriber that keeps them keeps its own: not these for ever too.
-    if (messages_.size() == kMost) return boost::make_shared<Message>();
+    if (messages_.size() == kMax) return boost::make_shared<Message>();
     messages_.push_back(boost::make_shared<Message>());
     return messages_.back();
   }
 
  private:
-  static constexpr std::size_t kMost = 64;
+  static constexpr std::size_t kMax = 64;
 
   std::vector<boost::shared_ptr<Message>> messages_;
   std::size_t next_ = 0;

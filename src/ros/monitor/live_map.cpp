@@ -19,7 +19,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 const ros::WallDuration kPatience(0.1);  // until tf has the map's stamp
 const ros::WallDuration kAgain(0.2);     // looks for transforms that a map was taken without
 constexpr std::chrono::milliseconds kLook(2);
@@ -99,7 +99,7 @@ std::string LiveMap::frameOf(const octomap_msgs::Octomap& message) const {
 
 void LiveMap::take(const octomap_msgs::Octomap& message) {
   const auto start = std::chrono::steady_clock::now();
-  if (message.data.size() > kMostBytes) throw std::runtime_error("it is larger than 256 MiB");
+  if (message.data.size() > kMaxBytes) throw std::runtime_error("it is larger than 256 MiB");
   const std::string frame = frameOf(message);
   if (frame.size() > RequestLimits().name || frame != shownText(frame)) throw std::runtime_error("its frame is none");
   VoxelMapOptions options = options_;

@@ -30,7 +30,7 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
     plan.pairs_a.push_back(static_cast<std::uint32_t>(pair.body_a));
     plan.pairs_b.push_back(static_cast<std::uint32_t>(pair.body_b));
   }
-  constexpr std::size_t kMostReasons = 65535;
+  constexpr std::size_t kMaxReasons = 65535;
   std::map<std::string, std::uint16_t> reasons;
   for (const LeftOut& left_out : scene.left_out) {
     if (left_out.body_a < 0) {
@@ -40,7 +40,7 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
       continue;
     }
     if (scene.bodies[left_out.body_a].is_world && scene.bodies[left_out.body_b].is_world) continue;
-    const bool is_full = plan.reasons.size() >= kMostReasons;
+    const bool is_full = plan.reasons.size() >= kMaxReasons;
     const auto [known, is_new] = reasons.emplace(is_full ? plan.reasons.back() : left_out.reason,
                                                  static_cast<std::uint16_t>(plan.reasons.size()));
     if (is_new) plan.reasons.push_back(known->first);

@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostCallers = 3;  // one at work, others that wait
+constexpr int kMaxCallers = 3;  // one at work, others that wait
 constexpr auto kLook = std::chrono::microseconds(200);
 constexpr auto kPatience = std::chrono::milliseconds(500);  // until a cycle has taken a version over
 
@@ -35,9 +35,9 @@ int lastChangeOf(const std::string& object, const UpdateScene::Request& request)
 class SceneEditor::Turn {
  public:
   explicit Turn(SceneEditor& editor) : editor_(editor) {
-    if (++editor.callers_ > kMostCallers) {
+    if (++editor.callers_ > kMaxCallers) {
       --editor.callers_;
-      throw std::runtime_error("too many changes at a time: " + std::to_string(kMostCallers) + " wait already");
+      throw std::runtime_error("too many changes at a time: " + std::to_string(kMaxCallers) + " wait already");
     }
     try {
       while (!editor.turn_.try_lock_for(std::chrono::milliseconds(20))) checkCancelled();

@@ -11,7 +11,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kMostObjects = 10'000, kMostShapes = 10'000, kMostCorners = 5'000'000;
+constexpr int kMaxObjects = 10'000, kMaxShapes = 10'000, kMaxCorners = 5'000'000;
 
 /// The words of a text, with their lines.
 class Words {
@@ -96,12 +96,12 @@ class Words {
 
 TriangleMesh readMesh(Words& words) {
   TriangleMesh mesh;
-  const int vertices = words.whole(kMostCorners), triangles = words.whole(kMostCorners);
+  const int vertices = words.whole(kMaxCorners), triangles = words.whole(kMaxCorners);
   for (int i = 0; i < vertices; ++i) mesh.vertices.push_back(words.vector());
   for (int i = 0; i < triangles; ++i) {
     Vector3i corners;
     for (int k = 0; k < 3; ++k) {
-      corners[k] = words.whole(kMostCorners);
+      corners[k] = words.whole(kMaxCorners);
       if (corners[k] >= vertices)
         words.fail("a triangle has vertex " + std::to_string(corners[k]) + ", of " + std::to_string(vertices));
     }
@@ -143,11 +143,11 @@ WorldObject readObject(Words& words) {
   if (object.name.empty() || object.name != shownText(object.name)) words.fail("an object's name is wanted behind *");
   const bool has_pose = words.count() == 3;  // else how many shapes there are
   if (has_pose) object.X_frame_B = words.pose();
-  const int shapes = words.whole(kMostShapes);
+  const int shapes = words.whole(kMaxShapes);
   if (shapes == 0) words.fail("object " + object.name + " has no shapes");
   for (int i = 0; i < shapes; ++i) object.shapes.push_back(readShape(words));
   if (!has_pose) return object;
-  for (int subframes = words.whole(kMostShapes); subframes > 0; --subframes) {
+  for (int subframes = words.whole(kMaxShapes); subframes > 0; --subframes) {
     if (!words.goOn()) words.fail("the text ends too early");
     words.rest();  // its name
     words.pose();
@@ -165,8 +165,7 @@ std::vector<WorldObject> parseMoveitScene(const std::string& text) {
   for (std::string mark; (mark = words.word()) != ".";) {
     if (mark != "*")
       words.fail("* and an object's name, or a last line with a point is wanted, not " + shownText(mark));
-    if (objects.size() == std::size_t(kMostObjects))
-      words.fail("more than " + std::to_string(kMostObjects) + " objects");
+    if (objects.size() == std::size_t(kMaxObjects)) words.fail("more than " + std::to_string(kMaxObjects) + " objects");
     objects.push_back(readObject(words));
   }
   return objects;

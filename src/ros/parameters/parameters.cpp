@@ -13,10 +13,10 @@ namespace {
 constexpr double kLongestCycle = 3600.0;  // so long transforms have to be kept [s]
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
-  constexpr std::size_t kMost = 1000;  // each is held against each pair
+  constexpr std::size_t kMax = 1000;  // each is held against each pair
   std::vector<PairRule> rules;
   for (const auto& [a, b] : reader.textPairs(key)) rules.push_back({a, b});
-  if (rules.size() > kMost) reader.fail(key, "at most " + std::to_string(kMost) + " pairs");
+  if (rules.size() > kMax) reader.fail(key, "at most " + std::to_string(kMax) + " pairs");
   return rules;
 }
 
@@ -62,8 +62,8 @@ void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
   constexpr double kOfMotion = 0.2;  // that each body's motion may take of it
   double& max_error = parameters.monitor.max_error;
   max_error = reader.positive("max_error", max_error);
-  if (max_error < kLeastMaxError || max_error > kLargestMaxError)
-    reader.fail("max_error", "from " + numberText(kLeastMaxError) + " to " + numberText(kLargestMaxError) + " m");
+  if (max_error < kMinMaxError || max_error > kLargestMaxError)
+    reader.fail("max_error", "from " + numberText(kMinMaxError) + " to " + numberText(kLargestMaxError) + " m");
   if (reader.has("max_error")) parameters.scene.max_error = max_error;
   ChordOptions& chords = parameters.monitor.chords;
   double& sampling = parameters.tf.sampling.tolerance;

@@ -56,9 +56,9 @@ XmlRpcValue toScalar(const YAML::Node& node) {
 class ValueReader {
  public:
   XmlRpcValue value(const YAML::Node& node) {
-    constexpr int kMostValues = 100'000, kMostLevels = 64;
-    if (++values_ > kMostValues) refuse(node.Mark(), "more than " + std::to_string(kMostValues) + " values");
-    if (levels_ == kMostLevels) refuse(node.Mark(), "nested more than " + std::to_string(kMostLevels) + " levels deep");
+    constexpr int kMaxValues = 100'000, kMaxLevels = 64;
+    if (++values_ > kMaxValues) refuse(node.Mark(), "more than " + std::to_string(kMaxValues) + " values");
+    if (levels_ == kMaxLevels) refuse(node.Mark(), "nested more than " + std::to_string(kMaxLevels) + " levels deep");
     ++levels_;
     XmlRpcValue made = node.IsScalar() ? toScalar(node) : node.IsSequence() ? sequence(node) : structure(node);
     --levels_;

@@ -29,7 +29,7 @@ std::string endlessText(const TfTree& tree, const std::string& frame, const std:
     if (loop.size() > kNamed) names += "others in ";
     return fmt::format("{}a loop: {}{}", text, names, tree.name(edge));
   }
-  return text + "more than " + std::to_string(kMostAbove);
+  return text + "more than " + std::to_string(kMaxAbove);
 }
 
 }  // namespace
@@ -64,8 +64,8 @@ void TfChains::find(const TfTree& tree, int fixed_frame, const std::string& fram
   up_.clear();
   down_ = above_;
   if (number != TfTree::kNone) tree.upwards(number, up_);
-  if (up_.size() > kMostAbove || down_.size() > kMostAbove) {
-    way.problem = up_.size() > kMostAbove ? endlessText(tree, frame, up_) : endlessText(tree, fixed_name, down_);
+  if (up_.size() > kMaxAbove || down_.size() > kMaxAbove) {
+    way.problem = up_.size() > kMaxAbove ? endlessText(tree, frame, up_) : endlessText(tree, fixed_name, down_);
     return;
   }
   const int root = number == TfTree::kNone ? TfTree::kNone : tree.root(number, up_);

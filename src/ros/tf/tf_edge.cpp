@@ -3,8 +3,8 @@
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);        // clocks of publishers may disagree by less
-constexpr std::size_t kMostBehind = 1000;  // a late transform is inserted only before at most this many records
+const ros::Duration kJumpBack(1.0);       // clocks of publishers may disagree by less
+constexpr std::size_t kMaxBehind = 1000;  // a late transform is inserted only before at most this many records
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void TfEdge::recordBehind(const TfPose& pose, const TfKeep& keep, TfCounts& coun
   ++counts.out_of_order;
   const bool rests = isSamePlace(records[last], pose) && isSamePlace(pose, records[next]);
   if (!rests) noteLate({records[last].stamp, records[next].stamp});
-  if (records.size() - next <= kMostBehind) {
+  if (records.size() - next <= kMaxBehind) {
     records.insert(next, pose);
     return drop(keep);
   }

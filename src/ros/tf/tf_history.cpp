@@ -8,15 +8,15 @@
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);                  // smaller corrections of a wall clock are ignored
-const ros::Duration kSimJumpBack(0.1);               // two threads may see a simulated clock this much apart
-constexpr std::uint32_t kLastSecond = 1u << 31;      // ros::Duration cannot hold differences to later stamps
-constexpr std::size_t kLongestName = 256;            // characters in a frame's name
-constexpr std::size_t kMostOthers[] = {1000, 5000};  // known frames that are not followed: moving, static
-constexpr std::size_t kMostOtherRecords = 200;       // of one of them
-constexpr double kMostRecords = 1e6;                 // of all followed frames together
-constexpr double kFewestRecords = 1000.0;            // of one followed frame, however many there are
-constexpr double kRecordsPerSecond = 2000.0;         // of one followed frame, if there are few
+const ros::Duration kJumpBack(1.0);                 // smaller corrections of a wall clock are ignored
+const ros::Duration kSimJumpBack(0.1);              // two threads may see a simulated clock this much apart
+constexpr std::uint32_t kLastSecond = 1u << 31;     // ros::Duration cannot hold differences to later stamps
+constexpr std::size_t kLongestName = 256;           // characters in a frame's name
+constexpr std::size_t kMaxOthers[] = {1000, 5000};  // known frames that are not followed: moving, static
+constexpr std::size_t kMaxOtherRecords = 200;       // of one of them
+constexpr double kMaxRecords = 1e6;                 // of all followed frames together
+constexpr double kMinRecords = 1000.0;              // of one followed frame, however many there are
+constexpr double kRecordsPerSecond = 2000.0;        // of one followed frame, if there are few
 const ros::Duration kSweepPeriod(1.0);
 
 std::string_view bare(std::string_view frame) {
@@ -106,16 +106,15 @@ int TfHistory::findChild(std::string_view name) {
 }
 
 TfKeep TfHistory::keepOf(int frame) const {
-  if (!tree_.isFollowed(frame)) return {keep_, kMostOtherRecords};
-  const double share = kMostRecords / static_cast<double>(tree_.followed() + 1);
-  return {keep_,
-          static_cast<std::size_t>(std::max(kFewestRecords, std::min(share, kRecordsPerSecond * keep_.toSec())))};
+  if (!tree_.isFollowed(frame)) return {keep_, kMaxOtherRecords};
+  const double share = kMaxRecords / static_cast<double>(tree_.followed() + 1);
+  return {keep_, static_cast<std::size_t>(std::max(kMinRecords, std::min(share, kRecordsPerSecond * keep_.toSec())))};
 }
 
 void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const Names& names, bool is_static) {
   int child = findChild(names.child);
   const bool is_new = child == TfTree::kNone || !tree_.edge(child).isKnown();
-  if (is_new && tree_.others(is_static) >= kMostOthers[is_static] &&
+  if (is_new && tree_.others(is_static) >= kMaxOthers[is_static] &&
       (child == TfTree::kNone ? !tree_.followsAll() : !tree_.isFollowed(child))) {
     ++not_kept_;
     static_dropped_ |= is_static;

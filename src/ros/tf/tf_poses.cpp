@@ -5,8 +5,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kFewest = 8;  // smallest capacity
-constexpr std::size_t kFew = 64;    // capacity that clear() keeps
+constexpr std::size_t kMin = 8;   // smallest capacity
+constexpr std::size_t kFew = 64;  // capacity that clear() keeps
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void TfPoses::dropFront(std::size_t count) {
 }
 
 void TfPoses::grow() {
-  std::vector<TfPose> larger(std::max(kFewest, ring_.size() + ring_.size() / 2));
+  std::vector<TfPose> larger(std::max(kMin, ring_.size() + ring_.size() / 2));
   for (std::size_t i = 0; i < size_; ++i) larger[i] = (*this)[i];
   ring_.swap(larger);
   first_ = 0;

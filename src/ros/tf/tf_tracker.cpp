@@ -10,10 +10,10 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kJumpBack = 1.0;           // as in TfHistory [s]
-constexpr double kJumpAhead = 2e9;          // longer differences may not fit a ros::Duration [s]
-constexpr double kBackPerTime = 4.0;        // time that may be checked again, per time checked
-constexpr std::size_t kMostPoses = 300000;  // of all bodies in a cycle: about 100 MB with the data computed from them
+constexpr double kJumpBack = 1.0;          // as in TfHistory [s]
+constexpr double kJumpAhead = 2e9;         // longer differences may not fit a ros::Duration [s]
+constexpr double kBackPerTime = 4.0;       // time that may be checked again, per time checked
+constexpr std::size_t kMaxPoses = 300000;  // of all bodies in a cycle: about 100 MB with the data computed from them
 
 /// Adds it to the entry of the same frame, if there is one.
 void merge(const LateTransforms& late, std::vector<LateTransforms>& all) {
@@ -69,7 +69,7 @@ TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies,
       frames_(framesOf(bodies)),
       pairs_(pairs),
       options_(options),
-      most_samples_(kMostPoses / (bodies.size() + 1)),
+      most_samples_(kMaxPoses / (bodies.size() + 1)),
       sampler_(ballsOf(bodies), samplingOf(options, most_samples_)),
       chains_(frames_),
       is_paired_(bodies.size(), 0) {

@@ -3,7 +3,7 @@
 namespace sdf_ccd {
 
 TfTree::TfTree(const std::vector<std::string>& wanted)
-    : follows_all_(wanted.empty()), most_followed_(2 * wanted.size() + kMostAbove) {
+    : follows_all_(wanted.empty()), most_followed_(2 * wanted.size() + kMaxAbove) {
   for (const std::string& name : wanted) {
     const int frame = add(name);
     if (frames_[frame].is_wanted) continue;
@@ -88,7 +88,7 @@ void TfTree::forget(int frame) {
 
 void TfTree::upwards(int frame, std::vector<int>& edges) const {
   edges.clear();
-  for (; frames_[frame].parent != kNone && edges.size() <= kMostAbove; frame = frames_[frame].parent) {
+  for (; frames_[frame].parent != kNone && edges.size() <= kMaxAbove; frame = frames_[frame].parent) {
     edges.push_back(frame);
   }
 }
@@ -112,7 +112,7 @@ void TfTree::setFollowed(int frame, bool is_followed) {
 /// Follows the frame and all frames above it.
 void TfTree::follow(int frame) {
   if (follows_all_ || frames_[frame].is_followed) return;
-  for (std::size_t i = 0; frame != kNone && i <= kMostAbove && !frames_[frame].is_followed; ++i) {
+  for (std::size_t i = 0; frame != kNone && i <= kMaxAbove && !frames_[frame].is_followed; ++i) {
     setFollowed(frame, true);
     frame = frames_[frame].parent;
   }
@@ -124,7 +124,7 @@ void TfTree::followWanted() {
   std::vector<char> is_above(frames_.size(), 0);
   std::size_t count = 0;
   for (int frame : wanted_) {
-    for (std::size_t i = 0; frame != kNone && i <= kMostAbove && !is_above[frame]; ++i) {
+    for (std::size_t i = 0; frame != kNone && i <= kMaxAbove && !is_above[frame]; ++i) {
       is_above[frame] = 1;
       ++count;
       frame = frames_[frame].parent;
@@ -133,7 +133,7 @@ void TfTree::followWanted() {
   for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
     if (!frames_[frame].name.empty()) setFollowed(static_cast<int>(frame), is_above[frame]);
   }
-  most_followed_ = 2 * count + kMostAbove;
+  most_followed_ = 2 * count + kMaxAbove;
 }
 
 void TfTree::dropIfUnused(int frame) {

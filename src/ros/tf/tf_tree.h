@@ -12,7 +12,7 @@
 namespace sdf_ccd {
 
 /// Maximum length of the chain of frames above a frame.
-constexpr std::size_t kMostAbove = 256;
+constexpr std::size_t kMaxAbove = 256;
 
 /// The frames of tf by number, each with the transforms in its parent.
 ///
@@ -62,7 +62,7 @@ class TfTree {
   /// Forgets the frame's transforms.
   void forget(int frame);
 
-  /// The chain of frames from this one up that have a transform; longer than kMostAbove if it is a loop.
+  /// The chain of frames from this one up that have a transform; longer than kMaxAbove if it is a loop.
   void upwards(int frame, std::vector<int>& edges) const;
 
   /// Root of the frame's tree: the last frame above it, or the frame itself.

@@ -14,8 +14,8 @@ constexpr std::uint32_t kFieldVersion = 7, kShellVersion = 5;
 
 /// Writes an input as a checked file with a valid checksum, so that the reader goes on to the content. The input is the
 /// concatenation of sections, each after its size (four bytes); sections missing at its end are left out.
-inline void writeMended(const std::uint8_t* data, std::size_t size, const InputFile& file, const char* kind,
-                        std::uint32_t version) {
+inline void writeWithChecksum(const std::uint8_t* data, std::size_t size, const InputFile& file, const char* kind,
+                              std::uint32_t version) {
   constexpr std::size_t kMaxSections = 32;
   std::vector<FileSection> sections;
   while (size >= sizeof(std::uint32_t) && sections.size() < kMaxSections) {
@@ -30,7 +30,7 @@ inline void writeMended(const std::uint8_t* data, std::size_t size, const InputF
   writeCheckedFile(file.path(), {kind, version}, sections);
 }
 
-/// The inverse of writeMended(): the input of a file.
+/// The inverse of writeWithChecksum(): the input of a file.
 inline std::string inputOf(const std::string& path, const char* kind, std::uint32_t version) {
   const auto file = CheckedFile::open(path, {kind, version});
   std::string input;
