@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A live map that has not come yet, or that nobody sends any more: the robot is not clear of what it may hold."""
+"""A live map that has not come yet, or is no longer sent: the robot is not CLEAR of its unknown contents."""
 import threading
 import time
 import unittest
@@ -75,7 +75,7 @@ class AwaitedMapTest(MasterCase):
                 self.maps.publish(message(sent))
                 time.sleep(0.1 * MAX_AGE)
         heard = self.contacts['watches']
-        for _ in range(2):  # the same one again counts, too
+        for _ in range(2):  # repeating the same map counts, too
             goes_on.clear()
             sender = threading.Thread(target=send, daemon=True)
             self.robot.ball = 0.0
@@ -86,12 +86,12 @@ class AwaitedMapTest(MasterCase):
             self.assertFalse([m for m in heard.messages if reasons(m)])
             goes_on.set()
             sender.join()
-            self.robot.ball = 0.5  # now: what the robot fills at a map's stamp does not count
+            self.robot.ball = 0.5  # only now: voxels that the robot occupies at a map's stamp are ignored
             self.assertIsNotNone(heard.find_new(touches_map, 10.0))
             found = heard.find_new(lambda m: reasons(m) and m.verdict == m.NOT_CHECKED, 10.0)
             self.assertIsNotNone(found)
             self.assertIn('is older than 2 s', reasons(found)[0])
-        # The other one is told by nothing that its map is old.
+        # The other monitor has no max_age, so its map does not age.
         self.assertEqual(reasons(self.contacts['waits'].find_new(lambda m: True)), [])
 
     def test_4_a_map_that_cannot_be_taken_lets_the_last_one_grow_old_all_the_same(self):
@@ -101,7 +101,7 @@ class AwaitedMapTest(MasterCase):
         self.assertIsNotNone(heard.find_new(lambda m: m.verdict == m.CLEAR, 10.0))
         refused = message(FREE)
         refused.header.frame_id = 'ball'
-        refused.resolution = 1e-4  # too small for what is near
+        refused.resolution = 1e-4  # too small for the space near the robot
         self.maps.publish(refused)
         self.assertIsNotNone(heard.find_new(lambda m: 'is older than 2 s' in str(reasons(m)), 10.0))
 

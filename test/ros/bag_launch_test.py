@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""bag.launch from its start to the end of its bag, twice: fields that have to be built, and fields that are cached.
+"""Runs bag.launch to the end of its bag, twice: with fields that have to be built, and with cached fields.
 
 usage: bag_launch_test.py SOURCE_DIRECTORY
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether bag.launch needs a robot_state_publisher beside the player."""
+"""Tests whether bag.launch starts a robot_state_publisher if the bag needs one."""
 import os
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-// Cycles of a whole monitor whose world changes.
+// Cycles of a complete monitor whose world changes.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-/// The same world, which changes.
+/// The same world as in MonitorLoopTest, but one that changes.
 class ChangingLoopTest : public MonitorLoopTest {
  protected:
   ChangingLoopTest() : editor_(fine(0.005)) {
@@ -27,7 +27,7 @@ class ChangingLoopTest : public MonitorLoopTest {
 
   BodyDescription& plate() { return description_.bodies[2]; }
 
-  /// The cycles go on with the description as it is now.
+  /// Makes the cycles continue with the present description.
   void change() { loop_->adopt(*loop_->prepare(checked(editor_.next(description_)))); }
 
   static std::shared_ptr<const CheckedWorld> checked(const std::shared_ptr<const WorldSnapshot>& snapshot) {
@@ -42,7 +42,7 @@ TEST_F(ChangingLoopTest, WhatChangesAllTheTimeIsCheckedAgainstAFrameThatLagsBehi
   for (int i = 0; i < 60; ++i) {
     const double now = 10.0 + i * kPeriod;
     sendFoot(now);
-    sendHand(now - 4 * kPeriod, 0.02 * i);  // through the plate, which is placed anew in half of that time
+    sendHand(now - 4 * kPeriod, 0.02 * i);  // through the plate, which is moved repeatedly in that time
     step(now);
     if (i % 2 != 0) continue;
     plate().X_frame_B.translation().y() = i % 4 == 0 ? 0.0 : 0.01;

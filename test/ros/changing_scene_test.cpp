@@ -23,7 +23,8 @@ class ChangingSceneTest : public ::testing::Test {
   ChangingSceneTest()
       : history_("base") {
     parameters_ = parseParameters({}, "~");
-    parameters_.urdf = R"(<robot name="r"><link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+    parameters_.urdf =
+        R"(<robot name="r"><link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
       <link name="arm"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
       <link name="tool"><collision><geometry><sphere radius="0.1"/></geometry></collision></link><link name="tip"/>
       <joint name="slide" type="prismatic"><parent link="base"/><child link="arm"/><axis xyz="1 0 0"/>
@@ -61,7 +62,7 @@ class ChangingSceneTest : public ::testing::Test {
       if (body.name == name) return body;
     return {};
   }
-  /// Why the pair is left out; "checked" if it is not.
+  /// The reason why the pair is left out; "checked" if it is not.
   std::string reason(const std::string& a, const std::string& b) const {
     for (const DisabledPair& pair : description().disabled)
       if (namePair(pair.body_a, pair.body_b) == namePair(a, b)) return pair.reason;
@@ -138,7 +139,7 @@ TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
   EXPECT_EQ(body("box").frame, "tip");
   EXPECT_FALSE(body("box").is_world);
   EXPECT_NEAR(body("box").X_frame_B.translation().x(), 0.5, 1e-9);  // the tip is at 2.5, the box at 3
-  // What cannot move against the tip is not checked; the base and the table are.
+  // Links that cannot move relative to the tip are not checked; the base and the table are.
   EXPECT_EQ(reason("box", "tool"), "rigidly joined");
   EXPECT_EQ(reason("box", "arm"), "rigidly joined");
   EXPECT_EQ(reason("box", "base"), "checked");
@@ -161,7 +162,7 @@ TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
 
 TEST_F(ChangingSceneTest, AttachesAndDetachesByTransformsOfOneTime) {
   SceneChange added = box();
-  added.header.frame_id = "belt";  // 5 m before the arm, with which it moves on; the arm's transforms come later
+  added.header.frame_id = "belt";  // 5 m beyond the arm, moving with it; the arm's transforms come later
   added.pose.position.x = 0.0;
   apply(added);
   history_.add(message({stampedTransform("base", "belt", kNow + 0.1, 9.0)}), false);
@@ -215,9 +216,9 @@ TEST_F(ChangingSceneTest, RulesOfLaterCallsWin) {
   EXPECT_EQ(reason("arm", "two"), "checked");
   apply(rule(SceneChange::CHECK, "*", "*"));
   EXPECT_EQ(reason("arm", "one"), "checked");
-  EXPECT_EQ(reason("arm", "tool"), "rigidly joined");  // nothing could bring them nearer
+  EXPECT_EQ(reason("arm", "tool"), "rigidly joined");  // they can never come closer
   apply(change(SceneChange::FORGET_RULES, ""));
-  EXPECT_EQ(description().disabled.size(), described_.scene.disabled.size() + 2);  // the base and what stands on it
+  EXPECT_EQ(description().disabled.size(), described_.scene.disabled.size() + 2);  // the base and the two objects on it
 }
 
 TEST_F(ChangingSceneTest, AnObjectThatWasOutOfReachIsCheckedWhereItHasMoved) {
@@ -263,7 +264,7 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   EXPECT_NE(refusal(rule(SceneChange::ALLOW, "", "a")), "");
   for (int i = 0; i < 1000; ++i) apply(rule(SceneChange::ALLOW, "x" + std::to_string(i), "y"));
   EXPECT_NE(refusal(rule(SceneChange::ALLOW, "z", "y")), "");
-  apply(rule(SceneChange::CHECK, "y", "x7"));  // in place of another
+  apply(rule(SceneChange::CHECK, "y", "x7"));  // replaces another rule of the pair
   limits_.objects = 3;
   apply({box("1"), box("2"), box("3")});
   EXPECT_THROW(description(), std::length_error);
@@ -278,7 +279,7 @@ TEST_F(ChangingSceneTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved) {
     EXPECT_NE(refusal(attach), "") << name;
   }
   EXPECT_EQ(refusal(box("a b")), "");
-  // A world's file may have named it so; a reader would take it for another object.
+  // A world file may have named it so; when read back, it would be another object.
   BodyDescription trailing = body("a b");
   trailing.name = "a ";
   scene_->set(trailing);
@@ -328,7 +329,8 @@ TEST_F(ChangingSceneTest, ReadsNoFilesButThoseBelowTheRoots) {
   bad = change(SceneChange::LOAD, "");
   bad.file = "/etc/world.yaml";
   EXPECT_NE(refusal(bad).find("resource_roots"), std::string::npos);
-  std::ofstream(folder_ / "tetra.off") << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  std::ofstream(folder_ / "tetra.off")
+      << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
   SceneChange good = change(SceneChange::ADD);
   good.mesh_resources = {"file://" + (folder_ / "tetra.off").string()};
   EXPECT_EQ(refusal(good), "");

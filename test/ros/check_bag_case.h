@@ -14,11 +14,11 @@
 
 namespace sdf_ccd::test {
 
-using Row = std::map<std::string, std::string>;  // by the column's name
+using Row = std::map<std::string, std::string>;  // by column name
 
 constexpr double kBegin = 100.0, kPeriod = 1.0 / 30.0;  // [s]
 constexpr int kBefore = 20, kAfter = 20;                // samples at rest
-// config/demo/arm.urdf, with the hand pointing down: the finger stands upright, this far from the axis of yaw.
+// config/demo/arm.urdf, with the hand pointing down: the finger is upright, at this distance from the axis of yaw.
 constexpr double kReach = 0.5, kTipHeight = 0.31, kFinger = 0.008;        // [m]
 constexpr double kPlateY = 0.18, kPlateHalf = 0.0005;                     // config/demo/world.yaml [m]
 constexpr double kFirstYaw = 0.2, kYawStep = 0.1, kLastYaw = 0.6 + 1e-9;  // [rad]
@@ -46,7 +46,7 @@ inline std::vector<Row> readCsv(const std::string& text) {
   return rows;
 }
 
-/// The demo's arm swings its finger through the demo's plate, so fast that no sample sees it there.
+/// The demo's arm swings its finger through the demo's plate, so fast that no sample shows it there.
 class CheckBag : public ToolTest {
  protected:
   void SetUp() override {
@@ -61,7 +61,7 @@ class CheckBag : public ToolTest {
     double shoulder, elbow, wrist;
   };
 
-  /// With the hand pointing down at kReach.
+  /// The pose with the hand pointing down at kReach.
   static Pose downwards() {
     constexpr double kUpperArm = 0.4, kForearm = 0.35, kHand = 0.212, kShoulderHeight = 0.35;
     const double h = kTipHeight + kHand - kShoulderHeight, d = std::hypot(kReach, h);
@@ -72,8 +72,9 @@ class CheckBag : public ToolTest {
     return {shoulder, elbow, M_PI_2 - shoulder - elbow};
   }
 
-  /// Eight seconds with the finger in the plate, as held.bag.
-  /// @param is_silent  of the elbow, by the time [s]; all say nothing between `from` and `until`.
+  /// Writes held.bag: eight seconds with the finger in the plate.
+  /// @param is_silent  whether the elbow's position is left out at a time [s]; between `from` and `until` there are no
+  /// messages at all.
   void writeHeldContact(const std::function<bool(double)>& is_silent, double from = 9.0, double until = 9.0) {
     rosbag::Bag bag(path("held.bag").string(), rosbag::bagmode::Write);
     const Pose pose = downwards();
@@ -92,8 +93,8 @@ class CheckBag : public ToolTest {
     }
   }
 
-  /// Joint states of the sweep, stamped 5 ms before they are recorded.
-  /// @param later  adds them again to the bag, recorded so much later [s].
+  /// Writes the joint states of the sweep, stamped 5 ms before they are recorded.
+  /// @param later  if above 0, adds them to the bag again, recorded this much later [s].
   void writeJointStates(double later = 0.0) {
     const Pose pose = downwards();
     std::vector<double> yaws(kBefore - 1, kFirstYaw);
@@ -109,7 +110,7 @@ class CheckBag : public ToolTest {
     }
   }
 
-  /// The command line, with a configuration unless the options name one.
+  /// The command line; it names a configuration unless the options do.
   std::string check(const std::string& bag, const std::string& out, const std::string& options = "") const {
     const std::string config = options.find("--config") == std::string::npos ? "--config arm.yaml " : "";
     return "check-bag " + bag + " --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf " + config + options + " --out " +

@@ -85,8 +85,8 @@ TEST_F(CheckBag, WhatCannotBeMeantIsRefusedBeforeItIsBuilt) {
   expectRefused(check("arm.bag", "no", "--rate 1e9"), "a rate of 1e+09 Hz is above the largest, 10000 Hz");
 }
 
-/// Sends the tool a signal while it builds, and gives its exit status.
-/// @param what  a command line that builds for long.
+/// Sends the tool a signal while it builds. @return its exit status.
+/// @param what  a command line that takes long to build.
 int statusAfter(const std::string& signal, const std::string& folder, const std::string& what) {
   const std::string script = "cd '" + folder + "' && { '" SDF_CCD_TOOL "' " + what +
                              " > /dev/null 2> ../error.txt & "
@@ -121,7 +121,7 @@ TEST_F(CheckBag, OnAFullDiskItLeavesNothing) {
   const auto kilobytes = fs::file_size(path("made/checked.bag")) / 1024;
   const std::size_t files = countFiles();
   for (const std::string& limit : {std::to_string(kilobytes - 1), std::to_string(kilobytes / 2), std::string("1")}) {
-    // A limit on the size of files: their writer is told as of a full disk, that no more can be written.
+    // A limit on the size of files: for a writer this is like a full disk.
     const std::string script = "cd '" + path("").string() + "' && ulimit -f " + limit + " && trap '' XFSZ && '" +
                                SDF_CCD_TOOL "' " + check("arm.bag", "no") + " > /dev/null 2> ../error.txt";
     const int status = std::system(("bash -c \"" + script + "\"").c_str());
@@ -136,7 +136,7 @@ TEST_F(CheckBag, OnAFullDiskItLeavesNothing) {
   }
 }
 
-/// A base, two links on it that can touch, and others, whose transforms nobody sends.
+/// A base, two links on it that can touch, and other links whose transforms are never sent.
 std::string robotOfManyLinks(int others) {
   const std::string shape =
       "<collision><origin xyz='0 0.05 0'/><geometry><sphere radius='0.01'/></geometry></collision>";
@@ -170,7 +170,7 @@ TEST_F(CheckBag, WhyNothingWasCheckedIsSaidFirst) {
       bag.write("/tf", message.transforms[0].header.stamp, message);
     }
   };
-  // Links whose transforms do not come: one reason, of whatever many links.
+  // Links without transforms: one reason for all of them.
   writeTf("some.bag", {{"known", "base"}, {"known2", "base"}});
   const ToolRun some = run("check-bag some.bag" + options + "some");
   EXPECT_EQ(some.exit_code, kPartlyDone) << some.error;
@@ -183,7 +183,7 @@ TEST_F(CheckBag, WhyNothingWasCheckedIsSaidFirst) {
             std::string::npos)
       << some.out;
 
-  // A fixed frame that the robot's transforms do not lead to.
+  // A fixed frame that is not connected to the robot's transforms.
   writeTf("apart.bag", {{"known", "base"},
                         {"known2", "base"},
                         {"lost_a", "base"},
@@ -228,7 +228,7 @@ TEST_F(CheckBag, JointStatesThatLackPositionsAreCounted) {
       state.position = {kFirstYaw, pose.shoulder, pose.elbow, pose.wrist, 0.0};
       if (i % 2 == 1) state.position.pop_back();
       bag.write("joint_states", state.header.stamp, state);
-      state.position.clear();  // as of who sends velocities
+      state.position.clear();  // as sent by publishers of velocities
       bag.write("joint_states", state.header.stamp, state);
     }
   }
@@ -237,14 +237,14 @@ TEST_F(CheckBag, JointStatesThatLackPositionsAreCounted) {
   EXPECT_NE(result.error.find("sdf_ccd: warning: 30 messages of joint_states do not give a position per name\n"),
             std::string::npos)
       << result.error;
-  // The links beyond wait, and that is why cycles are NOT_CHECKED.
+  // The links beyond wait for transforms, which is why cycles are NOT_CHECKED.
   const std::size_t reasons = result.out.find("\nNOT_CHECKED as\n  ");
   ASSERT_NE(reasons, std::string::npos) << result.out;
   EXPECT_NE(result.out.find(" pairs wait for transforms, up to ", reasons), std::string::npos) << result.out;
 }
 
 TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
-  writeHeldContact([](double) { return true; });  // of the elbow
+  writeHeldContact([](double) { return true; });  // the elbow's
   const ToolRun result = run(check("held.bag", "made"));
   EXPECT_EQ(result.exit_code, kPartlyDone);
   EXPECT_NE(result.error.find("joint_states names nowhere these joints of the robot: elbow\n"), std::string::npos)
@@ -268,8 +268,7 @@ TEST_F(CheckBag, PairsThatNameNoBodyAreNamed) {
   const ToolRun result = run(check("arm.bag", "made", "--config pairs.yaml"));
   EXPECT_EQ(result.exit_code, kDone) << result.error;
   const std::string warning = "sdf_ccd: warning: checked_pairs: no body is named plaet, did you mean plate?\n";
-  EXPECT_EQ(result.error.rfind(warning, 0), 0u)
-      << result.error;  // after it, that there is no gnuplot, where that is so
+  EXPECT_EQ(result.error.rfind(warning, 0), 0u) << result.error;  // followed by a warning if gnuplot is missing
 }
 
 TEST_F(CheckBag, WhatCannotBeCheckedIsNamed) {

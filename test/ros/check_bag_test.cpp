@@ -32,7 +32,7 @@ TEST_F(CheckBag, FindsTheContactBetweenTwoSamples) {
   EXPECT_NEAR(std::stod(contact["start"]), enter, 1e-3);
   EXPECT_NEAR(std::stod(contact["end"]), leave, 1e-3);
   EXPECT_EQ(contact["seen_at_samples"], "0");
-  EXPECT_NEAR(std::stod(contact["depth"]), kFinger, 1e-3);  // the plate's middle at the finger's axis
+  EXPECT_NEAR(std::stod(contact["depth"]), kFinger, 1e-3);  // the plate's middle is at the finger's axis
   EXPECT_NEAR(std::stod(contact["y"]), kPlateY, kPlateHalf + 1e-3);
   EXPECT_LT(std::stod(contact["error_bound"]), 1e-4);  // triangles decide
   const double of_contact = std::stod(contact["contact_error_bound"]);
@@ -107,7 +107,7 @@ TEST_F(CheckBag, TfAndRatesAndPlotsTellTheSameContacts) {
   EXPECT_NEAR(std::stod(once["end"]), std::stod(often["end"]), 1e-6);
 }
 
-/// A message of a monitor about one contact, up to now.
+/// A monitor's message about one contact, as known until `end`.
 ContactArray toldOf(std::uint64_t id, bool begins, double begin, double end) {
   ContactArray message;
   message.cycle_start = ros::Time(end - 0.1);
@@ -130,7 +130,7 @@ ContactArray toldOf(std::uint64_t id, bool begins, double begin, double end) {
 TEST_F(CheckBag, TheTableHasARowPerContactAsTheLastMessageHasIt) {
   {
     rosbag::Bag bag(path("told.bag").string(), rosbag::bagmode::Write);
-    // A contact, another one, and one of a monitor that has been started again.
+    // A contact, another one, and one of a monitor that was restarted.
     for (const ContactArray& message :
          {toldOf(1, true, kBegin, kBegin + 0.1), toldOf(1, false, kBegin, kBegin + 0.2),
           toldOf(2, true, kBegin + 0.5, kBegin + 0.6), toldOf(1, true, kBegin + 0.8, kBegin + 0.9)}) {
@@ -153,7 +153,7 @@ TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
     rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Append);
     for (double time = kBegin; time < kBegin + 2.0; time += kPeriod)
       bag.write("/tf", ros::Time(time), message({stampedTransform("/odom", "/base", time, 0.0)}));
-    bag.write("/controller/joint_states", ros::Time(kBegin), sensor_msgs::JointState());  // not the robot's
+    bag.write("/controller/joint_states", ros::Time(kBegin), sensor_msgs::JointState());  // of another robot
   }
   write("odom.yaml", readText(path("arm.yaml")) + "fixed_frame: odom\n");
   const ToolRun result = run(check("arm.bag", "odom", "--config odom.yaml"));
@@ -166,7 +166,7 @@ TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
   expectRefused(check("arm.bag", "no", "--joint-states /nowhere"), "holds no joint states on /nowhere");
 }
 
-/// Of the last row of cycles.csv, which tells of no cycle.
+/// Tests the last row of cycles.csv, which is about a gap, not a cycle.
 void expectGap(const std::vector<Row>& cycles, double from, double until) {
   Row last = cycles.back(), before = cycles.at(cycles.size() - 2);
   EXPECT_EQ(last["verdict"], "NOT_CHECKED");
@@ -188,7 +188,7 @@ TEST_F(CheckBag, WhatComesAfterTheLastTransformsIsNotChecked) {
   const std::vector<Row> cycles = table("made/cycles.csv");
   expectGap(cycles, kBegin + kPeriod * (kBefore + 3 + kAfter), kBegin + 4.0);
 
-  // It is in the bag, too, and counts as no cycle.
+  // It is in the bag, too, and is not counted as a cycle.
   EXPECT_NE(result.out.find("\ncycles           " + std::to_string(cycles.size() - 1) + ":"), std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find(" CLEAR, 0 NOT_CHECKED,"), std::string::npos) << result.out;
@@ -239,7 +239,7 @@ TEST_F(CheckBag, TimeThatJumpsBackBeginsAnew) {
 }
 
 TEST_F(CheckBag, AJointThatIsSilentInContactIsNeverClear) {
-  // The finger stands in the plate all the time; the elbow says nothing from 3 s to 6 s.
+  // The finger is in the plate all the time; the elbow's position is missing from 3 s to 6 s.
   writeHeldContact([](double time) { return time >= 3.0 && time < 6.0; });
   ASSERT_EQ(run(check("held.bag", "made")).exit_code, kDone);
   std::map<std::string, int> verdicts;
@@ -297,7 +297,7 @@ TEST_F(CheckBag, SilenceOfAllIsSaidInTheBagAndNoCycle) {
   }
   EXPECT_EQ(silent, 1);
   EXPECT_EQ(not_checked, 1);
-  // The cycle that ends the silence tells of it.
+  // The cycle that ends the gap reports it.
   EXPECT_EQ(std::count_if(cycles.begin(), cycles.end(), [](Row cycle) { return cycle["verdict"] == "NOT_CHECKED"; }),
             1);
 }
@@ -306,7 +306,7 @@ TEST_F(CheckBag, TransformsThatComeLateAreNamed) {
   ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
   {
     rosbag::Bag bag(path("made/checked.bag").string(), rosbag::bagmode::Append);
-    const auto late = stampedTransform("base", "turret", kBegin + 10.5 * kPeriod, 0.0, M_PI);  // far from where it was
+    const auto late = stampedTransform("base", "turret", kBegin + 10.5 * kPeriod, 0.0, M_PI);  // far from its pose
     bag.write("/tf", ros::Time(kBegin + 13.2 * kPeriod), message({late}));
   }
   const ToolRun result = run(check("made/checked.bag", "again"));
@@ -350,10 +350,10 @@ TEST_F(CheckBag, ABoundAboveMaxErrorIsAWarning) {
 
 TEST_F(CheckBag, PairsAreLearnedFromABag) {
   const std::string command = "learn-pairs --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf --max-error 0.02 ";
-  // The arm only swings about, with its hand far from itself.
+  // The arm only swings, with its hand far from its other links.
   const ToolRun swings = run(command + "--states 0 --bag arm.bag --out arm.srdf");
   ASSERT_EQ(swings.exit_code, kDone) << swings.error;
-  EXPECT_NE(swings.out.find(", 5 recorded, and the default"), std::string::npos) << swings.out;  // different ones
+  EXPECT_NE(swings.out.find(", 5 recorded, and the default"), std::string::npos) << swings.out;  // 5 different ones
   EXPECT_NE(readText(path("arm.srdf")).find("link1=\"turret\" link2=\"hand\" reason=\"Never\""), std::string::npos);
   EXPECT_NE(readText(path("arm.srdf")).find("it holds for what was recorded"), std::string::npos);
   expectRefused(command + "--states 0 --bag missing.bag --out no.srdf", "missing.bag: cannot be opened");

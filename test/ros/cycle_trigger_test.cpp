@@ -33,7 +33,7 @@ TEST(CycleTrigger, NewsAtTheRateBeginACycleEachHoweverTheyJitter) {
   nanoseconds due(0), last(0);
   int cycles = 0;
   for (int news = 0; news < 60000;) {
-    // Those that have come when the cycle begins, 50 us after it may, are all in it.
+    // A cycle begins 50 us after it may, and contains all events that have come by then.
     const nanoseconds came = start + news * period + nanoseconds(late(random));
     const nanoseconds begun = std::max(came, due) + nanoseconds(50000);
     if (cycles > 0) EXPECT_GE(begun - last, period / 2);
@@ -90,7 +90,7 @@ TEST(CycleTrigger, AHigherRateHoldsForWhoWaitsAlready) {
   EXPECT_LT(Clock::now() - start, std::chrono::seconds(10));
 }
 
-/// How many cycles begin while news come.
+/// Number of cycles that begin while events are brought.
 template <class Bring>
 int cyclesWhile(const TriggerOptions& options, int times, const Bring& bring) {
   CycleTrigger trigger;

@@ -4,7 +4,7 @@
 
 namespace sdf_ccd::test {
 
-/// What a loop has to know of a scene without a robot, whose fixed frame is "world".
+/// A scene without a robot for a loop; the fixed frame is "world".
 inline DescribedScene describedWorld() {
   DescribedScene described;
   described.fixed_frame = "world";

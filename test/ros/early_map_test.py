@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A map that is sent once, before anything is known of where the robot is."""
+"""A map that is sent once, before the robot's poses are known."""
 import time
 import unittest
 
@@ -26,11 +26,11 @@ class EarlyMapTest(MasterCase):
         for heard in contacts.values():
             self.assertIsNotNone(heard.find(lambda m: m.scene_version > 1))  # with the map
         robot = MovingBalls(other=(0.0, -5.0))
-        for heard in contacts.values():  # its own picture does not count
+        for heard in contacts.values():  # the robot's own voxels are ignored
             self.assertIsNotNone(heard.find_new(lambda m: m.verdict == m.CLEAR, 10.0))
         robot.ball = 0.3
         time.sleep(0.3)
-        self.assertIsNotNone(contacts['occupied_near'].find_new(touches_map, 10.0))  # unknown, and near where it was
+        self.assertIsNotNone(contacts['occupied_near'].find_new(touches_map, 10.0))  # unknown, near its pose then
         self.assertIsNotNone(contacts['free'].find_new(lambda m: m.verdict == m.CLEAR, 10.0))
 
 

@@ -22,7 +22,7 @@ namespace {
 using test::failureOf;
 using Clock = std::chrono::steady_clock;
 
-/// Answers one request on this computer as it is told to.
+/// A local server that answers one request by the given function.
 class Server {
  public:
   explicit Server(const std::function<void(int)>& answer) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {

@@ -19,7 +19,7 @@ std::string joint(const std::string& name, const std::string& type, const std::s
          "</joint>";
 }
 
-/// a - b - c - d with a turning, a sliding and a mimicking joint; fixed e and floating f on a.
+/// a - b - c - d with a continuous, a prismatic and a mimic joint; fixed e and floating f on a.
 const std::string kUrdf = "<robot name='tree'><link name='a'/>" + joint("turn", "continuous", "ab") +
                           joint("slide", "prismatic", "bc", "<limit lower='-1' upper='1' effort='1' velocity='1'/>") +
                           joint("follow", "continuous", "cd", "<mimic joint='turn' multiplier='-2' offset='0.5'/>") +

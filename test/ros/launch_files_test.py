@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What monitor.launch sets and clears: parameters of the monitor alone, whatever earlier starts and others have left.
+"""monitor.launch sets and clears only parameters of the monitor, whatever earlier starts and others have left.
 
 usage: launch_files_test.py SOURCE_DIRECTORY
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A monitor through what happens to a robot's nodes: a clock that does not run, bags that loop, a master that dies.
+"""A monitor under disturbances: a clock that does not run, bags that loop, a master that dies.
 
 usage: lifecycle_test.py SOURCE_DIRECTORY
 """
@@ -86,7 +86,7 @@ class Lifecycle(MasterCase):
         player.send_signal(signal.SIGINT)
         player.wait(PATIENCE)
         contacts = self.ended(self.contacts.messages)
-        self.assertEqual(len({contact.id for contact in contacts}), len(contacts))  # each its own
+        self.assertEqual(len({contact.id for contact in contacts}), len(contacts))  # each has its own
         self.assertEqual(len({contact.begin.to_nsec() for contact in contacts}), 1)  # all the same
         self.assertTrue(any(m.reason == 'time has jumped' for m in self.states.messages))
 
@@ -116,14 +116,14 @@ class Lifecycle(MasterCase):
                 clock.publish(Clock(clock=stamp))
                 tf.publish(ball_transforms(stamp, 0.3 if i < 50 else 0.7))
                 time.sleep(0.02)
-            # Who is connected needs no master.
+            # Existing connections need no master.
             self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CONTACT))
             self.assertIsNone(self.monitor.poll())
             if self.master.poll() is not None:
                 self.start_master()
 
     def test_6_a_clock_that_is_set_far_ahead_and_back(self):
-        # Farther than a ros::Duration reaches, 2^31 s.
+        # By more than a ros::Duration holds, 2^31 s.
         clock = rospy.Publisher('/clock', Clock, queue_size=10)
         tf = rospy.Publisher('/tf', TFMessage, queue_size=10)
         for begin, verdict in ((3000.0, ContactArray.CLEAR), (4294967200.0, ContactArray.NOT_CHECKED),
@@ -138,7 +138,7 @@ class Lifecycle(MasterCase):
             self.assertIsNone(self.monitor.poll(), begin)
 
     def test_7_a_node_loads_and_unloads_nothing(self):
-        # That is what managers do.
+        # Loading nodelets is the task of managers.
         services = rosservice.get_service_list(namespace='/collision_monitor')
         self.assertFalse([name for name in services if name.endswith('load_nodelet') or name.endswith('/list')])
 

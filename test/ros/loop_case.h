@@ -19,7 +19,7 @@ using Step = TfTracker::Step;
 
 constexpr double kPeriod = 0.033;                  // [s]
 constexpr double kRadius = 0.05, kPlate = 0.5;     // of hand and foot, x of the plate [m]
-constexpr double kPlateHalf = 0.005, kHigh = 2.0;  // the foot's x, away from all [m]
+constexpr double kPlateHalf = 0.005, kHigh = 2.0;  // the foot's x where it is far from everything [m]
 
 inline std::shared_ptr<const Scene> handFootAndPlate() {
   static const auto built = build({body("hand", Sphere{kRadius}), body("foot", Sphere{kRadius}),
@@ -32,7 +32,7 @@ inline std::shared_ptr<const Scene> handFootAndPlate() {
   return built;
 }
 
-/// A loop that transforms are sent to, and what it says.
+/// A loop that receives transforms, and its messages.
 class MonitorLoopTest : public ::testing::Test {
  protected:
   MonitorLoopTest() { begin(); }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sends maps of voxels to a running monitor, as octomap_server does, from a bag too."""
+"""Sends voxel maps to a running monitor, like octomap_server, also from a bag."""
 import os
 import subprocess
 import sys
@@ -31,7 +31,7 @@ class MapTest(unittest.TestCase):
         return self.get_plan().plan.scene_version
 
     def send(self, sent):
-        """Until the cycles have it."""
+        """Sends a map and waits until the cycles use it. Returns the scene version."""
         before = self.version()
         self.maps.publish(sent)
         found = self.contacts.find_new(lambda m: m.scene_version > before)
@@ -53,7 +53,7 @@ class MapTest(unittest.TestCase):
         self.assertIsNotNone(self.find_clear(version))
         self.robot.ball = 0.5
         self.assertIsNotNone(self.find_touching_map())
-        # It is gone from there, and elsewhere.
+        # The map is replaced by one elsewhere.
         version = self.send(message(voxels_near(0.0, -0.5, 0.0, 0.1)))
         self.assertIsNotNone(self.find_clear(version))
 
@@ -61,7 +61,7 @@ class MapTest(unittest.TestCase):
         self.robot.ball = 0.9
         time.sleep(0.3)
         picture = voxels_near(0.0, 0.0, 0.0, 0.05)
-        self.send(message(picture))  # nobody is there
+        self.send(message(picture))  # the ball is not there
         self.robot.ball = 0.0
         self.assertIsNotNone(self.find_touching_map())
         time.sleep(0.3)
@@ -104,11 +104,11 @@ class MapTest(unittest.TestCase):
     def test_no_object_takes_a_tiles_name(self):
         update = wait_for_service('/collision_monitor/update_scene', UpdateScene)
         self.send(message(voxels_near(0.5, 0.0, 0.0, 0.05)))
-        for name in ('octomap/0_-1_-1', 'octomap/1_0_0'):  # one that is there, and one that may come
+        for name in ('octomap/0_-1_-1', 'octomap/1_0_0'):  # a present tile, and a possible one
             answer = update(changes=[box(name, pose(0.0, 3.0))])
             self.assertFalse(answer.success)
             self.assertIn('live map', answer.message)
-        # As the map itself one may be called, and is not taken for it.
+        # An object may have the name of the map, and is not taken for it.
         self.assertTrue(update(changes=[box('octomap', pose(0.0, 0.03))]).success)
         self.assertIsNotNone(self.contacts.find_new(lambda m: touches(m, 'ball', 'octomap')))
         touching = self.contacts.messages[-1].contacts[0]

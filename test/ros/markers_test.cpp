@@ -1,4 +1,4 @@
-// What rviz is told: sizes, names and ids, colours by verdict, deletions, labels that do not overlap.
+// Markers for rviz: sizes, names and ids, colours by verdict, deletions, labels that do not overlap.
 
 #include "ros/messages/markers.h"
 
@@ -26,7 +26,7 @@ Isometry3d at(double x) {
   return Isometry3d(Eigen::Translation3d(x, 0.0, 0.0));
 }
 
-/// A row of balls, of which neighbours are checked against each other as the pairs say.
+/// A row of balls; neighbours are checked as in the list of pairs.
 class MarkersTest : public ::testing::Test {
  protected:
   MarkersTest() : MarkersTest(2) {}
@@ -37,7 +37,7 @@ class MarkersTest : public ::testing::Test {
     monitor_ = std::make_unique<Monitor>(scene_, test::soft());
   }
 
-  /// One cycle with the balls at rest there.
+  /// Draws one cycle with the balls at rest at these x [m].
   MarkerArray draw(const std::vector<double>& x) {
     std::vector<std::vector<Isometry3d>> poses;
     for (const double place : x) poses.push_back(test::still(at(place)));
@@ -154,7 +154,7 @@ TEST_F(MarkersTest, LinksHaveTheColourOfTheirVerdict) {
   EXPECT_TRUE(isColor(colorOf(), Verdict::kContact));
   drawer_.clear("reset");
   EXPECT_TRUE(isColor(colorOf(), Verdict::kNotChecked));
-  draw({0.0, 2.0 * kRadius});  // they touch, to rounding
+  draw({0.0, 2.0 * kRadius});  // they touch, up to rounding
   EXPECT_TRUE(isColor(colorOf(), Verdict::kUncertain));
   drawer_.clear("reset");
   missing_ = {"no transform", ""};
@@ -222,7 +222,7 @@ TEST(ShapeMarker, AMeshIsNamedIfRvizFindsItByItsName) {
 }
 
 TEST(WorldMarkers, AVoxelMapIsItsSurfaceVoxels) {
-  // Two voxels of 0.5 m, one upon the other, from (0.5, 0, 0) on.
+  // Two voxels of 0.5 m, one on top of the other, from (0.5, 0, 0) on.
   const double size = 0.5;
   TriangleMesh surface = transformed(tessellate(Box{Vector3d::Constant(0.25)}, 0.01), at(0.75));
   surface = transformed(std::move(surface), Isometry3d(Eigen::Translation3d(0.0, 0.25, 0.25)));
@@ -253,7 +253,7 @@ TEST_F(MarkersTest, APlannedMotionIsDrawnWithItsFirstContact) {
   ASSERT_EQ(named(markers, "paths").size(), 1u);
   EXPECT_NEAR(named(markers, "paths")[0].points.back().x, 0.5, 1e-9);
   ASSERT_EQ(named(markers, "first_contact").size(), 2u);
-  EXPECT_NEAR(named(markers, "first_contact")[0].pose.position.x, 0.4, 0.02);  // the resting ball's left side
+  EXPECT_NEAR(named(markers, "first_contact")[0].pose.position.x, 0.4, 0.02);  // left side of the ball at rest
   EXPECT_NE(named(markers, "first_contact")[1].text.find("ball0 - ball1"), std::string::npos);
   EXPECT_NEAR(std::stod(named(markers, "first_contact")[1].text.substr(29)), 1.2, 0.05);
 }

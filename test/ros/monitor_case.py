@@ -1,4 +1,4 @@
-"""What the tests of a running monitor share: where the robot is, what the monitor says, and what it is asked."""
+"""Shared by the tests of a running monitor: the robot's poses, the monitor's messages, and requests."""
 import threading
 import time
 import unittest
@@ -25,13 +25,13 @@ CUBE = """OFF
 
 
 def wait_for_service(name, kind, patience=60.0):
-    """The proxy of a service, once that is there."""
+    """The proxy of a service, once the service is available."""
     rospy.wait_for_service(name, patience)
     return rospy.ServiceProxy(name, kind)
 
 
 class Recorder:
-    """Keeps all messages of a topic. Who looks for some waits up to `patience` [s], whatever the clock of ROS does."""
+    """Keeps all messages of a topic. Searches wait up to `patience` [s] of wall time."""
 
     def __init__(self, topic, kind, patience=20.0):
         self.condition, self.kept, self.patience = threading.Condition(), [], patience
@@ -44,7 +44,7 @@ class Recorder:
 
     @property
     def messages(self):
-        """Those so far."""
+        """All messages so far."""
         with self.condition:
             return list(self.kept)
 
@@ -53,7 +53,7 @@ class Recorder:
             self.kept.clear()
 
     def find(self, test, patience=None):
-        """The first message that passes the test, among those that are there or come in time; else None."""
+        """The first message that passes the test, among those present or arriving in time; else None."""
         end = time.monotonic() + (self.patience if patience is None else patience)
         with self.condition:
             seen = 0
@@ -71,7 +71,7 @@ class Recorder:
         return self.find(test, patience)
 
     def wait(self, test):
-        """Whether the test holds of the list of all messages so far, or comes to hold in time."""
+        """Whether the list of all messages passes the test, now or in time."""
         with self.condition:
             return self.condition.wait_for(lambda: test(self.kept), self.patience)
 
@@ -80,7 +80,7 @@ class Recorder:
 
 
 def pair_of(message, a, b):
-    """What the message says of two bodies; None if it says nothing."""
+    """The pair of these two bodies in the message; None if it is not listed."""
     return next((pair for pair in message.pairs if {pair.body_a, pair.body_b} == {a, b}), None)
 
 
@@ -90,14 +90,14 @@ def touches(message, a, b):
 
 
 def transform(stamp, frame, x, y=0.0, parent='base'):
-    """Of a frame that is not turned against its parent."""
+    """Transform of a frame without rotation relative to its parent."""
     sent = TransformStamped(header=Header(stamp=stamp, frame_id=parent), child_frame_id=frame)
     sent.transform.translation.x, sent.transform.translation.y, sent.transform.rotation.w = x, y, 1.0
     return sent
 
 
 def ball_transforms(stamp, ball, other=0.0):
-    """Where the two balls of sliders.urdf are along x [m]; None leaves one out."""
+    """Transforms of the two balls of sliders.urdf at these x [m]; None leaves one out."""
     return TFMessage([transform(stamp, frame, x, y) for frame, x, y in (('ball', ball, 0.0), ('other', other, 0.5))
                       if x is not None])
 
@@ -107,13 +107,13 @@ def pose(x=0.0, y=0.0, z=0.0):
 
 
 def box(name, where, size=(0.1, 0.1, 0.1), frame=''):
-    """A change that adds it."""
+    """A change that adds a box."""
     return SceneChange(type=SceneChange.ADD, object=name, pose=where, header=Header(frame_id=frame),
                        primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=size)])
 
 
 class MovingBalls:
-    """Sends, from now on, where the balls of sliders.urdf are: `ball` is to be set. Other frames rest at (x, y) [m]."""
+    """Sends transforms of the balls of sliders.urdf from now on; set `ball`. Other frames rest at (x, y) [m]."""
 
     def __init__(self, **frames):
         self.ball, self.frames = 0.0, frames
@@ -123,20 +123,20 @@ class MovingBalls:
     def send(self):
         while not rospy.is_shutdown():
             frames = {'ball': (self.ball, 0.0), 'other': (0.0, 0.5), **self.frames}
-            # Each with a stamp of its own, as from several nodes.
+            # Each transform has its own stamp, as if from several nodes.
             self.tf.publish(TFMessage([transform(rospy.Time.now(), frame, x, y) for frame, (x, y) in frames.items()]))
             time.sleep(PERIOD)
 
 
 def trajectory(joint, positions):
-    """A request to query_motion, with a second from each position to the next."""
+    """A request to query_motion, with one second between positions."""
     points = [JointTrajectoryPoint(positions=[p], time_from_start=rospy.Duration(float(i)))
               for i, p in enumerate(positions)]
     return QueryMotionRequest(trajectory=JointTrajectory(joint_names=[joint], points=points))
 
 
 class MonitorCase(unittest.TestCase):
-    """A monitor of sliders.urdf that is ready, and that learns of its balls by one sample after the other."""
+    """A ready monitor of sliders.urdf that receives the poses of the balls sample by sample."""
 
     @classmethod
     def setUpClass(cls):
@@ -152,7 +152,7 @@ class MonitorCase(unittest.TestCase):
 
     @classmethod
     def send(cls, ball, other=0.0):
-        """One sample, as ball_transforms()."""
+        """Sends one sample, see ball_transforms()."""
         cls.stamp = max(cls.stamp + rospy.Duration(SAMPLE_PERIOD), rospy.Time.now() - rospy.Duration(0.1))
         cls.tf.publish(ball_transforms(cls.stamp, ball, other))
         rospy.sleep(SAMPLE_PERIOD)

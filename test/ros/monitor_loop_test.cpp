@@ -1,4 +1,4 @@
-// Cycles of a whole monitor, from transforms to messages.
+// Cycles of a complete monitor, from transforms to messages.
 
 #include "ros/monitor/monitor_loop.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-/// Whether a message says that there was no contact at a time.
+/// Whether a message reports that there was no contact at a time.
 bool saysClearAt(const ContactArray& contacts, double time) {
   return contacts.verdict == ContactArray::CLEAR && contacts.cycle_start.toSec() <= time &&
          time <= contacts.complete_until.toSec();
@@ -41,7 +41,7 @@ TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
   sendHand(0.0, 0.0, true);
   double crossing = 0.0;
   for (int i = 0; i < 60; ++i) {
-    const double now = 10.0 + i * kPeriod, x = i < 20 ? 0.0 : 0.2 * (i % 5);  // it passes the plate between two
+    const double now = 10.0 + i * kPeriod, x = i < 20 ? 0.0 : 0.2 * (i % 5);  // it passes the plate between two samples
     sendFoot(now);
     if (i >= 10) sendHand(now, x);
     step(now);
@@ -50,7 +50,7 @@ TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
       EXPECT_EQ(last().verdict, ContactArray::CONTACT) << i;
     }
   }
-  EXPECT_EQ(verdicts(ContactArray::NOT_CHECKED), 1);  // where it has changed
+  EXPECT_EQ(verdicts(ContactArray::NOT_CHECKED), 1);  // where it changes
   EXPECT_GE(verdicts(ContactArray::CONTACT), 8);
   for (const ContactArray& said : said_) EXPECT_FALSE(saysClearAt(said, crossing));
 }
@@ -110,7 +110,7 @@ TEST_F(MonitorLoopTest, OneFrameWithTwoClocksDoesNotSilenceTheOthers) {
     if (i > 65) {
       EXPECT_FALSE(last().contradicted_since.isZero());
       EXPECT_EQ(last().late_frames, std::vector<std::string>{"hand"});
-      ASSERT_EQ(last().unchecked.size(), 1u);  // 1.5 s are too long ago
+      ASSERT_EQ(last().unchecked.size(), 1u);  // 1.5 s is longer than max_cycle
       EXPECT_EQ(last().unchecked[0].body, "hand");
     }
   }
@@ -167,7 +167,7 @@ TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
 
 TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
   Scene broken = *handFootAndPlate();
-  broken.bodies.edit(0).X_frame_B.linear() *= 1.1;  // no rotation
+  broken.bodies.edit(0).X_frame_B.linear() *= 1.1;  // not a rotation
   MonitorParameters parameters;
   parameters.monitor = soft();
   loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), describedWorld(), parameters);
@@ -194,7 +194,7 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
 TEST_F(MonitorLoopTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   DescribedScene described = describedWorld();
   described.unreachable = {
-      {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}}};  // of each other, and yet near
+      {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}}};  // of each other, although they are close
   loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), described, MonitorParameters());
   for (int i = 0; i < 3; ++i) {
     sendHand(10.0 + i * kPeriod, 0.0);
@@ -275,7 +275,7 @@ TEST_F(MonitorLoopTest, ResetsAndJumpsEndAllContacts) {
   const double end = touch(11.0);
   ASSERT_EQ(last().contacts.size(), 1u);
   EXPECT_EQ(last().contacts[0].id, 2u);
-  // While nothing comes it is said as it was.
+  // While no transforms come, the contact is reported unchanged.
   ASSERT_EQ(step(end + 0.6), Step::kStalled);
   told = toUncheckedContacts(*loop_, "no new transforms");
   ASSERT_EQ(told.contacts.size(), 1u);
@@ -309,7 +309,7 @@ TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
 }
 
 TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
-  // The foot turns and drives on a curve that wants samples of its own; the hand, far away, is always 0.4 s late.
+  // The foot moves on a curve that needs additional samples; the hand, far away, is always 0.4 s late.
   std::size_t most_times = 0;
   for (int i = 0; i < 40; ++i) {
     const double now = 10.0 + i * kPeriod;
@@ -320,7 +320,8 @@ TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
     if (step(now) == Step::kCycle && i > 30) most_times = std::max(most_times, loop_->cycle().motion.times.size());
   }
   EXPECT_EQ(verdicts(ContactArray::CONTACT), 0);
-  // Of 13 periods one is sampled for the foot and the plate; the foot and the hand need another, 12 periods ago.
+  // One of 13 periods is sampled for the foot and the plate; the foot and the hand need another one, 12 periods
+  // earlier.
   EXPECT_LT(most_times, 20u);
 }
 
@@ -361,7 +362,7 @@ TEST_F(MonitorLoopTest, StampsFarAheadStopNothing) {
 }
 
 TEST(MonitorLoop, TwoArmsThatMeetBetweenTheirTransformsAreNotClear) {
-  // Two arms of 0.8 m on one base turn at 2 rad/s each; only in the middle between two transforms their tips meet.
+  // Two arms of 0.8 m on one base rotate at 2 rad/s each; their tips meet only in the middle between two transforms.
   constexpr double kArm = 0.8, kTip = 0.02, kDepth = 0.003, kRate = 2.0, kStep = 0.1;
   const auto tip = [](const std::string& name) {
     BodyDescription arm = body(name, Sphere{kTip});

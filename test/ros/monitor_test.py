@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Drives the monitor through tf, as a robot would, and looks at what it says."""
+"""Drives the monitor through tf, like a robot, and tests its messages."""
 import signal
 import subprocess
 import sys
@@ -53,14 +53,14 @@ class MonitorTest(MonitorCase):
         pair = pair_of(message, 'ball', 'plate')
         self.assertEqual(pair.verdict, PairContact.CONTACT)
         self.assertFalse(pair.in_contact_at_samples)
-        # The ball's front reaches the plate's face; its back leaves the other.
+        # The ball's front reaches one face of the plate; its back leaves the other.
         length = (after - before).to_sec()
         enter = (PLATE - RADIUS - 0.4) / 0.2 * length
         leave = (PLATE + 0.001 + RADIUS - 0.4) / 0.2 * length
         self.assertEqual(pair.first_contact, pair.intervals[0].start)
         self.assertAlmostEqual((pair.first_contact - before).to_sec(), enter, delta=0.02 * length)
         self.assertAlmostEqual((pair.intervals[-1].end - before).to_sec(), leave, delta=0.02 * length)
-        self.assertGreater(pair.depth, 0.0004)  # by the ball's shell, half the plate; by the plate's, the radius
+        self.assertGreater(pair.depth, 0.0004)  # half the plate with the ball's shell; the radius with the plate's
         self.assertLess(pair.depth, RADIUS + 1e-6)
         self.assertGreater(pair.error_bound, 0.0)
         self.assertGreater(len(pair.points), 0)
@@ -89,7 +89,7 @@ class MonitorTest(MonitorCase):
         self.assertEqual(told[-1].begin, told[0].begin)
         self.assertEqual(told[-1].verdict, Contact.CONTACT)
         self.assertEqual(len(messages[-1].contacts), 0)
-        # What is plotted.
+        # The values for plots.
         self.assertIsNotNone(self.states.find(lambda m: m.max_depth > 0.0 and m.max_force > 0.0 and m.contacts == 1))
         self.assertIsNotNone(self.states.find(lambda m: m.min_clearance > 0.0 and m.contacts == 0))
         for earlier, later in zip(messages, messages[1:]):
@@ -116,7 +116,7 @@ class MonitorTest(MonitorCase):
         self.assertAlmostEqual(pair.point_b.x, PLATE, delta=1e-4)
         self.assertAlmostEqual(pair.normal.x, 1.0, delta=1e-4)
         self.assertGreater(pair.closing_speed, 0.1)
-        # Slowly towards it: warned of, slowed, and stopped.
+        # Slowly towards the plate: warning, slowing down, stop.
         scales.clear()
         for x, proximity in ((0.3, MonitorState.FREE), (0.42, MonitorState.WARNING), (0.47, MonitorState.STOP)):
             self.states.clear()
@@ -127,7 +127,7 @@ class MonitorTest(MonitorCase):
         self.assertIsNotNone(scales.find(lambda m: 0.0 < m.data < 1.0))
         scales.clear()
         for _ in range(15):
-            self.send(-1.5, -0.3)  # nor is the other one near
+            self.send(-1.5, -0.3)  # the other ball is far away, too
         self.assertIsNotNone(scales.find(lambda m: m.data == 1.0))
         # Far away nothing is listed.
         distances.clear()
@@ -146,7 +146,7 @@ class MonitorTest(MonitorCase):
         scales = Recorder('/collision_monitor/velocity_scale', Float64)
         self.wait_for(distances)
         try:
-            # 0.18 m away from the plate: neither near nor slowed, but then both.
+            # 0.18 m from the plate: first neither warned of nor slowed, then both.
             self.rest_at(0.3)
             self.assertIsNotNone(self.states.find(lambda m: m.proximity == MonitorState.FREE))
             self.assertIsNotNone(scales.find(lambda m: m.data > 0.2))
@@ -160,7 +160,7 @@ class MonitorTest(MonitorCase):
             self.assertIsNotNone(scales.find(lambda m: m.data < 0.1))
             self.assertIsNotNone(distances.find(lambda m: m.range == 0.25))
             self.assertEqual(rospy.get_param('/collision_monitor/warning_distance'), 0.19)
-            # What cannot be stays as it was; what is beyond the limits is cut off there.
+            # Invalid values change nothing; values beyond the limits are clamped.
             for wrong in ({'stop_distance': 0.2}, {'hysteresis': float('nan'), 'stop_distance': 0.05}):
                 self.assertEqual(monitor.update_configuration(wrong)['stop_distance'], 0.02)
             self.assertEqual(monitor.update_configuration({'hysteresis': -1.0})['hysteresis'], 0.0)
@@ -182,7 +182,7 @@ class MonitorTest(MonitorCase):
             self.send(ball)
 
     def wait_for(self, recorder):
-        """Until the monitor has seen that somebody listens."""
+        """Waits until the monitor has noticed the subscriber."""
         end = time.monotonic() + 10.0
         while not recorder.messages and time.monotonic() < end:
             self.send(0.0)
@@ -231,7 +231,7 @@ class MonitorTest(MonitorCase):
         message = self.contacts.find(lambda m: m.header.stamp < self.stamp - rospy.Duration(50.0))
         self.assertIsNotNone(message)
         self.assertGreaterEqual(message.cycle_start, stamp)
-        # Forward again: the gap is not checked, and then all goes on.
+        # Forward again: the gap is not checked, then cycles continue.
         self.contacts.clear()
         for _ in range(12):
             self.send(0.0)
@@ -256,7 +256,7 @@ class MonitorTest(MonitorCase):
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
         diagnostics = Recorder('/diagnostics', DiagnosticArray)
         self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'transforms') == DiagnosticStatus.ERROR))
-        # A plan that starts from poses as old as that is answered, and says so.
+        # A plan that starts from such old poses is answered, with a note.
         answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
         self.assertTrue(answer.success, answer.message)
         self.assertRegex(answer.message, r'the newest transform of \w+ is [0-9.]+ s old')
@@ -279,7 +279,7 @@ class MonitorTest(MonitorCase):
         self.assertIsNotNone(self.contacts.find(lambda m: m.complete_until >= self.stamp))
         diagnostics = Recorder('/diagnostics', DiagnosticArray)
         middle = last + (self.stamp - last) * 0.5
-        self.tf.publish(ball_transforms(middle, 0.6, None))  # it was behind the plate meanwhile
+        self.tf.publish(ball_transforms(middle, 0.6, None))  # it was behind the plate at that time
         self.send(0.0)
         message = self.contacts.find(lambda m: not m.contradicted_since.is_zero())
         self.assertIsNotNone(message)
@@ -323,7 +323,7 @@ class MonitorTest(MonitorCase):
         self.assertFalse(any(x.action == Marker.DELETEALL for m in self.markers.messages for x in m.markers))
         self.assertIsNotNone(self.contacts.find(lambda m: 'other' in m.late_frames))
         self.assertIsNone(self.states.find(lambda m: 'jumped' in m.reason, 0.0))
-        for _ in range(20):  # that ends, and so does what it costs
+        for _ in range(20):  # the late transforms end, and so does their cost
             self.send(0.0)
         self.contacts.clear()
         self.send(0.0)
@@ -371,7 +371,7 @@ class MonitorTest(MonitorCase):
     def test_robot_that_comes_late_is_waited_for(self):
         states = Recorder('/late_monitor/state', MonitorState)
         self.assertIsNotNone(states.find(lambda m: 'late_description is missing' in m.reason))
-        self.assertEqual(rospy.get_param('/late_monitor/fixed_frame'), 'base')  # as after_monitor put it in
+        self.assertEqual(rospy.get_param('/late_monitor/fixed_frame'), 'base')  # as inserted by after_monitor
         rospy.set_param('/late_description', rospy.get_param('/collision_monitor/robot_description'))
         self.assertIsNotNone(states.find(lambda m: m.header.frame_id == 'base'))
 
@@ -381,7 +381,7 @@ class MonitorTest(MonitorCase):
                                     '_urdf_parameter:=/collision_monitor/robot_description'])
         try:
             self.assertIsNotNone(Recorder('/slow_monitor/plan', Plan).find(lambda m: True))
-            time.sleep(0.5)  # the first cycle begins at once
+            time.sleep(0.5)  # the first cycle begins immediately
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.wait(10.0), 0)
             self.assertIsNotNone(states.find(lambda m: m.reason == 'the monitor has ended'))

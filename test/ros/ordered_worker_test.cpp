@@ -23,7 +23,7 @@ TEST(OrderedWorker, WorksOnEveryItemInOrderWhicheverSideIsTheSlower) {
         worker.next() = i;
         worker.handOver();
       }
-    }  // what waits is worked on
+    }  // the destructor processes items that still wait
     ASSERT_EQ(seen.size(), std::size_t(kItems));
     for (int i = 0; i < kItems; ++i) EXPECT_EQ(seen[std::size_t(i)], i);
   }

@@ -1,4 +1,4 @@
-"""A ROS master of a test's own, beside those of others, and what runs with it."""
+"""A separate ROS master for a test, and the processes that use it."""
 import os
 import signal
 import socket
@@ -15,9 +15,9 @@ SLIDERS = os.path.dirname(os.path.realpath(__file__)) + '/sliders.urdf'
 
 
 def use_own_master(**environment):
-    """Has this process and those that it starts talk to a master of their own, on a port that is free.
+    """Makes this process and its children use a separate master, on a free port.
 
-    Further variables of the environment come as arguments. Returns the port; nothing listens there yet.
+    The arguments are further environment variables. Returns the port, on which nothing listens yet.
     """
     with socket.socket() as free:
         free.bind(('', 0))
@@ -28,7 +28,7 @@ def use_own_master(**environment):
 
 
 def start_master(port, patience=PATIENCE):
-    """The process of a master that answers."""
+    """Starts a master. Returns its process once it answers."""
     master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL)
     end = time.monotonic() + patience
@@ -42,7 +42,7 @@ def start_master(port, patience=PATIENCE):
 
 
 class MasterCase(unittest.TestCase):
-    """Has a master, and processes that talk to it and end with the tests."""
+    """Runs a master, and processes that use it and end with the tests."""
 
     @classmethod
     def setUpClass(cls):
@@ -57,14 +57,14 @@ class MasterCase(unittest.TestCase):
 
     @classmethod
     def start(cls, *command):
-        # A group of its own: what it starts, as `rosbag play` its player, is to end with it.
+        # In its own process group, so that its children (the player of `rosbag play`) end with it.
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         cls.children.append(child)
         return child
 
     @classmethod
     def start_monitor(cls, name, urdf, parameters):
-        """The process of a monitor with these parameters; `urdf` is the text."""
+        """Starts a monitor with these parameters; `urdf` is the text. Returns its process."""
         rospy.set_param('/' + name, {'robot_description': urdf, 'robot_description_semantic': '', 'cache': False,
                                      **parameters})
         return cls.start('rosrun', 'sdf_ccd', 'collision_monitor', '__name:=' + name)

@@ -29,9 +29,9 @@ std::string errorOf(const Read& read) {
 
 TEST(ParameterReader, ReadsNumbersGroupsAndLists) {
   ParameterReader reader(tree(), "/monitor");
-  EXPECT_EQ(reader.number("rate", 1.0), 30.0);  // an integer is a number too
+  EXPECT_EQ(reader.number("rate", 1.0), 30.0);  // an integer is also a number
   EXPECT_EQ(reader.positive("max_cycle", 2.0), 2.0);
-  EXPECT_EQ(reader.number("stiffness", 1.0), 1e8);  // a text to YAML
+  EXPECT_EQ(reader.number("stiffness", 1.0), 1e8);  // a text in YAML
   EXPECT_EQ(reader.group("field").integer("cells", 0, 1), 64);
   EXPECT_FALSE(reader.group("shell").has("spacing"));
   EXPECT_EQ(reader.list("world")[0].vector("xyz", Vector3d::Zero()), Vector3d(1.0, 2.5, 3.0));

@@ -140,7 +140,8 @@ TEST_F(PlannedMotionTest, LinkPosesAreTakenAsTheyAre) {
   EXPECT_EQ(refusal(request), "the robot has no link tail");
 }
 
-/// Two links given as turned by +2 and −2 rad about one axis turn by 4 rad against each other, each its own way.
+/// Two links that rotate by +2 and −2 rad about one axis rotate by 4 rad relative to each other: each takes its own
+/// shorter rotation.
 TEST_F(PlannedMotionTest, EachLinkFollowsItsOwnShortestWay) {
   QueryMotion::Request request;
   request.links = {"rod", "base"};
@@ -220,7 +221,7 @@ TEST_F(PlannedMotionTest, TheRootMovesByAMultiDofTrajectory) {
   }
 }
 
-/// Nothing of the base's motion can be told of what moves with it.
+/// An object that moves with the base cannot be used to check the base's motion.
 TEST_F(PlannedMotionTest, ObjectsThatMoveWithTheBaseAreSaid) {
   const auto base = [] {
     QueryMotion::Request request;

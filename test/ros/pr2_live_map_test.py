@@ -34,10 +34,10 @@ STICK = (0.3, 0.8, 0.03)  # along the laser's x from and to, and how thick [m]
 # From and to along x, y, z of base_footprint [m], and the laser's angle where the stick is in the middle of it [rad].
 LUMPS = (((0.55, 0.65), (-0.1, 0.1), (1.10, 1.20), -0.04), ((0.45, 0.55), (-0.1, 0.1), (0.75, 0.85), 0.64))
 WALL = ((2.0, 2.05), (-1.0, 1.0), (0.2, 1.8))
-AWAY = 0.35            # the laser's angle from a lump's while a map is taken: what the stick fills does not count [rad]
-MAPS = 0.2             # from one map to the next [s]
-SWITCH = (6.3, 6.6)    # of the bag's times, when the laser looks up: the second lump takes the first one's place [s]
-SURE = 1e-3            # what is as near to touching is not judged [m]
+AWAY = 0.35            # angle of the laser from a lump when a map is sent: voxels in the stick are ignored [rad]
+MAPS = 0.2             # between maps [s]
+SWITCH = (6.3, 6.6)    # time in the bag, with the laser up: the second lump replaces the first [s]
+SURE = 1e-3            # distances and overlaps below this are not judged [m]
 STEP = 0.002           # between times that are judged [s]
 
 
@@ -47,7 +47,7 @@ def voxels(*box):
 
 
 class Laser:
-    """Its angle about y over the bag's time, and where its axis is in base_footprint: what is between rests."""
+    """The angle of the laser about y over the bag's time, and its fixed axis in base_footprint."""
 
     def __init__(self):
         self.times, self.angles, self.axis, joints = [], [], [0.0, 0.0, 0.0], {}
@@ -65,13 +65,13 @@ class Laser:
             frame = joints[frame].header.frame_id.strip('/')
 
     def angle(self, when):
-        """Between transforms it turns evenly."""
+        """The angle at a time, linear between transforms."""
         k = min(max(bisect.bisect_right(self.times, when), 1), len(self.times) - 1)
         share = (when - self.times[k - 1]) / (self.times[k] - self.times[k - 1])
         return self.angles[k - 1] + share * (self.angles[k] - self.angles[k - 1])
 
     def apart(self, angle, lump):
-        """How far an axis of either parts stick and lump; below 0, by how much they overlap along each [m].
+        """Largest gap of stick and lump along any axis of either; negative: the smallest overlap [m].
 
         Both lie across the plane of x and z, in which the laser turns.
         """
@@ -111,7 +111,7 @@ class Pr2LiveMapTest(MasterCase):
             time.sleep(0.1)
 
     def attach_stick(self):
-        """At the laser; it may touch the robot, whose arms are in the way."""
+        """Attaches the stick to the laser; it may touch the robot, whose arms are in the way."""
         middle, length = sum(STICK[:2]) / 2, STICK[1] - STICK[0]
         stick = SceneChange(type=SceneChange.ATTACH, object='stick', link=LASER, touch_links=['*'],
                             pose=Pose(position=Point(middle, 0.0, 0.0), orientation=Quaternion(0, 0, 0, 1)),
@@ -122,7 +122,7 @@ class Pr2LiveMapTest(MasterCase):
         return answer.scene_version
 
     def send_map(self, lump, count):
-        """Each differs from the last: a row of the wall comes and goes."""
+        """Sends a map that differs from the last one by a row of the wall."""
         low = 1.8 + SIZE * (count % 3)
         row = voxels((2.0, 2.05), (-1.0, 1.0), (low, low + SIZE))
         sent = message({**voxels(*WALL), **row, **voxels(*lump[:3])})
@@ -130,7 +130,7 @@ class Pr2LiveMapTest(MasterCase):
         self.maps.publish(sent)
 
     def send_first_map(self, attached):
-        """Before the bag plays: all links get what maps are checked with."""
+        """Sends a map before the bag plays, so that all links are prepared for maps."""
         start = time.monotonic()
         while not self.maps.get_num_connections():
             time.sleep(0.01)
@@ -141,7 +141,7 @@ class Pr2LiveMapTest(MasterCase):
         return time.monotonic() - start
 
     def send_maps(self, player):
-        """While the bag plays. Returns from which version on the second lump is there."""
+        """Sends maps while the bag plays. Returns the first version with the second lump."""
         sent, last, second, before_second = 0, -math.inf, None, None
         end = time.monotonic() + PATIENCE
         while player.poll() is None:
@@ -149,7 +149,7 @@ class Pr2LiveMapTest(MasterCase):
             time.sleep(0.005)
             now = rospy.Time.now().to_sec() - self.begin
             if SWITCH[0] - 0.6 < now < SWITCH[0]:
-                continue  # the last map with the first lump is taken
+                continue  # the last map with the first lump is being processed
             lump = LUMPS[now >= SWITCH[0]]
             angle = self.laser.angle(self.begin + now)
             if second is None and now >= SWITCH[0]:
@@ -177,13 +177,13 @@ class Pr2LiveMapTest(MasterCase):
         self.assertIsNotNone(second)
         cycles = [m for m in self.contacts.messages if m.header.stamp > m.cycle_start]
         states = [s for s in self.states.messages if s.run_time > 0.0]
-        # All that the bag holds, without a gap, and as often as transforms come.
+        # Cycles cover the bag without a gap, as often as transforms come.
         for earlier, later in zip(cycles, cycles[1:]):
             self.assertEqual(earlier.header.stamp, later.cycle_start)
         self.assertLess(cycles[0].cycle_start.to_sec() - self.begin, 0.5)
         self.assertGreater(cycles[-1].header.stamp.to_sec(), self.laser.times[-1] - 0.1)
         self.assertGreater(len(cycles), 10 * len(self.laser.times) // 4)
-        # Maps were taken over meanwhile.
+        # Maps were adopted in the meantime.
         self.assertGreater(cycles[-1].scene_version, attached + sent // 2)
         times = sorted(1e3 * s.run_time for s in states)
         print('first map after %.1f s; %d cycles in %.1f s, %d maps, %d versions; a cycle %.2f ms, p99 %.2f, '
@@ -192,13 +192,13 @@ class Pr2LiveMapTest(MasterCase):
         self.judge(cycles, attached, second)
 
     def judge(self, cycles, attached, second):
-        """What is said of stick and map, by the spans that pairs were checked over: late transforms delay some."""
+        """Judges the results for stick and map, by the spans of pairs: late transforms delay some."""
         def begin_of(version):
             return next(m.header.stamp.to_sec() for m in cycles if m.scene_version >= version)
         first, switch, switched = begin_of(attached + 1), self.begin + SWITCH[0], begin_of(second)
         said = [(p.checked_from.to_sec(), p.checked_until.to_sec(), p) for m in cycles for p in m.pairs
                 if 'stick' in (p.body_a, p.body_b) and any(b.startswith('octomap/') for b in (p.body_a, p.body_b))]
-        # What overlaps is told, at any time.
+        # Every overlap is reported.
         overlapping = 0
         end = min(self.laser.times[-1], cycles[-1].complete_until.to_sec())
         for i in range(int((end - first) / STEP)):
@@ -207,7 +207,7 @@ class Pr2LiveMapTest(MasterCase):
                 continue
             overlapping += 1
             self.assertTrue(any(since <= when <= until for since, until, _ in said), when - self.begin)
-        # What is told does overlap, and there.
+        # Every reported contact is an overlap, at that location.
         caught = [0, 0]
         for since, until, pair in said:
             if pair.verdict != pair.CONTACT:

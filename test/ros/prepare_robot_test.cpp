@@ -3,7 +3,7 @@
 namespace sdf_ccd::test {
 namespace {
 
-/// What `build --config` makes is what the monitor loads; check-bag runs the monitor's own start.
+/// The monitor loads what `build --config` has made; check-bag starts like the monitor.
 class PrepareRobot : public CheckBag {
  protected:
   void SetUp() override {
@@ -33,7 +33,7 @@ TEST_F(PrepareRobot, IsLoadedWhereItWasCopiedTo) {
   const std::vector<std::string> files = filesIn("prepared");
   EXPECT_FALSE(files.empty());
   fs::copy(path("prepared"), path("copied"));
-  fs::permissions(path("copied"), fs::perms::owner_all);  // others may not write to it, whatever the umask
+  fs::permissions(path("copied"), fs::perms::owner_all);  // no one else may write to it, whatever the umask
   fs::remove_all(path("prepared"));
 
   const ToolRun checked = run(check("arm.bag", "made", "--config copied.yaml"));

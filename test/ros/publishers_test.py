@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A monitor beside publishers and listeners that hang, die and come back, by the real clock.
+"""A monitor with publishers and subscribers that hang, die and come back, on the wall clock.
 
 usage: publishers_test.py TRANSFORM_STORM
 """
@@ -36,14 +36,14 @@ class PublishersTest(MasterCase):
 
     @classmethod
     def start_all(cls):
-        """With the parameters, which a master takes along when it ends."""
+        """Sets the parameters, which are lost when a master ends, and starts a monitor."""
         rospy.set_param('/robot_description', sliders())
         cls.monitor = cls.start_monitor('collision_monitor', sliders(), {
             'shell': {'spacing': 0.005}, 'max_latency': SILENCE, 'rate': RATE, 'velocity_scale': {'max_speed': 1.0},
             'world': [{'name': 'stone', 'type': 'sphere', 'radius': 0.1, 'xyz': [1.0, 0.0, 0.0]}]})
 
     def publish(self):
-        """A process that tells where the robot is: at rest, its balls at 0 and 0.5 m along y."""
+        """Starts a publisher of the robot's transforms: at rest, its balls at 0 and 0.5 m along y."""
         return self.start(TRANSFORM_STORM, '_kind:=robot', '_rate:=%g' % RATE)
 
     def signal(self, process, number):
@@ -72,11 +72,11 @@ class PublishersTest(MasterCase):
                 self.signal(publisher, signal.SIGCONT)
             else:
                 publisher = self.publish()
-            # What had begun is not taken for over; what goes on has an id of its own or the same, but no second end.
+            # A contact that continues has the same id or a new one, and does not end twice.
             self.assertIsNotNone(self.contacts.find_new(lambda m: any(not c.ends for c in m.contacts)))
         self.update(changes=[SceneChange(type=SceneChange.REMOVE, object='wall')])
         self.expect_clear()
-        # Two that say the same do no harm.
+        # Two publishers of the same transforms do no harm.
         second = self.publish()
         self.contacts.clear()
         time.sleep(1.0)
@@ -104,7 +104,7 @@ class PublishersTest(MasterCase):
         for listener in listeners:
             self.kill(listener)
         self.kill(publisher)
-        self.expect_silence()  # or the next one would seem to be heard at once
+        self.expect_silence()  # otherwise the next one would seem to be received at once
 
     def test_newcomers_after_a_new_master_find_a_monitor_that_is_started_anew(self):
         publisher = self.publish()
@@ -112,7 +112,7 @@ class PublishersTest(MasterCase):
         self.master.kill()
         self.master.wait()
         self.start_master()
-        self.expect_clear()  # who is connected stays so; roscpp registers nothing with the new one
+        self.expect_clear()  # existing connections stay; roscpp does not register with the new master
         self.kill(self.monitor)
         self.kill(publisher)
         self.start_all()
@@ -121,7 +121,7 @@ class PublishersTest(MasterCase):
             heard = subprocess.run(['rostopic', 'echo', '-n', '1', '/collision_monitor/' + topic], timeout=PATIENCE,
                                    stdout=subprocess.PIPE, text=True).stdout
             self.assertTrue(heard, topic)
-        # Who listened to the old one has to register, too.
+        # Subscribers of the old monitor have to register again, too.
         for recorder in (self.contacts, self.scales, self.states):
             recorder.close()
         type(self).contacts, type(self).scales, type(self).states = (
@@ -131,7 +131,7 @@ class PublishersTest(MasterCase):
         self.kill(publisher)
 
     def resident(self):
-        """Memory of the monitor [bytes]: `rosrun` becomes it."""
+        """Memory of the monitor [bytes]; `rosrun` is replaced by it."""
         with open('/proc/%d/statm' % self.monitor.pid) as file:
             return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE')
 

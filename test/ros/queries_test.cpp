@@ -13,7 +13,7 @@ using namespace test;
 
 constexpr double kStart = 100.0;  // [s]
 
-/// A ball on a floating joint before a wall, its surface in thousands of points.
+/// A ball on a floating joint in front of a wall, with thousands of surface points.
 class QueriesTest : public ::testing::Test {
  protected:
   QueriesTest() {
@@ -43,7 +43,7 @@ class QueriesTest : public ::testing::Test {
   std::unique_ptr<Queries> queries_;
 };
 
-/// The ball turns in the wall, in as few steps as are checked together.
+/// The ball rotates in the wall, in as few steps as are checked in one piece.
 QueryMotion::Request heavyRequest() {
   QueryMotion::Request request;
   request.links = {"ball"};

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Asks a running monitor about motions and points."""
+"""Queries a running monitor about motions and points."""
 import math
 import sys
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What monitors report beside contacts: meshes that cannot be checked, torques at joints, how near things are."""
+"""Reports of monitors besides contacts: meshes that cannot be checked, joint torques, proximity."""
 import math
 import os
 import threading
@@ -18,7 +18,7 @@ from own_master import PATIENCE, MasterCase, sliders
 from sdf_ccd.msg import MonitorState
 
 STIFFNESS = 1e6                   # [N/m^3]
-ARM, DEPTH = 0.4, 0.003           # from the arm's joint to the hand, and how deep that is in a wall [m]
+ARM, DEPTH = 0.4, 0.003           # distance of the hand from the arm's joint, and its depth in a wall [m]
 SEPARATOR = '=' * 80 + '\n'
 ContactsState = genpy.dynamic.generate_dynamic('gazebo_msgs/ContactsState', SEPARATOR.join((
     'Header header\ngazebo_msgs/ContactState[] states\n',
@@ -30,7 +30,7 @@ ContactsState = genpy.dynamic.generate_dynamic('gazebo_msgs/ContactsState', SEPA
     'MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n')))['gazebo_msgs/ContactsState']
 WARNING, STOP, HYSTERESIS = 0.1, 0.02, 0.01  # [m]
 
-# A hand that slides along an arm, which turns about z.
+# A hand that slides along an arm, which rotates about z.
 ARM_URDF = """<robot name="arm"><link name="base"/><link name="arm"/>
   <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
     <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
@@ -40,7 +40,7 @@ ARM_URDF = """<robot name="arm"><link name="base"/><link name="arm"/>
 
 
 def mesh_robot(**files):
-    """A link a file, all fixed to the base but for sliding."""
+    """One link per file, each on a prismatic joint of the base."""
     links = ''.join(
         '<link name="%s"><collision><geometry><mesh filename="%s"/></geometry></collision></link>'
         '<joint name="to_%s" type="prismatic"><parent link="base"/><child link="%s"/><axis xyz="1 0 0"/>'
@@ -63,7 +63,7 @@ class ReportsTest(MasterCase):
         cls.start_monitor('bad', mesh_robot(**{name: 'file://' + file for name, file in files.items()}), {})
         cls.start_monitor('good', mesh_robot(whole='file://' + files['whole']),
                           {'world': [{'name': 'stone', 'type': 'sphere', 'radius': 0.1, 'xyz': [9, 0, 0]}]})
-        # Walls that the hand touches with the arm along x, and turned by a quarter.
+        # Walls that the hand touches with the arm along x, and rotated by 90 degrees.
         depth = RADIUS - DEPTH + 0.05
         walls = [{'name': 'beside', 'type': 'box', 'size': [0.2, 0.1, 0.2], 'xyz': [ARM, depth, 0.0]},
                  {'name': 'before', 'type': 'box', 'size': [0.2, 0.1, 0.2], 'xyz': [0.0, ARM + depth, 0.0]}]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The second demo, as scripts/demo --scene shelf runs it: an arm carries a box past a live map, and stops in time."""
+"""The second demo, as run by scripts/demo --scene shelf: an arm carries a box past a live map, and stops in time."""
 import subprocess
 import sys
 import unittest

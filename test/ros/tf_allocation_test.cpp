@@ -1,4 +1,4 @@
-// From transforms to the message about contacts nothing is allocated once the history holds what it keeps.
+// From transforms to the message about contacts, nothing is allocated once the history holds all that it keeps.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using test::stampedTransform;
 constexpr int kLinks = 10;
 constexpr double kPeriod = 0.01;  // [s]
 
-/// An arm of balls that bends to and fro above a ground, between a static base and a static tool.
+/// An arm of balls that bends back and forth above a ground, between a static base and a static tool.
 class Arm {
  public:
   explicit Arm(double height) {
@@ -37,7 +37,7 @@ class Arm {
     }
   }
 
-  /// A second of motion, which ends where it begins.
+  /// One second of motion that ends where it begins.
   void move() {
     for (int i = 0; i < 100; ++i, ++now_) {
       const ros::Time now = ros::Time(100.0) + ros::Duration(kPeriod * now_);
@@ -76,7 +76,7 @@ class Arm {
   int cycles_[4] = {0, 0, 0, 0};
 };
 
-/// Of the last of as many seconds as are kept and more.
+/// Allocations during the last second, after more seconds than the history keeps.
 long steadyAllocations(Arm& arm) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   for (int second = 0; second < 14; ++second) arm.move();

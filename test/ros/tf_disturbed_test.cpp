@@ -1,6 +1,6 @@
-// Transforms that come late, out of order, twice, by other topics, in another parent, or not at all, played through a
-// monitor's loop: a time at which bodies truly touched, by an interpolation of our own here of all transforms that ever
-// came, must not be left as CLEAR by the messages.
+// Plays transforms that come late, out of order, twice, on other topics, in another parent, or not at all, through a
+// monitor's loop. The messages must not leave a time as CLEAR at which bodies really touched, according to this test's
+// interpolation of all transforms that ever came.
 
 #include <gtest/gtest.h>
 
@@ -24,9 +24,9 @@ using Step = TfTracker::Step;
 
 constexpr double kRadius = 0.05, kPlate = 0.45, kPlateHalf = 0.005;  // [m]
 constexpr double kStep = 0.033, kLength = 6.0, kDense = 0.002;       // [s]
-constexpr double kLatest = 1.5;                                      // longer no transform is on its way [s]
+constexpr double kLatest = 1.5;                                      // maximum delay of a transform [s]
 constexpr unsigned kEpisodes = 25;
-constexpr double kTouch = 1e-5;  // deeper than this bodies touch [m]
+constexpr double kTouch = 1e-5;  // bodies touch if they are deeper than this [m]
 
 struct Sample {
   double stamp;
@@ -34,18 +34,18 @@ struct Sample {
   Vector3d translation;
 };
 
-/// How a frame was published, until it was published otherwise.
+/// Transforms of a frame while it is published in one way.
 struct Regime {
   std::string parent;
   bool is_static;
-  std::map<double, Sample> came;  // by stamp; the first of each that came
+  std::map<double, Sample> came;  // by stamp; the first transform of each stamp
 };
 
-/// All that came of a frame.
+/// All transforms of a frame.
 struct Publication {
   std::vector<Regime> regimes;
 
-  /// Not before what is known first, after what is known last, nor between two regimes of which the first moves.
+  /// None before the first known time, after the last one, and between two regimes of which the first moves.
   std::optional<Isometry3d> poseAt(double time, std::string& parent) const {
     const Regime* current = nullptr;
     for (const Regime& regime : regimes) {
@@ -53,7 +53,7 @@ struct Publication {
       const bool has_begun = regime.is_static ? !current || current->came.empty() || time > lastOf(*current)
                                               : !regime.came.empty() && time >= regime.came.begin()->first;
       if (regime.is_static && is_after_static) {
-        const double changed = regime.came.begin()->first;  // nobody says since when
+        const double changed = regime.came.begin()->first;  // the time of the change is not known
         if (time > changed - kLatest && time < changed) return std::nullopt;
         if (time < changed) break;
       }
@@ -101,7 +101,7 @@ class Episode {
       Publisher publisher{frame, "world", period * uniform(0.5, 3.0), uniform(0.0, 0.02), uniform(0.0, delay_)};
       if (frame == "arm") publisher.parent = "base";
       publishers_.push_back(publisher);
-      if (frame == "base" && chance(0.3)) {  // a second one
+      if (frame == "base" && chance(0.3)) {  // a second publisher
         publisher.next += 0.3 * publisher.period;
         publisher.delay = uniform(0.0, 0.4);
         publishers_.push_back(publisher);
@@ -121,7 +121,7 @@ class Episode {
       step(now);
     }
     deliver(1e9);
-    for (int i = 0; i < 30; ++i) {  // all moves on, in order
+    for (int i = 0; i < 30; ++i) {  // everything continues, in order
       const double now = kLength + 1.0 + i * kStep;
       for (const Publisher& publisher : publishers_) {
         if (publisher.frame != "hand" || !hand_is_static_) come({now, now, publisher.frame, publisher.parent});
@@ -180,7 +180,7 @@ class Episode {
   bool chance(double share) { return uniform(0.0, 1.0) < share; }
   std::size_t pick(std::size_t count) { return static_cast<std::size_t>(uniform(0.0, 0.999) * double(count)); }
 
-  /// Where a frame is in its parent.
+  /// Pose of a frame in its parent.
   Sample poseOf(const std::string& frame, const std::string& parent, double time) const {
     const auto wave = [&](int i, double size) { return size * std::sin(rate_ * time + phases_[i]); };
     const auto about = [](double angle, const Vector3d& axis) { return Quaterniond(Eigen::AngleAxisd(angle, axis)); };
@@ -228,7 +228,7 @@ class Episode {
     regimes.push_back({"arm", true, {{now, pose}}});
   }
 
-  /// To static, back, or into another parent's hands; nothing of before is on its way any more.
+  /// Makes the hand static, or moving again, or changes its parent; all earlier transforms arrive first.
   void changeHand(double now) {
     for (const Sent& sent : sent_) {
       if (sent.frame == "hand") come(sent);
@@ -247,7 +247,7 @@ class Episode {
     }
   }
 
-  /// The clock goes back, and all stamps with it; what was said before is about another time.
+  /// Sets back the clock and all stamps; earlier messages are about another time.
   void jumpBack(double& now) {
     expectNoContactLeftClear();
     if (::testing::Test::HasFatalFailure()) return;
@@ -298,7 +298,7 @@ class Episode {
     return X_WF;
   }
 
-  /// Of each pair, as far as its poses are known.
+  /// The true depth of each pair, if its poses are known.
   std::vector<std::optional<double>> trueDepths(double time) const {
     const std::optional<Isometry3d> hand = truePose("hand", time), foot = truePose("foot", time);
     const auto inPlate = [&](const Vector3d& p) {
@@ -320,7 +320,7 @@ class Episode {
     return depths;
   }
 
-  /// Whether a subscriber that takes back what is contradicted is left with CLEAR for a time.
+  /// Whether a subscriber that discards contradicted results ends up with CLEAR for a time.
   bool isLeftClear(double seconds) const {
     const ros::Time time = stampOf(seconds);
     bool is_clear = false;
@@ -331,7 +331,7 @@ class Episode {
     return is_clear;
   }
 
-  /// Whether what was found last of a pair at a time is CLEAR.
+  /// Whether the last result for a pair at a time is CLEAR.
   bool isLeftClear(std::size_t pair, double seconds) const {
     const ros::Time time = stampOf(seconds);
     bool is_clear = false;
@@ -345,10 +345,10 @@ class Episode {
   std::unique_ptr<MonitorLoop> loop_;
   double phases_[6];
   double rate_, delay_, late_share_, drop_share_;
-  std::vector<Publisher> publishers_;  // the hand's last
+  std::vector<Publisher> publishers_;  // the hand's is the last
   bool hand_is_static_ = false;
   bool clock_runs_ = false;
-  std::vector<Sent> sent_;  // and not come yet
+  std::vector<Sent> sent_;  // sent, but not yet arrived
   std::map<std::string, Publication> came_;
   std::vector<ContactArray> said_;
   std::vector<Finding> found_;
@@ -369,7 +369,7 @@ TEST(TfDisturbed, NoTimeOfContactIsLeftAsClear) {
     contact_messages += episode.contactMessages();
     jumps += episode.jumps();
   }
-  // It is no empty promise.
+  // The episodes contain enough of each case.
   EXPECT_GT(contacts, 3000);
   EXPECT_GT(clears, 3000);
   EXPECT_GT(contradictions, 100);

@@ -54,7 +54,7 @@ TEST(TfHistory, InterpolatesAsTf2Does) {
   for (int history_number = 0; history_number < 40; ++history_number) {
     TfHistory history("left_hand");
     tf2::BufferCore buffer;
-    const double step = history_number % 2 == 0 ? 1.0 : 0.05;  // large turns, and small ones
+    const double step = history_number % 2 == 0 ? 1.0 : 0.05;  // large and small rotations
     for (int frame = 0; frame < 6; ++frame) {
       Quaterniond rotation = Quaterniond::UnitRandom();
       double time = 100.0;
@@ -110,7 +110,7 @@ TEST(TfHistory, TellsOnceWhatCameBehindNewerTransforms) {
         false);
   }
   history.add(message({stampedTransform("base", "hand", 1.15, 7.0)}), false);
-  history.add(message({stampedTransform("world", "base", 1.25, 0.0)}), false);  // it rests: nothing is wrong
+  history.add(message({stampedTransform("world", "base", 1.25, 0.0)}), false);  // it rests, so nothing was wrong
   const std::vector<TfSpan> spans = takeNews(history, {"base", "hand"});
   EXPECT_TRUE(spans[0].late.empty());
   ASSERT_EQ(spans[1].late.size(), 1u);
@@ -128,7 +128,7 @@ TEST(TfHistory, GoesUpAndDownTheTree) {
               false);
   const TfSpan span = history.span("right");
   EXPECT_EQ(span.problem, "");
-  EXPECT_EQ(span.last, ros::Time(1.0));  // map → base does not lie on the way
+  EXPECT_EQ(span.last, ros::Time(1.0));  // map → base is not in the chain
   EXPECT_NEAR(xOf(history, "right", 1.0), -3.0, 1e-9);
   EXPECT_NE(problemOf(history, "right", 2.0), "");
   EXPECT_NE(problemOf(history, "nowhere", 1.0), "");
@@ -167,14 +167,14 @@ TEST(TfHistory, AFrameMayBecomeMovingOrStaticOrHaveAnotherParent) {
   expectChange("hand has another parent, table instead of world");
   EXPECT_NEAR(xOf(history, "hand", 10.25), 5.0, 1e-9);
   EXPECT_NE(problemOf(history, "hand", 10.05), "");
-  history.add(message({stampedTransform("world", "hand", 10.15, 0.0)}), false);  // of before
+  history.add(message({stampedTransform("world", "hand", 10.15, 0.0)}), false);  // from before the change
   EXPECT_EQ(history.span("hand").version, version);
   EXPECT_NEAR(xOf(history, "hand", 10.25), 5.0, 1e-9);
 
   history.add(message({stampedTransform("world", "hand", 0.0, 6.0)}), true);
   expectChange("hand has become static");
   EXPECT_EQ(history.span("hand").first, ros::Time(10.3));
-  EXPECT_NE(problemOf(history, "hand", 10.25), "");  // there it was said to be elsewhere
+  EXPECT_NE(problemOf(history, "hand", 10.25), "");  // before, another pose was reported for this time
   EXPECT_NEAR(xOf(history, "hand", 10.35), 6.0, 1e-9);
   EXPECT_NEAR(xOf(history, "hand", 0.0), 6.0, 1e-9);
   history.add(message({stampedTransform("world", "hand", 0.0, 7.0)}), true);
@@ -268,12 +268,12 @@ TEST(TfHistory, SaysWhenAStaticFrameMayBeNeededThatHadNoRoom) {
   }
   const geometry_msgs::TransformStamped tool = stampedTransform("map", "tool", 0.0, 1.0);
   history.add(message({tool}), true);
-  EXPECT_FALSE(history.takeMissedStatic());  // nobody needs it
+  EXPECT_FALSE(history.takeMissedStatic());  // no followed frame needs it
   history.add(message({stampedTransform("tool", "hand", 101.0, 2.0)}), false);
   EXPECT_NE(problemOf(history, "hand", 101.0), "");
   EXPECT_TRUE(history.takeMissedStatic());
   EXPECT_FALSE(history.takeMissedStatic());
-  history.add(message({tool}), true);  // as it is sent to who subscribes anew
+  history.add(message({tool}), true);  // it is sent again to a new subscriber
   EXPECT_NEAR(xOf(history, "hand", 101.0), 3.0, 1e-12);
 }
 

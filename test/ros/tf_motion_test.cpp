@@ -1,4 +1,4 @@
-// What a cycle says of the motion between recorded transforms, against tf2's own interpolation.
+// The motion of a cycle between recorded transforms, compared with tf2's own interpolation.
 
 #include <gtest/gtest.h>
 #include <tf2/buffer_core.h>
@@ -38,7 +38,7 @@ class Motion {
     bodies_ = bodies;
   }
 
-  /// Sends all joints as they are then, each at an offset of its own.
+  /// Sends the poses of all joints at a time plus each joint's offset.
   void send(double time, const std::vector<double>& offsets) {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Joint& joint = joints_[j];
@@ -53,8 +53,8 @@ class Motion {
     step_ = tracker_->next(ros::Time(time + 0.05), cycle_);
   }
 
-  /// The largest distance of any point of a body's ball from its screw between samples, as tf2 moves the body, and
-  /// what is said of that.
+  /// Compares the deviation of each body's points from its screw between samples, with the body moved by tf2, with the
+  /// reported error. Both arguments receive maxima.
   void expectErrorsHold(double& largest_error, double& largest_true) const {
     constexpr int kDense = 40;
     const CycleMotion& motion = cycle_.motion;
@@ -74,7 +74,7 @@ class Motion {
           }
         }
       }
-      EXPECT_LE(worst, motion.motion_error[body] + 1e-8) << bodies_[body].frame;  // stamps have nanoseconds
+      EXPECT_LE(worst, motion.motion_error[body] + 1e-8) << bodies_[body].frame;  // stamps are in nanoseconds
       largest_error = std::max(largest_error, motion.motion_error[body]);
       largest_true = std::max(largest_true, worst);
     }

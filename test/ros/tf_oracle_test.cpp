@@ -1,5 +1,5 @@
-// Wherever we know a pose, tf2's own buffer knows the same one, whatever is sent; and where nodes keep to the rules, we
-// know one wherever tf2 does.
+// Wherever the history knows a pose, tf2's buffer knows the same one, whatever is sent; and as long as nodes follow the
+// rules, the history knows a pose wherever tf2 does.
 
 #include <gtest/gtest.h>
 #include <tf2/buffer_core.h>
@@ -21,10 +21,10 @@ namespace {
 using test::message;
 using test::stampedTransform;
 
-constexpr int kFrames = 7;          // besides the fixed one
+constexpr int kFrames = 7;          // without the fixed one
 constexpr double kKeep = 10.0;      // [s]
-constexpr double kFarthest = 10.0;  // of a frame from its parent [m]
-// tf2 takes quaternions as they come, also for turning vectors, which they stretch by their squared length.
+constexpr double kFarthest = 10.0;  // maximum distance of a frame from its parent [m]
+// tf2 does not normalise quaternions, also when it rotates vectors: these are scaled by the squared length.
 constexpr double kOffUnit = 1e-6;
 
 std::string frameName(int frame) {
@@ -38,14 +38,14 @@ double difference(const Isometry3d& X, const geometry_msgs::Transform& transform
   return (X.matrix() - other.matrix()).cwiseAbs().maxCoeff();
 }
 
-/// What nodes do.
+/// Behaviour of publishers.
 struct Habits {
-  double late = 0.0;      // share of transforms that come late
-  double latest = 0.9;    // by so much at most [s]
-  double reparent = 0.0;  // share that names another parent
-  double bad = 0.0;       // share that is no rigid motion
-  double stamps = 0.0;    // share whose stamp may be anything
-  double off_unit = 0.0;  // of quaternions' lengths
+  double late = 0.0;      // fraction of transforms that come late
+  double latest = 0.9;    // maximum delay [s]
+  double reparent = 0.0;  // fraction with another parent
+  double bad = 0.0;       // fraction that is no rigid motion
+  double stamps = 0.0;    // fraction with an arbitrary stamp
+  double off_unit = 0.0;  // relative error of quaternions' lengths
 };
 
 class Duel {
@@ -56,7 +56,7 @@ class Duel {
       parents_[frame] = frameName(pick(frame));
       stamps_[frame] = std::make_unique<TfHistory>("parent");
       is_static_[frame] = chance(0.2);
-      steps_[frame] = std::pow(10.0, uniform(-4.0, 0.5));  // radians and metres from one transform to the next
+      steps_[frame] = std::pow(10.0, uniform(-4.0, 0.5));  // rotation and translation per transform [rad, m]
       if (is_static_[frame]) send(frame, 0.0);
     }
   }
@@ -67,7 +67,7 @@ class Duel {
       for (int frame = 1; frame <= kFrames; ++frame) {
         if (is_static_[frame] || chance(0.3)) continue;
         send(frame, now_ - (chance(habits_.late) ? uniform(0.0, habits_.latest) : 0.0));
-        if (chance(0.02)) send(frame, now_);  // again
+        if (chance(0.02)) send(frame, now_);  // a repeated stamp
       }
       for (int k = 0; k < 4; ++k) compare();
       if (::testing::Test::HasFailure()) return;
@@ -98,7 +98,7 @@ class Duel {
     if (chance(habits_.bad)) {
       const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300};
       if (chance(0.5)) {
-        sent_q.coeffs() *= uniform(0.0, 0.98);  // nearly unit ones tf2 takes as they are
+        sent_q.coeffs() *= uniform(0.0, 0.98);  // tf2 accepts nearly unit ones unchanged
       } else {
         const double factor = bad[pick(3)];
         sent_p *= factor;
@@ -118,7 +118,7 @@ class Duel {
     went_back_[frame] |= stamps_[frame]->span(frameName(frame)).change.find("went back") != std::string::npos;
   }
 
-  /// tf2 adds durations to stamps, which throws near the end of time.
+  /// Leaves out stamps near the end of time: tf2 adds durations to stamps, which throws there.
   void takeByTf2(const geometry_msgs::TransformStamped& sent, bool is_static) {
     if (!is_static && sent.header.stamp.sec >= 1u << 31) return;
     if (!buffer_.setTransform(sent, "test", is_static) || is_static) return;
@@ -146,7 +146,7 @@ class Duel {
     }
   }
 
-  /// Anywhere, and at, just before and just behind stamps.
+  /// A random time, or one at, just before or just after a stamp.
   ros::Time aTime(const std::string& frame) {
     if (chance(0.1)) return ros::Time();
     const auto& came = came_[frame];
@@ -159,8 +159,8 @@ class Duel {
                                                       : stamp->first;
   }
 
-  /// tf2 lets the parent change from transform to transform; what we know begins with the last parent. And what came
-  /// before stamps went back is of another life here.
+  /// tf2 lets the parent change with each transform, while the history begins with the last parent. Transforms from
+  /// before stamps went back are not comparable either.
   bool isComparable(const std::string& frame, const ros::Time& time) {
     if (habits_.latest < 1.0 && habits_.reparent == 0.0 && habits_.stamps == 0.0) return true;
     if (time.isZero()) return false;
@@ -189,7 +189,7 @@ class Duel {
   double now_ = 1000.0;
   std::array<std::string, kFrames + 1> parents_;
   std::array<bool, kFrames + 1> is_static_{}, went_back_{};
-  std::array<bool, kFrames + 1> is_huge_{};  // tf2 goes by the root, and loses there what is smaller
+  std::array<bool, kFrames + 1> is_huge_{};  // tf2 goes via the root, and loses small lengths there
   std::array<double, kFrames + 1> steps_{};
   std::array<Quaterniond, kFrames + 1> rotations_ = filled(Quaterniond(Quaterniond::Identity()));
   std::array<Vector3d, kFrames + 1> translations_ = filled(Vector3d(Vector3d::Zero()));
@@ -253,10 +253,10 @@ TEST(TfOracle, NeverContradictsTf2WhateverIsSent) {
     }
   }
   EXPECT_GT(known, 3000);
-  EXPECT_GT(only_tf2_knows, 1000);  // parents that change, and what is no rigid motion
+  EXPECT_GT(only_tf2_knows, 1000);  // parents that changed, and transforms that are no rigid motion
 }
 
-/// How far apart the two are between two transforms, at a share of the time.
+/// Difference between tf2's and the history's interpolation of two poses, at a fraction of the time.
 struct Pose {
   Quaterniond q;
   Vector3d p;
@@ -296,7 +296,7 @@ TEST(TfOracle, HillClimbingFindsNoRotationsThatTf2InterpolatesOtherwise) {
       next.q = near(b.q, size);
       next.p += size * Vector3d(normal(random), normal(random), normal(random));
       const double next_share = std::min(std::max(share + size * normal(random), 0.0), 1.0);
-      if (std::abs(a.q.dot(next.q)) < 1e-9) continue;  // half a revolution: no way round is the shorter one
+      if (std::abs(a.q.dot(next.q)) < 1e-9) continue;  // half a revolution: both rotations are equally short
       const double height = differenceBetween(a, next, next_share);
       if (height < highest) continue;
       highest = height;
@@ -305,7 +305,7 @@ TEST(TfOracle, HillClimbingFindsNoRotationsThatTf2InterpolatesOtherwise) {
     }
     worst = std::max(worst, highest);
   }
-  // tf2's arc cosine takes angles below 3e-8 between quaternions for none: it stays at the first one.
+  // tf2's arc cosine takes angles below 3e-8 between quaternions for 0 and keeps the first one.
   EXPECT_LT(worst, 1e-7);
   EXPECT_GT(worst, 1e-9);
 }

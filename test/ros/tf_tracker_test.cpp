@@ -22,7 +22,7 @@ class TfTrackerTest : public ::testing::Test {
     history_.add(message, is_static);
   }
 
-  /// When the pair's span begins and ends in the current cycle.
+  /// Start and end of the pair's span in the current cycle [s].
   double spanStart(int pair) const { return spanTime(cycle_.motion.spans[pair].first); }
   double spanEnd(int pair) const { return spanTime(cycle_.motion.spans[pair].last); }
   double spanTime(std::size_t waypoint) const {
@@ -107,7 +107,7 @@ TEST_F(TfTrackerTest, AFrameThatJumpsIsMissingForTheCycle) {
   EXPECT_EQ(cycle_.motion.missing[0], "");
   EXPECT_EQ(cycle_.motion.missing[1], "");
   ASSERT_EQ(step(10.9, 700.0, 4000000.0), Step::kCycle);
-  EXPECT_EQ(cycle_.motion.missing[0], "");  // it may be a jet
+  EXPECT_EQ(cycle_.motion.missing[0], "");  // it could be a jet
   EXPECT_EQ(cycle_.motion.missing[1], "foot has jumped by 3999499 m");
 }
 
@@ -226,11 +226,11 @@ TEST_F(TfTrackerTest, AFrameThatStaysAwayIsMissingAfterMaxLatency) {
   EXPECT_EQ(cycle_.start, ros::Time(10.5));
   EXPECT_EQ(cycle_.end, ros::Time(10.7));
   EXPECT_EQ(cycle_.complete_until, ros::Time(10.7));
-  EXPECT_NEAR(spanStart(0), 10.1, 1e-9);  // what is not checked
+  EXPECT_NEAR(spanStart(0), 10.1, 1e-9);  // the time that is not checked
   EXPECT_NEAR(spanEnd(0), 10.7, 1e-9);
   EXPECT_EQ(cycle_.motion.missing[0], "");
   EXPECT_EQ(cycle_.motion.missing[1], "foot is late by 0.60 s");
-  // It comes back: the first cycle that it covers from its start is checked again.
+  // It comes back: the first cycle that it covers from the start is checked.
   send(stampedTransform("world", "foot", 10.75, 0.0));
   send(stampedTransform("world", "hand", 10.75, 0.08));
   ASSERT_EQ(next(10.75), Step::kCycle);
@@ -247,7 +247,7 @@ TEST_F(TfTrackerTest, WhereTimeIsNotSimulatedAllFramesMayBeTooOld) {
     }
     return said;
   };
-  EXPECT_EQ(verdicts(100.0), "");  // a bag that is played behind its clock
+  EXPECT_EQ(verdicts(100.0), "");  // a bag that is played later than its clock
   ros::Time::init();
   ASSERT_FALSE(ros::Time::isSimTime());
   EXPECT_EQ(verdicts(200.0), "hand is late by 2.00 s");
@@ -267,7 +267,7 @@ TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
   send(stampedTransform("world", "hand", 10.3, 0.0));
   EXPECT_EQ(next(10.3), Step::kWaiting);
   send(stampedTransform("world", "hand", 10.6, 0.0));
-  EXPECT_EQ(next(10.6), Step::kWaiting);  // begins here
+  EXPECT_EQ(next(10.6), Step::kWaiting);  // the first cycle begins here
   send(stampedTransform("world", "hand", 10.7, 0.0));
   ASSERT_EQ(next(10.7), Step::kCycle);
   EXPECT_EQ(cycle_.motion.missing[1], "no transform from foot to world: none of foot has come");
@@ -284,7 +284,7 @@ TEST_F(TfTrackerTest, BeginsWhenTransformsAheadOfTheClockAreKnownAndMakesNobodyL
     EXPECT_EQ(cycle_.motion.missing[1], "") << i;
   }
   EXPECT_NEAR(first_start.toSec(), 10.21, 1e-9);
-  EXPECT_NEAR(cycle_.end.toSec(), 11.2, 1e-9);  // the foot's, but not beyond the clock
+  EXPECT_NEAR(cycle_.end.toSec(), 11.2, 1e-9);  // that of the foot, but not beyond the clock
   EXPECT_NEAR(cycle_.complete_until.toSec(), 11.05, 1e-9);
 }
 
@@ -313,7 +313,7 @@ TEST_F(TfTrackerTest, TimeThatJumpsBackStartsAnewButKeepsStaticFrames) {
   send(stampedTransform("world", "hand", 100.03, 0.0));
   EXPECT_EQ(next(100.03), Step::kCycle);
   send(stampedTransform("world", "hand", 50.0, 2.0));
-  EXPECT_EQ(next(100.06), Step::kWaiting);  // one old transform is a late one
+  EXPECT_EQ(next(100.06), Step::kWaiting);  // one old transform counts as late
   send(stampedTransform("world", "hand", 50.03, 2.5));
   EXPECT_EQ(next(100.09), Step::kJump);
   EXPECT_EQ(next(100.09), Step::kWaiting);
@@ -334,7 +334,7 @@ TEST_F(TfTrackerTest, AClockThatGoesBackStartsAnew) {
 }
 
 TEST_F(TfTrackerTest, CurvedMotionGetsMoreSamplesAndAnError) {
-  // The hand turns about the foot, which drives along: tf2 turns and drives evenly, which is no screw.
+  // The hand rotates about the foot, which translates: both at constant rates in tf2, which together are no screw.
   send(stampedTransform("world", "foot", 10.0, 0.0));
   send(stampedTransform("foot", "hand", 10.0, 0.0));
   EXPECT_EQ(next(10.0), Step::kWaiting);

@@ -11,7 +11,7 @@ namespace {
 using test::message;
 using test::stampedTransform;
 
-/// A boom turns about the base's z axis, and at its end, 1 m away, a ball hangs before a wall that it is pressed into.
+/// A boom rotates about the base's z axis; at its end, 1 m away, a ball is pressed into a wall.
 class TorqueOutputTest : public ::testing::Test {
  protected:
   TorqueOutputTest() {
@@ -61,7 +61,7 @@ TEST_F(TorqueOutputTest, TheWallPressesOnTheJointsThatCarryTheBall) {
   ASSERT_EQ(said.name.size(), 3u);
   for (std::size_t i = 0; i < said.name.size(); ++i) {
     if (said.name[i] == "other") {
-      EXPECT_TRUE(std::isnan(said.effort[i]));  // nothing is known of it
+      EXPECT_TRUE(std::isnan(said.effort[i]));  // its transforms are not known
     } else {
       EXPECT_NEAR(said.effort[i], force.y(), 0.02 * -force.y()) << said.name[i];  // over a lever of 1 m
     }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Four monitors of one robot, whose cycles begin for different reasons."""
+"""Four monitors of one robot, with different triggers of cycles."""
 import itertools
 import threading
 import time
@@ -14,12 +14,12 @@ from monitor_case import Recorder, transform
 from own_master import PATIENCE, MasterCase, sliders
 from sdf_ccd.msg import ContactArray
 
-PERIOD, EVERY = 0.02, 3    # of the ball's transforms [s]; with every so many of these come another frame and the joints
+PERIOD, EVERY = 0.02, 3    # of the ball's transforms [s]; every third is followed by another frame and joint states
 SECONDS = 3.0
-TIMER = 5.0                # rate of the one by timer; of the others it is beyond what comes [Hz]
-# Checked against the ball whether or not the other one is known.
+TIMER = 5.0                # rate of the monitor with a timer; that of the others is higher than the rate of events [Hz]
+# Checked against the ball, whether the pose of the other one is known or not.
 STONE = {'name': 'stone', 'type': 'sphere', 'radius': 0.1, 'xyz': [1.0, 0.0, 0.0]}
-PATIENT = 0.1              # without news a cycle begins after so long [s]
+PATIENT = 0.1              # without an event a cycle begins after this time [s]
 TRIGGERS = {'timer': {'trigger': 'timer', 'rate': TIMER}, 'tf': {'trigger': 'tf', 'rate': 500.0},
             'joints': {'trigger': 'joint_states', 'rate': 500.0},
             'frames': {'trigger': 'frames', 'trigger_frames': ['ball', 'other'], 'rate': 500.0}}
@@ -61,13 +61,13 @@ class TriggersTest(MasterCase):
                 if cls.sends_joints:
                     cls.joints.publish(JointState(header=Header(stamp=stamp), name=['slide'], position=[0.0]))
                     cls.sent['joints'].append(stamp)
-                time.sleep(0.2 * PERIOD)  # the last frame of the group comes behind the first
+                time.sleep(0.2 * PERIOD)  # the last frame of the group comes after the first
                 cls.tf.publish(TFMessage([transform(stamp, 'other', 0.0, 0.5)]))
                 cls.sent['other'].append(stamp)
             time.sleep(max(0.0, begin + PERIOD * (count + 1) - time.monotonic()))
 
     def listen(self):
-        """What each monitor says of a while, and what it has been told meanwhile."""
+        """The messages of each monitor during some time, and the stamps sent meanwhile."""
         before = {kind: len(stamps) for kind, stamps in self.sent.items()}
         for recorder in self.contacts.values():
             recorder.clear()
@@ -80,13 +80,13 @@ class TriggersTest(MasterCase):
         counts = {name: len(messages) for name, messages in said.items()}
         self.assertLessEqual(counts['timer'], TIMER * SECONDS + 2)
         self.assertGreaterEqual(counts['timer'], 0.6 * TIMER * SECONDS)
-        # By any transform: as many as there are stamps, each of them the end of a cycle.
+        # Any transform: one cycle per stamp, which is the end of the cycle.
         ends = {m.header.stamp for m in said['tf']}
         self.assertGreater(len(ends & set(told['ball'])), 0.8 * len(told['ball']))
-        # By joints: not by what comes between.
+        # Joint states: not the transforms between them.
         self.assertGreater(counts['joints'], 0.8 * len(told['joints']))
         self.assertLess(counts['joints'], 1.4 * len(told['joints']))
-        # By the last of a group: all is known, no pair waits.
+        # The last of a group: all poses are known, and no pair waits.
         self.assertGreater(counts['frames'], 0.8 * len(told['other']))
         self.assertLess(counts['frames'], 1.4 * len(told['other']))
         whole = [m for m in said['frames'] if m.complete_until == m.header.stamp and m.delayed == 0]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Three monitors of one live map, of which each takes what is not known for something else."""
+"""Three monitors of one live map, each with a different treatment of unknown space."""
 import time
 import unittest
 
@@ -15,9 +15,9 @@ KINDS = ('free', 'occupied', 'occupied_near')
 
 
 def known():
-    """Free about 0 and 1.0 along x, where a ball of 0.02 m is 0.1 m away from what is not known; a lump at 1.25.
+    """Free around 0 and 1.0 along x, where a ball of 0.02 m is 0.1 m from unknown space; a lump at 1.25.
 
-    Tiles of 18 voxels begin at -0.4 m: those that hold what is known reach from there to 1.4 m along x, and to 0.5 m
+    Tiles of 18 voxels begin at -0.4 m: those with known voxels reach from there to 1.4 m along x, and to 0.5 m
     along y and z.
     """
     return {**voxels_near(0.0, 0.0, 0.0, 0.15, is_occupied=False),
@@ -40,18 +40,18 @@ class UnknownSpaceTest(MasterCase):
             assert cls.contacts[kind].find(lambda m: m.unchecked and not m.reason.startswith('waiting')), kind
 
     def map_from(self, x):
-        """A new map is taken while the ball is there."""
+        """Sends a new map while the ball is at x, and waits until it is used."""
         self.robot.ball = x
         time.sleep(0.3)
         last = {kind: self.contacts[kind].find_new(lambda m: True).scene_version for kind in KINDS}
-        # It differs in what nobody meets, so that it counts as another one for all.
+        # It differs where the ball never goes, so that it is a new map for all monitors.
         self.lump = getattr(self, 'lump', 0.0) + 0.1
         self.maps.publish(message({**known(), **voxels_near(0.9, 0.0, 0.1 + self.lump, 0.05)}))
         for kind in KINDS:
             self.assertIsNotNone(self.contacts[kind].find(lambda m: m.scene_version > last[kind]), kind)
 
     def verdicts_at(self, x):
-        """Of the monitors that say that the ball touches the map there; the others say that all is clear."""
+        """The monitors that report that the ball at x touches the map; the others report CLEAR."""
         self.robot.ball = x
         time.sleep(0.3)
         touched = []
@@ -72,7 +72,7 @@ class UnknownSpaceTest(MasterCase):
         self.map_from(1.0)
         for x, touched in ((0.25, ['occupied']), (0.8, ['occupied', 'occupied_near']), (1.0, []), (0.0, [])):
             self.assertEqual(self.verdicts_at(x), touched, x)
-        # Where it stands it does not touch itself.
+        # At its present pose it does not touch its own voxels.
         self.map_from(0.6)
         self.assertEqual(self.verdicts_at(0.6), [])
         self.assertEqual(self.verdicts_at(0.75), ['occupied', 'occupied_near'])

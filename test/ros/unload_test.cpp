@@ -1,4 +1,4 @@
-// Loads and unloads the nodelet as a manager does, and looks at how long that takes and what it leaves behind.
+// Loads and unloads the nodelet like a manager; tests how long that takes and what it leaves behind.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -37,8 +37,8 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What is allocated in all heaps of this process [MB]. Its pages say less: how the heaps fill depends on which thread
-/// took what, and differs by a megabyte from run to run.
+/// Memory allocated in all heaps of this process [MB]. The number of its pages is less reliable: how the heaps fill
+/// depends on which thread allocated what, and differs by a megabyte from run to run.
 double allocatedMemory() {
   const struct mallinfo2 info = ::mallinfo2();
   return static_cast<double>(info.uordblks + info.hblkhd) / 1e6;
@@ -55,7 +55,7 @@ class UnloadTest : public ::testing::Test {
         });
   }
 
-  void load(double accuracy) {  // 0: the settings as they stand
+  void load(double accuracy) {  // 0: keep the present settings
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       reasons_.clear();
@@ -70,7 +70,7 @@ class UnloadTest : public ::testing::Test {
     ASSERT_TRUE(loader_.load(kName, "sdf_ccd/CollisionMonitor", {}, {}));
   }
 
-  /// How long it takes [s].
+  /// @return the time it takes [s].
   double unload() {
     const Clock::time_point start = Clock::now();
     EXPECT_TRUE(loader_.unload(kName));
@@ -91,7 +91,7 @@ class UnloadTest : public ::testing::Test {
   const std::string cache_ = temporary_.string();
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::string reasons_;  // that were said, a line each
+  std::string reasons_;  // of all states, one per line
 };
 
 TEST_F(UnloadTest, EndsSoonWhileItBuilds) {
@@ -131,13 +131,13 @@ TEST_F(UnloadTest, LeavesNothingBehind) {
   }
   std::string text;
   for (const double size : sizes) text += std::to_string(size) + " ";
-  // What is made once for the process, as a thread's own, comes first.
+  // Memory that is allocated once per process or thread comes first.
   const double early = *std::max_element(sizes.begin() + 8, sizes.begin() + 16);
   const double late = *std::max_element(sizes.begin() + 16, sizes.end());
   EXPECT_LT(late, early + 0.05) << text;
 }
 
-/// Two robots in one manager, of the same kind, told apart by namespaces and the prefix of their frames.
+/// Two robots of the same kind in one manager, distinguished by namespaces and the prefix of their frames.
 TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
   const std::vector<std::string> names = {"/left/monitor", "/right/monitor"};
   std::map<std::string, Plan> plans;

@@ -1,4 +1,4 @@
-"""Maps of voxels for tests, and what monitors say of them."""
+"""Voxel maps for tests, and tests of messages about them."""
 import math
 import os
 import struct
@@ -14,14 +14,14 @@ SIZE = 0.05  # of a voxel [m]
 
 
 def full_data(tree):
-    """As OcTree::writeData()."""
+    """The bytes that OcTree::writeData() writes."""
     if not isinstance(tree, dict):
         return struct.pack('<fB', 0.85 if tree else -0.4, 0)
     return struct.pack('<fB', 0.85, sum(1 << child for child in tree)) + b''.join(map(full_data, tree.values()))
 
 
 def voxels_near(x, y, z, radius, is_occupied=True):
-    """Those whose centres are."""
+    """Voxels whose centres are within the radius."""
     reach = int(radius / SIZE) + 1
     middle = [int(math.floor(c / SIZE)) for c in (x, y, z)]
     near = {}
@@ -40,6 +40,6 @@ def message(voxels, is_binary=True):
 
 
 def touches_map(m):
-    """Whether the ball does."""
+    """Whether the ball touches the map in a message."""
     return any(p.verdict == p.CONTACT and 'ball' in (p.body_a, p.body_b) and
                any(b.startswith('octomap/') for b in (p.body_a, p.body_b)) for p in m.pairs)

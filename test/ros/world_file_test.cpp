@@ -28,7 +28,7 @@ const Shape& primitiveOf(const WorldObject& object, std::size_t i = 0) {
   return std::get<Shape>(std::get<Primitive>(object.shapes.at(i).shape));
 }
 
-/// As MoveIt writes it since Noetic.
+/// A scene as MoveIt writes it since Noetic.
 const char* const kScene = R"(a scene with a name
 * box on the table
 0.5 0 0.25
@@ -106,7 +106,8 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
   EXPECT_NE(error("0.1 0.2", "0.1 nan").find("line 7: a number is wanted"), std::string::npos);
   EXPECT_NE(error("0 1 2\n0 0 2", "0 1 3\n0 0 2").find("a triangle has vertex 3, of 3"), std::string::npos);
   EXPECT_NE(error("3 1\n", "900000000 1\n").find("a whole number up to"), std::string::npos);
-  EXPECT_NE(error("3 1\n", "4000000 1\n").find("a number is wanted"), std::string::npos) << "nothing is set aside for it";
+  EXPECT_NE(error("3 1\n", "4000000 1\n").find("a number is wanted"), std::string::npos)
+      << "nothing is set aside for it";
   EXPECT_NE(error("0 0 0.7071068 0.7071068", "0 0 0 0").find("line 4: a unit quaternion"), std::string::npos);
   EXPECT_NE(error("\n.\n", "\n").find("the text ends too early"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "").find("it is empty"), std::string::npos);
@@ -155,10 +156,13 @@ world:
     return errorOf(".yaml", "world: {collision_objects: [{id: a, " + text + "}]}");
   };
   EXPECT_NE(error("primitives: []").find("one or more primitives"), std::string::npos);
-  EXPECT_NE(error("primitives: [{type: box, dimensions: [1, 2]}]").find("a list of 3 finite numbers"), std::string::npos);
-  EXPECT_NE(error("primitives: [{type: cone, dimensions: [1, 2]}]").find("one of box sphere cylinder"), std::string::npos);
+  EXPECT_NE(error("primitives: [{type: box, dimensions: [1, 2]}]").find("a list of 3 finite numbers"),
+            std::string::npos);
+  EXPECT_NE(error("primitives: [{type: cone, dimensions: [1, 2]}]").find("one of box sphere cylinder"),
+            std::string::npos);
   EXPECT_NE(error("primitives: [{type: 4, dimensions: [1, 2]}]").find("a box, sphere or cylinder"), std::string::npos);
-  EXPECT_NE(error("operation: 1, primitives: [{type: sphere, dimensions: [1]}]").find("expected ADD"), std::string::npos);
+  EXPECT_NE(error("operation: 1, primitives: [{type: sphere, dimensions: [1]}]").find("expected ADD"),
+            std::string::npos);
   EXPECT_NE(error("primitives: [{type: sphere, dimensions: [1]}], primitive_poses: [{}, {}]").find("expected 1 poses"),
             std::string::npos);
 }

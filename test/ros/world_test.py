@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Changes the scene of a running monitor, and looks at what its cycles and answers say."""
+"""Changes the scene of a running monitor, and tests its cycles and answers."""
 import os
 import sys
 import tempfile
@@ -71,7 +71,7 @@ class WorldTest(unittest.TestCase):
     def test_a_grasped_object_is_checked_against_the_world(self):
         self.change(box('part', pose(0.06, 0.0, 0.0)), box('shelf', pose(1.0, 0.0), (0.2, 1.0, 1.0)))
         grasped = self.change(SceneChange(type=SceneChange.ATTACH, object='part', link='ball'))
-        self.assertIsNotNone(self.clear(grasped.scene_version))  # ball and part touch, and may
+        self.assertIsNotNone(self.clear(grasped.scene_version))  # ball and part touch, which is allowed
         self.robot.ball = 0.8
         self.assertIsNotNone(self.touching('part', 'shelf', grasped.scene_version))
         self.robot.ball = 0.3
@@ -133,7 +133,7 @@ class WorldTest(unittest.TestCase):
         file = os.path.join(folder, 'cube.off')
         with open(file, 'w') as out:
             out.write(CUBE)
-        # A cube of 1 m whose corner the ball is in, and one in millimetres, which is beside it and then around it.
+        # A cube of 1 m with the ball in its corner, and one in millimetres, first beside the ball, then around it.
         for uri in (file, 'file://' + file):
             answer = self.change(SceneChange(type=SceneChange.ADD, object='cube', pose=pose(-0.01, -0.01, -0.01),
                                              mesh_resources=[uri]))
@@ -145,7 +145,7 @@ class WorldTest(unittest.TestCase):
             self.assertIsNotNone(self.touching('ball', 'cube', small.scene_version))
             self.robot.ball = 0.0
             time.sleep(0.2)
-        # It was read when it was added.
+        # The mesh was read when the object was added.
         os.remove(file)
         moved = self.change(SceneChange(type=SceneChange.MOVE, object='cube', pose=pose(-0.05, -0.05, -0.05)))
         self.assertIsNotNone(self.touching('ball', 'cube', moved.scene_version))
@@ -181,7 +181,7 @@ class WorldTest(unittest.TestCase):
                             answer.message[:3000])
             self.assertNotIn('root:', answer.message)
             self.assertLess(time.monotonic() - start, 10.0, uri[:80])
-        # Nor are worlds, maps and what is written led elsewhere.
+        # Worlds, maps and files to write cannot be elsewhere, either.
         for change in (SceneChange(type=SceneChange.LOAD, file=folder + '/link.off'),
                        SceneChange(type=SceneChange.LOAD, file=folder + '/pipe.off'),
                        SceneChange(type=SceneChange.ADD, object='bad', octomap_file=folder + '/zero.off')):

@@ -39,7 +39,7 @@ TEST(YamlParameters, ScalarsAreWhatRosparamTakesThemFor) {
 }
 
 TEST(YamlParameters, WhatExpandsWithoutEndIsRefused) {
-  // Ten aliases each of ten aliases, ten levels of it; a list in itself; brackets and blocks within each other.
+  // Ten aliases of ten aliases each, ten levels deep; a list that contains itself; deeply nested brackets and blocks.
   std::string laughs = "a0: &a0 [x,x,x,x,x,x,x,x,x,x]\n", blocks;
   for (int i = 1; i < 10; ++i) {
     const std::string name = "a" + std::to_string(i), before = "*a" + std::to_string(i - 1);
@@ -123,13 +123,13 @@ TEST(YamlParameters, MaxErrorIsOfVerdictsAndLeavesFieldsAndShells) {
   const auto parse = [](const std::string& text) { return parseParameters(load(text), "~"); };
   const MonitorParameters none = parse(""), fine = parse("max_error: 0.00001"), coarse = parse("max_error: 0.01");
   EXPECT_EQ(none.monitor.max_error, 1e-4);
-  EXPECT_FALSE(none.scene.max_error);  // nobody is told that a map is worse
+  EXPECT_FALSE(none.scene.max_error);  // no warning that a map has a larger error
   EXPECT_EQ(fine.monitor.max_error, 1e-5);
   EXPECT_EQ(fine.scene.max_error, 1e-5);
   for (const MonitorParameters* p : {&none, &fine, &coarse}) {
     EXPECT_EQ(p->scene.shell.spacing, none.scene.shell.spacing);
     EXPECT_EQ(p->scene.field.cell_size, none.scene.field.cell_size);
-    EXPECT_EQ(p->monitor.chords.tolerance, 1e-4);  // of contacts
+    EXPECT_EQ(p->monitor.chords.tolerance, 1e-4);  // for contacts
     EXPECT_LE(2.0 * p->tf.sampling.tolerance, 0.4001 * p->monitor.max_error);
     EXPECT_LE(p->tf.sampling.tolerance, 1e-4);
     EXPECT_EQ(p->scene.motion_error, 2.0 * p->tf.sampling.tolerance);
@@ -177,7 +177,7 @@ TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {
   EXPECT_EQ(errorOf("field: {cel_size: 0.001}"), "nothing reads parameter ~/field/cel_size, did you mean cell_size?");
   EXPECT_EQ(errorOf("shell: {spacin: 0.001}"), "nothing reads parameter ~/shell/spacin, did you mean spacing?");
   EXPECT_EQ(errorOf("contact: {dampin: 1.0}"), "nothing reads parameter ~/contact/dampin, did you mean damping?");
-  // On a parameter server the node's namespace may hold what others read.
+  // On a parameter server the node's namespace may hold parameters of others.
   const MonitorParameters parameters = parseParameters(load("filed: {cell_size: 0.001}"), "~");
   EXPECT_EQ(parameters.unknown, std::vector<std::string>{"~/filed, did you mean field?"});
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// gazebo_msgs/ContactsState, also where that package is absent: the same fields under the same name and sum, so that
-/// it is the same message to all who receive, record and play it.
+/// gazebo_msgs/ContactsState, defined here if that package is absent: with the same fields, name and MD5 sum, it is the
+/// same message to all subscribers, recorders and players.
 #if __has_include(<gazebo_msgs/ContactsState.h>)
 #include <gazebo_msgs/ContactsState.h>
 #else

@@ -25,7 +25,7 @@ Vector3d toEigen(const geometry_msgs::Point& point);
 geometry_msgs::Point toPoint(const Vector3d& p);
 geometry_msgs::Pose toPose(const Isometry3d& X);
 
-/// What a transform says besides the pose: of frame `child` in frame `parent`.
+/// Header of a transform: the pose of frame `child` in frame `parent`.
 struct TransformName {
   ros::Time stamp;
   std::string parent, child;
@@ -35,7 +35,7 @@ geometry_msgs::TransformStamped toTransformStamped(const TransformName& name, co
 geometry_msgs::Vector3 toVector3(const Vector3d& v);
 geometry_msgs::Wrench toWrench(const Wrench& wrench);
 
-/// What the results of a cycle refer to.
+/// Data that the results of a cycle refer to.
 struct CycleContext {
   const Scene& scene;
   const CycleMotion& motion;
@@ -46,12 +46,12 @@ struct CycleContext {
 /// Whether the pair touches at one of the recorded times.
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
 
-/// Sets all of the message, whose memory is used again; as all that are called set….
+/// Sets all fields of the message, whose memory is reused; so do all functions named set….
 void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message);
 
 void setContact(const TrackedContact& contact, Contact& message);
 
-/// The pairs that are neither clear nor delayed.
+/// Sets the pairs that are neither clear nor delayed.
 void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages);
 
 }  // namespace sdf_ccd

@@ -9,19 +9,20 @@
 
 namespace sdf_ccd {
 
-/// The links' collision shapes, which are what is checked, in the colours of their verdicts; translucent, so that
-/// contact points show within. Links of no pair are grey.
+/// The links' collision shapes, as they are checked, in the colours of their verdicts; translucent, so that contact
+/// points inside are visible. Links in no pair are grey.
 class LinkMarkers {
  public:
   explicit LinkMarkers(const SceneDescription& scene);
 
-  /// All links. @param verdicts  per body (PairStates::ofBodies()).
-  /// @return none if they are as they were last time.
+  /// Markers of all links.
+  /// @param verdicts  per body (PairStates::ofBodies()).
+  /// @return none if nothing has changed since the last call.
   std::optional<visualization_msgs::MarkerArray> draw(const std::vector<std::optional<Verdict>>& verdicts);
 
  private:
   visualization_msgs::MarkerArray markers_;
-  std::vector<int> bodies_;  // of each marker
+  std::vector<int> bodies_;  // per marker: index of its body
   std::vector<std::optional<Verdict>> drawn_;
 };
 

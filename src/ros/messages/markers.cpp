@@ -19,17 +19,18 @@ constexpr const char* kDepth = "depth";
 constexpr const char* kSwept = "swept";
 constexpr const char* kNumbers = "numbers";
 
-constexpr double kLetter = 1.0 / 26.0;  // of the robot's size
-constexpr double kLineSpacing = 1.25;   // of a letter's height
+constexpr double kLetter = 1.0 / 26.0;  // relative to the robot's size
+constexpr double kLineSpacing = 1.25;   // relative to a letter's height
 constexpr double kNumberOffset = 2.0;   // above the contact, in letters
 
-// Magenta for what a check at the recorded transforms would not have seen, white for what it would: both stand out from
+// Magenta for contacts that a check at the recorded transforms would have missed, white for the others: both differ
+// from the links' colours, whatever their verdicts.
 // the links in any verdict's colour.
 std_msgs::ColorRGBA contactColor(bool seen_at_samples) {
   return seen_at_samples ? toColor(1.0F, 1.0F, 1.0F, 1.0F) : toColor(1.0F, 0.15F, 0.85F, 1.0F);
 }
 
-/// Where the body's point that is at p_W at the time of its deepest contact was at every time of the span.
+/// Positions of a point of the body at every time of the span: the point that is at p_W when the contact is deepest.
 std::vector<Vector3d> pathOf(int body, const ContactPoint& point, const CycleMotion& motion, const WaypointSpan& span) {
   std::size_t next = span.first + 1;
   while (next < span.last && motion.times[next] < point.time) ++next;
@@ -157,7 +158,7 @@ void MarkerDrawer::drawNumbers(const std::vector<const Shown*>& listed, MarkerAr
   numbers_ = static_cast<int>(places.size());
 }
 
-/// Its lowest line above the robot; rviz centres texts at their place.
+/// The lowest line is above the robot; rviz centres a text at its position.
 Marker MarkerDrawer::statusMarker(const std::string& text, Verdict verdict) const {
   Marker status = marker(kStatus, 0, Marker::TEXT_VIEW_FACING);
   status.text = text;
@@ -192,7 +193,7 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
       if (!cycle.scene.bodies[body].is_world) addPath(pathOf(body, point, cycle.motion, pair.span), swept);
     }
   }
-  // From the surface's deepest point out to where it would be free, and far enough to be seen.
+  // From the deepest point outwards to where it would be free, and farther, so that it is visible.
   depth.points.push_back(toPoint(pair.deepest.p_W));
   depth.points.push_back(toPoint(pair.deepest.p_W - (pair.deepest.depth + unit / 25.0) * pair.deepest.normal_W));
   if (!points.points.empty()) {
@@ -200,7 +201,7 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
   }
   markers.markers.push_back(depth);
 
-  const double deepest = std::max(states_.pairs()[id].depth, pair.deepest.depth);  // as long as it is shown
+  const double deepest = std::max(states_.pairs()[id].depth, pair.deepest.depth);  // while it is shown
   const std::string text = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + ": " +
                            lengthText(deepest) + (seen ? "" : ", between samples");
   const ros::Time end = cycle.start + ros::Duration(cycle.motion.times.back());

@@ -12,17 +12,17 @@
 namespace sdf_ccd {
 
 struct MarkerOptions {
-  double scale =
-      1.0;  ///< of all markers; at 1 a contact point is a ball of 1/130 of the robot's size, a letter 1/26 high
-  double hold = 0.5;  ///< how long a contact stays visible after the cycle that found it [s]
+  double scale = 1.0;  ///< factor for all markers; at 1 a contact point is 1/130 of the robot's size, a letter 1/26
+  double hold = 0.5;   ///< time for which a contact stays visible after its last cycle [s]
 };
 
-/// Draws what a cycle found: a status in words above the robot, which lists the deepest contacts by number; and of each
-/// contact points, normals, depth, the way of the contact points during the cycle and, of those listed, the number.
-/// All sizes follow the robot's. Namespaces: status, points, normals, depth, swept (ids: pairs), numbers (ids: ranks).
+/// Draws the results of a cycle: a status text above the robot, which lists the deepest contacts by number; and for
+/// each contact its points, normals and depth, the paths of its points during the cycle and, if it is listed, its
+/// number. All sizes scale with the robot's. Namespaces: status, points, normals, depth, swept (ids: pairs), numbers
+/// (ids: ranks).
 class MarkerDrawer {
  public:
-  static constexpr int kListed = 4;  ///< contacts, at most
+  static constexpr int kListed = 4;  ///< maximum number of contacts that are listed
 
   MarkerDrawer(const std::string& fixed_frame, const MarkerOptions& options)
       : fixed_frame_(fixed_frame), options_(options), states_(options.hold) {}
@@ -32,18 +32,18 @@ class MarkerDrawer {
     states_.setHold(options.hold);
   }
 
-  /// Markers of all pairs that touch, deletions of those that no longer do, and the status.
-  /// @param now  the status tells how long ago things were as they are drawn.
+  /// Markers of all pairs in contact, deletions of those no longer in contact, and the status.
+  /// @param now  gives the age of the results in the status.
   visualization_msgs::MarkerArray draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now);
 
-  /// Deletes everything, and says that nothing is checked, for this reason.
+  /// Deletes everything, and shows that nothing is checked, for this reason.
   visualization_msgs::MarkerArray clear(const std::string& reason);
 
-  /// Goes on with another world: what is shown of pairs that are no longer there is deleted.
-  /// @param before  per pair: its index until now; -1 if it is new.
+  /// Switches to another world: markers of pairs that no longer exist are deleted.
+  /// @param before  per pair: its former index; -1 if it is new.
   void take(const std::vector<int>& before);
 
-  /// As it was drawn last.
+  /// The states that were drawn last.
   const PairStates& states() const { return states_; }
 
  private:
@@ -68,12 +68,12 @@ class MarkerDrawer {
   PairStates states_;
   RobotBox box_;
   std::map<int, Shown> shown_;  // by pair
-  int numbers_ = 0;             // that are drawn
-  bool begins_anew_ = false;    // all that was drawn is deleted first, as ids are others now
+  int numbers_ = 0;             // number of numbers that are drawn
+  bool begins_anew_ = false;    // all markers are deleted first, as ids have changed
 };
 
-/// Heights at which labels of that height do not overlap, seen from anywhere beside them: where two are near each
-/// other, the upper one is raised.
+/// Raises labels of this height so that no two of them overlap, seen from any direction beside them. Of two labels that
+/// overlap, the upper one is raised.
 std::vector<Vector3d> staggered(std::vector<Vector3d> places, double height);
 
 }  // namespace sdf_ccd

@@ -1,7 +1,7 @@
 #pragma once
 
-/// octomap_msgs/Octomap, also where that package is absent: the same fields under the same name and sum, so that it is
-/// the same message to all who send, record and play it.
+/// octomap_msgs/Octomap, defined here if that package is absent: with the same fields, name and MD5 sum, it is the same
+/// message to all publishers, recorders and players.
 #if __has_include(<octomap_msgs/Octomap.h>)
 #include <octomap_msgs/Octomap.h>
 #else
@@ -19,7 +19,7 @@ namespace octomap_msgs {
 
 struct Octomap {
   std_msgs::Header header;
-  std::uint8_t binary = 0;  ///< free and occupied alone, not log odds
+  std::uint8_t binary = 0;  ///< free and occupied only, no log odds
   std::string id;           ///< "OcTree", …
   double resolution = 0.0;  ///< size of a voxel [m]
   std::vector<std::int8_t> data;

@@ -13,9 +13,9 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-constexpr double kStill = 1e-6;        // poses that differ by less are the same, as matrices
-constexpr int kPathPoints = 200;       // of a link
-constexpr std::size_t kKeptPoses = 8;  // of a piece
+constexpr double kStill = 1e-6;        // poses are equal if their matrices differ by less
+constexpr int kPathPoints = 200;       // per link
+constexpr std::size_t kKeptPoses = 8;  // per piece
 
 const PairResult* firstToTouch(const CycleResult& result) {
   const PairResult* first = nullptr;
@@ -51,7 +51,7 @@ bool PlannedMarkers::moves(std::size_t body) const {
                      [&](const Isometry3d& X) { return !X.matrix().isApprox(poses.front().matrix(), kStill); });
 }
 
-/// At a time of the motion [s].
+/// Pose of the body at a time of the motion [s].
 Isometry3d PlannedMarkers::poseAt(std::size_t body, double time) const {
   const std::vector<double>& times = motion_.times;
   const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, time);
@@ -60,8 +60,8 @@ Isometry3d PlannedMarkers::poseAt(std::size_t body, double time) const {
   return ScrewMotion(motion_.X_WB[body][k - 1], motion_.X_WB[body][k]).pose(std::clamp(share, 0.0, 1.0));
 }
 
-/// Of the points that are known, the one that touches first, where the body that moves had it when the pair first
-/// touched.
+/// Location of the pair's first contact: of the known points the one that touches first, carried by the moving body to
+/// the time when the pair first touches.
 Vector3d PlannedMarkers::placeOf(const PairResult& pair) const {
   const ContactPoint* first = &pair.deepest;
   for (const ContactPoint& point : pair.points) {

@@ -9,19 +9,19 @@
 
 namespace sdf_ccd {
 
-/// Draws a planned motion: ghosts of the links that move, at its begin, its end and times between, a line along which
-/// each goes, and when and about where the first contact is. Namespaces: ghosts, paths, first_contact.
+/// Draws a planned motion: ghosts of the moving links at its begin, its end and times between, the path of each of
+/// them, and the time and approximate location of the first contact. Namespaces: ghosts, paths, first_contact.
 class PlannedMarkers {
  public:
-  static constexpr int kGhosts = 6;  ///< of each link, besides those at the first contact
+  static constexpr int kGhosts = 6;  ///< per link, without those at the first contact
 
   explicit PlannedMarkers(const SceneDescription& scene) : scene_(scene) {}
 
-  /// The motion's next piece; some of its poses are kept.
+  /// Adds the motion's next piece; only some of its poses are kept.
   void add(const CycleMotion& piece);
 
-  /// Of the whole motion; begins with the deletion of what was drawn before.
-  /// @param ends  what the results refer to.
+  /// Markers of the whole motion; the first one deletes what was drawn before.
+  /// @param ends  data that the results refer to.
   visualization_msgs::MarkerArray draw(const CycleResult& result, const CycleContext& ends,
                                        const std::string& fixed_frame) const;
 

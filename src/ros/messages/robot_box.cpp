@@ -7,7 +7,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kStepsPerOctave = 4.0;
-constexpr double kSlack = 0.15;  // of the size: what stays within needs not follow
+constexpr double kSlack = 0.15;  // of the size: smaller displacements are not followed
 
 }  // namespace
 

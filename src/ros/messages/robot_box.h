@@ -6,18 +6,18 @@
 
 namespace sdf_ccd {
 
-/// Where the links are, for the size and place of what is drawn about them; of the world's objects if there are no
-/// links.
+/// Bounding box of the links, for the size and position of markers; of the world's objects if there are no links.
 class RobotBox {
  public:
-  /// Takes the poses at the end of what was checked; bodies without a known pose stay where they were.
+  /// Takes the poses at the end of the checked time; bodies without a known pose keep their last one.
   void update(const CycleResult& result, const CycleContext& cycle);
 
-  /// The diagonal of the box around all links, in steps of a fifth, so that it seldom changes; 1.5 while nothing is
+  /// Diagonal of the box around all links, rounded to steps of a fifth so that it seldom changes; 1.5 while nothing is
   /// known [m].
   double size() const { return size_; }
 
-  /// A point above the middle of the box, which moves only if that has moved by a seventh of the size [m], fixed frame.
+  /// A point above the centre of the box, in the fixed frame [m]. It moves only if that has moved by a seventh of the
+  /// size.
   const Vector3d& top() const { return top_; }
 
  private:

@@ -20,7 +20,7 @@ void setPrimitive(const Primitive& primitive, Marker& marker) {
   } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&primitive)) {
     marker.type = Marker::CYLINDER;
     marker.scale = toVector3({2.0 * cylinder->radius, 2.0 * cylinder->radius, 2.0 * cylinder->half_length});
-  } else {  // a half-space of the parameters: solid where z < 0
+  } else {  // a half-space of the parameter `world`: solid where z < 0
     marker.type = Marker::CUBE;
     marker.scale = toVector3({kPlaneSize, kPlaneSize, kPlaneThickness});
   }

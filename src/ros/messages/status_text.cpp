@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kWidth = 60;           // of a line [characters]
 constexpr std::size_t kLongestReason = 180;  // [characters]
 
-/// A lower bound of the distances of all pairs [m]; negative if some is not known.
+/// A lower bound of the distances of all pairs [m]; negative if one of them is not known.
 double clearanceOf(const PairStates& states) {
   double clearance = std::numeric_limits<double>::infinity();
   for (const PairState& pair : states.pairs()) clearance = std::min(clearance, pair.clearance);
@@ -42,7 +42,7 @@ std::string headline(const PairStates& states) {
   return clearance > 0.0 ? "CLEAR, at least " + lengthText(clearance) + " apart" : "CLEAR";
 }
 
-/// How many pairs are not checked, and why one of them is not; empty if all are.
+/// Number of pairs that are not checked, with the reason of one of them; empty if all are checked.
 std::string uncheckedPairs(const PairStates& states, const CycleResult& result, const CycleContext& cycle) {
   std::size_t count = 0;
   std::string example;

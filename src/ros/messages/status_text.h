@@ -7,15 +7,15 @@
 
 namespace sdf_ccd {
 
-/// What a viewer is told in words: verdict and deepest depth or clearance, error bound, age of what is known, how many
-/// pairs are not checked and why. Several lines.
-/// @param age  [s].
+/// Status for a viewer: verdict and largest depth or clearance, error bound, age of the results, number of pairs that
+/// are not checked and why. Several lines.
+/// @param age  of the results [s].
 std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age);
 
-/// The same while nothing is checked, for this reason.
+/// Status while nothing is checked, for this reason.
 std::string uncheckedText(const std::string& reason);
 
-/// In mm, from one metre on in m.
+/// A length in mm, from one metre on in m.
 std::string lengthText(double length);
 
 /// Lines of at most `width` characters, broken at blanks where there are any.

@@ -18,7 +18,7 @@ AlignedBox3d boxOf(const TriangleMesh& mesh, const Vector3i& triangle) {
   return box;
 }
 
-/// From blue at 0 over green to red at 1, as viewers of OctoMaps colour heights, but paler than any verdict.
+/// From blue at 0 through green to red at 1, as viewers of OctoMaps colour heights, but paler than any verdict.
 std_msgs::ColorRGBA heightColor(double share) {
   const auto channel = [&](double middle) {
     const double rise = std::clamp(1.5 - std::abs(4.0 * share - middle), 0.0, 1.0);
@@ -47,7 +47,8 @@ std::vector<Vector3d> surfaceVoxels(const TriangleMesh& surface, double& size) {
   voxels.reserve(surface.triangles.size());
   size = boxOf(surface, surface.triangles.front()).sizes().maxCoeff();
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    // Two triangles make a face: the box around each is the face. It lies half a voxel outside the voxel's centre.
+    // Two triangles make a face, and each one's bounding box is the face. It lies half a voxel outside the voxel's
+    // centre.
     const Vector3d face = boxOf(surface, surface.triangles[i]).center();
     const Vector3d center = face - 0.5 * size * areaNormal(surface, static_cast<int>(i)).normalized();
     voxels.push_back({std::lround(center.x() / size - 0.5), std::lround(center.y() / size - 0.5),

@@ -6,11 +6,12 @@
 
 namespace sdf_ccd {
 
-/// The world's objects as they are checked, to look at; of a voxel map the occupied voxels that have a free neighbour,
+/// Markers of the world's objects as they are checked; of a voxel map, the occupied voxels that have a free neighbour,
 /// coloured by height.
 visualization_msgs::MarkerArray toWorldMarkers(const SceneDescription& scene);
 
-/// Centres of the voxels at the surface of a map (see loadOctomapSurface()), each once, and their size [m].
+/// Centres of the voxels at the surface of a map (see loadOctomapSurface()), each once.
+/// @param size  receives the voxels' size [m].
 std::vector<Vector3d> surfaceVoxels(const TriangleMesh& surface, double& size);
 
 }  // namespace sdf_ccd

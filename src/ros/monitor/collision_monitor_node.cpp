@@ -1,4 +1,4 @@
-// The node: loads the nodelet, so that both are the same code.
+// The node: loads the nodelet, so that both run the same code.
 
 #include <csignal>
 
@@ -19,11 +19,11 @@ void askToEnd(int) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // roscpp would close the connections first: the nodelet says that it ends.
+  // roscpp's handler would close the connections before the nodelet can report that it ends.
   ros::init(argc, argv, "collision_monitor", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, askToEnd);
   std::signal(SIGTERM, askToEnd);
-  nodelet::Loader loader(false);  // without services that load others, or unload this one
+  nodelet::Loader loader(false);  // without services to load or unload nodelets
   if (!loader.load(ros::this_node::getName(), "sdf_ccd/CollisionMonitor", ros::names::getRemappings(), {})) return 1;
   while (ros::ok() && !is_asked_to_end) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPeriod));
 }

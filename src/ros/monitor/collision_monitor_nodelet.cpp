@@ -15,10 +15,11 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kIdlePeriod = 1.0;  // [s]
-constexpr double kLogPeriod = 3.0;   // of building's progress [s]
-constexpr double kSending = 0.05;    // until the last messages have left [s]
+constexpr double kLogPeriod = 3.0;   // between log messages about the progress of building [s]
+constexpr double kSending = 0.05;    // time for the last messages to leave [s]
 
-/// What a thread has freed, glibc keeps for the heap of that thread: of threads that build and end, for nothing.
+/// glibc keeps memory that a thread has freed for that thread's heap, where it is of no use after threads that only
+/// build have ended.
 void returnFreedMemory() {
   malloc_trim(0);
 }
@@ -67,8 +68,8 @@ void CollisionMonitor::run() {
   } catch (const Cancelled&) {
     // The nodelet is being unloaded.
   }
-  // Threads end in the reverse order of their beginning: so each gets the heap of its predecessor when the nodelet is
-  // loaded again, and what has been freed there is used again.
+  // Threads end in the reverse order of their start. If the nodelet is loaded again, each thread then gets the heap of
+  // its predecessor and reuses the memory freed there.
   listener_.reset();
 }
 
@@ -90,7 +91,8 @@ void CollisionMonitor::setUpThenCycle() {
   }
 }
 
-/// What escaped from the monitor's thread would end the process, with all other nodelets in it.
+/// An exception that escaped from the monitor's thread would end the process, with all other nodelets in it.
+/// @return the error message; empty if there was no exception.
 std::string CollisionMonitor::attempt(const std::function<void()>& work) const {
   try {
     work();
@@ -177,7 +179,7 @@ void CollisionMonitor::logNowAndThen(const std::string& progress) {
   NODELET_INFO("%s", progress.c_str());
 }
 
-/// A world that is ready meanwhile, and parameters that were set, are taken over at once.
+/// Adopts a prepared world and new parameters at once.
 void CollisionMonitor::betweenCycles() {
   if (scene_editor_) scene_editor_->adopt();
   if (!reconfiguration_ || !reconfiguration_->apply(parameters_)) return;
@@ -212,7 +214,7 @@ void CollisionMonitor::cycle() {
   idle(reason);
 }
 
-/// A simulated clock that stands still does not tell that nothing comes.
+/// Whether no cycle has run for max_latency, on the wall clock: a simulated clock that stands still cannot tell.
 bool CollisionMonitor::isSilent() const {
   return (ros::WallTime::now() - last_step_).toSec() > parameters_.tf.max_latency;
 }
@@ -240,7 +242,8 @@ void CollisionMonitor::publishCycle() {
   diagnostics_->update(health_watch_.health());
 }
 
-/// While it is built; then Outputs does. Large maps take a while to be drawn: not before somebody looks at them.
+/// Publishes the world while fields are built; later, Outputs does. Drawing large maps takes a while, so it waits for a
+/// subscriber.
 void CollisionMonitor::publishWorld() {
   if (loop_ || is_world_drawn_ || world_publisher_.getNumSubscribers() == 0 || described_.fixed_frame.empty()) return;
   world_publisher_.publish(toWorldMarkers(described_.scene));
@@ -267,7 +270,7 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
 }
 
 void CollisionMonitor::forget(const std::string& reason) {
-  if (outputs_) outputs_->drawWorldAgain();  // rviz drops what it shows when time jumps
+  if (outputs_) outputs_->drawWorldAgain();  // rviz deletes all markers when time jumps
   health_watch_.forget();
   last_step_ = ros::WallTime::now();
   publishUnchecked(reason);

@@ -20,20 +20,20 @@
 
 namespace sdf_ccd {
 
-/// Watches a robot that tf2 moves, and says for every cycle what touched when, where and how hard.
+/// Monitors a robot that tf2 moves, and reports for every cycle what touched when, where and how hard.
 ///
-/// Parameters: see config/monitor.yaml; robot_description and robot_description_semantic are looked for upwards. The
-/// first is waited for.
+/// Parameters: see config/monitor.yaml; robot_description and robot_description_semantic are searched for upwards. The
+/// nodelet waits for the first.
 ///
-/// Subscribes as TransformListener and LiveMap do, and serves what MonitorServices and Reconfiguration do.
+/// Subscriptions are those of TransformListener and LiveMap, services those of MonitorServices and Reconfiguration.
 ///
-/// Publishes, below the node's name, besides what Outputs, PlanPublisher and Diagnostics do:
-///   state    sdf_ccd/MonitorState            every cycle, and, as NOT_CHECKED, once a second while there is none,
-///                                            while one takes longer than max_latency, and on unloading; latched
-///   planned  visualization_msgs/MarkerArray  the last motion that query_motion was asked about
+/// Publishes, below the node's name, besides the topics of Outputs, PlanPublisher and Diagnostics:
+///   state    sdf_ccd/MonitorState            every cycle; as NOT_CHECKED once a second while none runs, while one takes
+///                                            longer than max_latency, and on unloading; latched
+///   planned  visualization_msgs/MarkerArray  the motion that query_motion has checked last
 ///
-/// Building and cycles have a thread of their own, and so has what publishes and draws them, what receives transforms,
-/// and what answers services. Unloading ends all of them within 0.2 s, whatever they do.
+/// Separate threads build and run cycles, publish and draw their results, receive transforms, and answer services.
+/// Unloading ends all of them within 0.2 s, whatever they do.
 class CollisionMonitor : public nodelet::Nodelet {
  public:
   ~CollisionMonitor() override;
@@ -59,7 +59,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void publishUnchecked(const std::string& reason);
   void forget(const std::string& reason);
 
-  // Set while setting up, in this order; then only the cycles' thread changes them.
+  // Set during set-up, in this order; afterwards only the thread of the cycles changes them.
   MonitorParameters parameters_;
   DescribedScene described_;
   std::unique_ptr<WorldEditor> world_editor_;
@@ -76,8 +76,8 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   std::unique_ptr<Diagnostics> diagnostics_;
   HealthWatch health_watch_;
-  ros::WallTime last_step_;  // of the loop that found anything
-  ros::WallTime last_idle_;  // when it was said that nothing is checked; 0 after a cycle
+  ros::WallTime last_step_;  // time of the last cycle or restart
+  ros::WallTime last_idle_;  // when "nothing is checked" was last published; 0 after a cycle
   ros::WallTime last_log_;   // of the progress of building
   bool is_world_drawn_ = false;
 
@@ -85,7 +85,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   ros::Publisher state_publisher_, world_publisher_;
   std::atomic<bool> stop_{false};
   std::unique_ptr<MonitorServices> services_;
-  std::unique_ptr<PlanPublisher> plan_;  // with a timer of the services' queue
+  std::unique_ptr<PlanPublisher> plan_;  // its timer uses the services' queue
   CycleTrigger trigger_;
   std::thread thread_;
 };

@@ -45,7 +45,7 @@ bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair) {
   return !uncheckedReason(loop, pair.body_a).empty() || !uncheckedReason(loop, pair.body_b).empty();
 }
 
-/// Delayed pairs are not meant, of which it is not said yet.
+/// Delayed pairs are not counted: their result is still open.
 bool isUnchecked(const PairResult& pair) {
   return pair.verdict == Verdict::kNotChecked && !pair.span.empty();
 }
@@ -73,7 +73,7 @@ std::string reasonOf(const MonitorLoop& loop) {
   return reason;
 }
 
-/// Counts a pair of the body, if that is why it is not checked.
+/// Counts a pair of the body, if the body is the reason why it is not checked.
 void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std::vector<UncheckedBody>& bodies) {
   const std::string& reason = uncheckedReason(loop, body);
   if (reason.empty()) return;
@@ -91,7 +91,8 @@ void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std
   ++said->pairs;
 }
 
-/// The pairs that are neither clear nor delayed, but those of bodies none of whose pairs could be checked: these.
+/// Sets the pairs that are neither clear nor delayed. Pairs of bodies that could not be checked at all are only
+/// counted, in `unchecked`.
 void setPairs(const MonitorLoop& loop, ContactArray& message) {
   const CycleResult& result = loop.result();
   const CycleContext context = contextOf(loop);
@@ -118,7 +119,7 @@ void setContacts(const MonitorLoop& loop, std::vector<Contact>& messages) {
   for (std::size_t i = 0; i < messages.size(); ++i) setContact(contacts[i], messages[i]);
 }
 
-/// What is plotted of a cycle.
+/// Sets the values for plots.
 void setScalars(const MonitorLoop& loop, MonitorState& message) {
   message.max_depth = message.max_force = 0.0;
   message.min_clearance = std::numeric_limits<double>::infinity();
@@ -239,7 +240,7 @@ ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::stri
   message.cycle_start = message.complete_until = gap.from;
   message.header.stamp = gap.until;
   message.not_checked = static_cast<std::uint32_t>(loop.scene().pairs.size());
-  message.contacts.clear();  // they have been told at the gap's begin
+  message.contacts.clear();  // they were reported at the start of the gap
   return message;
 }
 

@@ -13,24 +13,24 @@
 
 namespace sdf_ccd {
 
-/// What the results of the loop's last cycle refer to.
+/// Data that the results of the loop's last cycle refer to.
 CycleContext contextOf(const MonitorLoop& loop);
 
-/// The messages about the loop's last cycle, complete, in its fixed frame. What is called set… sets all of a message
-/// that may have been another before, and uses its memory again.
+/// The messages about the loop's last cycle, in its fixed frame. Functions named set… set all fields of a message,
+/// whatever it held before, and reuse its memory.
 void setContactArray(const MonitorLoop& loop, ContactArray& message);
 ContactArray toContactArray(const MonitorLoop& loop);
 
-/// Of the pairs that the loop has measured, those up to the range [m].
+/// Sets those of the measured pairs that are within the range [m].
 void setDistanceArray(const MonitorLoop& loop, double range, DistanceArray& message);
 
-/// @param now  when it is sent, for its latency.
+/// @param now  time of sending, for the latency.
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message);
 MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);
 
-/// The messages that nothing is checked after the loop's last cycle.
+/// The messages that report that nothing is checked after the loop's last cycle.
 ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason);
-/// Nor over this part of the time, all at once: after it, everything begins anew, or ends.
+/// The same for all of a gap, at its end: cycles then start anew, or have ended.
 ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::string& reason);
 MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now);
 
@@ -38,21 +38,21 @@ MonitorState toUncheckedState(const std::string& fixed_frame, const std::string&
 void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchStamped& message);
 geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body);
 
-/// Below the monitor's name; bodies may be named by characters that names of topics may not hold.
+/// Topic below the monitor's name. Characters in the body's name that are not allowed in topics are replaced.
 std::string wrenchTopic(const Body& body);
 
-/// "body: reason" of the bodies that the cycle could not check for want of transforms.
+/// "body: reason" of the bodies that the cycle could not check because transforms are missing.
 std::vector<std::string> missingBodies(const MonitorLoop& loop);
 
-/// In one line, why bodies are not checked: an example of the reason that most of them have, and how many others there
-/// are. Empty if the cycle could check all of them.
+/// Why bodies are not checked, in one line: an example of the most frequent reason, and the number of other bodies.
+/// Empty if the cycle could check all bodies.
 std::string uncheckedCause(const MonitorLoop& loop);
 
 /// "body - body: reason" of the first pair that the cycle could not check although it could check both bodies; empty if
 /// there is none.
 std::string uncheckedPair(const MonitorLoop& loop);
 
-/// "body: reason" of those that no cycle can check.
+/// "body: reason" of the bodies that no cycle can check.
 std::vector<std::string> failedBodies(const Scene& scene);
 
 }  // namespace sdf_ccd

@@ -5,14 +5,13 @@
 
 namespace sdf_ccd {
 
-/// What is to be drawn of a cycle, while the loop goes on with the next one.
+/// The data of a cycle that are drawn while the loop runs the next one.
 class CycleSnapshot {
  public:
-  /// Of the loop's last cycle. Of pairs that do not touch only verdict, reason, span and clearance. Memory is used
-  /// again.
+  /// Copies the loop's last cycle; of pairs without contact only verdict, reason, span and clearance. Memory is reused.
   void take(const MonitorLoop& loop);
 
-  /// Gives back the world.
+  /// Releases the world.
   void release() { world_.reset(); }
 
   const CycleResult& result() const { return result_; }

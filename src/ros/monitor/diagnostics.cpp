@@ -6,7 +6,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kRateTolerance = 0.1;
-constexpr int kRateWindow = 10;  // of updates, which come once a second
+constexpr int kRateWindow = 10;  // number of updates, which come once a second
 
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
@@ -27,14 +27,14 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
 
 void Diagnostics::update(const MonitorHealth& health, bool at_once) {
   health_ = health;
-  // The rate is measured by the clock of ROS, which a player may run at any speed.
+  // The rate is measured on the ROS clock, which a player may run at any speed.
   const bool is_real = !ros::Time::isSimTime();
   least_rate_ = is_real && health.is_timed ? health.wanted_rate : 0.0;
   largest_rate_ = is_real ? health.wanted_rate : std::numeric_limits<double>::infinity();
   try {
     at_once ? updater_.force_update() : updater_.update();
   } catch (const std::runtime_error&) {
-    rate_.clear();  // it subtracts times of a clock that was set farther than a ros::Duration reaches
+    rate_.clear();  // the clock was set by more than a ros::Duration can hold, so the updater's subtraction threw
   }
 }
 

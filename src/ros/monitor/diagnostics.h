@@ -12,36 +12,36 @@
 
 namespace sdf_ccd {
 
-/// What /diagnostics tells of the monitor.
+/// State of the monitor, as published on /diagnostics.
 struct MonitorHealth {
   std::string failure;         ///< why the monitor cannot start; empty if it can
-  std::string building;        ///< what is being built; empty if all is
+  std::string building;        ///< progress of building the fields; empty when they are built
   std::string stall;           ///< why no cycles run: no transforms arrive; empty if they run
   double wanted_rate = 0.0;    ///< [Hz]
-  bool is_timed = false;       ///< cycles begin at that rate; else no more often
+  bool is_timed = false;       ///< cycles run at that rate; else at most
   double rate = 0.0;           ///< of cycles [Hz]
   double latency = 0.0;        ///< of the last cycle [s]
-  double age = 0.0;            ///< of the oldest transforms that its pairs know [s]
+  double age = 0.0;            ///< time since all pairs were last known [s]
   double run_time = 0.0;       ///< of the last check [s]
-  ErrorBound error;            ///< of the last cycle's pair where it is largest
+  ErrorBound error;            ///< of the pair of the last cycle that has the largest
   double contact_error = 0.0;  ///< CycleResult::contact_error of the last cycle [m]
-  double max_error = 0.0;      ///< wanted [m]; 0: none
+  double max_error = 0.0;      ///< requested [m]; 0: none
   std::uint64_t world_version = 0;
   int pairs = 0;  ///< to be checked in each cycle
   int pairs_left_out = 0;
   std::vector<std::string> missing;     ///< "body: reason" of the last cycle
   std::vector<std::string> bad_bodies;  ///< "body: reason" of those without field or shell
   std::vector<std::string> warnings;    ///< from reading robot and world
-  int pairs_delayed = 0;                ///< in the last cycle, for late transforms
-  int pairs_postponed = 0;              ///< in the last cycle, as max_cycle_time was up
-  long short_cycles = 0;                ///< with such pairs
+  int pairs_delayed = 0;                ///< in the last cycle, because of late transforms
+  int pairs_postponed = 0;              ///< in the last cycle, because of max_cycle_time
+  long short_cycles = 0;                ///< number of cycles with such pairs
   std::string moving_frame;             ///< MonitorLoop::movingFixedFrame()
-  std::string awaited_frame;            ///< which frame of the trigger has never come; empty if none
-  std::string contradicted;             ///< by late transforms, a short time ago; empty if nothing was
-  long out_of_order = 0;                ///< transforms that came behind newer ones
-  long refused = 0;                     ///< transforms that say nothing
-  std::vector<std::string> bad_joints;  ///< whose positions in joint_states are not finite, and how many
-  long not_kept = 0;                    ///< transforms of frames that no body needs, and there is no room for
+  std::string awaited_frame;  ///< frame of the trigger that has never arrived; empty if there is none
+  std::string contradicted;   ///< late transforms that contradicted results recently; empty if there were none
+  long out_of_order = 0;      ///< transforms that arrived after newer ones
+  long refused = 0;           ///< invalid transforms
+  std::vector<std::string> bad_joints;  ///< joints with positions in joint_states that are not finite
+  long not_kept = 0;                    ///< transforms ignored for lack of room, of frames that no body needs
 };
 
 /// Publishes:
@@ -51,11 +51,11 @@ class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name);
 
-  /// Publishes if a second has passed, or `at_once`: as after the clock has jumped. Times of a clock that is set by more
-  /// than 2^31 s throw in diagnostic_updater: then the rate is measured anew.
+  /// Publishes if a second has passed, or `at_once`, for example after the clock has jumped. If the clock is set by
+  /// more than 2^31 s, diagnostic_updater throws: the rate is then measured anew.
   void update(const MonitorHealth& health, bool at_once = false);
 
-  /// A cycle begins, whether or not there is anything to check.
+  /// To be called at the start of each cycle, whether or not there is anything to check.
   void tick();
 
  private:

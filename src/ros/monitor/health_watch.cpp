@@ -11,10 +11,10 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kLateShown = 3.0;    // a contradiction by late transforms [s]
-constexpr double kFramePeriod = 1.0;  // between two looks at the fixed frame [s]
-constexpr double kPatience = 2.0;     // until it is warned of what is not checked [s]
-constexpr double kWarnPeriod = 10.0;  // of such warnings [s]
+constexpr double kLateShown = 3.0;    // time for which late transforms are reported [s]
+constexpr double kFramePeriod = 1.0;  // between two tests of the fixed frame [s]
+constexpr double kPatience = 2.0;     // time before bodies that are not checked are logged [s]
+constexpr double kWarnPeriod = 10.0;  // between such log messages [s]
 
 }  // namespace
 
@@ -107,7 +107,7 @@ void HealthWatch::watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& 
   const std::string warning = loop.movingFixedFrame();
   if (warning.empty()) return;
   if (health_.moving_frame.empty()) ROS_WARN("%s", warning.c_str());
-  health_.moving_frame = warning;  // from then on: also while the robot rests
+  health_.moving_frame = warning;  // kept from then on, also while the robot rests
 }
 
 void HealthWatch::watchUnchecked(const std::string& cause, const std::string& besides) {
@@ -127,7 +127,7 @@ void HealthWatch::watchUnchecked(const std::string& cause, const std::string& be
   ROS_WARN("Not checked: %s", all.c_str());
 }
 
-/// What late transforms have contradicted in the last seconds.
+/// Reports results that late transforms have contradicted in the last seconds.
 void HealthWatch::watchLate(const MonitorLoop& loop, const ros::WallTime& now) {
   const std::vector<LateTransforms>& late = loop.cycle().late;
   if (!late.empty()) {

@@ -11,26 +11,25 @@
 
 namespace sdf_ccd {
 
-/// Follows what goes wrong from cycle to cycle, for the diagnostics, and says it in the log: what lasts now and then,
-/// the rest once.
+/// Follows problems from cycle to cycle, for the diagnostics, and logs them: lasting ones at intervals, others once.
 class HealthWatch {
  public:
   MonitorHealth& health() { return health_; }
   const MonitorHealth& health() const { return health_; }
 
-  /// What the scene's preparation found: bodies that cannot be checked, warnings, pairs.
+  /// Takes the problems found while the scene was prepared: bodies that cannot be checked, warnings, pairs.
   void takeScene(const Scene& scene, const DescribedScene& described, const MonitorParameters& parameters);
 
-  /// What the loop's last cycle found. @param state  of that cycle.
+  /// Takes the results of the loop's last cycle. @param state  of that cycle.
   void takeCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent);
 
-  /// Cycles run that begin without a frame that they are to wait for, CycleTrigger::awaitedFrame(), or empty.
+  /// Takes the frame without which cycles begin though they should wait for it: CycleTrigger::awaitedFrame(), or empty.
   void takeTrigger(const std::string& awaited_frame);
 
-  /// No transforms arrive, or no clock by which they could be new.
+  /// Takes the reason why no cycle runs: no transforms arrive, or the clock does not run.
   void takeStall(const MonitorLoop& loop, const std::string& reason);
 
-  /// The cycles begin anew.
+  /// To be called when cycles start anew.
   void forget();
 
  private:
@@ -41,11 +40,11 @@ class HealthWatch {
   void watchLate(const MonitorLoop& loop, const ros::WallTime& now);
 
   MonitorHealth health_;
-  ros::WallTime last_cycle_;                      // when it was published; 0 before the first one
-  ros::WallTime last_late_;                       // when transforms contradicted a cycle
-  ros::WallTime last_frame_check_;                // whether the fixed frame moves
-  ros::WallTime awaited_since_;                   // a frame of the trigger; 0: none
-  ros::WallTime unchecked_since_, last_warning_;  // 0: all is checked; none was given
+  ros::WallTime last_cycle_;                      // 0 before the first one
+  ros::WallTime last_late_;                       // when transforms last contradicted a cycle
+  ros::WallTime last_frame_check_;                // when the fixed frame was last tested
+  ros::WallTime awaited_since_;                   // when a frame of the trigger was first missed; 0: none is
+  ros::WallTime unchecked_since_, last_warning_;  // 0: everything is checked; no warning was given
 };
 
 }  // namespace sdf_ccd

@@ -20,10 +20,10 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
-const ros::WallDuration kPatience(0.1);  // until tf has the map's stamp
-const ros::WallDuration kAgain(0.2);     // looks for transforms that a map was taken without
+const ros::WallDuration kPatience(0.1);  // longest wait for transforms at the map's stamp
+const ros::WallDuration kAgain(0.2);     // between tests for transforms that were missing for a map
 constexpr std::chrono::milliseconds kLook(2);
-constexpr double kShortestLook = 0.02, kLongestLook = 1.0;  // at the map's age [s]
+constexpr double kShortestLook = 0.02, kLongestLook = 1.0;  // between tests of the map's age [s]
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void LiveMap::work(const char* what, const std::function<void()>& job) const {
   }
 }
 
-/// A map that stays in place although nobody sends it any more would be trusted for ever.
+/// Otherwise a map would be trusted forever after its publisher has ended.
 void LiveMap::watchAge() {
   const ros::Time now = ros::Time::now();
   if (now < taken_) taken_ = now;  // time has jumped
@@ -138,7 +138,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
   std::uint64_t version = world->version();
   if (made > 0 || !change.removed.empty() || in_scene_ != InScene::kTiles) {
-    isBehind();  // if this fails, the next map is to try again
+    isBehind();  // if setMap() fails, the next map tries again
     version = editor_.setMap(std::move(tiles), fields);
     in_scene_ = InScene::kTiles;
   }
@@ -151,7 +151,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
       1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
 }
 
-/// As tf has it at the map's stamp; what it has not, where that is now.
+/// The poses in tf at the map's stamp; those that are missing there, at the present time.
 LiveMap::RobotPoses LiveMap::robotAt(const CheckedWorld& world, const octomap_msgs::Octomap& message,
                                      const ros::WallDuration& patience) const {
   RobotPoses poses;
@@ -182,13 +182,13 @@ LiveMap::RobotPoses LiveMap::robotAt(const CheckedWorld& world, const octomap_ms
   return poses;
 }
 
-/// How many; all if the map's own place is.
+/// Number of unknown poses; all of them if the map's own pose is unknown.
 std::size_t LiveMap::RobotPoses::unknown() const {
   if (!missing.front().empty()) return missing.size();
   return std::count_if(missing.begin(), missing.end(), [](const std::string& why) { return !why.empty(); });
 }
 
-/// What the robot fills, as far as that is known.
+/// The voxels that the robot occupies, as far as its poses are known.
 std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const RobotPoses& poses) {
   if (!poses.missing.front().empty()) {
     ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", poses.missing.front().c_str());

@@ -16,21 +16,21 @@
 
 namespace sdf_ccd {
 
-/// A map of voxels that comes on a topic, as tiles of the world: each map takes the place of the last one, what has not
-/// changed of it is shared. While one is being taken the newest that comes waits, and others are dropped.
+/// A voxel map that is received on a topic, as tiles of the world. Each map replaces the last one; unchanged tiles are
+/// shared. While one map is processed the newest one waits, and others are dropped.
 ///
-/// Before the first map, and where the last one is older than may be, the robot is NOT_CHECKED against the map.
+/// Before the first map, and while the last one is too old, the robot is NOT_CHECKED against the map.
 ///
-/// Voxels that the robot, and what is attached to it, fill where tf had them at the map's stamp do not count. Where
-/// that was not known of some body yet, the map is taken again when it is: a latched one comes only once.
+/// Voxels that the robot and the objects attached to it occupy at the map's stamp, according to tf, are ignored. If the
+/// pose of a body was not known, the map is processed again once it is: a latched map is sent only once.
 ///
 /// Subscribes:
 ///   the parameter octomap/topic  octomap_msgs/Octomap  binary or full, of OcTree or ColorOcTree
 ///
-/// Works in a thread of its own.
+/// Runs in a thread of its own.
 class LiveMap {
  public:
-  /// @param stop  ends what is being done when it is set.
+  /// @param stop  ends the current work when it is set.
   LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameters, SceneEditor& editor,
           const TfHistory& history, const std::atomic<bool>& stop);
   ~LiveMap();
@@ -42,11 +42,11 @@ class LiveMap {
   void take(const octomap_msgs::Octomap& message);
   std::string frameOf(const octomap_msgs::Octomap& message) const;
 
-  /// Where the robot is, and what is attached to it.
+  /// Poses of the map, the robot and the objects attached to it.
   struct RobotPoses {
-    std::vector<std::size_t> bodies;   // of the world
-    std::vector<Isometry3d> X_W;       // of the map, and behind it of these bodies
-    std::vector<std::string> missing;  // why they are not known; empty if they are
+    std::vector<std::size_t> bodies;   // indices in the world
+    std::vector<Isometry3d> X_W;       // of the map, then of these bodies
+    std::vector<std::string> missing;  // why a pose is not known; empty if it is
 
     std::size_t unknown() const;
   };
@@ -64,14 +64,14 @@ class LiveMap {
   double resolution_ = 0.0;                       // [m]
   std::map<std::string, BodyDescription> tiles_;  // by name
   enum class InScene {
-    kAwaited,  // no map, and it says so
-    kTiles,    // what tiles_ has
-    kOther,    // an older map, as tiles_ could not be taken over
+    kAwaited,  // no map; the robot is NOT_CHECKED against it
+    kTiles,    // the tiles in tiles_
+    kOther,    // an older map, as setting the present tiles failed
   };
   InScene in_scene_ = InScene::kAwaited;
-  ros::Time taken_;                       // when the last map came
-  octomap_msgs::Octomap::ConstPtr last_;  // map that was taken, if some bodies were unknown then
-  std::size_t unknown_ = 0;               // how many
+  ros::Time taken_;                       // when the last map was received
+  octomap_msgs::Octomap::ConstPtr last_;  // the last map, if some poses were unknown
+  std::size_t unknown_ = 0;               // number of those poses
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
   ros::WallTimer age_timer_, again_timer_;

@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// The frames of all bodies, and of all links: queries rest on these.
+/// The frames of all bodies, and of all links, which queries need.
 TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& described,
                                 const MonitorParameters& parameters) {
   TfHistoryOptions options;
@@ -19,7 +19,7 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
   for (const std::string& link : links) {
     options.wanted.push_back(withoutLeadingSlash(described.tf_prefix + link));
   }
-  // A cycle of max_cycle may have waited for max_latency; as long again for those that check it anew.
+  // A cycle of max_cycle may have waited for max_latency; twice that, so that it can be checked again as long after.
   options.keep = std::max(options.keep, 2.0 * (parameters.tf.max_cycle + parameters.tf.max_latency));
   return options;
 }
@@ -46,19 +46,20 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   auto change = std::make_unique<LoopChange>();
   const Scene& scene = next->scene();
   std::set<std::string> frames;
-  for (const BodyList* bodies : {&scene.bodies, &monitor_.scene().bodies})  // until then the cycles need theirs
+  for (const BodyList* bodies : {&scene.bodies, &monitor_.scene().bodies})  // the cycles still need theirs
     for (const Body& body : *bodies) frames.insert(withoutLeadingSlash(body.frame));
   history_.wantBesides({frames.begin(), frames.end()});
 
   change->monitor = monitor_.prepare(next->snapshot->scene);
   change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
   change->tracker->warmUp();
-  // Also of bodies that have changed: else a frame that lags behind what changes again and again is never checked.
+  // Also pairs of bodies that have changed continue: otherwise, if a body changes repeatedly, its pair with a body
+  // whose frame lags behind would never be checked.
   change->pairs_before = findPairs(pairNames(scene), pairNames(monitor_.scene()));
   change->reach_guard = std::make_unique<ReachGuard>(*next, described_);
   change->contacts = contacts_.prepare(scene);
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
-  constexpr std::size_t kPoses = 16;  // of a body in a cycle, mostly fewer
+  constexpr std::size_t kPoses = 16;  // per body and cycle, usually fewer
   CycleMotion& motion = change->cycle.motion;
   motion.X_WB.resize(scene.bodies.size());
   for (std::vector<Isometry3d>& poses : motion.X_WB) poses.reserve(kPoses);
@@ -129,7 +130,7 @@ void MonitorLoop::trackContacts(const CycleRequest& request) {
 }
 
 std::string MonitorLoop::movingFixedFrame() const {
-  constexpr double kMoved = 0.02, kTurned = 0.02;  // more than what localisation makes of a robot that rests [m, rad]
+  constexpr double kMoved = 0.02, kTurned = 0.02;  // more than localisation noise of a robot at rest [m, rad]
   const std::string& fixed = history_.fixedFrame();
   const BodyList& bodies = scene().bodies;
   const auto object = std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) {

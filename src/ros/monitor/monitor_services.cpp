@@ -6,7 +6,7 @@
 namespace sdf_ccd {
 namespace {
 
-/// One for each query and change that is answered or waits, and one that says that there are too many.
+/// One for each query and change that is answered or waits, and one to refuse more.
 int threads() {
   return QueryLimits().queries + 4;
 }

@@ -18,34 +18,34 @@
 
 namespace sdf_ccd {
 
-/// Serves, below the node's name, with a thread per query that is answered at a time:
+/// Serves, below the node's name, with one thread per request:
 ///   query_motion   sdf_ccd/QueryMotion
 ///   query_motions  sdf_ccd/QueryMotions
 ///   query_points   sdf_ccd/QueryPoints
 ///   update_scene   sdf_ccd/UpdateScene  changes the world's objects and the pairs, while the monitor runs
 ///   get_plan       sdf_ccd/GetPlan      what is checked now
 ///   reset          std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
-/// Until there is something to answer with, the answers say what is being waited for.
+/// Until the monitor is ready, the responses say what it waits for.
 class MonitorServices {
  public:
-  /// @param stop  ends what is being answered when it is set.
+  /// @param stop  ends the current answers when it is set.
   MonitorServices(const ros::NodeHandle& private_node, const std::atomic<bool>& stop);
 
-  /// Ends all answers, which takes no longer than these take to see that they are to stop.
+  /// Ends all answers; takes as long as they need to notice that.
   ~MonitorServices();
 
-  /// What else is to be called by these threads takes a copy of this.
+  /// For other callbacks that these threads are to call: use a copy.
   const ros::NodeHandle& node() const { return node_; }
 
   void setWaiting(const std::string& reason);
 
-  /// From now on requests are answered. @param queries, editor  live until stop().
+  /// Answers requests from now on. @param queries, editor  must live until stop().
   void setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame);
 
-  /// Whether a reset has been asked for since the last call.
+  /// Whether a reset has been requested since the last call.
   bool takeReset() { return reset_asked_.exchange(false); }
 
-  /// No request is answered any more.
+  /// Answers no more requests.
   void stop();
 
  private:
@@ -62,7 +62,7 @@ class MonitorServices {
   const std::atomic<bool>& stop_;
   std::atomic<bool> reset_asked_{false};
   std::mutex mutex_;
-  std::string waiting_ = "starting";  // guarded by mutex_, as all up to the frame
+  std::string waiting_ = "starting";  // guarded by mutex_, as all up to fixed_frame_
   Queries* queries_ = nullptr;        // null: not ready
   SceneEditor* editor_ = nullptr;
   std::string fixed_frame_;

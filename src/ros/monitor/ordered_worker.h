@@ -9,17 +9,17 @@
 
 namespace sdf_ccd {
 
-/// Works on items on a thread of its own, in the order in which another thread hands them over. Items and their memory
-/// are used again.
+/// Processes items in a thread of its own, in the order in which another thread hands them over. Items are reused with
+/// their memory.
 template <class Item>
 class OrderedWorker {
  public:
-  /// @param items  that may wait at a time, 2 or more.
+  /// @param items  maximum number that waits at a time, 2 or more.
   /// @param work   must not throw.
   OrderedWorker(std::size_t items, std::function<void(Item&)> work)
       : items_(items), work_(std::move(work)), thread_([this] { run(); }) {}
 
-  /// Works on what waits still.
+  /// Processes the items that still wait.
   ~OrderedWorker() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -32,7 +32,7 @@ class OrderedWorker {
   OrderedWorker(const OrderedWorker&) = delete;
   OrderedWorker& operator=(const OrderedWorker&) = delete;
 
-  /// An item to fill, as it was left when it was worked on last; then hand it over. While all wait, this waits too.
+  /// An item to fill, with its contents after it was last processed; then call handOver(). Blocks while all items wait.
   Item& next() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return waiting_ < items_.size(); });
@@ -67,7 +67,7 @@ class OrderedWorker {
   std::function<void(Item&)> work_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::size_t first_ = 0, waiting_ = 0;  // of those handed over, the one that is worked on included
+  std::size_t first_ = 0, waiting_ = 0;  // number of items handed over, including the one that is processed
   bool ends_ = false;
   std::thread thread_;
 };

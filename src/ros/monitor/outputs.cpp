@@ -75,12 +75,12 @@ CycleRequest Outputs::request(int max_points) {
   request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || state_wanted_;
   request.contacts = contacts_wanted_ || markers_wanted_ || state_wanted_;
   request.max_points = contacts_wanted_ || markers_wanted_ ? max_points : 0;
-  // The status, and the state, tell the clearance of all.
+  // The status text and the state report the clearance of all pairs.
   request.skipped_pairs = markers_wanted_ || links_wanted_ || state_wanted_ || proximity_.isWanted();
   return request;
 }
 
-/// Each look searches all topics of the process, so that it is not taken every millisecond.
+/// Each count of subscribers searches all topics of the process, so it is not made every millisecond.
 void Outputs::lookForSubscribers() {
   const ros::WallTime now = ros::WallTime::now();
   if (now - looked_ < kLookPeriod) return;
@@ -136,7 +136,7 @@ void Outputs::publishUnchecked(const std::string& reason, const boost::shared_pt
   worker_->handOver();
 }
 
-/// Large worlds take a while to be drawn: not before somebody looks at them.
+/// Drawing large worlds takes a while, so it waits for a subscriber.
 void Outputs::setWorld(Report& report) {
   const ros::WallTime now = ros::WallTime::now();
   report.draws_world = false;
@@ -149,7 +149,7 @@ void Outputs::setWorld(Report& report) {
   if (report.draws_markers || report.draws_links || report.draws_world) report.world = loop_.world();
 }
 
-/// Of the thread that draws.
+/// Called by the drawing thread.
 void Outputs::goOnWith(const std::shared_ptr<const CheckedWorld>& world) {
   if (world == drawn_) return;
   if (drawn_) drawer_.take(findPairs(pairNames(world->scene()), pairNames(drawn_->scene())));
@@ -201,7 +201,7 @@ void Outputs::draw(const Report& report) {
 
 void Outputs::drawWorld(const CheckedWorld& world) {
   const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(toWorldMarkers(world.description()));
-  if (has_drawn_world_) {  // what is no longer there goes
+  if (has_drawn_world_) {  // deletes objects that no longer exist
     visualization_msgs::Marker all = makeMarker(loop_.fixedFrame(), "", 0, visualization_msgs::Marker::CUBE);
     all.action = visualization_msgs::Marker::DELETEALL;
     markers->markers.insert(markers->markers.begin(), all);

@@ -21,35 +21,35 @@
 
 namespace sdf_ccd {
 
-/// Publishes what a cycle found.
+/// Publishes the results of a cycle.
 ///
 /// Publishes, below the node's name:
 ///   contacts         sdf_ccd/ContactArray            every cycle, and once a second while there is none
-///   contact_states   gazebo_msgs/ContactsState       every cycle: what touched, see toContactStates()
+///   contact_states   gazebo_msgs/ContactsState       every cycle; see toContactStates()
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
 ///                                                    link's frame, about its origin [N, N·m]
-///   joint_torques    sensor_msgs/JointState          as TorqueOutput does
-///   markers          visualization_msgs/MarkerArray  contacts and status to look at
+///   joint_torques    sensor_msgs/JointState          see TorqueOutput
+///   markers          visualization_msgs/MarkerArray  contacts and status
 ///   world            visualization_msgs/MarkerArray  the world's objects as they are checked, again after changes, at
 ///                                                    most once a second; latched
 ///   links            visualization_msgs/MarkerArray  the links' collision shapes in the colours of their verdicts, all
 ///                                                    of them when one changes; latched
-/// Nothing is put together, or computed, that has no subscriber.
+/// Nothing is computed or filled that has no subscriber.
 ///
-/// Messages are filled where the cycle's results are, which takes no more than to copy these, and published in their
-/// order by a thread of their own, without a copy to subscribers of the same process: serialising, sending and drawing
-/// take no time of the cycles'. Those wait only when several cycles' messages do.
+/// The thread of the cycles fills the messages, which takes no longer than to copy its results. Another thread
+/// publishes them in their order, without a copy for subscribers in the same process: serialising, sending and drawing
+/// take no time from the cycles. They wait only if the messages of several cycles wait.
 class Outputs {
  public:
-  /// @param state  publishes the states that are given.
-  /// @param world  publishes the world's objects.
+  /// @param state  publisher of the states given below.
+  /// @param world  publisher of the world's objects.
   Outputs(const ros::NodeHandle& private_node, const ros::Publisher& state, const ros::Publisher& world,
           MonitorLoop& loop, const DescribedScene& described, const MarkerOptions& options,
           ProximityOutputs& proximity);
 
   ~Outputs();
 
-  /// The wrenches on one link, or on what is attached to one.
+  /// The wrenches on a link, or on an object attached to one.
   struct LinkWrench {
     int body;
     std::string topic;
@@ -58,45 +58,47 @@ class Outputs {
     std::shared_ptr<MessagePool<geometry_msgs::WrenchStamped>> messages;
   };
 
-  /// What another world needs; after adopt() what that of before needed.
+  /// The publishers for another world; after adopt(), the former ones.
   struct Change {
     std::vector<LinkWrench> wrenches;
     std::vector<int> link_of_body;  ///< see TorqueOutput
   };
 
-  /// What another world needs, beside running cycles but not while adopt() runs: publishers of what is attached now.
+  /// Makes the publishers for the links and attached objects of another world; may run in parallel to cycles, but not
+  /// to adopt().
   std::unique_ptr<Change> prepare(const CheckedWorld& next);
 
-  /// Goes on with the loop's world, between two cycles. Frees nothing.
-  /// @param change  that prepare() made since the last adopt(); to be destroyed by a thread that has the time.
+  /// Switches to the loop's world, between two cycles. Frees no memory.
+  /// @param change  made by prepare() since the last adopt(); to be destroyed by a thread that has the time for it.
   void adopt(Change& change);
 
-  /// The world is drawn once more, as after a jump of time, when rviz drops what it shows.
+  /// Draws the world again, for example after a jump of time, when rviz deletes all markers.
   void drawWorldAgain() { world_drawn_ = 0; }
 
-  /// How it is drawn from now on.
+  /// Sets how markers are drawn from now on.
   void setMarkers(const MarkerOptions& options) { marker_options_ = options; }
 
-  /// What the subscribers want to know of the next cycle.
+  /// The request for the next cycle, according to the subscribers.
   CycleRequest request(int max_points);
 
-  /// Of the loop's last cycle. @param state  of that cycle.
-  /// @param distances  the same, or null.
+  /// Publishes the loop's last cycle.
+  /// @param state      of that cycle.
+  /// @param distances  of that cycle, or null.
   void publish(const boost::shared_ptr<MonitorState>& state, const boost::shared_ptr<DistanceArray>& distances);
 
-  /// Nothing is checked after the last cycle, for this reason: a message without pairs, and no markers.
-  /// @param state  that says so.
+  /// Publishes that nothing is checked after the last cycle, for this reason: a message without pairs, and no markers.
+  /// @param state  with the same content.
   void publishUnchecked(const std::string& reason, const boost::shared_ptr<MonitorState>& state);
 
-  /// Publishes what waits still, but draws nothing any more. The last call.
+  /// Publishes what still waits, but draws nothing. Must be the last call.
   void finish();
 
  private:
   using WrenchMessage = boost::shared_ptr<geometry_msgs::WrenchStamped>;
 
-  struct Report {                              // of a cycle, or that there is none
+  struct Report {                              // about a cycle, or that there is none
     boost::shared_ptr<ContactArray> contacts;  // null if nobody listens
-    bool has_contact_states = false;           // they are published too
+    bool has_contact_states = false;           // publish them, too
     boost::shared_ptr<MonitorState> state;
     boost::shared_ptr<DistanceArray> distances;
     boost::shared_ptr<sensor_msgs::JointState> torques;
@@ -104,10 +106,10 @@ class Outputs {
     CycleSnapshot snapshot;
     bool draws_markers = false, draws_links = false;  // of the snapshot
     MarkerOptions marker_options;
-    std::shared_ptr<const CheckedWorld> world;  // that this is about; null if nothing is drawn
+    std::shared_ptr<const CheckedWorld> world;  // of the results; null if nothing is drawn
     bool draws_world = false;
     bool is_unchecked = false;
-    std::string reason;  // why
+    std::string reason;  // of is_unchecked
   };
 
   void lookForSubscribers();
@@ -125,10 +127,10 @@ class Outputs {
   std::vector<LinkWrench> wrenches_;
   TorqueOutput torques_;
   MarkerOptions marker_options_;
-  std::uint64_t world_drawn_ = 0;  // its version
+  std::uint64_t world_drawn_ = 0;  // version that was drawn last
   ros::WallTime world_drawn_at_;
 
-  // Of the thread that draws.
+  // Used by the drawing thread.
   std::shared_ptr<const CheckedWorld> drawn_;
   MarkerDrawer drawer_;
   std::unique_ptr<LinkMarkers> link_markers_;
@@ -136,7 +138,7 @@ class Outputs {
 
   MessagePool<ContactArray> contact_messages_;
 
-  ros::WallTime looked_;  // for subscribers
+  ros::WallTime looked_;  // when subscribers were last counted
   bool contact_states_wanted_ = false;
   bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
   bool markers_wanted_ = false, links_wanted_ = false;

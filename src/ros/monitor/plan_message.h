@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// What is checked in a version of the world, and what is left out.
+/// The pairs that are checked in a version of the world, and those that are left out.
 Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros::Time& now);
 
 }  // namespace sdf_ccd

@@ -5,7 +5,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kPeriod = 1.0;  // of plans whose rate is limited, at least [s]
+constexpr double kPeriod = 1.0;  // minimum time between plans whose rate is limited [s]
 
 }  // namespace
 

@@ -61,7 +61,7 @@ void requireNamedOnce(const QueryMotion::Request& request) {
   }
 }
 
-/// On splines, as joint_trajectory_controller follows it.
+/// On splines, as joint_trajectory_controller does.
 RobotTrajectory toSplines(const trajectory_msgs::JointTrajectory& trajectory, const ros::Duration& start,
                           double tolerance) {
   const std::vector<double> times = timesOf(trajectory.points, start, "the trajectory");
@@ -86,8 +86,8 @@ RobotTrajectory toRobotTrajectory(const trajectory_msgs::JointTrajectory& trajec
   return result;
 }
 
-/// The root, whose joint may be named after it or as in the SRDF, stands in the message's frame; all others in their
-/// joint's frame.
+/// The pose of the root link, which may be named after it or after the SRDF's virtual joint, is in the message's frame;
+/// all others are in their joint's frame.
 RobotTrajectory toRobotTrajectory(const trajectory_msgs::MultiDOFJointTrajectory& trajectory,
                                   const ros::Duration& start, const PlannedScene& planned) {
   RobotTrajectory result;
@@ -119,7 +119,7 @@ bool movesRoot(const QueryMotion::Request& request, const PlannedScene& planned)
   });
 }
 
-/// What the request says of joints, at all its times.
+/// The joint positions and poses in the request, at all its times.
 RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
   requireNamedOnce(request);
   const auto& joints = request.trajectory.points;
@@ -128,7 +128,8 @@ RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const Plann
   RobotTrajectory named;
   if (!joints.empty()) {
     const bool on_splines = request.interpolation == QueryMotion::Request::SPLINES;
-    // Joints' errors add up along a chain: a quarter of what samples of the motion may stray, each [rad, m].
+    // Errors of joints add up along a chain: each may deviate by a quarter of the tolerance of the motion's samples
+    // [rad, m].
     named = on_splines ? toSplines(request.trajectory, start, 0.25 * planned.sampling.tolerance)
                        : toRobotTrajectory(request.trajectory, start);
     for (RobotState& state : named.states) state.X_WR = planned.now.X_WR;
@@ -155,8 +156,8 @@ std::string notesOf(const PlannedJoints& plan) {
   return notes;
 }
 
-/// Where the base moves, objects that hang on the robot's links move along and are never in its way: mostly as their
-/// frame is the root link, for want of one that rests.
+/// Notes that objects whose frames are below the robot's links move along if the base moves, and never obstruct it.
+/// Usually their frame is the root link because no frame at rest was given.
 std::string carriedNote(const PlannedScene& planned) {
   std::string names;
   int count = 0;
@@ -189,7 +190,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
   return result;
 }
 
-/// Per link that is named: its poses.
+/// The poses of each named link.
 std::vector<std::vector<Isometry3d>> linkPoses(const QueryMotion::Request& request) {
   std::vector<std::vector<Isometry3d>> X_WL(request.links.size());
   for (std::size_t i = 0; i < request.poses.size(); ++i) {
@@ -232,8 +233,8 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
   return planThrough(std::move(motion), is_moved, planned.unreachable);
 }
 
-/// Where a frame is in one above it, at the last time at which the way from the fixed frame is known.
-/// @return why that is not known; empty if it is.
+/// Pose of a frame in one above it, at the last time at which its chain from the fixed frame is known.
+/// @return why it is not known; empty if it is.
 std::string poseAbove(const TfHistory& history, const std::string& above, const std::string& frame, Isometry3d& X_AF) {
   X_AF.setIdentity();
   if (above == frame) return {};

@@ -11,13 +11,13 @@
 
 namespace sdf_ccd {
 
-/// The link that a body's frame hangs on.
+/// The link that carries a body's frame.
 struct Carrier {
-  int link = -1;                             ///< by its index in RobotModel::links(); −1: none
+  int link = -1;                             ///< index in RobotModel::links(); −1: none
   Isometry3d X_LB = Isometry3d::Identity();  ///< the body's frame in the link's
 };
 
-/// Where things are now, for all that a planned motion does not say.
+/// Present poses of everything that a planned motion does not specify.
 struct CurrentPoses {
   Isometry3d X_WR = Isometry3d::Identity();  ///< of the robot's root link
   std::string root_missing;                  ///< why that is not known; empty if it is
@@ -26,14 +26,14 @@ struct CurrentPoses {
   std::vector<std::string> missing;  ///< per body: why that is not known
   std::vector<Carrier> carriers;     ///< per body
 
-  ros::Time oldest;          ///< of the newest transforms of the robot's moving links, the oldest; 0 if none is known
-  std::string oldest_frame;  ///< that link's
+  ros::Time oldest;          ///< time of the oldest of the moving links' newest transforms; 0 if none is known
+  std::string oldest_frame;  ///< frame of that link
 
-  Isometry3d X_WM = Isometry3d::Identity();  ///< of the frame that the plan's root poses are given in
+  Isometry3d X_WM = Isometry3d::Identity();  ///< of the frame in which the plan's root poses are given
   std::string plan_frame_missing;
 };
 
-/// What a planned motion moves.
+/// The scene and the present poses that a planned motion starts from.
 struct PlannedScene {
   const Scene& scene;
   const RobotModel& robot;
@@ -51,16 +51,16 @@ struct RobotFrames {
   std::string operator()(int link) const { return prefix + robot.links()[link]; }
 };
 
-/// From the newest transform of each frame, whatever its age. Bodies' own poses are left to the caller.
+/// The poses at the newest transform of each frame, whatever its age. The caller sets those of the bodies.
 CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const Scene& scene);
 
-/// What a user should know of transforms that are older than `max_age` [s] at the time `time`; empty if none are.
+/// Note about transforms that are older than `max_age` [s] at the time `time`; empty if none are.
 std::string oldTransformsNote(const CurrentPoses& now, const ros::Time& time, double max_age);
 
-/// The motion of all bodies along the request's joint trajectory or link poses. A body whose frame is not a link's but
-/// hangs below one moves with it.
+/// The motion of all bodies along the request's joint trajectory or link poses. A body whose frame is below a link's
+/// moves with that link.
 /// @param scene  must outlive the motion.
-/// @throws std::invalid_argument, saying what is wrong with the request.
+/// @throws std::invalid_argument with the reason, if the request is invalid.
 PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& scene);
 
 }  // namespace sdf_ccd

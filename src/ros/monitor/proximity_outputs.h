@@ -12,30 +12,30 @@
 
 namespace sdf_ccd {
 
-/// Measures how near bodies are to each other, as far as somebody wants to know.
+/// Measures the distances of bodies, if they are needed.
 ///
 /// Publishes, below the node's name:
 ///   distances       sdf_ccd/DistanceArray  every cycle, if report_distance is set
-///   velocity_scale  std_msgs/Float64       every cycle, and as 0 while there is none or one takes longer than
-///                                          max_latency, if velocity_scale/max_speed is set
-/// What has no subscriber, or no threshold, is not measured.
+///   velocity_scale  std_msgs/Float64       every cycle, and 0 while none runs or one takes longer than max_latency, if
+///                                          velocity_scale/max_speed is set
+/// Without a subscriber or threshold, nothing is measured.
 class ProximityOutputs {
  public:
   ProximityOutputs(ros::NodeHandle private_node, const ProximityParameters& parameters);
 
-  /// Thresholds and distances; whether there is a velocity scale stays as it is.
+  /// Sets thresholds and distances; whether a velocity scale is published does not change.
   void setParameters(const ProximityParameters& parameters);
 
-  /// Whether anything will be measured in the next cycle: then it has to tell the clearances of all pairs.
+  /// Whether the next cycle will be measured: it must then report the clearances of all pairs.
   bool isWanted() const { return range() > 0.0; }
 
-  /// Of the loop's last cycle: publishes the velocity scale at once, and sets the state's proximity.
-  /// @return the distances, to be published; null if nobody listens.
+  /// Measures the loop's last cycle: publishes the velocity scale at once, and sets the state's proximity.
+  /// @return the distances to publish; null if there is no subscriber.
   boost::shared_ptr<DistanceArray> measure(MonitorLoop& loop, MonitorState& state);
 
   void publishDistances(const boost::shared_ptr<DistanceArray>& distances) { distances_.publish(distances); }
 
-  /// Nothing is checked: whoever obeys the scale stops.
+  /// Reports that nothing is checked: a robot that obeys the scale stops.
   void publishUnchecked(MonitorState& state);
 
   /// The same while another thread measures.

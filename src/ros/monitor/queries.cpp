@@ -31,8 +31,8 @@ void requireAtMost(std::size_t most, std::size_t given, const std::string& what)
 
 class Queries::Piece {
  public:
-  /// @param spent  by the answer so far [s].
-  /// @throws Cancelled, as does the work of the piece, also when the answer has taken too long.
+  /// @param spent  computing time of the answer so far [s].
+  /// @throws Cancelled if the answer takes too long; so does the work of the piece.
   Piece(Queries& queries, double& spent)
       : turn_(queries.turns_),
         spent_(spent),
@@ -104,8 +104,8 @@ void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response&
   if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
 }
 
-/// Where things are now, for a motion that says no more.
-/// @param plan_frame  that the plan's root poses are given in.
+/// The present poses, for everything that a motion does not specify.
+/// @param plan_frame  frame of the plan's root poses.
 PlannedScene Queries::planFromNow(const std::string& plan_frame, const CheckedWorld& world) const {
   CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, world.scene());
   posesAt(history_, world.bodies, ros::Time(), now.X_WB, now.missing);
@@ -144,7 +144,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
     const Piece piece(*this, spent);
     const CancelPoint cancel;
     arena_.execute([&] {
-      const CancelScope scope(cancel);  // it may be another thread
+      const CancelScope scope(cancel);  // this may run in another thread
       const CycleMotion& motion = check.next();
       if (markers) markers->add(motion);
     });
@@ -172,7 +172,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   const std::size_t count = request.motions.size();
   requireAtMost(limits_.motions, count, "motions");
   std::size_t points = 0;
-  std::string frame;  // of all root poses: tf is asked once
+  std::string frame;  // of all root poses, so that tf is queried once
   for (const RobotMotion& motion : request.motions) {
     points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
     const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
@@ -194,7 +194,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     const Piece piece(*this, spent);
     const CancelPoint cancel;
     const auto motionOf = [&](std::size_t i, double tolerance) {
-      const CancelScope scope(cancel);  // it may be another thread
+      const CancelScope scope(cancel);  // this may run in another thread
       QueryMotion::Request one;
       one.trajectory = request.motions[first + i].joint_trajectory;
       one.multi_dof_trajectory = request.motions[first + i].multi_dof_joint_trajectory;

@@ -18,31 +18,31 @@
 
 namespace sdf_ccd {
 
-/// What one query may ask for, and how many there may be. What is more is refused, in the answer's message.
+/// Limits of one query, and of the number of queries. Larger ones are refused, with the reason in the answer's message.
 struct QueryLimits {
   std::size_t waypoints = 2000;  ///< of all trajectories of a motion
   std::size_t motions = 2000;    ///< of query_motions
-  std::size_t points = 20000;    ///< of query_points; or of all motions of query_motions
-  double seconds = 2.0;          ///< of computing; the answer comes within milliseconds after
+  std::size_t points = 20000;    ///< of query_points, or of all motions of query_motions
+  double seconds = 2.0;          ///< of computing; the answer follows within milliseconds
   int queries = 4;               ///< at a time
 };
 
-/// Answers query_motion, query_motions and query_points, beside the cycles and of lower priority than these, on at most
-/// half of the cores. Several calls at a time take turns. A motion is followed piece by piece, so memory does not grow
-/// with its length.
+/// Answers query_motion, query_motions and query_points in parallel to the cycles, with lower priority than these, on
+/// at most half of the cores. Several calls at a time take turns. A motion is checked piece by piece, so memory does
+/// not grow with its length.
 ///
-/// What a CancelScope of the calling thread asks for ends an answer with Cancelled.
+/// A CancelScope of the calling thread ends an answer with Cancelled.
 class Queries {
  public:
   Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene& described,
           const MonitorParameters& parameters, const TfHistory& history, const QueryLimits& limits = {});
 
-  /// Answers that begin from now on are about this world; those that have begun go on with theirs. From any thread.
+  /// Answers that begin from now on use this world; earlier ones continue with theirs. May be called from any thread.
   void setWorld(std::shared_ptr<const CheckedWorld> world);
 
   std::shared_ptr<const CheckedWorld> world() const;
 
-  /// Draws each motion that is asked for, while somebody looks at it (PlannedMarkers). To be called before answer().
+  /// Draws each motion that is checked while there is a subscriber (PlannedMarkers). Must be called before answer().
   void drawOn(const ros::Publisher& publisher) { drawn_ = publisher; }
 
   void answer(const QueryMotion::Request& request, QueryMotion::Response& response);
@@ -50,7 +50,7 @@ class Queries {
   void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
 
  private:
-  /// One piece of an answer: takes its turn, and counts the time.
+  /// One piece of an answer: waits for its turn, and measures its computing time.
   class Piece;
 
   template <class Response, class Work>
@@ -70,12 +70,12 @@ class Queries {
   MonitorOptions options_;
   int max_points_;
   Refinement refine_;
-  double max_age_;  // of transforms that need no note [s]
+  double max_age_;  // older transforms are mentioned in a note [s]
   const TfHistory& history_;
-  ros::Publisher drawn_;  // nothing is drawn without
+  ros::Publisher drawn_;  // if it is empty, nothing is drawn
   QueryLimits limits_;
   WorkTurns turns_;
-  std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // of all answers, as one works at a time
+  std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // shared by all answers, as one works at a time
   tbb::task_arena arena_;
 };
 

@@ -94,7 +94,7 @@ void ReachGuard::findSpans(const CycleMotion& motion) {
   }
 }
 
-/// Where two balls meet at a recorded time that never can by the URDF, tf is of another robot.
+/// If two balls meet at a recorded time that cannot meet according to the URDF, tf is that of another robot.
 void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const {
   for (const UnreachablePair& pair : unreachable_) {
     const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
@@ -113,7 +113,7 @@ void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>&
   }
 }
 
-/// Over the cycle, as far as the joint's child is known.
+/// Copies the joints' motion over the cycle, as far as each child is known.
 void ReachGuard::follow(const TfHistory& history, const TrackedCycle& cycle) {
   history.spans(chains_, spans_);
   parts_.clear();

@@ -10,15 +10,15 @@
 
 namespace sdf_ccd {
 
-/// Watches what pairs that were left out as out of reach rest on: that prismatic joints keep to their limits, by and
-/// large (RobotModel::reach()), and that tf has the links where the URDF's joints can take them.
+/// Checks the assumptions behind pairs that were left out as out of reach: that prismatic joints keep approximately to
+/// their limits (RobotModel::reach()), and that tf has the links where the URDF's joints can move them.
 class ReachGuard {
  public:
   /// @param world  whose pairs are checked; must outlive this.
-  /// @param robot  with its frames in tf.
+  /// @param robot  and its frames in tf.
   ReachGuard(const CheckedWorld& world, const DescribedScene& robot);
 
-  /// The pairs that this does not hold for at some recorded time of the cycle, or whose joints tf does not have.
+  /// The pairs for which this does not hold at some recorded time of the cycle, or whose joints are not known in tf.
   std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle);
 
  private:
@@ -28,7 +28,7 @@ class ReachGuard {
     std::string problem;  // in the last cycle
   };
 
-  /// The waypoints of a body whose poses are those of tf, from a checked pair of it.
+  /// Finds the waypoints at which a body's poses are those of tf, from its checked pairs.
   void findSpans(const CycleMotion& motion);
   void findNear(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const;
   void follow(const TfHistory& history, const TrackedCycle& cycle);
@@ -41,11 +41,11 @@ class ReachGuard {
   std::vector<TfSpan> spans_;
   std::vector<TimePart> parts_;
   TfWindow window_;
-  std::vector<UncheckedPair> pairs_;               // each with no reason yet
-  std::vector<std::vector<std::size_t>> rest_on_;  // per pair: joints
-  std::vector<UnreachablePair> unreachable_;  // of links: objects may be out of reach though balls around them meet
-  std::vector<bool> is_checked_;              // per body: it is in a pair
-  std::vector<WaypointSpan> known_;           // per body, in the last cycle
+  std::vector<UncheckedPair> pairs_;               // without reasons
+  std::vector<std::vector<std::size_t>> rest_on_;  // per pair: indices of joints
+  std::vector<UnreachablePair> unreachable_;       // links only: objects may be out of reach though their balls meet
+  std::vector<bool> is_checked_;                   // per body: whether it is in a pair
+  std::vector<WaypointSpan> known_;                // per body, in the last cycle
 };
 
 }  // namespace sdf_ccd

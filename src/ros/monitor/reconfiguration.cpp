@@ -83,7 +83,7 @@ void ConfigServer<Config>::set(Config& config) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string why_not = why_not_(config);
   if (!why_not.empty()) ROS_WARN("set_parameters refused: %s", why_not.c_str());
-  // The server's own first configuration is cut off at its limits.
+  // The server's own first configuration is clamped to its limits.
   if (begins_ || !why_not.empty()) {
     config = in_force_;
     begins_ = false;

@@ -15,18 +15,18 @@
 
 namespace sdf_ccd {
 
-/// What clients of dynamic_reconfigure have set in one namespace. What cannot be is refused as a whole: then the answer
-/// says what stays.
+/// The values set by clients of dynamic_reconfigure in one namespace. An invalid configuration is refused as a whole:
+/// the response then holds the present values.
 template <class Config>
 class ConfigServer {
  public:
-  /// @param start  what holds at first, whatever the parameter server says.
-  /// @param why_not  empty if a configuration can be.
-  /// @param changed  called when another one has been set, by the thread that serves.
+  /// @param start    the first values, whatever the parameter server holds.
+  /// @param why_not  returns why a configuration is invalid; empty if it is valid.
+  /// @param changed  called by the serving thread when new values have been set.
   ConfigServer(const ros::NodeHandle& node, const Config& start, std::function<std::string(const Config&)> why_not,
                std::function<void()> changed);
 
-  /// What has been set since this was asked last.
+  /// The values set since the last call.
   std::optional<Config> take();
 
  private:
@@ -41,20 +41,19 @@ class ConfigServer {
   dynamic_reconfigure::Server<Config> server_;
 };
 
-/// What of the parameters may change while the monitor runs (cfg/): rate and budget, nearness, what is listed and how
-/// it is drawn.
+/// The parameters that can change while the monitor runs (cfg/): rate and time budget, distances, output and markers.
 ///
 /// Serves, below the node's name, as dynamic_reconfigure does, with its topics parameter_descriptions and
 /// parameter_updates:
 ///   set_parameters  dynamic_reconfigure/Reconfigure
-///   velocity_scale/set_parameters  the same, of the promise that the velocity scale rests on, if there is one
+///   velocity_scale/set_parameters  the same for the limits of the robot that obeys the velocity scale, if it is used
 class Reconfiguration {
  public:
-  /// @param changed  called when anything has been set, by the thread that serves.
+  /// @param changed  called by the serving thread when new values have been set.
   Reconfiguration(const ros::NodeHandle& private_node, const MonitorParameters& parameters,
                   const std::function<void()>& changed);
 
-  /// Sets what has been set since it was asked last. @return whether anything has.
+  /// Copies the values set since the last call to `parameters`. @return whether there were any.
   bool apply(MonitorParameters& parameters);
 
  private:

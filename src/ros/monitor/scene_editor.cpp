@@ -19,9 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMaxCallers = 3;  // one at work, others that wait
+constexpr int kMaxCallers = 3;  // one at work, and others that wait
 constexpr auto kLook = std::chrono::microseconds(200);
-constexpr auto kPatience = std::chrono::milliseconds(500);  // until a cycle has taken a version over
+constexpr auto kPatience = std::chrono::milliseconds(500);  // longest wait for a cycle to adopt a version
 
 int lastChangeOf(const std::string& object, const UpdateScene::Request& request) {
   for (auto change = request.changes.rbegin(); change != request.changes.rend(); ++change)
@@ -31,7 +31,7 @@ int lastChangeOf(const std::string& object, const UpdateScene::Request& request)
 
 }  // namespace
 
-/// One caller's, as long as it lives.
+/// The turn of one caller, for its lifetime.
 class SceneEditor::Turn {
  public:
   explicit Turn(SceneEditor& editor) : editor_(editor) {
@@ -82,7 +82,7 @@ bool SceneEditor::adopt() {
   return true;
 }
 
-/// Takes back what no cycle has taken; waits while one does.
+/// Withdraws the version handed over last if no cycle has taken it, else waits until it is adopted; frees what is left.
 void SceneEditor::withdraw() {
   if (!given_) return;
   if (!offered_.exchange(nullptr)) {
@@ -105,16 +105,16 @@ bool SceneEditor::handOver(const std::shared_ptr<const CheckedWorld>& world) {
        adopted_ != given_.get() && Clock::now() - start < kPatience && !cancel.asked();)
     std::this_thread::sleep_for(kLook);
   const bool is_adopted = adopted_ == given_.get();
-  if (is_adopted) withdraw();  // and frees what was before
+  if (is_adopted) withdraw();  // frees the former version
   return is_adopted;
 }
 
-/// @param making  the body that is being made: if this throws, the one that cannot be.
+/// @param making  receives the name of the body that is being made: after an exception, of the one that failed.
 std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene, std::string& making) {
   std::shared_ptr<const CheckedWorld> world;
   const CancelPoint cancel;
   arena_.execute([&] {
-    const CancelScope scope(cancel);  // it may be another thread
+    const CancelScope scope(cancel);  // this may run in another thread
     SceneDescription description = scene.description(limits_);
     std::vector<UnreachablePair> unreachable = scene.unreachable(description);
     world = std::make_shared<const CheckedWorld>(
@@ -128,7 +128,7 @@ void SceneEditor::save(const std::string& file, const ChangingScene& scene, Chan
   const std::string path = sources.files.path(file);
   if (fs::path(path).extension() != ".scene") throw std::invalid_argument(file + ": a scene's file ends in .scene");
   const std::string text = scene.text(sources, sources.warnings);
-  // Whoever may write in the folder could have laid a link under any name that is known beforehand.
+  // Anyone who can write in the folder could have placed a link under any name that is known beforehand.
   TemporaryFile made(path);
   {
     std::ofstream stream(made.path(), std::ios::binary | std::ios::trunc);
@@ -171,7 +171,7 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   response.success = true;
 }
 
-/// @return whether the cycles have taken it over.
+/// @return whether the cycles have adopted it.
 bool SceneEditor::goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world) {
   scene_ = std::move(scene);
   setLast(world);

@@ -16,23 +16,23 @@
 
 namespace sdf_ccd {
 
-/// What a version of the world needs to be checked, ready to be taken over between two cycles.
+/// The parts for a version of the world, ready to be adopted between two cycles.
 struct PreparedWorld {
   std::unique_ptr<LoopChange> loop;
   std::unique_ptr<Outputs::Change> outputs;
 };
 
-/// The field of a mesh, made elsewhere.
+/// A mesh and its field, made elsewhere.
 struct MadeField {
   std::shared_ptr<const TriangleMesh> mesh;
   DistanceField field;
 };
 
-/// Makes the next version of the world beside the cycles, by threads that call it, one after the other and of lower
-/// priority than cycles, on at most half of the cores; and hands it to the thread that runs these.
+/// Makes the next version of the world in the calling threads, one after the other, in parallel to the cycles and with
+/// lower priority, on at most half of the cores; then hands it over to the thread of the cycles.
 ///
-/// A CancelScope of the calling thread ends a change with Cancelled; what is prepared until then is kept, the scene
-/// stays as it was.
+/// A CancelScope of the calling thread ends a change with Cancelled; what was prepared until then is kept, and the
+/// scene does not change.
 class SceneEditor {
  public:
   struct Parts {
@@ -41,29 +41,30 @@ class SceneEditor {
     Queries& queries;
   };
 
-  /// @param world   the first version, of which `editor` is the editor.
-  /// @param wake    called when a version is ready: the cycles' thread is to call adopt() soon.
-  /// @param changed  called by the thread that has changed it, when the cycles have taken a version over, or will.
+  /// @param editor  of the first version of the world, which `parts` use.
+  /// @param wake    called when a version is ready: the thread of the cycles should call adopt() soon.
+  /// @param changed  called by the changing thread when the cycles have adopted a version, or will.
   SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described, const MonitorParameters& parameters,
               const Parts& parts, std::function<void()> wake, std::function<void(const CheckedWorld&)> changed);
   ~SceneEditor();
 
-  /// Answers a request. Never throws but for Cancelled.
+  /// Answers a request. Throws only Cancelled.
   void update(const UpdateScene::Request& request, UpdateScene::Response& response);
 
-  /// Puts a live map's tiles in the place of those before. @return the version with them.
-  /// @throws std::exception if they cannot be had; Cancelled. The scene stays as it is then.
-  /// @param fields  of those tiles that are new.
+  /// Replaces the tiles of the live map. @return the version with the new ones.
+  /// @param fields  of the new tiles.
+  /// @throws std::exception if they cannot be made; Cancelled. The scene does not change then.
   std::uint64_t setMap(std::vector<BodyDescription> tiles, const std::vector<MadeField>& fields);
 
-  /// The last version that was made. From any thread.
+  /// The last version that was made. May be called from any thread.
   std::shared_ptr<const CheckedWorld> world();
 
-  /// For what is made beside cycles.
+  /// For other work in parallel to the cycles.
   tbb::task_arena& arena() { return arena_; }
 
-  /// Takes over what is ready, if anything is; by the cycles' thread, between two cycles. Some microseconds.
-  /// @return whether there was something.
+  /// Adopts a version if one is ready. To be called by the thread of the cycles, between two cycles; takes
+  /// microseconds.
+  /// @return whether there was one.
   bool adopt();
 
  private:
@@ -88,10 +89,10 @@ class SceneEditor {
   std::timed_mutex turn_;
   std::atomic<int> callers_{0};
   ChangingScene scene_;                                 // guarded by turn_, as all below
-  std::shared_ptr<const CheckedWorld> last_;            // that was made; also by last_mutex_
-  std::unique_ptr<PreparedWorld> given_;                // to the cycles' thread, last
-  std::atomic<PreparedWorld*> offered_{nullptr};        // until that takes it
-  std::atomic<const PreparedWorld*> adopted_{nullptr};  // when it has taken it over
+  std::shared_ptr<const CheckedWorld> last_;            // last version made; also guarded by last_mutex_
+  std::unique_ptr<PreparedWorld> given_;                // last version handed over
+  std::atomic<PreparedWorld*> offered_{nullptr};        // null once the thread of the cycles takes it
+  std::atomic<const PreparedWorld*> adopted_{nullptr};  // set once that has adopted it
 };
 
 }  // namespace sdf_ccd

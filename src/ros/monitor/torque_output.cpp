@@ -48,7 +48,7 @@ void TorqueOutput::set(MonitorLoop& loop, sensor_msgs::JointState& message) {
     const int link = link_of_body_[body];
     if (link < 0 || wrench.force.isZero(0.0)) return;
     const Isometry3d& X_WB = cycle.motion.X_WB[body].back();
-    if (!is_known_[link]) {  // it has no joint that moves right above: where its body is, is where it is
+    if (!is_known_[link]) {  // it has no moving joint directly above it: its body's pose is used
       X_WL_[link] = X_WB;
       is_known_[link] = 1;
     }

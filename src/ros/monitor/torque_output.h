@@ -15,7 +15,7 @@
 
 namespace sdf_ccd {
 
-/// What the contact wrenches do at the robot's joints.
+/// Computes the forces and torques of the contact wrenches at the robot's joints.
 ///
 /// Publishes, below the node's name:
 ///   joint_torques  sensor_msgs/JointState  every cycle: effort is the generalised force of all contacts, averaged over
@@ -24,17 +24,17 @@ class TorqueOutput {
  public:
   explicit TorqueOutput(const DescribedScene& described);
 
-  /// Per body: which of the robot's links carries it; −1: none.
+  /// Per body: index of the robot's link that carries it; −1: none.
   std::vector<int> linksOf(const Scene& scene) const;
 
-  /// To be called before set(), and between two cycles when the scene is another.
+  /// To be called before set(), and between two cycles when the scene changes.
   void swapLinks(std::vector<int>& links) { link_of_body_.swap(links); }
 
   void advertise(ros::NodeHandle private_node);
 
   bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
 
-  /// Of the loop's last cycle, whose wrenches are computed.
+  /// The message about the loop's last cycle, which must have been requested with wrenches.
   boost::shared_ptr<sensor_msgs::JointState> toMessage(MonitorLoop& loop);
   void set(MonitorLoop& loop, sensor_msgs::JointState& message);
 

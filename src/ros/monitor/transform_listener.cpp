@@ -5,7 +5,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kStaticPeriod = 2.0;  // between two subscriptions to /tf_static, at least [s]
+constexpr double kStaticPeriod = 2.0;  // minimum time between two subscriptions to /tf_static [s]
 constexpr int kQueue = 1000;           // messages that may wait
 
 }  // namespace
@@ -45,7 +45,7 @@ void TransformListener::recoverStatic() {
   tf_static_ = subscribe("/tf_static", true);
 }
 
-/// Whatever a message says, it must not end the manager and its other nodelets.
+/// No message may end the manager and its other nodelets by an exception.
 void TransformListener::take(const tf2_msgs::TFMessage& message, bool is_static) {
   try {
     history_.watchClock(ros::Time::now());

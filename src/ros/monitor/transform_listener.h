@@ -14,22 +14,22 @@
 
 namespace sdf_ccd {
 
-/// Receives transforms and joint states in a thread of its own: transforms go into the history, and both may begin a
-/// cycle.
+/// Receives transforms and joint states in a thread of its own: transforms are added to the history, and both may
+/// trigger a cycle.
 ///
 /// Subscribes:
 ///   /tf, /tf_static  tf2_msgs/TFMessage
-///   joint_states     sensor_msgs/JointState  only to name joints whose positions are not finite, and as a trigger
+///   joint_states     sensor_msgs/JointState  only to report joints whose positions are not finite, and as a trigger
 class TransformListener {
  public:
   TransformListener(const ros::NodeHandle& node, const RobotModel& robot, TfHistory& history, CycleTrigger& trigger);
   ~TransformListener();
 
-  /// Subscribes to /tf_static anew, at most every two seconds, if static transforms had no room when no body needed
-  /// them: whoever subscribes is sent all of them.
+  /// Subscribes to /tf_static again, at most every two seconds, if static transforms that are needed now had no room
+  /// before: every new subscriber is sent all of them.
   void recoverStatic();
 
-  /// Sets what is wrong with what was received; says in the log, now and then, what was dropped since the last call.
+  /// Sets the problems of received messages, and logs at intervals what was dropped since the last call.
   void report(MonitorHealth& health);
 
  private:
@@ -41,7 +41,7 @@ class TransformListener {
   TfHistory& history_;
   CycleTrigger& trigger_;
   JointWatch joint_watch_;
-  ros::WallTime last_static_;  // when /tf_static was subscribed to
+  ros::WallTime last_static_;  // when /tf_static was last subscribed to
   ros::Subscriber tf_, tf_static_, joint_states_;
   std::unique_ptr<ros::AsyncSpinner> spinner_;
 };

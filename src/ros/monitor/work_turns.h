@@ -6,14 +6,14 @@
 
 namespace sdf_ccd {
 
-/// Lets a bounded number of callers work one at a time, each piece by piece: who has waited longest goes next. So a
-/// short work is done soon, however long the others' are.
+/// Lets a bounded number of callers work in turns, piece by piece: the caller that has waited longest is next. So short
+/// work is done soon, however long the others' is.
 class WorkTurns {
  public:
-  /// @param most  callers at a time.
+  /// @param most  maximum number of callers at a time.
   explicit WorkTurns(int most) : most_(most) {}
 
-  /// A caller, as long as it lives.
+  /// A caller, for its lifetime.
   class Caller {
    public:
     /// @throws std::runtime_error if there are too many already.
@@ -26,7 +26,7 @@ class WorkTurns {
     WorkTurns& turns_;
   };
 
-  /// A piece of work. Waits for all that came before.
+  /// The turn for one piece of work, for its lifetime. Waits for all pieces that came before.
   class Turn {
    public:
     explicit Turn(WorkTurns& turns);
@@ -43,8 +43,8 @@ class WorkTurns {
   std::mutex mutex_;
   std::condition_variable next_;
   int callers_ = 0;
-  std::uint64_t tickets_ = 0;  // given out
-  std::uint64_t turn_ = 0;     // whose it is
+  std::uint64_t tickets_ = 0;  // number given out
+  std::uint64_t turn_ = 0;     // the ticket whose turn it is
 };
 
 }  // namespace sdf_ccd

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxObjects = 10'000, kMaxShapes = 10'000, kMaxCorners = 5'000'000;
 
-/// The words of a text, with their lines.
+/// Reads a text word by word and counts its lines.
 class Words {
  public:
   explicit Words(const std::string& text) : stream_(text) { stream_.imbue(std::locale::classic()); }
@@ -30,7 +30,7 @@ class Words {
     return first == std::string::npos ? "" : text.substr(first, last - first + 1);
   }
 
-  /// Goes to the next line that holds anything, if this one is used up. @return false at the end.
+  /// Goes to the next line that is not blank, if this one is used up. @return false at the end.
   bool goOn() {
     while ((words_ >> std::ws).eof()) {
       std::string text;
@@ -42,7 +42,7 @@ class Words {
     return true;
   }
 
-  /// How many words are left on this line, or on the next if there are none.
+  /// Number of words left on this line, or on the next one if there are none.
   int count() {
     if (!goOn()) return 0;
     std::istringstream copy(words_.str().substr(std::size_t(words_.tellg())));
@@ -141,7 +141,7 @@ WorldObject readObject(Words& words) {
   WorldObject object;
   object.name = words.rest();
   if (object.name.empty() || object.name != shownText(object.name)) words.fail("an object's name is wanted behind *");
-  const bool has_pose = words.count() == 3;  // else how many shapes there are
+  const bool has_pose = words.count() == 3;  // else the number of shapes
   if (has_pose) object.X_frame_B = words.pose();
   const int shapes = words.whole(kMaxShapes);
   if (shapes == 0) words.fail("object " + object.name + " has no shapes");

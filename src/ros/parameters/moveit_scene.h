@@ -8,17 +8,17 @@
 
 namespace sdf_ccd {
 
-/// MoveIt's text of a planning scene: objects of boxes, spheres, cylinders, planes and meshes, as it is now, with a
-/// pose of each object and its subframes (which are passed over), or as it was before Noetic. Cones and OctoMaps are
-/// refused.
+/// Parses MoveIt's text format of a planning scene: objects made of boxes, spheres, cylinders, planes and meshes, in
+/// the present format, with a pose of each object and its subframes (which are ignored), or in the format before
+/// Noetic. Cones and OctoMaps are rejected.
 /// @throws std::runtime_error with the line and the reason.
 std::vector<WorldObject> parseMoveitScene(const std::string& text);
 
-/// Whether a name is read as it was written: readers take the line without the blanks around it.
+/// Whether a name is read back as it was written: readers take the line without the blanks around it.
 bool isSavedName(const std::string& name);
 
-/// That text of bodies in one frame, as it is now; numbers so that they are read again as they were.
-/// @throws std::invalid_argument for a name that would be read as another.
+/// The text of bodies in one frame, in the present format; numbers are written so that they are read back exactly.
+/// @throws std::invalid_argument for a name that would be read back differently.
 std::string moveitScene(const std::vector<BodyDescription>& bodies);
 
 }  // namespace sdf_ccd

@@ -15,7 +15,7 @@ using XmlRpc::XmlRpcValue;
 
 constexpr std::size_t kMaxName = 256;  // bytes
 
-/// As YAML has it.
+/// The value as YAML text.
 std::string written(XmlRpcValue value) {
   const auto joined = [](auto& members, const auto& textOf) {
     std::string text;
@@ -40,8 +40,9 @@ std::string written(XmlRpcValue value) {
   }
 }
 
-/// Sets the number that the value holds. YAML takes 1.0e8 (without a sign in the exponent) for a text; here it is a
-/// number all the same.
+/// Reads the value as a finite number. YAML takes 1.0e8 (without a sign in the exponent) for a text; here it is a
+/// number as well.
+/// @return false if it is not a number.
 bool toNumber(const XmlRpcValue& value, double& number) {
   XmlRpcValue copy = value;
   if (value.getType() == XmlRpcValue::TypeInt) {

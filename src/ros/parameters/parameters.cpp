@@ -10,18 +10,18 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kLongestCycle = 3600.0;  // so long transforms have to be kept [s]
+constexpr double kLongestCycle = 3600.0;  // transforms have to be kept for that long [s]
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
-  constexpr std::size_t kMax = 1000;  // each is held against each pair
+  constexpr std::size_t kMax = 1000;  // each is matched with each pair
   std::vector<PairRule> rules;
   for (const auto& [a, b] : reader.textPairs(key)) rules.push_back({a, b});
   if (rules.size() > kMax) reader.fail(key, "at most " + std::to_string(kMax) + " pairs");
   return rules;
 }
 
-/// Fields and shells for contacts: as fine as contact/accuracy says, else as elements are small; what field and shell
-/// say themselves holds.
+/// Options of fields and shells for contacts: their resolution follows contact/accuracy or else the sizes of the
+/// elements; the parameters field and shell override it.
 BodyOptions readScene(ParameterReader& reader) {
   ParameterReader contact = reader.group("contact");
   std::optional<double> accuracy;
@@ -57,9 +57,9 @@ BodyOptions readScene(ParameterReader& reader) {
   return scene;
 }
 
-/// How far a verdict may be off, and what of it motions between transforms may be off by.
+/// Sets the error bound of verdicts, and the part of it for motions between transforms.
 void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
-  constexpr double kOfMotion = 0.2;  // that each body's motion may take of it
+  constexpr double kOfMotion = 0.2;  // fraction for each body's motion
   double& max_error = parameters.monitor.max_error;
   max_error = reader.positive("max_error", max_error);
   if (max_error < kMinMaxError || max_error > kLargestMaxError)
@@ -106,7 +106,7 @@ TriggerOptions readTrigger(ParameterReader& reader, const MonitorParameters& par
     reader.fail("trigger_frames", "one frame or more, as trigger is frames");
   }
   trigger.period = 1.0 / parameters.rate;
-  // What the tracker says of frames that have ended must not wait for ever.
+  // Limits the wait, so that the tracker can report frames that have stopped.
   trigger.patience = std::min(0.1, parameters.tf.max_latency);
   return trigger;
 }
@@ -122,7 +122,7 @@ ContactOptions readContact(ParameterReader reader) {
   contact.quadrature =
       static_cast<Quadrature>(reader.choice("quadrature", {"exact", "midpoint"}, static_cast<int>(contact.quadrature)));
   contact.midpoint_intervals = reader.integer("midpoint_intervals", contact.midpoint_intervals, 1);
-  reader.positive("accuracy", 1.0);  // see readScene()
+  reader.positive("accuracy", 1.0);  // used in readScene()
   reader.finish();
   return contact;
 }
@@ -149,8 +149,8 @@ std::string defaultCacheDirectory() {
   return "";
 }
 
-/// The text that a parameter of the given name holds, looked for upwards from the private namespace as `~/…`,
-/// then `/ns/…`, then `/…`; empty if there is none.
+/// The text of a parameter, searched for upwards from the private namespace: `~/…`, then `/ns/…`, then `/…`;
+/// empty if there is none.
 std::string findDescription(const ros::NodeHandle& private_node, const std::string& name) {
   std::string key, text;
   if (private_node.searchParam(name, key)) private_node.getParam(key, text);
@@ -206,7 +206,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.scene.exact_depths = parameters.refine == Refinement::kDeepest;
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
-  // The descriptions may stand here too.
+  // The descriptions may also be set in this namespace.
   for (const std::string& description : {parameters.urdf_parameter, parameters.srdf_parameter})
     reader.text(description, "");
   reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's

@@ -28,22 +28,22 @@ struct OctomapObject {
   double cell_size = 0.0;  ///< of its field [m]; 0: half a voxel
 };
 
-/// How near is near: what can change while the monitor runs.
+/// Distances to watch, which can change while the monitor runs.
 struct ProximityParameters {
   double report_distance = 0.0;  ///< pairs nearer than this are listed [m]; 0: none
   ProximityThresholds thresholds;
-  std::optional<StoppingPromise> promise;  ///< of whoever obeys the velocity scale; none: it is not published
+  std::optional<StoppingPromise> promise;  ///< of the robot that obeys the velocity scale; none: it is not published
 };
 
-/// The world as an OctoMap that comes on a topic, from the parameters `octomap/…` too.
+/// The world as an OctoMap received on a topic, also from the parameters `octomap/…`.
 struct LiveMapParameters {
   static constexpr const char* kName = "octomap";  ///< of the map; its tiles are named "octomap/x_y_z"
 
   std::string topic;  ///< empty: none
   UnknownSpace unknown = UnknownSpace::kFree;
   double unknown_distance = 0.5;  ///< [m]
-  double padding = 0.03;          ///< of the robot's own voxels [m]
-  double max_age = 0.0;           ///< the robot is NOT_CHECKED against maps that came longer ago [s]; 0: however old
+  double padding = 0.03;          ///< by which the robot is enlarged to find its own voxels [m]
+  double max_age = 0.0;           ///< the robot is NOT_CHECKED against maps received longer ago [s]; 0: no limit
 };
 
 /// All parameters of the monitor; config/monitor.yaml documents them.
@@ -52,16 +52,16 @@ struct MonitorParameters {
   std::string srdf_parameter;
   std::string urdf;         ///< text of the robot's description
   std::string srdf;         ///< text of its semantic description, empty if there is none
-  std::string urdf_source;  ///< where those texts are from, for errors
+  std::string urdf_source;  ///< origin of those texts, for error messages
   std::string srdf_source;
   std::string fixed_frame;  ///< empty: the robot's root link
   std::string tf_prefix;
-  bool allow_http = false;  ///< meshes may come over the network
+  bool allow_http = false;  ///< whether meshes may be downloaded
   RobotSceneOptions robot;
   PairRules pairs;
   bool leave_out_overlapping = true;  ///< see leaveOutOverlapping()
   std::vector<WorldObject> world;
-  std::string world_file;  ///< further objects; empty: none
+  std::string world_file;                   ///< further objects; empty: none
   std::vector<std::string> resource_roots;  ///< folders whose files requests may name
   OctomapObject octomap;
   LiveMapParameters live_map;
@@ -70,15 +70,15 @@ struct MonitorParameters {
   TfTrackerOptions tf;
   MarkerOptions markers;
   ProximityParameters proximity;
-  double rate = 0.0;  ///< [Hz]
+  double rate = 0.0;            ///< [Hz]
   double max_cycle_time = 0.0;  ///< CycleRequest::max_time of a running monitor [s]
   TriggerOptions trigger;
   int max_points = 0;
   Refinement refine = Refinement::kNone;  ///< CycleRequest::refine of cycles, bags and planned motions
-  std::vector<std::string> unknown;  ///< what nothing reads, with what may be meant; in groups it is refused
+  std::vector<std::string> unknown;  ///< parameters that nothing reads, with suggestions; in groups they are errors
 };
 
-/// Thrown while the robot's description is not there; it may come later.
+/// Thrown while the robot's description is not set; it may be set later.
 struct MissingDescription : ParameterError {
   using ParameterError::ParameterError;
 };

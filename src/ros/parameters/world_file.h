@@ -7,9 +7,9 @@
 
 namespace sdf_ccd {
 
-/// A world in a file: YAML (`.yaml`, `.yml`) that holds `world` as readWorld() takes it, or parseMoveitScene()'s text
-/// (`.scene`).
-/// @throws std::runtime_error with the file and the reason, and the line where known; for other endings too.
+/// Loads a world from a file: YAML (`.yaml`, `.yml`) with a parameter `world` as for readWorld(), or MoveIt's text
+/// format as for parseMoveitScene() (`.scene`).
+/// @throws std::runtime_error with the file and the reason, and the line where known; also for other extensions.
 std::vector<WorldObject> loadWorldFile(const std::string& file);
 
 }  // namespace sdf_ccd

@@ -22,13 +22,13 @@ struct WorldShape {
   Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
 };
 
-/// None if the quaternion is not unit, to a hundredth.
+/// The pose, or none if the quaternion's length is not 1 within 0.01.
 inline std::optional<Isometry3d> poseOf(const Vector3d& p, const Quaterniond& q) {
   if (!(std::abs(q.norm() - 1.0) < 0.01)) return std::nullopt;
   return Isometry3d(Eigen::Translation3d(p) * q.normalized());
 }
 
-/// Where n·x + d ≤ 0, as messages write planes. None if the normal is 0.
+/// The half-space n·x + d ≤ 0, as messages define planes; none if the normal is 0.
 inline std::optional<Primitive> solidBelow(const Vector3d& n, double d) {
   if (!(n.norm() > 0.0)) return std::nullopt;
   return HalfSpace{n.normalized(), -d / n.norm()};

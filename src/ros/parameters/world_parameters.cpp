@@ -3,7 +3,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kUnset = -1.0;  // refused by positive(): sizes have no default
+constexpr double kUnset = -1.0;  // rejected by positive(): sizes have no default
 
 std::string required(ParameterReader& reader, const std::string& key) {
   const std::string value = reader.text(key, "");
@@ -47,7 +47,7 @@ WorldObject readObject(ParameterReader& reader) {
   return object;
 }
 
-/// A message's numbers, by name or as a list.
+/// Numbers of a message, given by name or as a list.
 std::vector<double> fields(ParameterReader& reader, const std::string& key, const std::vector<std::string>& names,
                            const std::vector<double>& otherwise) {
   if (!reader.has(key)) return otherwise;
@@ -88,7 +88,7 @@ Primitive messagePlane(ParameterReader& reader) {
 }
 
 MeshObject messageMesh(ParameterReader& reader) {
-  // Vertices and triangles in YAML nobody writes by hand; tools name a file.
+  // Only files are supported: nobody writes vertices and triangles in YAML by hand, and tools name a file.
   const std::vector<double> scale =
       reader.has("dimensions") ? reader.numbers("dimensions", 3, 3) : std::vector<double>{1.0, 1.0, 1.0};
   for (const double s : scale)

@@ -7,12 +7,12 @@
 
 namespace sdf_ccd {
 
-/// A pose as parameters have it: `xyz` and `rpy` (roll, pitch, yaw).
+/// A pose given by the parameters `xyz` and `rpy` (roll, pitch, yaw).
 Isometry3d readPose(ParameterReader& reader);
 
-/// The parameter `world`: a list of our own objects (config/monitor.yaml), or a group that holds MoveIt's
-/// `collision_objects`, of which header/frame_id, id, pose, primitives, planes, meshes and their poses count;
-/// `operation` must be ADD if it is there, and what else is there is not read.
+/// The parameter `world`: a list of objects (config/monitor.yaml), or a group with MoveIt's `collision_objects`, of
+/// which header/frame_id, id, pose, primitives, planes, meshes and their poses are read; `operation` must be ADD if it
+/// is set, and other members are ignored.
 /// @throws ParameterError naming the parameter and its value.
 std::vector<WorldObject> readWorld(ParameterReader& reader);
 

@@ -51,8 +51,8 @@ XmlRpcValue toScalar(const YAML::Node& node) {
   return XmlRpcValue(text);
 }
 
-/// Makes values of nodes. What anchors and aliases expand to is counted: a few lines can mean 10⁹ values, or endless
-/// ones.
+/// Converts nodes to values. It counts values after anchors and aliases are expanded: a few lines can expand to 10⁹
+/// values, or endlessly.
 class ValueReader {
  public:
   XmlRpcValue value(const YAML::Node& node) {
@@ -85,7 +85,7 @@ class ValueReader {
     return made;
   }
 
-  /// @param key  what is left of `name`: slashes lead into structs.
+  /// @param key  the rest of `name`; a slash leads into a nested struct.
   void setMember(XmlRpcValue& tree, const YAML::Node& name, const std::string& key, const YAML::Node& node) {
     if (tree.valid() && tree.getType() != XmlRpcValue::TypeStruct) {
       refuse(name.Mark(), "parameter " + name.Scalar() + " lies in one that is a value itself");
