@@ -242,6 +242,17 @@ TEST(WorldMarkers, AVoxelMapIsItsSurfaceVoxels) {
   EXPECT_LT(map.colors[0].r, map.colors[1].r) << "high is red";
 }
 
+TEST(WorldMarkers, APlaneIsDrawnWhereItIsChecked) {
+  SceneDescription scene;
+  scene.bodies.push_back(test::body("wall", Primitive(HalfSpace{Vector3d::UnitX(), 0.5}), true));
+  scene.bodies[0].X_frame_B.translation() = Vector3d(0.0, 0.0, 1.0);
+  const MarkerArray markers = toWorldMarkers(scene);
+  ASSERT_EQ(markers.markers.size(), 1u);
+  const Isometry3d X = toIsometry(markers.markers[0].pose);
+  EXPECT_TRUE(X.translation().isApprox(Vector3d(0.5, 0.0, 1.0), 1e-12));
+  EXPECT_TRUE((X.linear() * Vector3d::UnitZ()).isApprox(Vector3d::UnitX(), 1e-12));
+}
+
 TEST_F(MarkersTest, APlannedMotionIsDrawnWithItsFirstContact) {
   CycleMotion motion = test::cycle(2.0, {{at(0.0), at(0.25), at(0.5)}, test::still(at(0.5), 3)});
   const CycleResult result = monitor_->run(motion, {false, 5});

@@ -191,6 +191,31 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
   }
 }
 
+TEST_F(MonitorLoopTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
+  constexpr double kAside = 0.2;  // of the object's origin from the link's, along y [m]
+  BodyDescription held = body("held", Sphere{kRadius}),
+                  plate = body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true);
+  held.frame = "hand";
+  held.X_frame_B = translation({0.0, kAside, 0.0}) * pose({0, 0, 0}, 1.0, Vector3d(1, 2, 3).normalized());
+  plate.geometry[0].X_BG.translation().x() = kPlate;
+  MonitorParameters parameters;
+  parameters.monitor = soft();
+  loop_ = std::make_unique<MonitorLoop>(build({held, plate}, fine(0.005)), describedWorld(), parameters);
+  for (int i = 0; i < 3; ++i) {
+    sendHand(10.0 + i * kPeriod, kPlate - kRadius);
+    step(10.0 + i * kPeriod);
+  }
+  ASSERT_EQ(last().verdict, ContactArray::CONTACT) << last().reason;
+  const geometry_msgs::WrenchStamped wrench = toWrenchStamped(*loop_, 0);
+  EXPECT_EQ(wrench.header.frame_id, "hand");
+  const double force = wrench.wrench.force.x;
+  EXPECT_LT(force, -0.1);
+  EXPECT_NEAR(wrench.wrench.force.y, 0.0, 0.01 * std::abs(force));
+  EXPECT_NEAR(wrench.wrench.force.z, 0.0, 0.01 * std::abs(force));
+  EXPECT_NEAR(wrench.wrench.torque.z, -kAside * force, 0.02 * kAside * std::abs(force));
+  EXPECT_NEAR(wrench.wrench.torque.x, 0.0, 0.02 * kAside * std::abs(force));
+}
+
 TEST_F(MonitorLoopTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   DescribedScene described = describedWorld();
   described.unreachable = {

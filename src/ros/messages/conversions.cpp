@@ -30,7 +30,8 @@ void setPointContact(const ContactPoint& point, const ros::Time& start, PointCon
 Isometry3d toIsometry(const geometry_msgs::Pose& pose) {
   const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
   const Vector3d p = toEigen(pose.position);
-  if (!q.coeffs().allFinite() || q.norm() < 1e-6) throw std::invalid_argument("orientation is not a quaternion");
+  const bool has_length = q.norm() >= 1e-6 && std::isfinite(q.norm());
+  if (!has_length) throw std::invalid_argument("orientation is not a quaternion");
   if (!p.allFinite()) throw std::invalid_argument("position is not finite");
   return Eigen::Translation3d(p) * q.normalized();
 }

@@ -20,7 +20,7 @@ void setPrimitive(const Primitive& primitive, Marker& marker) {
   } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&primitive)) {
     marker.type = Marker::CYLINDER;
     marker.scale = toVector3({2.0 * cylinder->radius, 2.0 * cylinder->radius, 2.0 * cylinder->half_length});
-  } else {  // a half-space of the parameter `world`: solid where z < 0
+  } else {  // a half-space: the plane z = 0 of markerPose()
     marker.type = Marker::CUBE;
     marker.scale = toVector3({kPlaneSize, kPlaneSize, kPlaneThickness});
   }
@@ -76,6 +76,15 @@ void setTriangles(const TriangleMesh& mesh, Marker& marker) {
   for (const Vector3i& triangle : mesh.triangles) {
     for (const int vertex : triangle) marker.points.push_back(toPoint(mesh.vertices[vertex]));
   }
+}
+
+Isometry3d markerPose(const GeometryDescription& geometry) {
+  const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+  const auto* half_space = primitive ? std::get_if<HalfSpace>(primitive) : nullptr;
+  if (!half_space) return geometry.X_BG;
+  const Vector3d& n = half_space->normal;
+  return geometry.X_BG * Eigen::Translation3d(half_space->offset * n) *
+         Quaterniond::FromTwoVectors(Vector3d::UnitZ(), n);
 }
 
 void setShape(const GeometryDescription& geometry, Marker& marker) {

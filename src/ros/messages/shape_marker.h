@@ -22,6 +22,9 @@ visualization_msgs::Marker makeMarker(const std::string& frame, const std::strin
 /// can load that, else as triangles: a URI is short enough to be sent with every new colour.
 void setShape(const GeometryDescription& geometry, visualization_msgs::Marker& marker);
 
+/// The pose of that marker in the body's frame.
+Isometry3d markerPose(const GeometryDescription& geometry);
+
 /// Sets a list of the mesh's triangles.
 void setTriangles(const TriangleMesh& mesh, visualization_msgs::Marker& marker);
 

@@ -71,7 +71,7 @@ visualization_msgs::MarkerArray toWorldMarkers(const SceneDescription& scene) {
       const int id = static_cast<int>(markers.markers.size());
       Marker marker = makeMarker(body.frame, body.name, id, Marker::CUBE);
       marker.frame_locked = true;
-      marker.pose = toPose(body.X_frame_B * geometry.X_BG);
+      marker.pose = toPose(body.X_frame_B * markerPose(geometry));
       marker.color = toColor(0.75F, 0.78F, 0.76F, 0.35F);
       if (geometry.watertight_voxels) {
         setVoxels(*std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape), marker);

@@ -259,10 +259,13 @@ void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchSt
     if (pair.body_a == body) sum_W += pair.on_a_W;
     if (pair.body_b == body) sum_W += pair.on_b_W;
   }
-  const Isometry3d R_WB(loop.cycle().motion.X_WB[body].back().linear());
+  // About the body's origin in the world's axes; of an object that a link holds, that is not the link's origin.
+  const Isometry3d &X_WB = loop.cycle().motion.X_WB[body].back(), &X_LB = loop.scene().bodies[body].X_frame_B;
+  Isometry3d X_BL_W = X_WB * X_LB.inverse();
+  X_BL_W.translation() -= X_WB.translation();
   message.header.stamp = loop.cycle().end;
   message.header.frame_id = loop.scene().bodies[body].frame;
-  message.wrench = toWrench(expressedIn(R_WB, sum_W));
+  message.wrench = toWrench(expressedIn(X_BL_W, sum_W));
 }
 
 geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body) {

@@ -39,6 +39,10 @@ void HealthWatch::takeScene(const Scene& scene, const DescribedScene& described,
   health_.wanted_rate = parameters.rate;
   health_.is_timed = parameters.trigger.kind == TriggerKind::kTimer;
   health_.max_error = parameters.scene.max_error.value_or(0.0);
+  countPairs(scene);
+}
+
+void HealthWatch::countPairs(const Scene& scene) {
   health_.pairs = static_cast<int>(scene.pairs.size());
   health_.pairs_left_out = static_cast<int>(std::count_if(
       scene.left_out.begin(), scene.left_out.end(), [](const LeftOut& left_out) { return left_out.body_a >= 0; }));
@@ -49,8 +53,11 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   const CycleResult& result = loop.result();
   measureRate(now);
   health_.stall.clear();
-  if (health_.world_version != loop.world()->version()) health_.bad_bodies = failedBodies(loop.scene());
-  health_.world_version = loop.world()->version();
+  if (health_.world_version != loop.world()->version()) {
+    health_.world_version = loop.world()->version();
+    health_.bad_bodies = failedBodies(loop.scene());
+    countPairs(loop.scene());
+  }
   health_.latency = state.latency;
   health_.age = secondsBetween(state.complete_until, sent);
   health_.run_time = state.run_time;

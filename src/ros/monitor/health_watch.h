@@ -34,6 +34,7 @@ class HealthWatch {
 
  private:
   void warn(const std::string& warning);
+  void countPairs(const Scene& scene);
   void measureRate(const ros::WallTime& now);
   void watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& now);
   void watchUnchecked(const std::string& cause, const std::string& besides);

@@ -74,10 +74,15 @@ SceneEditor::~SceneEditor() = default;
 bool SceneEditor::adopt() {
   PreparedWorld* const ready = offered_.exchange(nullptr);
   if (!ready) return false;
-  const std::shared_ptr<const CheckedWorld> world = ready->loop->world;
-  parts_.loop.adopt(*ready->loop);
-  parts_.outputs.adopt(*ready->outputs);
-  parts_.queries.setWorld(world);
+  try {
+    const std::shared_ptr<const CheckedWorld> world = ready->loop->world;
+    parts_.loop.adopt(*ready->loop);
+    parts_.outputs.adopt(*ready->outputs);
+    parts_.queries.setWorld(world);
+  } catch (...) {
+    adopted_ = ready;  // else whoever handed it over would wait for ever
+    throw;
+  }
   adopted_ = ready;
   return true;
 }
@@ -92,11 +97,15 @@ void SceneEditor::withdraw() {
   given_.reset();
 }
 
-bool SceneEditor::handOver(const std::shared_ptr<const CheckedWorld>& world) {
+std::unique_ptr<PreparedWorld> SceneEditor::prepare(const std::shared_ptr<const CheckedWorld>& world) {
   withdraw();
   auto prepared = std::make_unique<PreparedWorld>();
   prepared->loop = parts_.loop.prepare(world);
   prepared->outputs = parts_.outputs.prepare(*world);
+  return prepared;
+}
+
+bool SceneEditor::handOver(std::unique_ptr<PreparedWorld> prepared) {
   given_ = std::move(prepared);
   offered_ = given_.get();
   wake_();
@@ -150,6 +159,7 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   }
   response.failed_change = -1;
   std::shared_ptr<const CheckedWorld> world = last_;
+  std::unique_ptr<PreparedWorld> prepared;
   std::string making;
   try {
     if (!request.changes.empty()) world = make(scene, making);
@@ -157,12 +167,13 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
     response.failed_change = lastChangeOf(making, request);
     throw;
   }
+  if (!request.changes.empty()) prepared = prepare(world);
   if (!request.save_file.empty()) save(request.save_file, scene, sources);
   response.seconds = secondsSince(start);
   response.adopted = true;
   if (!request.changes.empty()) {
     const auto ready = Clock::now();
-    response.adopted = goOnWith(std::move(scene), world);
+    response.adopted = goOnWith(std::move(scene), world, std::move(prepared));
     response.adopt_seconds = secondsSince(ready);
     response.prepared = static_cast<std::uint32_t>(world->snapshot->prepared);
     response.shared = static_cast<std::uint32_t>(world->snapshot->shared);
@@ -172,10 +183,11 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
 }
 
 /// @return whether the cycles have adopted it.
-bool SceneEditor::goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world) {
+bool SceneEditor::goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
+                           std::unique_ptr<PreparedWorld> prepared) {
   scene_ = std::move(scene);
   setLast(world);
-  const bool is_adopted = handOver(world);
+  const bool is_adopted = handOver(std::move(prepared));
   changed_(*world);
   return is_adopted;
 }
@@ -198,7 +210,7 @@ std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, const std:
   scene.setTiles(std::move(tiles));
   std::string making;
   const std::shared_ptr<const CheckedWorld> world = make(scene, making);
-  goOnWith(std::move(scene), world);
+  goOnWith(std::move(scene), world, prepare(world));
   return world->version();
 }
 

@@ -71,8 +71,10 @@ class SceneEditor {
   class Turn;
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
   std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene, std::string& making);
-  bool handOver(const std::shared_ptr<const CheckedWorld>& world);
-  bool goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world);
+  std::unique_ptr<PreparedWorld> prepare(const std::shared_ptr<const CheckedWorld>& world);
+  bool handOver(std::unique_ptr<PreparedWorld> prepared);
+  bool goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
+                std::unique_ptr<PreparedWorld> prepared);
   void setLast(std::shared_ptr<const CheckedWorld> world);
   void withdraw();
   void save(const std::string& file, const ChangingScene& scene, ChangeSources& sources);

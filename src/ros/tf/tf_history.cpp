@@ -114,7 +114,8 @@ TfKeep TfHistory::keepOf(int frame) const {
 void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const Names& names, bool is_static) {
   int child = findChild(names.child);
   const bool is_new = child == TfTree::kNone || !tree_.edge(child).isKnown();
-  if (is_new && tree_.others(is_static) >= kMaxOthers[is_static] &&
+  const bool is_added = is_new || tree_.edge(child).is_static != is_static;
+  if (is_added && tree_.others(is_static) >= kMaxOthers[is_static] &&
       (child == TfTree::kNone ? !tree_.followsAll() : !tree_.isFollowed(child))) {
     ++not_kept_;
     static_dropped_ |= is_static;
@@ -173,9 +174,13 @@ void TfHistory::setParent(int frame, int parent, bool is_static) {
 void TfHistory::forgetSilentOthers() {
   swept_ = clock_;
   const ros::Time silent_since = before(clock_, keep_);
+  // Static frames do not fall silent, but those that a body has once hung on may be more than there is room for.
+  const bool has_room = tree_.others(true) <= kMaxOthers[true];
+  static_dropped_ |= !has_room;
   for (int frame = 0; frame < static_cast<int>(tree_.size()); ++frame) {
     const TfEdge& edge = tree_.edge(frame);
-    if (edge.isKnown() && !edge.is_static && !tree_.isFollowed(frame) && edge.heard < silent_since) tree_.forget(frame);
+    if (!edge.isKnown() || tree_.isFollowed(frame)) continue;
+    if (edge.is_static ? !has_room : edge.heard < silent_since) tree_.forget(frame);
   }
 }
 

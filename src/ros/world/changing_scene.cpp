@@ -121,7 +121,8 @@ ChangingScene::Object& ChangingScene::find(const std::string& name) {
 /// The tf frame in the header of a change; `otherwise` if it is empty.
 std::string ChangingScene::frameOf(const SceneChange& change, const std::string& otherwise) const {
   const std::string frame = withoutLeadingSlash(change.header.frame_id);
-  if (frame.size() > RequestLimits().name || frame != shownText(frame)) refuse("frame " + shownText(frame) + " is none");
+  if (frame.size() > RequestLimits().name || frame != shownText(frame))
+    refuse("frame " + shownText(frame) + " is none");
   return frame.empty() ? otherwise : frame;
 }
 
@@ -259,7 +260,8 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   if (object.link.empty() && rests && fixed_->root_frames.count(other.frame) > 0) return "rigidly joined";
   proved = false;
   const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
-    return std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return matches(pattern, touched); });
+    return std::any_of(patterns.begin(), patterns.end(),
+                       [&](const auto& pattern) { return matches(pattern, touched); });
   };
   const bool are_of_robot = isLink(object.link) && isLink(other_link);
   const bool may_touch = mayTouch(object.touch_links, other.name) ||
@@ -302,7 +304,8 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   }
   const auto moving = static_cast<std::size_t>(std::count_if(
       scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
-  if (moving * scene.bodies.size() > limits.pairs) throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
+  if (moving * scene.bodies.size() > limits.pairs)
+    throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
 
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     checkCancelled();
@@ -328,15 +331,14 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
 
 std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& description) const {
   std::map<std::string, int> places;
-  for (std::size_t b = 0; b < description.bodies.size(); ++b)
-    places[description.bodies[b].name] = static_cast<int>(b);
+  for (std::size_t b = 0; b < description.bodies.size(); ++b) places[description.bodies[b].name] = static_cast<int>(b);
   std::vector<UnreachablePair> pairs;
   for (std::size_t p = 0; p < fixed_->unreachable.size(); ++p) {
     UnreachablePair pair = fixed_->unreachable[p];
     const auto placeOf = [&](const std::string& name) {
       const auto object = objects_.find(name);
-      const bool has_changed = object == objects_.end() ? fixed_->link_names.count(name) == 0
-                                                        : !object->second.is_as_first;
+      const bool has_changed =
+          object == objects_.end() ? fixed_->link_names.count(name) == 0 : !object->second.is_as_first;
       const auto place = places.find(name);
       return has_changed || place == places.end() ? -1 : place->second;
     };
@@ -357,11 +359,15 @@ std::string ChangingScene::text(const ChangeSources& sources, std::vector<std::s
   std::vector<BodyDescription> bodies;
   for (const auto& [name, object] : objects_) {
     BodyDescription body = object.body;
-    if (std::any_of(body.geometry.begin(), body.geometry.end(), [](const auto& part) { return part.watertight_voxels; })) {
+    if (std::any_of(body.geometry.begin(), body.geometry.end(),
+                    [](const auto& part) { return part.watertight_voxels; })) {
       warnings.push_back(name + " is a map, and is not written");
       continue;
     }
-    if (!body.failure.empty()) continue;
+    if (!body.failure.empty()) {
+      warnings.push_back(name + " is not saved, as it cannot be checked: " + body.failure);
+      continue;
+    }
     if (body.frame != fixed_->fixed_frame)
       body.X_frame_B = lookup(sources.history, body.frame, ros::Time()) * body.X_frame_B;
     bodies.push_back(std::move(body));
