@@ -162,8 +162,8 @@ class BodyBuilder {
   void noteCaps(const GeometryDescription& geometry, const PooledMesh& mesh) {
     const OpeningCaps* caps = mesh.field->openings();
     if (!caps) return;
-    report_.warnings.push_back(geometry.source + ": caps of " + numberText(surfaceArea(caps->mesh())) +
-                               " m^2 close it, and CONTACT with it needs surfaces that cross");
+    report_.warnings.push_back(geometry.source + ": openings closed by caps of " +
+                               numberText(surfaceArea(caps->mesh())) + " m^2; CONTACT requires crossing surfaces");
   }
 
   void note(const CacheOutcome& outcome) {

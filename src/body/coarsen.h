@@ -19,7 +19,7 @@ auto makeCoarser(double fineness, bool may, const Make& make, std::string& warni
     } catch (const std::length_error& error) {
       if (!may || tried > 1e3 * fineness) throw;
       if (warning.empty()) warning = error.what();
-      warning += "; " + numberText(2.0 * tried) + " m instead";
+      warning += "; " + numberText(2.0 * tried) + " m is used instead";
     }
   }
 }

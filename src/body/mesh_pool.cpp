@@ -82,8 +82,8 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   CachedField made = makeCoarser(fineness.value_or(0.0), may, make, warning);
   mesh.field = std::move(made.field);
   if (options.max_error && mesh.field->errorBound() > 1.001 * *options.max_error) {
-    warning = "field: an error of " + numberText(mesh.field->errorBound()) + " m is reached, not " +
-              numberText(*options.max_error) + ": its cells are at their smallest";
+    warning = "field: error " + numberText(mesh.field->errorBound()) + " m instead of " +
+              numberText(*options.max_error) + " m; cells cannot be smaller";
   }
   if (!warning.empty()) made.outcome.warning = warning;
   return {true, made.outcome};

@@ -55,7 +55,7 @@ std::string suggestion(const std::string& name, const std::set<std::string>& kno
   std::string text;
   for (auto each = known.begin(); each != known.end(); ++each) {
     const bool is_last = std::next(each) == known.end();
-    text += (text.empty() ? ", known are " : is_last ? " and " : ", ") + *each;
+    text += (text.empty() ? ", known names: " : is_last ? " and " : ", ") + *each;
   }
   return text;
 }

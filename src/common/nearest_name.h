@@ -10,7 +10,8 @@ namespace sdf_ccd {
 /// @return empty if none is similar: if more than half of its letters, and more than two, differ.
 std::string nearestName(const std::string& name, const std::set<std::string>& known);
 
-/// For errors about a name that is not known: ", did you mean xyz?", or, if none is similar, ", known are a, b and c".
+/// For errors about a name that is not known: ", did you mean xyz?", or, if none is similar, ", known names: a, b and
+/// c".
 std::string suggestion(const std::string& name, const std::set<std::string>& known);
 
 }  // namespace sdf_ccd

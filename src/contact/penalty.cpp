@@ -221,8 +221,9 @@ void validate(const ContactOptions& options) {
 void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,
                       const ContactRequest& request, ContactImpulse& result) {
   if (input.X_CF.size() != input.path.chords.size() + 1)
-    throw std::invalid_argument("contact: " + std::to_string(input.path.chords.size()) +
-                                " chords need one pose more, got " + std::to_string(input.X_CF.size()));
+    throw std::invalid_argument("contact: " + std::to_string(input.path.chords.size()) + " chords need " +
+                                std::to_string(input.path.chords.size() + 1) + " poses X_CF, got " +
+                                std::to_string(input.X_CF.size()));
   result.on_shell_body = {};
   result.depths.clear();
   Integrator integrator(input, options, request, result);

@@ -48,9 +48,9 @@ void requireBounded(const RigidBody& body, const BodyState& state, const Vector3
   }
   const double travel = duration * velocity.norm(), angle = duration * state.spin_B.norm();
   if (!(travel <= kMaxDistance)) refuse("it would move ", travel, " m in one step");
-  if (!(angle <= kMaxAngle)) refuse("it would turn ", angle, " rad in one step");
+  if (!(angle <= kMaxAngle)) refuse("it would rotate ", angle, " rad in one step");
   const double distance = state.X_OB.translation().norm();
-  if (!(distance <= kMaxDistance)) refuse("it is away from the scene's origin by ", distance, " m");
+  if (!(distance <= kMaxDistance)) refuse("it is ", distance, " m from the scene's origin");
 }
 
 }  // namespace

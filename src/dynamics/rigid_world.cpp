@@ -10,7 +10,7 @@ namespace {
 void validateBody(const RigidBody& body, const BodyState& state) {
   if (!body.shape) throw std::invalid_argument("has no shape");
   const CollisionShape& shape = *body.shape;
-  if (!shape.field && shape.shell.size() == 0) throw std::invalid_argument("is empty: neither a field nor a point");
+  if (!shape.field && shape.shell.size() == 0) throw std::invalid_argument("has neither a field nor shell points");
   const Matrix3d R = state.X_OB.linear();
   if (!state.X_OB.matrix().allFinite()) throw std::invalid_argument("its pose is not finite");
   if (!(R.transpose() * R).isIdentity(1e-9)) throw std::invalid_argument("its rotation is not orthonormal");

@@ -102,7 +102,7 @@ void readBody(YamlMap entry, const Shapes& shapes, std::set<std::string>& names,
   if (found == shapes.end()) entry.fail(entry.node("shape"), "there is no shape `" + shape_name + "`");
   const SceneShape& shape = found->second;
   if (!shape.doubt.empty()) {
-    setup.warnings.push_back("body `" + body.name + "`: what is inside it is doubtful: " + shape.doubt);
+    setup.warnings.push_back("body `" + body.name + "`: its inside is ambiguous: " + shape.doubt);
   }
   body.shape = shape.collision;
   body.fixed = entry.get("fixed", false);

@@ -20,11 +20,11 @@ namespace sdf_ccd {
 class YamlMap {
  public:
   YamlMap(const YAML::Node& node, std::string what) : node_(node), what_(std::move(what)) {
-    if (!node_.IsMap()) fail(node_, "a map is wanted");
+    if (!node_.IsMap()) fail(node_, "a map is expected");
     std::set<std::string> keys;
     for (const auto& entry : node_) {
       if (!entry.first.IsScalar()) fail(entry.first, "a key must be a word");
-      if (!keys.insert(entry.first.Scalar()).second) fail(entry.first, "`" + entry.first.Scalar() + "` is there twice");
+      if (!keys.insert(entry.first.Scalar()).second) fail(entry.first, "`" + entry.first.Scalar() + "` occurs twice");
     }
   }
 
@@ -54,7 +54,7 @@ class YamlMap {
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
     std::string wanted;
     for (const std::string& word : words) wanted += (wanted.empty() ? "" : " or ") + word;
-    fail(node(key), "`" + key + "`: " + wanted + " is wanted, got " + chosen);
+    fail(node(key), "`" + key + "`: expected " + wanted + ", got " + chosen);
   }
 
   /// An integer from `low` to `high`.
@@ -87,7 +87,7 @@ class YamlMap {
   void finish() const {
     for (const auto& entry : node_) {
       const auto key = entry.first.Scalar();
-      if (read_.count(key) == 0) fail(entry.first, "`" + key + "` is not known here" + suggestion(key, unused()));
+      if (read_.count(key) == 0) fail(entry.first, "`" + key + "` is not a known key" + suggestion(key, unused()));
     }
   }
 
@@ -109,7 +109,8 @@ class YamlMap {
     try {
       return value.as<T>();
     } catch (const YAML::Exception&) {
-      fail(value, "`" + key + "` cannot be " + (value.IsScalar() ? "\"" + value.Scalar() + "\"" : "a list or map"));
+      const std::string given = value.IsScalar() ? "\"" + value.Scalar() + "\"" : "a list or map";
+      fail(value, "`" + key + "`: " + given + " is not a valid value");
     }
   }
 

@@ -23,7 +23,8 @@ std::shared_ptr<const OpeningCaps> loadCaps(const CheckedFile& file, std::size_t
   const auto* corner = file.section<std::int32_t>(first + 1, triangles);
   const auto* reach = file.section<double>(first + 2, reaches);
   if (vertices == 0 && triangles == 0 && reaches == 0) return nullptr;
-  if (vertices % 3 != 0 || triangles % 3 != 0) throw std::invalid_argument("caps end in the middle of one");
+  if (vertices % 3 != 0 || triangles % 3 != 0)
+    throw std::invalid_argument("the caps' coordinates or indices are incomplete");
   TriangleMesh mesh;
   for (std::size_t i = 0; i < vertices; i += 3) mesh.vertices.emplace_back(vertex[i], vertex[i + 1], vertex[i + 2]);
   for (std::size_t i = 0; i < triangles; i += 3) mesh.triangles.emplace_back(corner[i], corner[i + 1], corner[i + 2]);

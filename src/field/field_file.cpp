@@ -45,7 +45,7 @@ DistanceField loadField(const std::string& path, const std::string& key) {
   std::size_t records = 0;
   const auto* record = file->section<UniformRecord>(0, records);
   if (records != 1 || record->grid.divisions != GridShape::kBrick) {
-    throw std::runtime_error(path + ": damaged: no shape of this layout");
+    throw std::runtime_error(path + ": damaged: its header is not valid for this layout");
   }
   GridShape shape;
   setShape(record->grid, shape, shape.bricks);

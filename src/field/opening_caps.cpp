@@ -4,17 +4,19 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/number_text.h"
+
 namespace sdf_ccd {
 
 OpeningCaps::OpeningCaps(TriangleMesh mesh, std::vector<double> reach)
     : mesh_(std::move(mesh)), reach_(std::move(reach)), tree_(mesh_) {
   if (reach_.size() != mesh_.triangles.size()) {
-    throw std::invalid_argument("caps: " + std::to_string(mesh_.triangles.size()) + " triangles, " +
-                                std::to_string(reach_.size()) + " reaches");
+    throw std::invalid_argument("caps: " + std::to_string(reach_.size()) + " reaches for " +
+                                std::to_string(mesh_.triangles.size()) + " triangles");
   }
   for (const double reach : reach_) {
     if (!(reach >= 0.0) || !std::isfinite(reach)) {
-      throw std::invalid_argument("caps: a reach of " + std::to_string(reach) + " m");
+      throw std::invalid_argument("caps: invalid reach " + numberText(reach) + " m");
     }
   }
 }

@@ -18,13 +18,14 @@ void requireSizes(const char* shape, std::initializer_list<double> sizes) {
   for (const double size : sizes) {
     if (size > 0.0 && std::isfinite(size)) continue;
     std::ostringstream message;
-    message << shape << ": a size of " << size << " m";
+    message << shape << ": sizes must be finite and positive, not " << size << " m";
     throw std::invalid_argument(message.str());
   }
 }
 
 void requireSteps(const char* shape, int steps) {
-  if (steps < 3) throw std::invalid_argument(std::string(shape) + ": " + std::to_string(steps) + " steps, 3 is least");
+  if (steps < 3)
+    throw std::invalid_argument(std::string(shape) + ": at least 3 steps are needed, not " + std::to_string(steps));
 }
 
 Ring circle(double radius, double z, int steps) {
@@ -120,7 +121,8 @@ TriangleMesh lofted(const std::vector<std::vector<Vector3d>>& rings, bool loop) 
 
 TriangleMesh extruded(const std::vector<Vector3d>& outline, double height) {
   requireSizes("prism", {height});
-  if (outline.size() < 3) throw std::invalid_argument("prism: " + std::to_string(outline.size()) + " corners");
+  if (outline.size() < 3)
+    throw std::invalid_argument("prism: at least 3 corners are needed, not " + std::to_string(outline.size()));
   const int n = int(outline.size());
   TriangleMesh mesh;
   for (const double z : {-0.5 * height, 0.5 * height}) {

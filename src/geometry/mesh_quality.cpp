@@ -231,12 +231,12 @@ std::string summary(const MeshQuality& quality) {
     text << " left out (" << quality.duplicate_area << " m^2)";
   }
   if (quality.hidden_triangles > 0) {
-    text << ", " << quality.hidden_triangles << " triangles of walls inside left out (" << quality.hidden_area
+    text << ", " << quality.hidden_triangles << " triangles of interior walls removed (" << quality.hidden_area
          << " m^2)";
   }
   count(quality.wall_triangles, "", "triangles of walls without thickness");
-  count(quality.inverted_components, "inverted component turned round", "inverted components turned round");
-  count(quality.inverted_sheets, "open part turned round", "open parts turned round");
+  count(quality.inverted_components, "inverted component flipped", "inverted components flipped");
+  count(quality.inverted_sheets, "open part flipped", "open parts flipped");
   count(quality.negative_triangles, "triangle inside out by self-intersection",
         "triangles inside out by self-intersection");
   text << ", volume " << quality.volume << " m^3, sign " << (quality.sign_trusted ? "trusted" : "doubtful");
@@ -248,13 +248,13 @@ std::string warningOf(const MeshQuality& quality) {
   const auto say = [&](int number, const char* one, const char* many) {
     if (number > 0) text << (text.tellp() > 0 ? "; " : "") << number << " " << (number == 1 ? one : many);
   };
-  if (!quality.sign_trusted) text << "inside and outside are not certain";
-  say(quality.inverted_components, "component was inside out and is turned round",
-      "components were inside out and are turned round");
-  say(quality.inverted_sheets, "open part was inside out and is turned round",
-      "open parts were inside out and are turned round");
-  say(quality.negative_triangles, "triangle of a part that crosses itself is inside out",
-      "triangles of parts that cross themselves are inside out");
+  if (!quality.sign_trusted) text << "inside and outside are uncertain";
+  say(quality.inverted_components, "component was inside out and has been flipped",
+      "components were inside out and have been flipped");
+  say(quality.inverted_sheets, "open part was inside out and has been flipped",
+      "open parts were inside out and have been flipped");
+  say(quality.negative_triangles, "triangle of a self-intersecting part is inside out",
+      "triangles of self-intersecting parts are inside out");
   return text.str();
 }
 

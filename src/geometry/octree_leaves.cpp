@@ -59,7 +59,7 @@ class LeafReader {
   }
 
   void requireEnd() const {
-    if (at_ != bytes_) fail("goes on behind its end");
+    if (at_ != bytes_) fail("continues after the tree's end");
   }
 
  private:
@@ -96,7 +96,7 @@ class LeafReader {
   void readNode(const Corner& corner, int level, std::size_t colour) {
     float log_odds = 0.0F;
     std::memcpy(&log_odds, take(sizeof log_odds), sizeof log_odds);
-    if (!std::isfinite(log_odds)) fail("holds a number that is none");
+    if (!std::isfinite(log_odds)) fail("holds log odds that are not finite");
     take(colour);
     const unsigned children = *take(1);
     if (children != 0) {

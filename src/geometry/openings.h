@@ -44,7 +44,7 @@ struct Openings {
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
 Openings findOpenings(const TriangleMesh& mesh);
 
-/// One line of text: "3 openings, the longest of 1.76 m, 0.19 m^2 of caps".
+/// One line of text: "3 openings, the longest 1.76 m around, 0.19 m^2 of caps".
 std::string summary(const Openings& openings);
 
 }  // namespace sdf_ccd

@@ -170,7 +170,7 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
   }
   report_.doubtful_area /= surfaceArea(mesh);
   if (report_.dropped == static_cast<int>(sides.size())) {
-    report_.failure = "no triangle has the outside before it";
+    report_.failure = "no triangle has the outside in front of it";
     return;
   }
   seam_ = 4.0 * tolerance.border;
@@ -180,16 +180,16 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
 }
 
 std::string summary(const SolidReport& report) {
-  if (!report.failure.empty()) return "all triangles taken: " + report.failure;
+  if (!report.failure.empty()) return "all triangles kept: " + report.failure;
   std::ostringstream text;
   text.precision(2);
   const auto add = [&](int count, const std::string& what) {
     if (count == 0) return;
     text << (text.tellp() > 0 ? ", " : "") << count << (count == 1 ? " triangle " : " triangles ") << what;
   };
-  add(report.dropped, "inside left out");
+  add(report.dropped, "inside the solid removed");
   add(report.clipped, "clipped into " + std::to_string(report.pieces));
-  add(report.reversed, "turned");
+  add(report.reversed, "flipped");
   add(report.doubtful, "doubtful");
   if (report.doubtful > 0) text << " (" << 100.0 * report.doubtful_area << " % of the area)";
   return text.str();
@@ -204,7 +204,7 @@ std::string warning(const SolidReport& report) {
   std::ostringstream text;
   text.precision(2);
   text << "depths may be those of faces inside the solid: " << report.doubtful << " triangles ("
-       << 100.0 * report.doubtful_area << " % of the area) cannot be told to be outside or inside";
+       << 100.0 * report.doubtful_area << " % of the area) cannot be classified as outside or inside";
   return text.str();
 }
 

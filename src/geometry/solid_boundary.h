@@ -21,7 +21,8 @@ struct SolidReport {
   std::string failure;       ///< why all triangles were taken as they are; empty if that was not necessary
 };
 
-/// One line of text: "12 triangles inside left out, 4 clipped into 9"; empty if there is nothing to say.
+/// One line of text: "12 triangles inside the solid removed, 4 triangles clipped into 9"; empty if there is nothing to
+/// say.
 std::string summary(const SolidReport& report);
 
 /// A warning for users: where depths may be those of faces inside the solid. Empty if nowhere.

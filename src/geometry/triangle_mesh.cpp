@@ -72,18 +72,18 @@ void validate(const TriangleMesh& mesh) {
     const Vector3i& t = mesh.triangles[i];
     if (t.minCoeff() < 0 || t.maxCoeff() >= count) {
       const int bad = t.minCoeff() < 0 ? t.minCoeff() : t.maxCoeff();
-      throw std::invalid_argument("triangle " + std::to_string(i) + " names vertex " + std::to_string(bad) + " of " +
-                                  std::to_string(count));
+      throw std::invalid_argument("triangle " + std::to_string(i) + " refers to vertex " + std::to_string(bad) +
+                                  ", but there are only " + std::to_string(count) + " vertices (from 0)");
     }
   }
   const AlignedBox3d box = boundingBox(mesh);
   const double extent = box.sizes().maxCoeff();
   const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   if (!(extent <= 1e6) || !(reach <= 1e9)) {
-    throw std::invalid_argument("the mesh is too large or too far away: " + numberText(extent) +
-                                " m wide, reaching to " + numberText(reach) + " m");
+    throw std::invalid_argument("the mesh is too large or too far from the origin: extent " + numberText(extent) +
+                                " m (limit 1e6), largest coordinate " + numberText(reach) + " m (limit 1e9)");
   }
-  if (!(extent >= 1e-9)) throw std::invalid_argument("the mesh is a mere point at " + text(box.min()));
+  if (!(extent >= 1e-9)) throw std::invalid_argument("the mesh is smaller than 1e-9 m, at " + text(box.min()));
 }
 
 AlignedBox3d boundingBox(const TriangleMesh& mesh) {

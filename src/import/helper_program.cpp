@@ -33,9 +33,9 @@ std::string helperProgram(const std::string& name, const char* environment_varia
     const std::string program = (folder / name).string();
     if (::access(program.c_str(), X_OK) == 0 && !fs::is_directory(program)) return program;
   }
-  throw std::runtime_error("the program " + name + ", which reads it, is neither in " +
-                           (kLibraryFolder / "sdf_ccd").string() + " nor in " + kLibraryFolder.string() +
-                           "; where else, the environment variable " + environment_variable + " may say");
+  throw std::runtime_error("cannot find the helper program " + name + " in " + (kLibraryFolder / "sdf_ccd").string() +
+                           " or " + kLibraryFolder.string() + "; set the environment variable " + environment_variable +
+                           " to its path");
 }
 
 }  // namespace sdf_ccd

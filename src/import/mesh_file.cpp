@@ -27,11 +27,11 @@ TriangleMesh parse(const std::string& bytes, const std::string& name) {
   if (bytes.empty()) throw std::runtime_error("empty");
   if (bytes.size() > kMaxFileBytes) throw std::runtime_error("larger than 1 GiB");
   const std::string format = ending(name);
-  if (format.empty()) throw std::runtime_error("no file name ending, which would tell the format");
+  if (format.empty()) throw std::runtime_error("the file name has no extension, so the format is unknown");
   for (const char* known : {"stl", "obj", "off", "ply", "dae"}) {
     if (format == known) return readSandboxed(format, bytes).mesh;
   }
-  throw std::runtime_error("a file of this ending is not read; .stl, .obj, .off, .ply and .dae are");
+  throw std::runtime_error("unsupported file extension; supported: .stl, .obj, .off, .ply, .dae");
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ std::string reasonOf(int status, const ReadLimits& limits) {
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     if (signal == SIGXCPU) return stopped(numberText(limits.cpu_seconds) + " s of computing");
-    if (signal == SIGKILL) return "the reader was killed (SIGKILL), as happens where memory is short";
+    if (signal == SIGKILL) return "the reader was killed (SIGKILL), probably because the computer ran out of memory";
     return "the reader crashed (" + signalName(signal) + ")";
   }
   if (WEXITSTATUS(status) == kExitOutOfMemory) return tooMuchMemory(limits);

@@ -85,7 +85,7 @@ ReadMesh receiveAnswer(const ByteSource& source, const ReadLimits& limits) {
 }
 
 std::string tooMuchMemory(const ReadLimits& limits) {
-  return "the reader was stopped: it needed more than " + std::to_string(limits.memory >> 20) + " MB";
+  return "the reader was stopped: it needed more than " + std::to_string(limits.memory >> 20) + " MiB";
 }
 
 }  // namespace sdf_ccd

@@ -168,7 +168,7 @@ ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(
       pairs_.resize(kTwistLanes * blocks_.size(), -1);
     }
     const std::size_t slot = kTwistLanes * block->second + static_cast<std::size_t>(b - first_b);
-    if (pairs_[slot] >= 0) throw std::invalid_argument("clearances: a pair of bodies twice");
+    if (pairs_[slot] >= 0) throw std::invalid_argument("clearance table: a pair of bodies occurs twice");
     pairs_[slot] = static_cast<std::int32_t>(i);
     slots_.push_back(static_cast<std::int32_t>(slot));
   }

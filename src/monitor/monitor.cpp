@@ -328,7 +328,7 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
 
 void Monitor::adopt(MonitorChange& change) {
   MonitorChange::Impl& made = *change.impl_;
-  if (made.before != impl_->scene) throw std::logic_error("monitor: a scene prepared of another one");
+  if (made.before != impl_->scene) throw std::logic_error("monitor: the change was prepared from another scene");
   Impl& next = *made.monitor;
   next.schedule->take(*impl_->schedule, made.kept);
   // For pairs that are not due, the checker's other data would only make the next test faster.

@@ -40,14 +40,14 @@ struct Reason {
 /// Why the gap between the points of a pair exceeds its share.
 Reason gapReason(const Scene& scene, const PlannedPair& pair, double gap, double share) {
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
-  const std::string much = " of " + millimetres(gap) + " mm between points";
-  const std::string not_share = ", not " + millimetres(share);
   if (pair.a_shell_b_field && pair.b_shell_a_field) {
     const std::string& name = (ownGap(a) > ownGap(b) ? a : b).name;
-    return {{name, "gap"}, name + " has gaps" + much + not_share};
+    return {{name, "gap"}, name + " has gaps of " + millimetres(gap) + " mm between points, not " + millimetres(share)};
   }
   const std::string& name = (pair.a_shell_b_field ? b : a).name;
-  return {{name, "gap"}, name + " is only a field, so gaps" + much + " of faces count" + not_share};
+  return {{name, "gap"},
+          name + " is used only as a field, so the gap of " + millimetres(gap) +
+              " mm between face points applies instead of " + millimetres(share) + " mm"};
 }
 
 /// Why a pair's bound exceeds the required one.

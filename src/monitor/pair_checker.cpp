@@ -78,7 +78,7 @@ bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bod
     setNotChecked(reason, result);
     return false;
   };
-  if (result.span.empty()) return because("its transforms have not come yet");
+  if (result.span.empty()) return because("its transforms have not arrived yet");
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const std::string& failure = scene_.bodies[body].failure;
     const bool lost = !motion.missing.empty() && !motion.missing[body].empty();
@@ -124,7 +124,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   }
   result.verdict = Verdict::kUncertain;
   result.postponed = true;
-  result.reason = "no time was left for it";
+  result.reason = "postponed: the cycle's time was used up";
   result.error.chord += std::max(0.0, -std::max(clearance, apart));
   clearance_ = clearance;
   outside_ = false;

@@ -62,12 +62,12 @@ std::string leftOutLines(const std::vector<LeftOut>& left_out) {
 }
 
 std::string sources(const ErrorBound& bound) {
-  return "; of it field " + number(1e3 * bound.field, 2) + ", gap between points " + number(1e3 * bound.gap, 2) +
-         ", motion " + number(1e3 * bound.chord, 2);
+  return " (field " + number(1e3 * bound.field, 2) + ", gap between points " + number(1e3 * bound.gap, 2) +
+         ", motion " + number(1e3 * bound.chord, 2) + ")";
 }
 
-/// "error bound of verdicts: 0.04 mm, within the max_error of 0.10; of it field 0.00, gap between points 0.00, motion
-/// 0.04; triangles decide about 21 of 21 pairs", and that of contacts.
+/// "error bound of verdicts: 0.04 mm, within the max_error of 0.10 (field 0.00, gap between points 0.00, motion
+/// 0.04); triangles decide about 21 of 21 pairs", and that of contacts.
 std::string boundLines(const Scene& scene) {
   const ErrorBound& bound = scene.bound;
   if (scene.contact_bound.total() == 0.0) return "";
@@ -122,7 +122,7 @@ std::string planTable(const Scene& scene) {
     text += "\n";
   }
   for (const std::string& warning : scene.warnings) warnings += "  " + warning + "\n";
-  if (!warnings.empty()) text += "to know:\n" + warnings;
+  if (!warnings.empty()) text += "notes:\n" + warnings;
   if (!scene.left_out.empty()) text += "left out:\n" + leftOutLines(scene.left_out);
   return text;
 }

@@ -77,7 +77,7 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
   if (a.frame == b.frame) return "in the same frame";
   if (!isPlanned(a) || !isPlanned(b)) return {};
   if (a.geometry.empty() || b.geometry.empty()) return "without collision geometry";
-  if (!whyNoShell(a).empty() && !whyNoShell(b).empty()) return "neither can be covered with points";
+  if (!whyNoShell(a).empty() && !whyNoShell(b).empty()) return "neither has a surface that can be sampled";
   return {};
 }
 
@@ -144,10 +144,10 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
     plan.edges_only.push_back(plan.needs_shell[i] && !needs_faces[i]);
     if (!body.failure.empty() || body.geometry.empty()) continue;
     std::string no_shell = whyNoShell(body);
-    if (no_shell.empty() && is_large[i] && has_pair[i]) no_shell = "large, and the shells of smaller bodies do";
+    if (no_shell.empty() && is_large[i] && has_pair[i]) no_shell = "large; the shells of smaller bodies suffice";
     const std::string idle = has_pair[i] ? "the others of its pairs cannot be checked" : "no pair needs it";
     if (!plan.needs_field[i])
-      plan.left_out.push_back({"field of " + body.name, plan.needs_shell[i] ? "only ever a shell" : idle});
+      plan.left_out.push_back({"field of " + body.name, plan.needs_shell[i] ? "used only as a shell" : idle});
     if (plan.edges_only[i]) plan.left_out.push_back({"full-shell of " + body.name, no_shell});
     if (!plan.needs_shell[i]) plan.left_out.push_back({"shell of " + body.name, no_shell.empty() ? idle : no_shell});
   }

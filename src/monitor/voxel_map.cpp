@@ -51,7 +51,7 @@ std::uint64_t cubeAt(const Vector3i& voxel, int level) {
 VoxelGrid::VoxelGrid(double size, const VoxelMapOptions& options)
     : size_(size), options_(options), keeps_known_(options.unknown != UnknownSpace::kFree) {
   if (!(size > 0.0) || !(size * kCells < 1e8) || !(size > 1e-6))
-    throw std::invalid_argument("a map of voxels of " + numberText(size) + " m");
+    throw std::invalid_argument("map: voxel size " + numberText(size) + " m is not valid");
 }
 
 VoxelGrid::Key VoxelGrid::keyOf(const Vector3i& tile) {
@@ -195,7 +195,9 @@ std::vector<Vector3i> tilesNear(const Vector3d& center, double reach, double siz
   for (Vector3i t = first; t.z() <= last.z(); ++t.z())
     for (t.y() = first.y(); t.y() <= last.y(); ++t.y())
       for (t.x() = first.x(); t.x() <= last.x(); ++t.x()) {
-        if (tiles.size() >= most) throw std::runtime_error("a map of voxels too small for what is near");
+        if (tiles.size() >= most)
+          throw std::runtime_error("map: the voxels are too small for near_distance (more than " +
+                                   std::to_string(most) + " tiles)");
         tiles.push_back(t);
       }
   return tiles;

@@ -12,8 +12,8 @@ namespace {
 
 void validate(const ChordOptions& options) {
   if (options.tolerance > 0.0 && options.max_chords >= 1) return;
-  throw std::invalid_argument("chord options: tolerance " + numberText(options.tolerance) + ", max_chords " +
-                              std::to_string(options.max_chords));
+  throw std::invalid_argument("chord options: tolerance must be positive and max_chords at least 1, got " +
+                              numberText(options.tolerance) + " m and " + std::to_string(options.max_chords));
 }
 
 /// Times of an interval between two recorded poses.

@@ -126,8 +126,9 @@ void requireUnambiguousTurns(const std::vector<Isometry3d>& poses, const std::st
     const Matrix3d R = poses[i - 1].linear().transpose() * poses[i].linear();
     if (!(R.transpose() * R).isIdentity(1e-5)) continue;  // invalid poses are reported by their user
     if (R.determinant() > 0.0 && rotationLog(R).norm() >= kAmbiguousTurn)
-      throw std::invalid_argument(what + " turns by half a revolution up to poses " + std::to_string(i) +
-                                  ": they do not tell which way, one between them would");
+      throw std::invalid_argument(what + " rotates by half a revolution between poses " + std::to_string(i - 1) +
+                                  " and " + std::to_string(i) +
+                                  ", so the direction is ambiguous; add a pose in between");
   }
 }
 

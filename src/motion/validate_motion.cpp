@@ -22,7 +22,8 @@ void requireTimes(const std::vector<double>& times, const Refusal& refuse) {
   if (times.front() != 0.0) refuse("starts at " + numberText(times.front()) + " s, not 0");
   for (std::size_t k = 1; k < times.size(); ++k)
     if (!(times[k - 1] < times[k]) || !std::isfinite(times[k]))
-      refuse("time " + numberText(times[k - 1]) + " s is followed by " + numberText(times[k]));
+      refuse("times must be finite and increasing: " + numberText(times[k - 1]) + " s is followed by " +
+             numberText(times[k]) + " s");
 }
 
 void requireSpans(const CycleMotion& motion, std::size_t pairs, const Refusal& refuse) {
@@ -30,7 +31,8 @@ void requireSpans(const CycleMotion& motion, std::size_t pairs, const Refusal& r
     refuse(std::to_string(motion.spans.size()) + " spans, the scene has " + std::to_string(pairs) + " pairs");
   for (const WaypointSpan& span : motion.spans)
     if (span.first > span.last || span.last >= motion.times.size())
-      refuse("a span from time " + std::to_string(span.first) + " to " + std::to_string(span.last));
+      refuse("span [" + std::to_string(span.first) + ", " + std::to_string(span.last) + "] is not within the " +
+             std::to_string(motion.times.size()) + " times");
 }
 
 }  // namespace
@@ -44,7 +46,7 @@ void validate(const CycleMotion& motion, const MotionShape& shape, const char* w
     if (size != bodies) refuse(made_for + std::to_string(size) + " bodies, the scene has " + std::to_string(bodies));
   };
   requireFit(motion.X_WB.size(), "made for ");
-  if (!motion.missing.empty()) requireFit(motion.missing.size(), "says what is missing of ");
+  if (!motion.missing.empty()) requireFit(motion.missing.size(), "lists missing poses for ");
   if (!motion.motion_error.empty()) requireFit(motion.motion_error.size(), "has motion errors of ");
   for (std::size_t b = 0; b < bodies; ++b) {
     const bool may_lack = (!shape.without_poses.empty() && shape.without_poses[b]) ||

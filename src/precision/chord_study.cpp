@@ -52,7 +52,7 @@ std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& 
   Random random(4);
   std::vector<ExactMotion> found;
   for (int tries = 0; int(found.size()) < count; ++tries) {
-    if (tries > 50 * count) throw std::runtime_error("copies of the body do not touch when they turn");
+    if (tries > 50 * count) throw std::runtime_error("copies of the body do not touch when they rotate");
     const Matrix3d R = rotation(random);
     const Vector3d u = direction(random);
     const double apart = touchingDistance(field, shell, R, u, side) + uniform(random, 0.02, 0.1) * side;
@@ -109,8 +109,11 @@ BoundingBall ballOf(const PointShell& shell, const Vector3d& middle) {
 }  // namespace
 
 StudyResult chordStudy(const StudyInput& input) {
-  StudyResult result{
-      "chord", "Turning bodies: first contact over the chord tolerance", "chord tolerance [m]", "motion of a body", {}};
+  StudyResult result{"chord",
+                     "Rotating bodies: time of impact over the chord tolerance",
+                     "chord tolerance [m]",
+                     "motion of a body",
+                     {}};
   FieldOptions options;
   options.cells = kCells;
   const DistanceField field = buildField(input.mesh, options, [&](double share) { input.progress(0.3 * share); });

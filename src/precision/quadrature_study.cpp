@@ -31,7 +31,7 @@ Rule midpoint(int points) {
 
 StudyResult quadratureStudy(const StudyInput& input) {
   StudyResult result{"quadrature",
-                     "Impulses: midpoint rules and the exact rule, beside the midpoint rule of 10,000",
+                     "Impulses: midpoint rules and the exact rule, compared with the midpoint rule with 10,000 points",
                      "points per contact interval",
                      "pair of bodies",
                      {}};

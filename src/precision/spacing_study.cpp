@@ -20,7 +20,7 @@ constexpr double kReference = 0.004;  // spacing of the reference shell [box sid
 
 StudyResult spacingStudy(const StudyInput& input) {
   StudyResult result{"spacing",
-                     "Shells: force and depth over the spacing of the points, beside a far denser shell",
+                     "Shells: force and depth over the spacing of the points, compared with a far denser shell",
                      "spacing (points) [m]",
                      "pair of bodies",
                      {}};

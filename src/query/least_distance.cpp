@@ -176,7 +176,7 @@ LeastDistance rounded(LeastDistance least, const Segment& segment) {
 
 LeastDistance leastDistance(const DistanceField& field, const Segment& segment) {
   if (!isWithinReach(segment)) {
-    throw std::invalid_argument("least distance: the segment is not finite, or reaches farther than 1e12 m");
+    throw std::invalid_argument("least distance: the segment is not finite or has a coordinate above 1e12 m");
   }
   if (const AdaptiveGrid* adaptive = field.adaptive()) {
     const LeastDistance least = leastInLeaves(*adaptive, segment);

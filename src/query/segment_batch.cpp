@@ -22,7 +22,7 @@ using Hits = std::vector<SegmentHit>;
 
 [[noreturn]] void refuse(std::size_t segment) {
   throw std::invalid_argument("segment query: segment " + std::to_string(segment) +
-                              " is not finite, or reaches farther than 1e12 m");
+                              " is not finite or has a coordinate above 1e12 m");
 }
 
 /// Queries segments [first, last) one by one.

@@ -19,7 +19,7 @@ void segmentIntervals(const DistanceField& field, const Segment& segment, const 
                       Intervals& intervals) {
   intervals.clear();
   if (!isWithinReach(segment)) {
-    throw std::invalid_argument("segment query: the segment is not finite, or reaches farther than 1e12 m");
+    throw std::invalid_argument("segment query: the segment is not finite or has a coordinate above 1e12 m");
   }
   checkIsovalue(field, options.sigma);
   if (const Primitive* primitive = field.primitive()) {

@@ -78,7 +78,7 @@ class PrimitiveReader {
 
   void read() {
     const std::string kind = element_.Name();
-    if (element_.FirstChildElement("ph")) throw std::runtime_error("polygons with holes (<ph>) are not read");
+    if (element_.FirstChildElement("ph")) throw std::runtime_error("polygons with holes (<ph>) are not supported");
     std::uint64_t found = 0;
     for (const XMLElement* p = element_.FirstChildElement("p"); p; p = p->NextSiblingElement("p")) {
       const std::vector<std::int64_t> corners = cornersOf(*p);

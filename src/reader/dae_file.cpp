@@ -64,7 +64,7 @@ Eigen::Affine3d transformOf(const XMLElement& element) {
   } else if (name == "lookat") {
     X = lookAt(exactly(9, element));
   } else if (name == "skew") {
-    throw std::runtime_error(describe(element) + ": nodes that are skewed are not read");
+    throw std::runtime_error(describe(element) + ": skewed nodes (<skew>) are not supported");
   }
   return X;
 }

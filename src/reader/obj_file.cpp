@@ -28,7 +28,7 @@ std::int64_t cornerOf(std::string_view word, std::size_t vertices, std::size_t l
   std::int64_t index = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
   const bool is_whole = error == std::errc() && (end == word.data() + word.size() || *end == '/');
-  if (!is_whole || index == 0) fail(line, "a face whose corners are no numbers of vertices");
+  if (!is_whole || index == 0) fail(line, "a face with an invalid vertex index");
   return index > 0 ? index - 1 : static_cast<std::int64_t>(vertices) + index;
 }
 

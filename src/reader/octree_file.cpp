@@ -57,7 +57,7 @@ OctreeFile readHead(const std::string& bytes, OctreeFile::Format format) {
     if (word == "id") line >> file.type;
     if (word == "size") line >> file.nodes;
     if (word == "res") line >> file.resolution;
-    if (line.fail() && !word.empty()) throw std::runtime_error("its head holds no value for " + word);
+    if (line.fail() && !word.empty()) throw std::runtime_error("the header has no value for " + word);
   }
   throw std::runtime_error("truncated within its head");
 }
@@ -109,7 +109,7 @@ void walk(const std::string& bytes, const OctreeFile& file) {
     to_come.push_back(children.written);
   }
   if (nodes != file.nodes) {
-    throw std::runtime_error("damaged: its head says " + std::to_string(file.nodes) + " nodes, it holds " +
+    throw std::runtime_error("damaged: the header announces " + std::to_string(file.nodes) + " nodes, the file has " +
                              std::to_string(nodes));
   }
 }

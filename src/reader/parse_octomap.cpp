@@ -94,12 +94,12 @@ template <class Tree>
 ReadMesh surfaceOf(const Tree& tree, double resolution, std::uint64_t max_memory) {
   SurfaceFinder<Tree> counter(tree, nullptr);
   counter.find();
-  if (counter.faces() == 0.0) throw std::runtime_error("nothing in it is occupied");
+  if (counter.faces() == 0.0) throw std::runtime_error("it has no occupied voxel");
   const std::uint64_t most = max_memory / VoxelSurface::kBytesPerFace;
   if (counter.faces() > static_cast<double>(most)) {
     throw std::runtime_error("its surface has " + numberText(counter.faces()) + " faces of voxels of " +
                              numberText(resolution) + " m; at most " + std::to_string(most) +
-                             " are taken of a file of its size");
+                             " are allowed for a file of this size");
   }
   VoxelSurface surface(resolution, kCells / 2);
   SurfaceFinder<Tree>(tree, &surface).find();

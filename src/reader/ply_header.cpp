@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMaxHeader = std::size_t{1} << 16;  // bytes
 
 [[noreturn]] void failUnknown(std::string_view line) {
-  throw std::runtime_error("\"" + std::string(line.substr(0, 80)) + "\" in the PLY header is not known");
+  throw std::runtime_error("unknown line \"" + std::string(line.substr(0, 80)) + "\" in the PLY header");
 }
 
 PlyType typeOf(std::string_view word, std::string_view line) {

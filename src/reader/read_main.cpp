@@ -37,7 +37,7 @@ void send(const void* from, std::size_t size) {
 
 void sendReason(std::string reason) {
   reason.resize(std::min(reason.size(), kMaxReason));
-  if (reason.empty()) reason = "not readable, without a reason";
+  if (reason.empty()) reason = "cannot be read (the reader gave no reason)";
   ReadAnswer answer;
   answer.reason_bytes = reason.size();
   send(&answer, sizeof answer);

@@ -56,8 +56,8 @@ std::uint64_t requireRoom(double count, std::size_t bytes, std::string_view line
   if (count >= 0 && count == std::floor(count) && count <= static_cast<double>(bytes)) {
     return static_cast<std::uint64_t>(count);
   }
-  throw std::runtime_error("\"" + std::string(line.substr(0, kShown)) + "\" announces more than " +
-                           std::to_string(bytes) + " bytes hold");
+  throw std::runtime_error("\"" + std::string(line.substr(0, kShown)) + "\" is not a valid count for a file of " +
+                           std::to_string(bytes) + " bytes");
 }
 
 }  // namespace sdf_ccd

@@ -49,7 +49,8 @@ std::uint64_t countOf(const XMLElement& element, const char* name, std::uint64_t
   const std::string text = attributeOf(element, name);
   if (text.empty()) return otherwise;
   if (text.find_first_not_of("0123456789") == std::string::npos && text.size() < 16) return std::stoull(text);
-  throw std::runtime_error(describe(element) + ": " + name + "=\"" + text.substr(0, 80) + "\" is no count");
+  throw std::runtime_error(describe(element) + ": " + name + "=\"" + text.substr(0, 80) +
+                           "\" is not a non-negative integer");
 }
 
 std::vector<double> numbersOf(const XMLElement& element) {

@@ -67,7 +67,8 @@ std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml) {
   try {
     model = urdf::parseURDF(wellFormed(xml));
   } catch (const std::exception& error) {
-    throw std::runtime_error("the URDF cannot be parsed: " + collector.errors() + error.what());
+    const std::string errors = collector.errors().empty() ? "" : collector.errors() + "; ";
+    throw std::runtime_error("the URDF cannot be parsed: " + errors + error.what());
   }
   if (!model || !model->getRoot()) {
     const std::string reason = collector.errors().empty() ? "it is no XML document" : collector.errors();
@@ -122,7 +123,7 @@ void orderLimits(urdf::Joint& joint, std::vector<std::string>& warnings) {
   if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::PRISMATIC) return;
   if (!joint.limits || !(joint.limits->lower > joint.limits->upper)) return;
   warnings.push_back("joint " + joint.name + ": its lower limit " + numberText(joint.limits->lower) +
-                     " is above its upper one " + numberText(joint.limits->upper) + "; they are taken in turn");
+                     " is above its upper one " + numberText(joint.limits->upper) + "; they are swapped");
   std::swap(joint.limits->lower, joint.limits->upper);
 }
 

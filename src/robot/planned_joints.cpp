@@ -114,7 +114,7 @@ class Planner {
     if (now == now_.X_PL.end()) {
       if (is_fixed || !missing.empty()) return;
       const auto why = now_.missing.find(joint.name);
-      missing = "joint " + joint.name + " is not named, and where it is now is not known" +
+      missing = "joint " + joint.name + " is not in the plan, and its current position is unknown" +
                 (why == now_.missing.end() ? "" : ": " + why->second);
       return;
     }

@@ -53,7 +53,7 @@ class PairFilter {
 void warnOfVisualOnly(const std::vector<std::string>& links, std::vector<std::string>& warnings) {
   if (links.empty()) return;
   std::string text = links.size() == 1 ? "1 link has" : std::to_string(links.size()) + " links have";
-  text += " a visual but no collision shape, and no contact of theirs is found:";
+  text += " a visual but no collision shape, so their contacts are not detected:";
   for (const std::string& link : links) text += " " + link;
   warnings.push_back(text);
 }
@@ -121,10 +121,10 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
   warnings.insert(warnings.end(), robot.warnings().begin(), robot.warnings().end());
   if (!srdf.robot.empty() && srdf.robot != robot.urdf().getName()) {
     warnings.push_back("the SRDF is of robot " + srdf.robot + ", the URDF of robot " + robot.urdf().getName() +
-                       ": pairs that are allowed to touch may be those of another robot");
+                       ": its allowed pairs may belong to another robot");
   }
   for (const std::string& link : unknownLinks(srdf, robot.links()))
-    warnings.push_back("the SRDF names link " + link + ", the URDF has none");
+    warnings.push_back("the SRDF names link " + link + ", which the URDF does not have");
 
   requireFewPairs(robot, scene.bodies.size());
   std::vector<std::optional<ExtentBall>> balls;

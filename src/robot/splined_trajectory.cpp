@@ -58,8 +58,8 @@ RobotTrajectory splined(const std::vector<std::string>& joints, const std::vecto
         pieces = std::max(pieces, piecesWithin(splines.back(), duration, tolerance));
       }
       if (result.times.size() + static_cast<std::size_t>(pieces) > kMaxPieces) {
-        throw std::invalid_argument("the trajectory's splines take more than " + std::to_string(kMaxPieces) +
-                                    " pieces: ask for it in parts");
+        throw std::invalid_argument("the trajectory's splines need more than " + std::to_string(kMaxPieces) +
+                                    " pieces; split the trajectory");
       }
       if (order != JointSplineOrder::kLinear) result.joint_error = tolerance;
       for (int piece = 1; piece < pieces; ++piece) {

@@ -168,9 +168,9 @@ std::vector<double> TrajectoryMotion::waypoints() const {
     const double pieces = std::max(1.0, std::ceil(angle / kAngle));
     if (!(pieces - 1.0 <= static_cast<double>(kMaxAddedWaypoints - added))) {
       refuse(
-          fmt::format("the trajectory turns a link by {:.3g} rad up to point {}: more than {} rad beside one per point "
-                      "are not checked",
-                      angle, i, kMaxAddedWaypoints));
+          fmt::format("the trajectory rotates a link by {:.3g} rad before point {}; at most {} rad in addition to {:g} "
+                      "rad per point can be checked",
+                      angle, i, kMaxAddedWaypoints, kAngle));
     }
     const auto count = static_cast<std::size_t>(pieces);
     added += count - 1;

@@ -43,8 +43,8 @@ double leastDistance(const ScrewMotion& X_WA, const Vector3d& p_A, const ScrewMo
 
 std::string beyondReach(const RobotModel::Slide& slide, double position) {
   if (slide.low <= position && position <= slide.high) return {};
-  return std::string(kOutOfReach) + " only while joint " + slide.joint + " is within [" + numberText(slide.low) + ", " +
-         numberText(slide.high) + "], it is at " + numberText(position);
+  return std::string(kOutOfReach) + " only while joint " + slide.joint + " is in [" + numberText(slide.low) + ", " +
+         numberText(slide.high) + "]; it is at " + numberText(position);
 }
 
 std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene) {
@@ -92,7 +92,8 @@ std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::
       may_meet = !(leastDistance(X_WA, pair.ball_a.center, X_WB, pair.ball_b.center) >
                    pair.ball_a.radius + pair.ball_b.radius);
     }
-    if (may_meet) unchecked.push_back({a, b, std::string(kOutOfReach) + " by the robot's joints, not by these poses"});
+    if (may_meet)
+      unchecked.push_back({a, b, std::string(kOutOfReach) + " for the robot's joints, but not for these poses"});
   }
   return unchecked;
 }

@@ -49,7 +49,7 @@ class PairSorter {
       pairs.unknown.push_back({a.name, b.name, !a.failure.empty() ? a.failure : b.failure});
     } else if (const std::string joint = JointSampler::unboundedBetween(robot_, index_.at(a.name), index_.at(b.name));
                !joint.empty()) {
-      pairs.unknown.push_back({a.name, b.name, "nothing bounds joint " + joint});
+      pairs.unknown.push_back({a.name, b.name, "joint " + joint + " is unbounded"});
     } else if (out_of_reach_.count(names) > 0) {
       pairs.disabled.push_back({a.name, b.name, "Never"});
       ++pairs.proved;
@@ -216,7 +216,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   SceneDescription description = describeRobot(robot, {}, loader, all, pairs.warnings);
   const JointSampler sampler(robot, options.seed);
   for (const std::string& joint : sampler.withoutLimits()) {
-    pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is taken");
+    pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is sampled");
   }
   const PairSorter sorter(robot, srdf, description);
   description.disabled.clear();

@@ -79,21 +79,23 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
 void leaveOutOverlapping(const RobotModel& robot, const std::vector<PairRule>& kept, Scene& scene) {
   std::vector<OverlappingPair> always, at_rest;
   std::vector<std::string> reasons(scene.pairs.size());
-  for (const OverlappingPair& pair : overlappingPairs(robot, scene)) {
+  constexpr std::size_t kStates = 200;
+  const std::string always_overlap = "overlap at rest and in all " + std::to_string(kStates) + " random states tested";
+  for (const OverlappingPair& pair : overlappingPairs(robot, scene, kStates)) {
     const PlannedPair& planned = scene.pairs[static_cast<std::size_t>(pair.pair)];
     const bool stays = matchesAny(kept, scene.bodies[planned.body_a].name, scene.bodies[planned.body_b].name);
     if (stays) continue;
     (pair.always ? always : at_rest).push_back(pair);
     if (!pair.always) continue;
     std::string& reason = reasons[static_cast<std::size_t>(pair.pair)];
-    reason = "overlap in every state of the joints";
+    reason = always_overlap;
   }
   const auto count = [](const std::vector<OverlappingPair>& pairs) {
     return std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair of links" : " pairs of links");
   };
   if (!always.empty())
-    scene.warnings.push_back("left out, as they overlap in every state of the joints (depth at rest): " +
-                             count(always) + ", " + listOf(always, scene) + "; checked_pairs keeps them");
+    scene.warnings.push_back("left out, as they " + always_overlap + " (depth at rest): " + count(always) + ", " +
+                             listOf(always, scene) + "; list them in checked_pairs to check them");
   if (!at_rest.empty())
     scene.warnings.push_back("overlap where all joints are at rest, and are checked: " + count(at_rest) + ", " +
                              listOf(at_rest, scene) + "; allowed_pairs leaves them out");

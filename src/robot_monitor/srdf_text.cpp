@@ -24,8 +24,8 @@ std::string statesText(const LearnedPairs& pairs) {
 
 std::string commentText(const LearnedPairs& pairs) {
   std::string text =
-      " What follows was learned by `sdf_ccd learn-pairs` from " + statesText(pairs) + ", with an error bound of " +
-      numberText(1e3 * pairs.error_bound) +
+      " The following pairs were learned by `sdf_ccd learn-pairs` from " + statesText(pairs) +
+      ", with an error bound of " + numberText(1e3 * pairs.error_bound) +
       " mm.\n       Adjacent: joined by one joint; not tested. Always: touched in all recorded and the first " +
       std::to_string(pairs.always_states) +
       " random ones.\n"

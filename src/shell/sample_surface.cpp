@@ -87,7 +87,7 @@ void requireRoom(const Extent& extent, const ShellOptions& options) {
   if (extent.surface_points + on_edges <= static_cast<double>(options.max_points)) return;
   std::ostringstream message;
   message << "a point every " << options.spacing << " m on " << extent.area << " m^2";
-  if (extent.surface_points > facePoints(extent.area, options.spacing)) message << " of slivers";
+  if (extent.surface_points > facePoints(extent.area, options.spacing)) message << " with many slivers";
   if (on_edges > 0.0)
     message << " and every " << 2.0 * extent.edge_radius << " m along " << extent.edges << " m of edges";
   message << " needs more than " << options.max_points << " points";
@@ -151,7 +151,7 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested
 PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
   validate(mesh);
   validate(options);
-  if (options.edge_gap == 0.0) throw std::invalid_argument("a shell of edges needs an edge gap above 0");
+  if (options.edge_gap == 0.0) throw std::invalid_argument("edge_gap must be positive to sample edges");
   const TriangleMesh surface = welded(mesh);
   const EdgeSampling sampling(options);
   const std::vector<SurfaceEdge> edges = edgesOfFlatPieces(surface, sampling.flatness);

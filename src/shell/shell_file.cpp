@@ -52,9 +52,13 @@ PointShell loadShell(const std::string& path, const std::string& key) {
                              " normals, " + std::to_string(areas) + " areas");
   }
   const std::size_t bad = firstBad({point, points}, {normal, normals}, {area, areas});
-  if (bad < points) throw std::runtime_error(path + ": damaged: point " + std::to_string(bad) + " is none");
+  if (bad < points)
+    throw std::runtime_error(path + ": damaged: point " + std::to_string(bad) +
+                             " has an invalid position, normal or area");
   const bool has_radii = radii[0] >= 0.0 && std::isfinite(radii[0]) && radii[1] >= 0.0 && radii[2] >= 0.0;
-  if (!has_radii || !std::isfinite(radii[2])) throw std::runtime_error(path + ": damaged: its radii are no lengths");
+  if (!has_radii || !std::isfinite(radii[2])) {
+    throw std::runtime_error(path + ": damaged: its covering radius, edge radius or flatness is not valid");
+  }
   PointShell shell;
   shell.points.assign(point, point + points);
   shell.normals.assign(normal, normal + normals);

@@ -59,19 +59,19 @@ void requireOwnDirectory(const std::string& directory) {
   struct stat status {};
   if (!error && ::stat(directory.c_str(), &status) != 0) error = {errno, std::generic_category()};
   if (error) throw std::runtime_error(directory + ": " + error.message());
-  if (!S_ISDIR(status.st_mode)) throw std::runtime_error(directory + ": is no directory");
+  if (!S_ISDIR(status.st_mode)) throw std::runtime_error(directory + ": is not a directory");
   // A group of the user's own is usual.
   const bool by_group = (status.st_mode & S_IWGRP) != 0 && status.st_gid != ::getegid();
   if (!isOwn(status) || by_group || (status.st_mode & S_IWOTH) != 0) {
-    throw std::runtime_error(directory + ": others may write to it");
+    throw std::runtime_error(directory + ": other users can write to it");
   }
 }
 
 void requireOwnFile(const std::string& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) throw std::runtime_error(path + ": " + std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) throw std::runtime_error(path + ": is a link, or no regular file");
-  if (!isOwn(status)) throw std::runtime_error(path + ": belongs to somebody else");
+  if (!S_ISREG(status.st_mode)) throw std::runtime_error(path + ": is a symbolic link or not a regular file");
+  if (!isOwn(status)) throw std::runtime_error(path + ": belongs to another user");
 }
 
 void markUsed(const std::string& path) {

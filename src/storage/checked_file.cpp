@@ -186,7 +186,8 @@ void requireHeader(const std::string& path, Header header, const FileKind& kind,
 void requireKey(const std::string& path, const char* start, const std::string& key) {
   const char* written = start + sizeof(Header);
   const std::string found(written, strnlen(written, kKeyBytes));
-  if (!key.empty() && found != key) fail(path, "holds what was made as " + (found.empty() ? "nothing" : found));
+  if (key.empty() || found == key) return;
+  fail(path, "was made from other data: " + (found.empty() ? "it has no key" : "its key is \"" + found + "\""));
 }
 
 std::vector<FileSection> sectionsOf(const std::string& path, const Header& header, const char* start,
@@ -289,7 +290,7 @@ std::shared_ptr<const CheckedFile> CheckedFile::open(const std::string& path, co
   requireHeader(path, header, kind, opened.bytes());
   Memory memory = allocate(path, opened.bytes());
   auto* start = static_cast<char*>(memory.get());
-  if (opened.readAfterHeader(start) != header.checksum) fail(path, "damaged: the checksum does not fit");
+  if (opened.readAfterHeader(start) != header.checksum) fail(path, "damaged: the checksum does not match");
   requireKey(path, start, kind.key);
   std::vector<FileSection> sections = sectionsOf(path, header, start, opened.bytes());
   return std::shared_ptr<const CheckedFile>(new CheckedFile(path, std::move(memory), std::move(sections)));
@@ -305,7 +306,9 @@ CheckedFile::Memory CheckedFile::allocate(const std::string& path, std::size_t b
 
 std::size_t CheckedFile::checkedCount(std::size_t i, std::size_t value_size) const {
   if (i >= sections_.size()) fail(path_, "damaged: section " + std::to_string(i) + " is missing");
-  if (sections_[i].bytes % value_size != 0) fail(path_, "damaged: section " + std::to_string(i) + " ends in a value");
+  if (sections_[i].bytes % value_size != 0) {
+    fail(path_, "damaged: the size of section " + std::to_string(i) + " is not a multiple of its values' size");
+  }
   return sections_[i].bytes / value_size;
 }
 

@@ -91,7 +91,7 @@ bool FileCache::load(const std::string& path, const Actions& actions, CacheOutco
     outcome.from_cache = true;
     outcome.warning.clear();
   } catch (const std::runtime_error& error) {
-    outcome.warning = std::string("made again: ") + error.what();
+    outcome.warning = std::string("rebuilt: ") + error.what();
   }
   return outcome.from_cache;
 }
@@ -109,7 +109,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
       if (::access(directory_.c_str(), W_OK) != 0) throw std::runtime_error(directory_ + ": " + std::strerror(errno));
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
-      outcome.warning = std::string("cache not used: ") + error.what();
+      outcome.warning = std::string("cache unavailable: ") + error.what();
     }
   }
   // Made while this process waited; a file that failed to load before is not read again.
@@ -120,7 +120,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
     actions.save(path);
     trimCache(directory_, name, max_bytes_);
   } catch (const std::runtime_error& error) {
-    outcome.warning = std::string("not kept: ") + error.what();
+    outcome.warning = std::string("not cached: ") + error.what();
   }
   return outcome;
 }

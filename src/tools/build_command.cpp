@@ -143,7 +143,7 @@ void buildRobot(const Arguments& arguments) {
 void prepare(const Arguments& arguments) {
   if (arguments.urdf.empty()) throw std::runtime_error("--config needs --urdf");
   if (arguments.spacing) throw std::runtime_error("--spacing: with --config, shell/spacing of that file counts");
-  arguments.resolution.requireNone("with --config, the fields are as fine as that file says");
+  arguments.resolution.requireNone("with --config, the resolution comes from that file");
   prepareRobot({arguments.urdf, arguments.srdf, arguments.config, {}, {}}, arguments.out);
 }
 #endif
@@ -207,9 +207,8 @@ void addBuildCommand(CLI::App& app) {
 #ifdef SDF_CCD_WITH_ROS
   command->add_option(
       "--config", arguments->config,
-      "With --urdf: the monitor's parameters, as config/monitor.yaml. Makes what the monitor would make "
-      "at its start, the world's bodies too, for it to load with cache_directory: DIR, also where that "
-      "is copied to");
+      "With --urdf: the monitor's parameters, as config/monitor.yaml. Builds everything that the monitor builds at "
+      "start-up, including the world's bodies; load it with cache_directory: DIR (or a copy of DIR)");
 #endif
   command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
   command->callback([arguments] { run(*arguments); });

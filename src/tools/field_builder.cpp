@@ -106,8 +106,8 @@ void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const 
   const Made& made = found->second;
   std::cout << "  mesh   " << made.quality << "\n";
   printSolid(made.solid, "  solid  ");
-  writeField(name, made.field, is_new ? time(made.field_seconds) : "made above");
-  writeShell(name, made.shell, is_new ? time(made.shell_seconds) : "made above");
+  writeField(name, made.field, is_new ? time(made.field_seconds) : "built above");
+  writeShell(name, made.shell, is_new ? time(made.shell_seconds) : "built above");
 }
 
 void FieldBuilder::addVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh,

@@ -108,7 +108,7 @@ void run(const Arguments& arguments) {
   const Slice slice = parseSlice(arguments.slice);
   OutputFile out(arguments.out);
   const std::optional<DistanceField> field = inspect(arguments);
-  if (!field) throw std::runtime_error(arguments.file + ": a shell has no slice");
+  if (!field) throw std::runtime_error(arguments.file + ": a shell cannot be sliced");
   out.stream() << drawSlice(*field, slice);
   out.commit();
 }
@@ -119,7 +119,8 @@ void addInfoCommand(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("info", "What a field, shell, mesh or OctoMap file holds");
   command->add_option("file", arguments->file, "File to look into")->required();
-  command->add_option("--slice", arguments->slice, "Plane to draw, such as z=0.1 [m]; of a mesh a field is made first");
+  command->add_option("--slice", arguments->slice,
+                      "Plane to draw, such as z=0.1 [m]; for a mesh, a field is built first");
   command->add_option(
       "--out", arguments->out,
       "PNG file for the slice: the surface black, orange where it is a cap over an opening of the mesh");

@@ -133,7 +133,7 @@ void run(const Arguments& arguments) {
   out.commit();
   printReport(pairs);
   if (pairs.unknown.empty()) return;
-  std::cerr << "sdf_ccd: nothing is learned of " << pairs.unknown.size() << " pairs, as "
+  std::cerr << "sdf_ccd: " << pairs.unknown.size() << " pairs could not be classified, for example "
             << pairs.unknown.front().link_a << " - " << pairs.unknown.front().link_b << ": "
             << pairs.unknown.front().reason << std::endl;
   throw PartlyDone();
@@ -146,17 +146,16 @@ void addLearnPairsCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("learn-pairs", "Write an SRDF of the pairs of links that need no check");
   command->footer(
       "Adjacent: joined by one joint. Always: touch in all of the states, deeper than the error bound. Never: farther "
-      "apart than it in all of them, which is no proof unless they are out of each other's reach: the file says of how "
-      "many states it holds. States are drawn within the joints' limits, a quarter of them with joints at their "
-      "limits; "
-      "mimic joints follow, continuous ones take a full revolution. The same seed gives the same file. What a given "
-      "SRDF holds is kept. Exit code 1: nothing is learned of some pairs, as a mesh is missing or a joint has no "
-      "bounds.");
+      "apart than it in all of them, which is not a proof unless they are out of each other's reach; the file gives "
+      "the number of states tested. States are drawn within the joints' limits, a quarter of them with joints at "
+      "their limits; mimic joints follow, continuous ones take a full revolution. The same seed gives the same file. "
+      "What a given SRDF holds is kept. Exit code 1: nothing is learned of some pairs, as a mesh is missing or a joint "
+      "has no bounds.");
   command->add_option("--urdf", arguments->urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")->required();
   command->add_option("--out", arguments->out, "SRDF file to write")->required();
   command->add_option("--srdf", arguments->srdf, "SRDF to start from: all that it holds is kept");
   command->add_option("--states", arguments->states, "Random states; default 10000");
-  command->add_option("--seed", arguments->seed, "Of the random states; default 1");
+  command->add_option("--seed", arguments->seed, "Seed of the random states; default 1");
   command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
   command->add_option("--max-error", arguments->max_error,
                       "Error bound [m]: pairs that come nearer than this are not left out; default 0.005");

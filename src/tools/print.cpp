@@ -52,8 +52,10 @@ std::string describeOpenings(const DistanceField& field) {
   const OpeningCaps* caps = field.openings();
   if (!caps) return "none";
   const double reach = *std::max_element(caps->reach().begin(), caps->reach().end());
-  return fmt::format("caps of {:.3g} m^2 that reach up to {:.3g} m from the mesh: what they bound may be inside or not",
-                     surfaceArea(caps->mesh()), reach);
+  return fmt::format(
+      "caps of {:.3g} m^2 that reach up to {:.3g} m from the mesh: points enclosed only by caps may be inside or "
+      "outside",
+      surfaceArea(caps->mesh()), reach);
 }
 
 std::string describe(const PointShell& shell) {

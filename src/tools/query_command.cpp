@@ -101,7 +101,8 @@ void writeImpacts(const DistanceField& field, const std::vector<Segment>& segmen
 void run(const Arguments& arguments) {
   if (!std::isfinite(arguments.query.sigma)) throw std::invalid_argument("--sigma is not finite");
   if (arguments.impact && (arguments.query.sigma != 0.0 || arguments.query.mode != SegmentMode::kAll)) {
-    throw std::invalid_argument("--impact is of the surface, and of the first contact: --sigma and --first do nothing");
+    throw std::invalid_argument(
+        "--impact always uses the surface and the first contact; it cannot be combined with --sigma or --first");
   }
   const std::vector<Segment> segments = readSegments(arguments.segments);
   if (!arguments.field.empty()) arguments.resolution.requireNone("--field names one that is made already");
@@ -126,9 +127,9 @@ void addQueryCommand(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("query", "Times during which moving points are inside an isosurface");
   command->footer(
-      "In: a line ox,oy,oz,ex,ey,ez [m] per segment, with or without a line of these names above. Out: a line "
-      "segment,t_enter,t_exit "
-      "per interval; segments count from 0, times run from 0 at the start to 1 at the end of the segment.");
+      "In: a line ox,oy,oz,ex,ey,ez [m] per segment; an optional first line holds these names. Out: a line "
+      "segment,t_enter,t_exit per interval; segments count from 0, times run from 0 at the start to 1 at the end of "
+      "the segment.");
   auto* source = command->add_option_group("source");
   source->add_option("--field", arguments->field, "Field file, made by build");
   source->add_option("--mesh", arguments->mesh, "Mesh file, of which a field is made");
@@ -141,8 +142,8 @@ void addQueryCommand(CLI::App& app) {
       "Only the first interval of each segment");
   command->add_flag(
       "--impact", arguments->impact,
-      "Instead of intervals, of each segment that may meet the surface when it first does, and how deep it "
-      "comes: segment,t_earliest,t,t_latest,depth,depth_low,depth_high. The truth lies between the bounds; "
+      "Instead of intervals: time of impact and maximum depth of each segment that may touch the surface: "
+      "segment,t_earliest,t,t_latest,depth,depth_low,depth_high. The truth lies between the bounds; "
       "empty: not known, as the point may only graze, or an opening's cap be all that it meets");
   arguments->resolution.addTo(*command);
   command->callback([arguments] { run(*arguments); });

@@ -13,7 +13,7 @@ void ResolutionOptions::addTo(CLI::App& command) {
   resolution_option_ = command.add_option("--resolution", cells,
                                           "Cells along the longest side of the surface's box (64 if none is given)");
   cell_option_ = command.add_option("--cell", cell_size, "Size of a cell [m]");
-  max_error_option_ = command.add_option("--max-error", max_error, "Largest error of a distance near the surface [m]");
+  max_error_option_ = command.add_option("--max-error", max_error, "Maximum error of distances near the surface [m]");
   resolution_option_->excludes(cell_option_)->excludes(max_error_option_);
   cell_option_->excludes(max_error_option_);
   band_option_ =
@@ -22,7 +22,7 @@ void ResolutionOptions::addTo(CLI::App& command) {
 
 void ResolutionOptions::requireNone(const std::string& reason) const {
   for (const CLI::Option* option : {resolution_option_, cell_option_, max_error_option_, band_option_}) {
-    if (option->count()) throw std::invalid_argument(option->get_name() + " says how a field is made, but " + reason);
+    if (option->count()) throw std::invalid_argument(option->get_name() + " sets how a field is built, but " + reason);
   }
 }
 

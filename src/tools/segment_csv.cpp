@@ -42,7 +42,7 @@ bool isHeader(const std::string& line) {
 
 Segment parseSegment(const std::vector<std::string>& words) {
   if (words.size() != kColumns) {
-    throw std::runtime_error("six numbers ox,oy,oz,ex,ey,ez are wanted, there are " + std::to_string(words.size()));
+    throw std::runtime_error("expected six numbers ox,oy,oz,ex,ey,ez, got " + std::to_string(words.size()));
   }
   double values[kColumns];
   for (std::size_t i = 0; i < kColumns; ++i) {

@@ -42,7 +42,7 @@ std::vector<Study> chosen(const std::string& name) {
   const std::vector<Study>& all = precision::studies();
   if (name.empty()) return all;
   const auto found = std::find_if(all.begin(), all.end(), [&](const Study& study) { return name == study.name; });
-  if (found == all.end()) throw std::invalid_argument("study `" + name + "` is none of " + studyNames());
+  if (found == all.end()) throw std::invalid_argument("unknown study `" + name + "`; known: " + studyNames());
   return {*found};
 }
 
@@ -104,7 +104,7 @@ void addWorkPrecisionCommand(CLI::App& app) {
       "Each runs the same random queries at every setting, in turn, on one thread, prints a table and writes "
       "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Uniform fields have 16 bits a sample; adaptive ones "
       "(of a maximum error) 7 bits per corner of a leaf, whose rounding is part of that error.");
-  command->add_option("study", arguments->study, "One of the studies below; all of them without any");
+  command->add_option("study", arguments->study, "One of the studies below; all if omitted");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--mesh", arguments->mesh,
                       "Closed mesh that fields and shells are made of; default a lumpy ball of 0.2 m (not for step)");

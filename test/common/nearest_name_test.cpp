@@ -21,7 +21,7 @@ TEST(NearestName, FindsWhatWasMeant) {
 
 TEST(NearestName, SuggestsOrListsWhatIsKnown) {
   EXPECT_EQ(suggestion("xzy", {"xyz", "rpy"}), ", did you mean xyz?");
-  EXPECT_EQ(suggestion("stiffness", {"a", "b", "c"}), ", known are a, b and c");
+  EXPECT_EQ(suggestion("stiffness", {"a", "b", "c"}), ", known names: a, b and c");
   EXPECT_EQ(suggestion("stiffness", {}), "");
 }
 

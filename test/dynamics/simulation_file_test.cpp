@@ -74,8 +74,8 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   const auto holds = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  holds(reasonOf("damping", "dampening"), "line 4, contact: `dampening` is not known here");
-  holds(reasonOf("step: 0.001", "step: quick"), "line 2, scene: `step` cannot be \"quick\"");
+  holds(reasonOf("damping", "dampening"), "line 4, contact: `dampening` is not a known key");
+  holds(reasonOf("step: 0.001", "step: quick"), "line 2, scene: `step`: \"quick\" is not a valid value");
   holds(reasonOf("step: 0.001", "pace: 1"), "`step` is missing");
   holds(reasonOf("shape: box", "shape: bax"), "there is no shape `bax`");
   holds(reasonOf("type: box", "type: bax"), "type `bax` is not known");
@@ -88,8 +88,8 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   holds(reasonOf("shape: box", "shape: box, mass: -2"), "body `box`, step 0: mass must be finite and positive, got -2");
   holds(reasonOf("shape: box", "shape: box, mass: .nan"), "body `box`, step 0: mass");
   holds(reasonOf("stiffness: 1.0e+8", "stiffness: -1"), "stiffness must be finite and not negative");
-  holds(reasonOf("damping: 1.0e+4", "stiffness: 1"), "line 4, contact: `stiffness` is there twice");
-  holds(reasonOf("0.02}", "0.02, traversal: foo}"), "line 6, shape `box`: `traversal`: hierarchy or linear is wanted");
+  holds(reasonOf("damping: 1.0e+4", "stiffness: 1"), "line 4, contact: `stiffness` occurs twice");
+  holds(reasonOf("0.02}", "0.02, traversal: foo}"), "line 6, shape `box`: `traversal`: expected hierarchy or linear");
   holds(reasonOf("spacing: 0.02", "spacing: 0"), "line 6, shape `box`: `spacing` must be finite and positive, got 0");
   holds(reasonOf("type: plane", "type: blob, radius: 1, points: -1"), "`points` must be 4 to 1000000, got -1");
   holds(reasonOf("type: plane", "type: bowl, radius: 1, thickness: 0.1, steps: 1000000000"),
@@ -113,7 +113,7 @@ TEST(SimulationFile, ShapesAreAMapAndBodiesAList) {
   const auto reasonOf = [](const std::string& rest) {
     return test::failureOf<std::exception>([&] { parseSimulation("step: 0.001\nduration: 1\n" + rest, "."); });
   };
-  EXPECT_EQ(reasonOf("shapes: [1, 2]\nbodies: []"), "line 3, shapes: a map is wanted");
+  EXPECT_EQ(reasonOf("shapes: [1, 2]\nbodies: []"), "line 3, shapes: a map is expected");
   for (const char* bodies : {"[]", "", "3", "{name: ball}"}) {
     EXPECT_EQ(reasonOf(std::string("shapes: {}\nbodies: ") + bodies),
               "line 4, scene: `bodies`: a list of at least one body is wanted")

@@ -38,7 +38,7 @@ TEST(MeshOrientation, AWallInsideASolidIsLeftOutAndSaid) {
   EXPECT_EQ(quality.hidden_triangles, 4);
   EXPECT_NEAR(quality.hidden_area, 8, 1e-12);
   EXPECT_TRUE(quality.sign_trusted);
-  EXPECT_NE(summary(quality).find("4 triangles of walls inside left out (8 m^2)"), std::string::npos)
+  EXPECT_NE(summary(quality).find("4 triangles of interior walls removed (8 m^2)"), std::string::npos)
       << summary(quality);
   // If one is inside out, they may also have been drawn into each other: the common face then has the same orientation
   // in both.
@@ -153,7 +153,7 @@ TEST(MeshOrientation, TheShelfOfAnOpenCupboardIsTurnedAndSaid) {
   EXPECT_NEAR(turned.quality.volume, as_drawn.quality.volume, 1e-12);
   EXPECT_FALSE(turned.quality.sign_trusted);
   EXPECT_EQ(warningOf(turned.quality),
-            "inside and outside are not certain; 1 component was inside out and is turned round");
+            "inside and outside are uncertain; 1 component was inside out and has been flipped");
 }
 
 TEST(MeshOrientation, OpenPartsAreTurnedForWhatSeesThem) {

@@ -54,7 +54,7 @@ TEST(Openings, ALidlessBinGetsItsLid) {
   // The middle of the lid is 0.22 m from the rim, and the bound is not far above.
   EXPECT_GE(largestReach(openings), 0.22);
   EXPECT_LE(largestReach(openings), 0.45);
-  EXPECT_EQ(summary(openings), "1 opening, the longest of 1.76 m, 0.194 m^2 of caps");
+  EXPECT_EQ(summary(openings), "1 opening, the longest 1.76 m around, 0.194 m^2 of caps");
 }
 
 /// With random triangles removed from different meshes, and the others flipped at random or not.

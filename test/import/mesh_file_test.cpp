@@ -92,7 +92,7 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
     return failureOf([&] { parseMesh(bytes, name); });
   };
   EXPECT_EQ(error("", "link.stl"), "link.stl: empty");
-  EXPECT_EQ(error(stl, "link"), "link: no file name ending, which would tell the format");
+  EXPECT_EQ(error(stl, "link"), "link: the file name has no extension, so the format is unknown");
   EXPECT_EQ(error(stl.substr(0, 400), "link.stl"), "link.stl: truncated: 12 triangles need 684 bytes, there are 400");
   EXPECT_NE(error(stl.substr(0, 60), "link.stl").find("truncated"), std::string::npos);
   EXPECT_EQ(error(test::binaryStl({}, "none"), "link.stl").rfind("link.stl: ", 0), 0u);
@@ -109,7 +109,7 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
   bad.vertices[3].x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(error(test::binaryStl(bad, "nan"), "nan.stl").find("not finite"), std::string::npos);
   bad.vertices[3].x() = 1e30;
-  EXPECT_NE(error(test::binaryStl(bad, "far"), "far.stl").find("too large or too far away: 1e+30 m"),
+  EXPECT_NE(error(test::binaryStl(bad, "far"), "far.stl").find("too large or too far from the origin: extent 1e+30 m"),
             std::string::npos);
   bad = kBox;
   bad.triangles[5][2] = 900;

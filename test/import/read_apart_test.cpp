@@ -97,7 +97,7 @@ TEST_F(ReadApart, WhateverEndsTheReaderIsAnErrorThatSaysSo) {
   fake("kill -KILL $$");
   EXPECT_NE(failureOf("stl", kBox).find("killed (SIGKILL)"), std::string::npos);
   fake("exit 3");
-  EXPECT_EQ(failureOf("stl", kBox), "the reader was stopped: it needed more than 512 MB");
+  EXPECT_EQ(failureOf("stl", kBox), "the reader was stopped: it needed more than 512 MiB");
   fake("exit 7");
   EXPECT_EQ(failureOf("stl", kBox), "the reader ended without an answer (exit code 7)");
 }
@@ -128,7 +128,7 @@ TEST_F(ReadApart, AnswersAreNotBelieved) {
   EXPECT_NE(answer({}, "").find("no triangle"), std::string::npos);
   for (const std::int32_t bad : {3, -1, std::numeric_limits<std::int32_t>::max()}) {
     triangle[1] = bad;
-    EXPECT_NE(answer(head, bytesOf(corners) + bytesOf(triangle)).find("names vertex"), std::string::npos);
+    EXPECT_NE(answer(head, bytesOf(corners) + bytesOf(triangle)).find("refers to vertex"), std::string::npos);
   }
   triangle[1] = 1;
   corners[4] = std::numeric_limits<double>::quiet_NaN();
@@ -264,7 +264,7 @@ TEST_F(ReadApart, MemoryIsBounded) {
   many += "</node>";
   const std::string bomb = test::dae(test::icosphere(1.0, 3), "", many + "<node>" + nodes + "</node>");
   EXPECT_EQ(failureOf("dae", bomb), "the reader was stopped: it needed more than " +
-                                        std::to_string(512 + 32 * bomb.size() / (1 << 20)) + " MB");
+                                        std::to_string(512 + 32 * bomb.size() / (1 << 20)) + " MiB");
 }
 
 TEST_F(ReadApart, ComputingIsBounded) {

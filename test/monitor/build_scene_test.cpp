@@ -150,12 +150,11 @@ TEST(BuildScene, ACacheThatCannotBeUsedIsWarnedOfOnce) {
   ASSERT_EQ(::chmod(directory.string().c_str(), 0777), 0);
   BodyOptions options = fine();
   options.cache_directory = directory.string();
-  const auto scene =
-      build({body("a", meshShape(icosphere(0.1, 1))), body("b", meshShape(icosphere(0.2, 1)))}, options);
+  const auto scene = build({body("a", meshShape(icosphere(0.1, 1))), body("b", meshShape(icosphere(0.2, 1)))}, options);
   for (const BodyReport& report : scene->reports) EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
   ASSERT_EQ(scene->warnings.size(), 1u);
   EXPECT_EQ(scene->warnings[0],
-            "cache not used: " + directory.string() + ": others may write to it (2 bodies)");
+            "cache unavailable: " + directory.string() + ": other users can write to it (2 bodies)");
 }
 
 TEST(BuildScene, ReportsProgressUpToTheEnd) {

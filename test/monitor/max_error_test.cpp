@@ -126,7 +126,8 @@ TEST(MaxError, WhatWouldBeTooLargeIsMadeCoarserAndSaysSo) {
   for (const Body& body : scene->bodies) EXPECT_EQ(body.failure, "");
   EXPECT_GT(scene->contact_bound.total(), 0.0005);
   ASSERT_EQ(scene->reports[0].warnings.size(), 2u);
-  EXPECT_NE(scene->reports[0].warnings[0].find("m instead"), std::string::npos) << scene->reports[0].warnings[0];
+  EXPECT_NE(scene->reports[0].warnings[0].find("m is used instead"), std::string::npos)
+      << scene->reports[0].warnings[0];
   EXPECT_EQ(scene->reports[1].warnings.size(), 1u);
   EXPECT_NE(planTable(*scene).find("within the max_error of 0.50"), std::string::npos) << planTable(*scene);
   options.divides_max_error = false;  // explicit settings are not changed

@@ -60,7 +60,7 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   EXPECT_FALSE(plan.pairs[0].b_witnesses_a_field);
   EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{true, false, false}));
   EXPECT_EQ(plan.needs_field, (std::vector<bool>{true, true, true}));
-  EXPECT_EQ(reasonOf(plan, "pair map - ground"), "neither can be covered with points");
+  EXPECT_EQ(reasonOf(plan, "pair map - ground"), "neither has a surface that can be sampled");
   EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
 }
 
@@ -68,7 +68,7 @@ TEST(ScenePlan, ABodyThatOnlyMeetsHalfSpacesIsOnlyAShell) {
   const ScenePlan plan = planScene({{body("arm", kBall), body("ground", ground())}, {}});
   EXPECT_EQ(plan.needs_field, (std::vector<bool>{false, true}));
   EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{false, false}));
-  EXPECT_EQ(reasonOf(plan, "field of arm"), "only ever a shell");
+  EXPECT_EQ(reasonOf(plan, "field of arm"), "used only as a shell");
 }
 
 TEST(ScenePlan, UnusedBodiesAreNotBuilt) {
@@ -146,7 +146,7 @@ TEST(ScenePlan, LargeBoxKeepsItsEdges) {
   EXPECT_TRUE(plan.pairs[0].a_edges_only);
   EXPECT_FALSE(plan.pairs[0].b_edges_only);
   EXPECT_EQ(plan.edges_only, (std::vector<bool>{true, false}));
-  EXPECT_EQ(reasonOf(plan, "full-shell of table"), "large, and the shells of smaller bodies do");
+  EXPECT_EQ(reasonOf(plan, "full-shell of table"), "large; the shells of smaller bodies suffice");
 }
 
 }  // namespace

@@ -50,12 +50,12 @@ TEST(ValidateMotion, SaysWhatDoesNotFit) {
   motion.times = {0.25, 0.5, 1.0};
   EXPECT_EQ(refusal(motion), "motion: starts at 0.25 s, not 0");
   motion.times = {0.0, 0.5, 0.5};
-  EXPECT_EQ(refusal(motion), "motion: time 0.5 s is followed by 0.5");
+  EXPECT_EQ(refusal(motion), "motion: times must be finite and increasing: 0.5 s is followed by 0.5 s");
   motion.times = {0.0, 0.5, std::numeric_limits<double>::infinity()};
-  EXPECT_EQ(refusal(motion), "motion: time 0.5 s is followed by inf");
+  EXPECT_EQ(refusal(motion), "motion: times must be finite and increasing: 0.5 s is followed by inf s");
   motion = motionOfTwo();
   motion.spans = {{0, 3}};
-  EXPECT_EQ(refusal(motion), "motion: a span from time 0 to 3");
+  EXPECT_EQ(refusal(motion), "motion: span [0, 3] is not within the 3 times");
   motion.spans = {{0, 1}, {0, 1}};
   EXPECT_EQ(refusal(motion), "motion: 2 spans, the scene has 1 pairs");
   motion = motionOfTwo();
@@ -65,7 +65,7 @@ TEST(ValidateMotion, SaysWhatDoesNotFit) {
   EXPECT_EQ(refusal(motion), "motion: made for 1 bodies, the scene has 2");
   motion = motionOfTwo();
   motion.missing = {""};
-  EXPECT_EQ(refusal(motion), "motion: says what is missing of 1 bodies, the scene has 2");
+  EXPECT_EQ(refusal(motion), "motion: lists missing poses for 1 bodies, the scene has 2");
   motion = motionOfTwo();
   motion.motion_error = {0.0, 0.0, 0.0};
   EXPECT_EQ(refusal(motion), "motion: has motion errors of 3 bodies, the scene has 2");

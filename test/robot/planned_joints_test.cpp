@@ -96,7 +96,7 @@ TEST_F(PlannedJointsTest, WhatIsNotKnownIsMissingWithAllBelowIt) {
   now_.missing["elbow"] = "no transform";
   const PlannedJoints planned = complete(at({{"spin", 0.0}}));
   const auto missing = [&](const std::string& link) { return planned.missing[indexOf(link)]; };
-  EXPECT_EQ(missing("arm"), "joint elbow is not named, and where it is now is not known: no transform");
+  EXPECT_EQ(missing("arm"), "joint elbow is not in the plan, and its current position is unknown: no transform");
   EXPECT_EQ(missing("finger"), missing("arm"));
   EXPECT_EQ(missing("kite"), "");
   EXPECT_EQ(complete(at({{"elbow", 0.0}})).missing[1], "");  // the fixed joint is at its pose in the URDF

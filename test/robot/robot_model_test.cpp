@@ -123,8 +123,7 @@ TEST(RobotModel, LimitsInTheWrongOrderAreExchangedAndTold) {
   };
   const RobotModel swapped = hinge("lower='1.5' upper='-0.5'");
   ASSERT_EQ(swapped.warnings().size(), 1u);
-  EXPECT_EQ(swapped.warnings()[0],
-            "joint hinge: its lower limit 1.5 is above its upper one -0.5; they are taken in turn");
+  EXPECT_EQ(swapped.warnings()[0], "joint hinge: its lower limit 1.5 is above its upper one -0.5; they are swapped");
   const urdf::Joint& joint = swapped.jointAbove(1);
   EXPECT_EQ(joint.limits->lower, -0.5);
   EXPECT_EQ(joint.limits->upper, 1.5);
@@ -313,8 +312,7 @@ TEST(RobotModel, DeepAndLargeTextsAreRefused) {
   }
   many += "<link name=\"l20000\"/></robot>";
   EXPECT_NE(failure(many).find("more than 10000"), std::string::npos) << failure(many);
-  EXPECT_NE(failure("<robot>" + std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"),
-            std::string::npos);
+  EXPECT_NE(failure("<robot>" + std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"), std::string::npos);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST(RobotScene, LinksThatAreOnlySeenAreNamed) {
   EXPECT_EQ(described.scene.visual_only, (std::vector<std::string>{"cover", "lid"}));
   ASSERT_EQ(described.warnings.size(), 1u);
   EXPECT_EQ(described.warnings[0],
-            "2 links have a visual but no collision shape, and no contact of theirs is found: cover lid");
+            "2 links have a visual but no collision shape, so their contacts are not detected: cover lid");
   const Scene scene = buildScene(described.scene, planScene(described.scene), {});
   EXPECT_NE(planTable(scene).find("not checked, as they have a visual but no collision shape:\n  cover lid\n"),
             std::string::npos)

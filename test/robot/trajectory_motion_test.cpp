@@ -247,8 +247,8 @@ TEST(TrajectoryMotion, RefusesWhatIsNoTrajectory) {
   trajectory = twoArms({}, {});
   trajectory.states[1].X_WR = Isometry3d(Eigen::AngleAxisd(kPi - 1e-7, Vector3d::UnitX()));
   EXPECT_EQ(refusal(trajectory),
-            "the robot's root turns by half a revolution up to poses 1: they do not tell which way, one between "
-            "them would");
+            "the robot's root rotates by half a revolution between poses 0 and 1, so the direction is ambiguous; add a "
+            "pose in between");
   trajectory.states[1].X_WR = Isometry3d(Eigen::AngleAxisd(kPi - 1e-5, Vector3d::UnitX()));
   EXPECT_EQ(refusal(trajectory), "");
 }

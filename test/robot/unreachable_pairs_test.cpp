@@ -49,7 +49,7 @@ TEST_F(UnreachablePairsTest, RestOnTheLimitsOfPrismaticJoints) {
 TEST_F(UnreachablePairsTest, AreUncheckedWhereAJointGoesBeyond) {
   EXPECT_TRUE(along(-1.09, 0.09).empty());
   ASSERT_EQ(along(-3.0, 0.0).size(), 1u);  // through the other ball
-  EXPECT_EQ(along(-3.0, 0.0)[0].reason, "out of reach only while joint slide is within [-1.1, 0.1], it is at -3");
+  EXPECT_EQ(along(-3.0, 0.0)[0].reason, "out of reach only while joint slide is in [-1.1, 0.1]; it is at -3");
   EXPECT_EQ(along(0.0, 0.2).size(), 1u);
   CurrentJoints now;  // no current positions
   const RobotTrajectory named = {{0.0, 1.0}, std::vector<RobotState>(2)};

@@ -86,8 +86,8 @@ TEST(LearnPairs, FindsWhatTheAnglesSay) {
   for (const char* pair : {"b f", "c f", "e f"}) never.insert(pair);
   EXPECT_EQ(namesOf(pairs.disabled, "Never"), never);
   EXPECT_EQ(namesOf(pairs.unknown), (Names{"a h", "b h", "base h", "c h", "d h", "e h", "f h", "g h"}));
-  EXPECT_EQ(pairs.unknown.front().reason, "nothing bounds joint to_h");
-  EXPECT_EQ(pairs.warnings, std::vector<std::string>{"joint to_g has no limits: a full revolution is taken"});
+  EXPECT_EQ(pairs.unknown.front().reason, "joint to_h is unbounded");
+  EXPECT_EQ(pairs.warnings, std::vector<std::string>{"joint to_g has no limits: a full revolution is sampled"});
   EXPECT_TRUE(pairs.close.empty());
   EXPECT_TRUE(namesOf(pairs.at_default).count("a c") > 0);  // both at 0; b is at 0.5
   EXPECT_LE(pairs.error_bound, options.max_error);

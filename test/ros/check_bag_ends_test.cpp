@@ -42,10 +42,10 @@ TEST_F(CheckBag, BadBagsAreRefused) {
   expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: parameter ~/rate is fast");
   write("bad.yaml", "filed: {cell_size: 0.01}\n");
   expectRefused(check("arm.bag", "no", "--config bad.yaml"),
-                "bad.yaml: nothing reads parameter ~/filed, did you mean field?");
+                "bad.yaml: unknown parameter ~/filed, did you mean field?");
   write("bad.yaml", "world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]\n");
   expectRefused(check("arm.bag", "no", "--config bad.yaml"),
-                "bad.yaml: nothing reads parameter ~/world[0]/xzy, did you mean xyz?");
+                "bad.yaml: unknown parameter ~/world[0]/xzy, did you mean xyz?");
   write("bad.yaml", "rate: fast\n");
   expectRefused(check("arm.bag", "no", "--srdf missing.srdf"), "missing.srdf");
   expectRefused(check("arm.bag", "no", "--srdf bad.yaml"), "bad.yaml: the SRDF cannot be parsed: line 1");

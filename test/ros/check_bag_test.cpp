@@ -226,7 +226,7 @@ TEST_F(CheckBag, TimeThatJumpsBackBeginsAnew) {
   const std::vector<Row> contacts = table("made/contacts.csv");
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_EQ(Row(contacts[0])["start"], Row(contacts[1])["start"]);
-  EXPECT_NE(readText(path("made/summary.txt")).find("time jumped back, and everything began anew\n  from 1.4"),
+  EXPECT_NE(readText(path("made/summary.txt")).find("time jumped back and the monitor was reset\n  from 1.4"),
             std::string::npos);
   bool has_cleared = false;
   rosbag::Bag bag(path("made/checked.bag").string());
@@ -344,7 +344,7 @@ TEST_F(CheckBag, ABoundAboveMaxErrorIsAWarning) {
                              "/config/demo/arm.urdf --config ground.yaml --out made --max-error 0.001");
   EXPECT_EQ(result.exit_code, kDone) << result.error;
   EXPECT_EQ(result.error.find("sdf_ccd: warning: the error bound is "), 0u) << result.error;
-  EXPECT_NE(result.error.find("more than the max_error of 1.00 mm: ground is only a field"), std::string::npos)
+  EXPECT_NE(result.error.find("more than the max_error of 1.00 mm: ground is used only as a field"), std::string::npos)
       << result.error;
 }
 

@@ -67,7 +67,7 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(rospy.get_param('/robot_description'), other)
         self.assertNotIn('octomap', parameters['collision_monitor'])
         self.assertNotIn('none.bt', log)
-        self.assertNotIn('Nothing reads parameter', log)
+        self.assertNotIn('Unknown parameter', log)
 
     def test_without_one_it_takes_the_robots(self):
         with open(ARM) as arm:

@@ -38,7 +38,7 @@ TEST(ParameterReader, ReadsNumbersGroupsAndLists) {
   const std::vector<std::string> unread = reader.unread();
   ASSERT_EQ(unread.size(), 3u);
   EXPECT_EQ(unread[0].find("/monitor/contact"), 0u) << unread[0];
-  EXPECT_EQ(unread[1], "/monitor/max_latency, known are max_cycle and shell");
+  EXPECT_EQ(unread[1], "/monitor/max_latency, known names: max_cycle and shell");
 }
 
 TEST(ParameterReader, ErrorsNameParameterAndValue) {

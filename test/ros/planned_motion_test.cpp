@@ -93,7 +93,7 @@ TEST_F(PlannedMotionTest, WholeRevolutionsAreNotTakenForRest) {
     }
     EXPECT_NEAR(turned, revolutions * 2.0 * M_PI, 1e-6);
   }
-  EXPECT_NE(refusal(swing({0.0, 1e9})).find("turns a link by 1e+09 rad up to point 1"), std::string::npos);
+  EXPECT_NE(refusal(swing({0.0, 1e9})).find("rotates a link by 1e+09 rad before point 1"), std::string::npos);
   EXPECT_NE(refusal(swing({0.0, 1e300})).find("1e+300"), std::string::npos);
 }
 
@@ -164,7 +164,8 @@ TEST_F(PlannedMotionTest, EachLinkFollowsItsOwnShortestWay) {
   for (const double angle : {M_PI, M_PI - 5e-7, -M_PI}) {
     request.poses[1].poses[0] = toPose(Isometry3d(Eigen::AngleAxisd(angle, Vector3d::UnitZ())));
     EXPECT_EQ(refusal(request),
-              "link rod turns by half a revolution up to poses 1: they do not tell which way, one between them would");
+              "link rod rotates by half a revolution between poses 0 and 1, so the direction is ambiguous; add a pose "
+              "in between");
   }
   request.poses[1].poses[0] = toPose(Isometry3d(Eigen::AngleAxisd(M_PI - 1e-5, Vector3d::UnitZ())));
   EXPECT_EQ(refusal(request), "");
@@ -184,7 +185,8 @@ TEST_F(PlannedMotionTest, JointsThatAreNotNamedAreWhereTfHasThem) {
   EXPECT_EQ(planned_.notes, "1 joints that are not named are where tf has them now");
   now_.joints.X_PL.clear();
   now_.joints.missing["swing"] = "no transform";
-  EXPECT_EQ(motion(request).missing[0], "joint swing is not named, and where it is now is not known: no transform");
+  EXPECT_EQ(motion(request).missing[0],
+            "joint swing is not in the plan, and its current position is unknown: no transform");
 }
 
 TEST_F(PlannedMotionTest, ObjectsInALinksFrameMoveWithIt) {

@@ -59,7 +59,7 @@ TEST_F(PrepareRobot, OtherParametersMakeTheirOwn) {
 
 TEST_F(PrepareRobot, SaysWhatItCannotDo) {
   expectRefused("build --mesh a.stl --config arm.yaml --out prepared", "--config needs --urdf");
-  expectRefused(build("--config arm.yaml --cell 0.01"), "with --config, the fields are as fine as that file says");
+  expectRefused(build("--config arm.yaml --cell 0.01"), "with --config, the resolution comes from that file");
   expectRefused(build("--config arm.yaml --spacing 0.01"), "with --config, shell/spacing of that file counts");
   expectRefused(build("--config none.yaml"), "none.yaml");
   write("prepared", "a file");

@@ -168,15 +168,15 @@ TEST(YamlParameters, ContactAccuracySetsFieldsAndShells) {
 
 TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {
   EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]"),
-            "nothing reads parameter ~/world[0]/xzy, did you mean xyz?");
+            "unknown parameter ~/world[0]/xzy, did you mean xyz?");
   EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, raduis: 0.1}]"),
             "parameter ~/world[0]/radius is missing, expected a number above 0; is it raduis?");
   EXPECT_NE(errorOf("world: [{name: ball, type: sphere, radius: 0.1, size: [1, 1, 1]}]").find("~/world[0]/size"),
             std::string::npos);
-  EXPECT_EQ(errorOf("octomap: {fil: map.bt}"), "nothing reads parameter ~/octomap/fil, did you mean file?");
-  EXPECT_EQ(errorOf("field: {cel_size: 0.001}"), "nothing reads parameter ~/field/cel_size, did you mean cell_size?");
-  EXPECT_EQ(errorOf("shell: {spacin: 0.001}"), "nothing reads parameter ~/shell/spacin, did you mean spacing?");
-  EXPECT_EQ(errorOf("contact: {dampin: 1.0}"), "nothing reads parameter ~/contact/dampin, did you mean damping?");
+  EXPECT_EQ(errorOf("octomap: {fil: map.bt}"), "unknown parameter ~/octomap/fil, did you mean file?");
+  EXPECT_EQ(errorOf("field: {cel_size: 0.001}"), "unknown parameter ~/field/cel_size, did you mean cell_size?");
+  EXPECT_EQ(errorOf("shell: {spacin: 0.001}"), "unknown parameter ~/shell/spacin, did you mean spacing?");
+  EXPECT_EQ(errorOf("contact: {dampin: 1.0}"), "unknown parameter ~/contact/dampin, did you mean damping?");
   // On a parameter server the node's namespace may hold parameters of others.
   const MonitorParameters parameters = parseParameters(load("filed: {cell_size: 0.001}"), "~");
   EXPECT_EQ(parameters.unknown, std::vector<std::string>{"~/filed, did you mean field?"});

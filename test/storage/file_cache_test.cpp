@@ -78,7 +78,7 @@ TEST_F(FileCacheTest, WhatIsDamagedIsReadOnce) {
   const CacheOutcome outcome = FileCache(directory_).get("thing", damaged);
   EXPECT_EQ(read, 1);
   EXPECT_TRUE(is_saved_);
-  EXPECT_EQ(outcome.warning, "made again: damaged");
+  EXPECT_EQ(outcome.warning, "rebuilt: damaged");
 }
 
 TEST_F(FileCacheTest, ALockThatIsFreedInTimeIsTaken) {
@@ -122,7 +122,7 @@ TEST_F(TextCacheTest, IsItsOwnersAlone) {
   const CacheOutcome outcome = get("a.field");
   EXPECT_TRUE(made_);
   EXPECT_FALSE(outcome.from_cache);
-  EXPECT_NE(outcome.warning.find("others may write to it"), std::string::npos) << outcome.warning;
+  EXPECT_NE(outcome.warning.find("other users can write to it"), std::string::npos) << outcome.warning;
 }
 
 TEST_F(TextCacheTest, LinksAreNotFollowed) {
@@ -131,9 +131,9 @@ TEST_F(TextCacheTest, LinksAreNotFollowed) {
   std::filesystem::create_symlink(base_ + "/elsewhere", directory_ + "/b.field");
   const CacheOutcome outcome = get("b.field");
   EXPECT_TRUE(made_);
-  EXPECT_NE(outcome.warning.find("is a link"), std::string::npos) << outcome.warning;
+  EXPECT_NE(outcome.warning.find("is a symbolic link"), std::string::npos) << outcome.warning;
   std::filesystem::create_symlink(base_ + "/elsewhere", directory_ + "/c.field.lock");
-  EXPECT_NE(get("c.field").warning.find("cache not used"), std::string::npos);
+  EXPECT_NE(get("c.field").warning.find("cache unavailable"), std::string::npos);
 }
 
 TEST_F(TextCacheTest, WhatWasNotUsedForLongestGoes) {

@@ -24,6 +24,6 @@ LD_LIBRARY_PATH=$lib "$tool" build --mesh "$data/prism_12.off" --resolution 8 --
 cd /
 mv "$work/moved/$lib/sdf_ccd/sdf_ccd_read" "$work/elsewhere"
 status=0; build_mesh || status=$?
-[ $status = 2 ] && grep -q "the program sdf_ccd_read, which reads it, is neither in" "$work/log" || fail "status $status without the reader"
+[ $status = 2 ] && grep -q "cannot find the helper program sdf_ccd_read in" "$work/log" || fail "status $status without the reader"
 SDF_CCD_READER=$work/elsewhere build_mesh || fail "SDF_CCD_READER is not followed"
 echo "installed layout: good"

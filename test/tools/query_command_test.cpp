@@ -44,7 +44,7 @@ TEST_F(QueryCommand, EqualsTheLibrary) {
 
 TEST_F(QueryCommand, TakesAMeshAnIsovalueAndOnlyTheFirst) {
   write("two.off", test::off(merged(test::translated(test::icosphere(0.2, 2), {-0.5, 0, 0}),
-                                test::translated(test::icosphere(0.2, 2), {0.5, 0, 0}))));
+                                    test::translated(test::icosphere(0.2, 2), {0.5, 0, 0}))));
   write("one.csv", "-1,0,0,1,0,0\r\n\r\n");
   const auto rows = [&](const std::string& more) {
     const ToolRun result = run("query --mesh two.off --segments one.csv --out out.csv --resolution 40 " + more);
@@ -121,7 +121,7 @@ TEST_F(QueryCommand, RefusesBadSegmentsByLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"1,2,3,4,5,nan\n", ":1: \"nan\" is not finite"},
       {"a,b,c,d,e,f\n1,2,3,4,5,6\n", ":1: \"a\" is not a number"},
-      {"0;0;0;1;1;1\n0;0;0;1;1;2\n", ":1: six numbers ox,oy,oz,ex,ey,ez are wanted, there are 1"},
+      {"0;0;0;1;1;1\n0;0;0;1;1;2\n", ":1: expected six numbers ox,oy,oz,ex,ey,ez, got 1"},
       {"Ox, oy, oz, ex, ey, ez\r\n1,2,3,4,5,inf\n", ":2: \"inf\" is not finite"},
       {"1,2,3,4,5\n", ":1: six numbers"},
       {"1,2,3,4,5,6,\n", ":1: six numbers"},

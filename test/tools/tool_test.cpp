@@ -66,7 +66,7 @@ TEST_F(Tool, InfoTellsWhatFilesHold) {
 
 TEST_F(Tool, SaysWhereAMeshIsOpen) {
   write("bin.off", test::off(test::binMesh(0.25)));
-  EXPECT_NE(run("info bin.off").out.find("openings             1 opening, the longest of 2 m, 0.25 m^2 of caps"),
+  EXPECT_NE(run("info bin.off").out.find("openings             1 opening, the longest 2 m around, 0.25 m^2 of caps"),
             std::string::npos);
   EXPECT_NE(run("info ball.off").out.find("openings             no openings"), std::string::npos);
   ASSERT_EQ(run("build --mesh bin.off --out made --resolution 16").exit_code, kDone);
@@ -82,7 +82,7 @@ TEST_F(Tool, SaysWhereAMeshIsOpen) {
 TEST_F(Tool, WhatIsNotCertainOfAMeshIsWarnedOf) {
   const test::Cupboard cupboard;
   write("cupboard.off", test::off(merged(cupboard.walls, test::flipped(cupboard.shelf))));
-  const std::string warning = ": inside and outside are not certain; 1 component was inside out and is turned round\n";
+  const std::string warning = ": inside and outside are uncertain; 1 component was inside out and has been flipped\n";
   const ToolRun info = run("info cupboard.off");
   EXPECT_EQ(info.exit_code, kDone);
   EXPECT_EQ(info.error, "sdf_ccd: cupboard.off" + warning);
@@ -156,7 +156,7 @@ TEST_F(Tool, OptionsThatWouldDoNothingAreRefused) {
   const std::string query = "query --field made/ball.field --segments in.csv --out out.csv ";
   for (const char* option : {"--cell 0.01", "--resolution 20", "--max-error 0.1", "--band 0.2"}) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));
-    expectRefused(query + option, name + " says how a field is made");
+    expectRefused(query + option, name + " sets how a field is built");
     expectRefused("info made/ball.field --slice z=0 --out s.png " + std::string(option), name);
     expectRefused("info ball.off " + std::string(option), "without --slice none is made");
   }
@@ -346,7 +346,7 @@ TEST_F(Tool, WorkPrecisionWithoutGnuplotKeepsTheNumbers) {
 }
 
 TEST_F(Tool, WorkPrecisionRefusesWhatItCannotMeasure) {
-  expectRefused("work-precision speed --out study", "study `speed` is none of cell, max-error");
+  expectRefused("work-precision speed --out study", "unknown study `speed`; known: cell, max-error");
   expectRefused("work-precision cell --queries 3 --out study", "--queries");
   expectRefused("work-precision cell --queries 0 --out study", "--queries");
   expectRefused("work-precision cell --mesh missing.stl --out study", "missing.stl");

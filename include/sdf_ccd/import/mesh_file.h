@@ -22,7 +22,7 @@ namespace sdf_ccd {
 /// @param name   the file's name; its ending chooses the format, and it appears in errors.
 /// @return triangles [m], in the file's frame; every triangle with finite corners.
 /// @throws std::runtime_error naming the file and the reason: unreadable, truncated, no triangle, not finite, "the
-/// reader crashed (SIGSEGV)", "the reader was stopped: it needed more than 512 MB"; Cancelled, if a CancelScope
+/// reader crashed (SIGSEGV)", "the reader was stopped: it needed more than 512 MiB"; Cancelled, if a CancelScope
 /// requests it.
 TriangleMesh parseMesh(const std::string& bytes, const std::string& name);
 

@@ -33,7 +33,7 @@ DistanceField loadAdaptive(const std::string& path, const std::string& key) {
   std::size_t records = 0;
   const auto* record = file->section<GridRecord>(0, records);
   if (records != 1 || record->divisions != AdaptiveShape::kUnits) {
-    throw std::runtime_error(path + ": damaged: no shape of this layout");
+    throw std::runtime_error(path + ": damaged: its header is not valid for this layout");
   }
   AdaptiveShape shape;
   setShape(*record, shape, shape.size);

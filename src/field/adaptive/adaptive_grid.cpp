@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/number_text.h"
 #include "field/grid_limits.h"
 
 namespace sdf_ccd {
@@ -67,26 +68,31 @@ void AdaptiveGrid::setScales() {
 void AdaptiveGrid::check() const {
   const auto fail = [](const std::string& what) { throw std::invalid_argument("adaptive grid: " + what); };
   const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
-  if (!positive(shape_.cell)) fail("cell size " + std::to_string(shape_.cell));
+  if (!positive(shape_.cell)) fail("invalid cell size " + numberText(shape_.cell) + " m");
   if (!shape_.origin.allFinite()) fail("origin is not finite");
-  if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("band " + std::to_string(shape_.band));
-  if (!(shape_.error_bound >= 0.0) || !std::isfinite(shape_.error_bound)) fail("error bound is not a length");
-  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's box is none");
-  if (shape_.size.minCoeff() < 1 || shape_.size.maxCoeff() > 1024) fail("top cells out of 1 to 1024 per axis");
-  if (!canResolve(shape_.box(), shape_.unit())) fail("its place is too far away for its cells");
-  if (arrays_.top.size != shape_.count()) fail(std::to_string(arrays_.top.size) + " words do not fit the top cells");
-  if (arrays_.bases.size != arrays_.nodes.size) fail("bases do not fit the nodes");
-  if (arrays_.leaf_errors.size != leafCount()) fail("errors do not fit the leaves");
+  if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("invalid band " + numberText(shape_.band) + " m");
+  if (!(shape_.error_bound >= 0.0) || !std::isfinite(shape_.error_bound))
+    fail("invalid error bound " + numberText(shape_.error_bound) + " m");
+  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's bounding box is not valid");
+  if (shape_.size.minCoeff() < 1 || shape_.size.maxCoeff() > 1024)
+    fail("the number of top cells per axis is not within 1 to 1024");
+  if (!canResolve(shape_.box(), shape_.unit())) fail("the grid is too far from its origin to resolve its cells");
+  if (arrays_.top.size != shape_.count())
+    fail(std::to_string(arrays_.top.size) + " words for " + std::to_string(shape_.count()) + " top cells");
+  if (arrays_.bases.size != arrays_.nodes.size)
+    fail(std::to_string(arrays_.bases.size) + " bases for " + std::to_string(arrays_.nodes.size) + " nodes");
+  if (arrays_.leaf_errors.size != leafCount())
+    fail(std::to_string(arrays_.leaf_errors.size) + " errors for " + std::to_string(leafCount()) + " leaves");
   const auto inside = [&](std::size_t i, std::size_t count) {
-    if (i >= count) fail("an index leads outside");
+    if (i >= count) fail("an index is out of range");
   };
 
   // Each node may have only one parent, and be at most kMaxDepth levels below the top cells: walks from all of these.
   std::vector<std::uint8_t> depth(arrays_.nodes.size, 0);
   const auto reach = [&](std::size_t node, int d) {
     inside(node, arrays_.nodes.size);
-    if (depth[node] != 0) fail("a node is met twice");
-    if (d > AdaptiveShape::kMaxDepth) fail("nodes are too deep");
+    if (depth[node] != 0) fail("a node has two parents");
+    if (d > AdaptiveShape::kMaxDepth) fail("the tree is too deep");
     depth[node] = static_cast<std::uint8_t>(d);
   };
   std::vector<std::uint32_t> pending;

@@ -10,6 +10,7 @@
 
 #include "adaptive_shape.h"
 #include "block_builder.h"
+#include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
 #include "field/empty_sphere_search.h"
@@ -54,8 +55,8 @@ class AdaptiveBuilder : private CellTaker {
 
 void AdaptiveBuilder::count(std::size_t bytes) {
   if ((bytes_ += bytes) > max_bytes_) {
-    throw std::length_error("field: a maximum error of " + std::to_string(error_) + " m needs more than the " +
-                            std::to_string(max_bytes_ >> 20) + " MB allowed; allow a larger error");
+    throw std::length_error("field: a maximum error of " + numberText(error_) + " m needs more than the limit of " +
+                            std::to_string(max_bytes_ >> 20) + " MB; choose a larger max_error");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "field/cube_corner.h"
 #include "field/empty_sphere_search.h"
@@ -64,7 +65,8 @@ SparseGrid::SparseGrid(const GridShape& shape, GridData data) : shape_(shape) {
   arrays_ = {viewOf(owned->data.corners), {}, viewOf(owned->data.samples)};
   if (slots.size() != shape.brickCount() || arrays_.corners.size != shape.cornerCount()) {
     throw std::invalid_argument("sparse grid: " + std::to_string(slots.size()) + " slots and " +
-                                std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
+                                std::to_string(arrays_.corners.size) + " corners for " +
+                                std::to_string(shape.brickCount()) + " bricks");
   }
   owned->words = brickWords(shape, owned->data);
   arrays_.words = viewOf(owned->words);
@@ -83,25 +85,27 @@ SparseGrid::SparseGrid(const GridShape& shape, const Arrays& arrays, double erro
 
 void SparseGrid::check() const {
   const auto fail = [](const std::string& what) { throw std::invalid_argument("sparse grid: " + what); };
-  if (!(shape_.cell > 0.0) || !std::isfinite(shape_.cell)) fail("cell size " + std::to_string(shape_.cell));
+  if (!(shape_.cell > 0.0) || !std::isfinite(shape_.cell)) fail("invalid cell size " + numberText(shape_.cell) + " m");
   if (!shape_.origin.allFinite()) fail("origin is not finite");
-  if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("band " + std::to_string(shape_.band));
-  if (!(error_bound_ >= 0.0) || !std::isfinite(error_bound_)) fail("error bound " + std::to_string(error_bound_));
-  if (shape_.bricks.minCoeff() < 1 || shape_.bricks.maxCoeff() > 4096) fail("brick counts out of 1 to 4096");
-  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's box is none");
-  if (!canResolve(shape_.box(), shape_.cell)) fail("its place is too far away for its cells");
+  if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("invalid band " + numberText(shape_.band) + " m");
+  if (!(error_bound_ >= 0.0) || !std::isfinite(error_bound_))
+    fail("invalid error bound " + numberText(error_bound_) + " m");
+  if (shape_.bricks.minCoeff() < 1 || shape_.bricks.maxCoeff() > 4096)
+    fail("the number of bricks per axis is not within 1 to 4096");
+  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's bounding box is not valid");
+  if (!canResolve(shape_.box(), shape_.cell)) fail("the grid is too far from its origin to resolve its cells");
   if (arrays_.words.size != shape_.brickCount())
-    fail(std::to_string(arrays_.words.size) + " words do not fit the bricks");
+    fail(std::to_string(arrays_.words.size) + " words for " + std::to_string(shape_.brickCount()) + " bricks");
   if (arrays_.corners.size != shape_.cornerCount()) {
-    fail(std::to_string(arrays_.corners.size) + " corners do not fit the bricks");
+    fail(std::to_string(arrays_.corners.size) + " corners for " + std::to_string(shape_.brickCount()) + " bricks");
   }
-  if (!(shape_.step > 0.0) || !std::isfinite(shape_.step)) fail("step " + std::to_string(shape_.step));
-  if (arrays_.samples.size % GridShape::kSamples != 0) fail("samples end within a brick");
-  if (!allFinite(arrays_.corners)) fail("a corner is no number");
+  if (!(shape_.step > 0.0) || !std::isfinite(shape_.step)) fail("invalid step " + numberText(shape_.step) + " m");
+  if (arrays_.samples.size % GridShape::kSamples != 0) fail("the samples end in the middle of a brick");
+  if (!allFinite(arrays_.corners)) fail("a corner value is not finite");
   const auto stored = static_cast<std::uint32_t>(arrays_.samples.size / GridShape::kSamples);
   for (std::size_t i = 0; i < arrays_.words.size; ++i) {
     const std::uint32_t word = arrays_.words[i];
-    if (!brick_word::isFar(word) && word >> 1 >= stored) fail("slot " + std::to_string(word >> 1));
+    if (!brick_word::isFar(word) && word >> 1 >= stored) fail("slot " + std::to_string(word >> 1) + " is out of range");
   }
 }
 

@@ -6,6 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "common/number_text.h"
 #include "field/cube_corner.h"
 
 namespace sdf_ccd {
@@ -28,8 +31,9 @@ GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& opti
   const Vector3d extent = shape.surface_box.sizes().array() + 2.0 * padding;
   const Vector3d bricks = (extent / (GridShape::kBrick * shape.cell)).array().ceil();
   if (bricks.maxCoeff() > 4096.0) {
-    throw std::length_error("field: " + std::to_string(shape.cell) + " m cells need " +
-                            std::to_string(bricks.maxCoeff() * GridShape::kBrick) + " along one side, at most 32768");
+    throw std::length_error(
+        fmt::format("field: cells of {:g} m would be {:.15g} along the longest side; the limit is 32768", shape.cell,
+                    bricks.maxCoeff() * GridShape::kBrick));
   }
   shape.bricks = bricks.cast<int>();
   shape.origin = shape.surface_box.center() - 0.5 * shape.cell * shape.cells().cast<double>();
@@ -45,10 +49,10 @@ double nearestCorner(const GridShape& shape, const std::vector<float>& corners, 
 
 void requireBytes(std::size_t bytes, const GridShape& shape, const FieldOptions& options) {
   if (bytes <= options.max_bytes) return;
-  throw std::length_error(
-      "field: " + std::to_string(bytes >> 20) + " MB with cells of " + std::to_string(shape.cell) +
-      " m, more than the " + std::to_string(options.max_bytes >> 20) + " MB allowed; cells of " +
-      std::to_string(shape.cell * std::sqrt(double(bytes) / double(options.max_bytes))) + " m would fit");
+  throw std::length_error("field: " + std::to_string(bytes >> 20) + " MB with cells of " + numberText(shape.cell) +
+                          " m, more than the " + std::to_string(options.max_bytes >> 20) + " MB allowed; cells of " +
+                          numberText(shape.cell * std::sqrt(double(bytes) / double(options.max_bytes))) +
+                          " m would fit");
 }
 
 }  // namespace sdf_ccd

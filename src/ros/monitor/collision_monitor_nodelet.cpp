@@ -120,7 +120,7 @@ void CollisionMonitor::readWhenThere() {
 void CollisionMonitor::setUp() {
   idle("reading the robot");
   readWhenThere();
-  for (const std::string& name : parameters_.unknown) NODELET_WARN("Nothing reads parameter %s", name.c_str());
+  for (const std::string& name : parameters_.unknown) NODELET_WARN("Unknown parameter %s", name.c_str());
   described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
   shareMeshes(described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());

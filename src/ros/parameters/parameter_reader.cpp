@@ -264,7 +264,7 @@ std::vector<std::string> ParameterReader::unread() const {
 
 void ParameterReader::finish() const {
   const std::vector<std::string> names = unread();
-  if (!names.empty()) throw ParameterError("nothing reads parameter " + names.front());
+  if (!names.empty()) throw ParameterError("unknown parameter " + names.front());
 }
 
 }  // namespace sdf_ccd

@@ -167,8 +167,8 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene, const std
   is_complete &= areAllMade(scene);
   const std::set<std::string> never = statistics.neverChecked();
   if (!never.empty()) {
-    std::cerr << "sdf_ccd: " << never.size() << " bodies, or pairs of others, were checked in no cycle, as "
-              << statistics.whyNotChecked() << std::endl;
+    std::cerr << "sdf_ccd: " << never.size() << " bodies or pairs were never checked: " << statistics.whyNotChecked()
+              << std::endl;
     is_complete = false;
   }
   is_complete &= areBodiesCheckedTogether(scene, was_checked, never);
@@ -271,8 +271,8 @@ void addCheckBagCommand(CLI::App& app) {
       "Cycles per second of the bag [Hz]; default as configured, else 30");
   command->add_option_function<double>(
       "--max-error", [arguments](double max_error) { arguments->config.max_error = max_error; },
-      "What verdicts may be wrong by where triangles decide [m], from 1e-5 to 1e-2");
-  command->add_option("--start", arguments->motion.start, "Where to begin, from the bag's begin [s]; default 0");
+      "Error bound of verdicts decided by triangles [m], from 1e-5 to 1e-2");
+  command->add_option("--start", arguments->motion.start, "Start time relative to the bag's beginning [s]; default 0");
   command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
   command->add_option("--joint-states", arguments->motion.joint_states,
                       "Topic of joint states; default joint_states, else the only one");

@@ -159,7 +159,7 @@ std::string CycleStatistics::jumpLines(const ros::Time& begin) const {
     if (cycles_[i].start >= cycles_[i - 1].end) continue;
     items.push_back("from " + secondsSince(begin, cycles_[i - 1].end) + " to " + secondsSince(begin, cycles_[i].start));
   }
-  return items.empty() ? "" : list("time jumped back, and everything began anew", items);
+  return items.empty() ? "" : list("time jumped back and the monitor was reset", items);
 }
 
 std::string CycleStatistics::contactLines(const ros::Time& begin) const {
@@ -180,7 +180,7 @@ std::string CycleStatistics::uncertainLines() const {
   for (const auto& [name, count] : pairs_) {
     if (count.uncertain > 0) items.push_back(name + ": in " + std::to_string(count.uncertain) + " cycles");
   }
-  return list("uncertain        " + std::to_string(items.size()) + " pairs, in some cycle", items);
+  return list("uncertain        " + std::to_string(items.size()) + " pairs, in at least one cycle", items);
 }
 
 /// Grouped by reason, the most frequent first.
@@ -219,7 +219,7 @@ std::string CycleStatistics::notCheckedLines() const {
     items.push_back(counted(reason.bodies, reason.pairs) + ", in up to " + std::to_string(reason.most_cycles) +
                     " cycles, as " + reason.example);
   }
-  return list("not checked      " + counted(bodies, pairs) + ", in some cycle", items);
+  return list("not checked      " + counted(bodies, pairs) + ", in at least one cycle", items);
 }
 
 /// Empty if no transforms arrived late, after the cycle that needed them.
@@ -229,7 +229,7 @@ std::string CycleStatistics::contradictedLine(const ros::Time& begin) const {
   if (first == cycles_.end()) return "";
   const auto count = std::count_if(first, cycles_.end(), isContradicting);
   return "late transforms  in " + std::to_string(count) + " cycles, the first at " + secondsSince(begin, first->end) +
-         ": what earlier ones said does not hold from contradicted_since on, see cycles.csv; the first of " +
+         ": results of earlier cycles are invalid from contradicted_since on, see cycles.csv; the first of " +
          std::to_string(late_frames_.size()) + " frames: " + *late_frames_.begin() + "\n";
 }
 

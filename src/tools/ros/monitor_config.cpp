@@ -38,7 +38,7 @@ MonitorParameters readParameters(const MonitorConfig& config) {
   parameters.urdf_source = config.urdf;
   parameters.srdf_source = config.srdf;
   if (!parameters.unknown.empty()) {
-    throw std::runtime_error(prefix + "nothing reads parameter " + parameters.unknown.front());
+    throw std::runtime_error(prefix + "unknown parameter " + parameters.unknown.front());
   }
   return parameters;
 }

@@ -33,7 +33,7 @@ Kept keptIn(const std::string& directory) {
 void requireKept(const Scene& scene) {
   const auto require = [](const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings)
-      if (warning.find("cache not used") == 0 || warning.find("not kept") == 0) throw std::runtime_error(warning);
+      if (warning.find("cache unavailable") == 0 || warning.find("not cached") == 0) throw std::runtime_error(warning);
   };
   for (const BodyReport& report : scene.reports) require(report.warnings);
   require(scene.warnings);
