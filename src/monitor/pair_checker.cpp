@@ -19,10 +19,10 @@ void setNotChecked(const std::string& reason, PairResult& result) {
 }
 
 /// Relative weight of a role's impulse among the roles of its pair (design §3.7): equal, except for shells whose
-/// spacing is more than twice the finest. The error of a wrench comes from how few points touch, so such points count
-/// by their number per area.
+/// spacing is more than three times the finest. The error of a wrench comes from how few points touch, so such points
+/// count by their number per area.
 double forceWeight(const PairRole& role, double finest) {
-  constexpr double kAlike = 2.0;
+  constexpr double kAlike = 3.0;  // within which spacings by the sizes of elements mostly are
   if (!role.bearsForce()) return 0.0;
   const double coarser = role.shell().covering_radius / finest;
   return coarser <= kAlike ? 1.0 : 1.0 / (coarser * coarser);

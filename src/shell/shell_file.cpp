@@ -28,10 +28,6 @@ std::size_t firstBad(View<Vector3d> points, View<Vector3f> normals, View<float> 
 }  // namespace
 
 void saveShell(const PointShell& shell, const std::string& path, const std::string& key) {
-  if (shell.normals.size() != shell.size() || shell.areas.size() != shell.size())
-    throw std::runtime_error(path + ": a shell without normals and areas cannot be saved");
-  if (!std::isfinite(shell.covering_radius))
-    throw std::runtime_error(path + ": a shell of edges alone, which covers no surface, cannot be saved");
   const double radii[] = {shell.covering_radius, shell.edge_radius, shell.flatness};
   writeCheckedFile(path, {kKind, kVersion, key},
                    {{radii, sizeof radii},

@@ -67,7 +67,7 @@ TEST(RigidMotion, WhatCannotBeComputedNamesBodyStepAndReason) {
   };
   EXPECT_NE(messageOf({1e10, 0, 0}, Vector3d::Zero()).find("body `runaway`, step 42: it would move 1e+10 m"),
             std::string::npos);
-  EXPECT_NE(messageOf(Vector3d::Zero(), {2e4, 0, 0}).find("turn 20000 rad"), std::string::npos);
+  EXPECT_NE(messageOf(Vector3d::Zero(), {2e4, 0, 0}).find("rotate 20000 rad"), std::string::npos);
   EXPECT_NE(messageOf({std::nan(""), 0, 0}, Vector3d::Zero()).find("no longer finite"), std::string::npos);
 }
 

@@ -70,7 +70,7 @@ TEST(Simulation, WhatCannotBeSimulatedIsRefusedByName) {
   }
   EXPECT_NE(reasonOf([](RigidWorld& w, auto&, double&) {
               w.bodies[1].shape = std::make_shared<CollisionShape>();
-            }).find("`box`, step 0: is empty"),
+            }).find("`box`, step 0: has neither a field nor shell points"),
             std::string::npos);
   EXPECT_NE(reasonOf([](RigidWorld& w, auto&, double&) { w.bodies[0].fixed = false; }).find("half-space"),
             std::string::npos);

@@ -113,7 +113,7 @@ TEST_F(QueryCommand, TellsBoundsOfImpactAndDepth) {
   ASSERT_EQ(cells.size(), 7u) << line;
   EXPECT_EQ(cells[3], "") << "it may meet nothing";
   EXPECT_EQ(cells[5], "") << "it may be in nothing";
-  expectRefused("query --field made/ball.field --segments in.csv --out b.csv --impact --first", "--sigma and --first");
+  expectRefused("query --field made/ball.field --segments in.csv --out b.csv --impact --first", "--sigma or --first");
 }
 
 TEST_F(QueryCommand, RefusesBadSegmentsByLine) {
@@ -123,15 +123,15 @@ TEST_F(QueryCommand, RefusesBadSegmentsByLine) {
       {"a,b,c,d,e,f\n1,2,3,4,5,6\n", ":1: \"a\" is not a number"},
       {"0;0;0;1;1;1\n0;0;0;1;1;2\n", ":1: expected six numbers ox,oy,oz,ex,ey,ez, got 1"},
       {"Ox, oy, oz, ex, ey, ez\r\n1,2,3,4,5,inf\n", ":2: \"inf\" is not finite"},
-      {"1,2,3,4,5\n", ":1: six numbers"},
-      {"1,2,3,4,5,6,\n", ":1: six numbers"},
+      {"1,2,3,4,5\n", ":1: expected six numbers"},
+      {"1,2,3,4,5,6,\n", ":1: expected six numbers"},
       {"1,2,3,4,5,6\nox,oy,oz,ex,ey,ez\n", ":2: \"ox\" is not a number"},
       {"1,2,x,4,5,6\n", ":1: \"x\" is not a number"},
       {"1,2,3,4,5,1e999\n", ":1: \"1e999\" is not finite"},
       {"1,2,3,4,5,6\n1,2,3,4,5,1e13\n", ":2: the segment reaches farther than 1e12 m"},
       {"ox,oy,oz,ex,ey,ez\n", "holds no segment"},
       {"", "holds no segment"},
-      {std::string("\0\xff\0", 3), ":1: six numbers"}};
+      {std::string("\0\xff\0", 3), ":1: expected six numbers"}};
   for (const auto& [text, reason] : cases) {
     write("bad.csv", text);
     expectRefused(query + "bad.csv", reason);
