@@ -40,18 +40,22 @@ inline double secondsToEnd(const std::function<void()>& work, double cancelled_a
   return std::chrono::duration<double>(end - start).count();
 }
 
-/// Cancels work at moments all through it.
+/// Cancels work at moments all through it. Where that takes too long it is tried again, as a virtual machine may stand
+/// still for as long; a stretch without a check takes too long every time.
 /// @param soon  how long it may go on then [s]; no longer than half of it all, where that is quick.
 inline void expectEndsSoon(const std::function<void()>& work, int moments, double soon) {
-  const double whole = secondsOf(work);
+  constexpr int kTries = 4;
+  const double whole = secondsOf(work), limit = std::min(soon, 0.5 * whole) * slowness();
   double worst = 0.0, when = 0.0;
   for (int i = 0; i < moments; ++i) {
-    const double after = whole * i / moments, took = secondsToEnd(work, after);
+    const double after = whole * i / moments;
+    double took = secondsToEnd(work, after);
+    for (int again = 1; again < kTries && took >= limit; ++again) took = std::min(took, secondsToEnd(work, after));
     if (took > worst) when = after;
     worst = std::max(worst, took);
   }
   EXPECT_GT(whole, 0.03) << "what ends by itself shows nothing";
-  EXPECT_LT(worst, std::min(soon, 0.5 * whole) * slowness()) << "cancelled after " << when << " of " << whole << " s";
+  EXPECT_LT(worst, limit) << "cancelled after " << when << " of " << whole << " s";
 }
 
 }  // namespace sdf_ccd::test

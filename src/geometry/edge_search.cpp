@@ -2,20 +2,26 @@
 
 #include <algorithm>
 
+#include "sdf_ccd/common/cancel.h"
+
 namespace sdf_ccd {
 
 EdgeSearch::EdgeSearch(const TriangleMesh& mesh, const std::vector<std::pair<int, int>>& edges) {
   TriangleMesh segments;
+  segments.vertices.reserve(2 * edges.size());
+  segments.triangles.reserve(edges.size());
+  std::vector<char> is_end(mesh.vertices.size(), 0);
+  CancelTicks<4096> cancel;
   for (const auto& [from, to] : edges) {
+    cancel.check();
     const int first = static_cast<int>(segments.vertices.size());
     segments.vertices.push_back(mesh.vertices[from]);
     segments.vertices.push_back(mesh.vertices[to]);
     segments.triangles.emplace_back(first, first + 1, first + 1);
-    vertices_.push_back(from);
-    vertices_.push_back(to);
+    is_end[from] = is_end[to] = 1;
   }
-  std::sort(vertices_.begin(), vertices_.end());
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  for (std::size_t v = 0; v < is_end.size(); ++v)
+    if (is_end[v]) vertices_.push_back(static_cast<int>(v));
   constexpr double kSmallestMesh = 1e-8;  // [m]; a tree refuses smaller ones
   if (boundingBox(segments).sizes().maxCoeff() > kSmallestMesh) tree_.emplace(segments);
 }

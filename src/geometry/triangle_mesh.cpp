@@ -31,29 +31,43 @@ std::size_t hashOf(const Vector3d& p) {
 /// as long as filling it, and cannot be cancelled.
 class PointNumbers {
  public:
-  /// @param most  upper bound of the number of points.
-  explicit PointNumbers(std::size_t most) {
+  /// @param expected  number of points; the table grows if there are more.
+  explicit PointNumbers(std::size_t expected) {
     std::size_t size = 16;
-    while (size < 2 * most) size *= 2;
+    while (size < 2 * expected) size *= 2;
     numbers_.assign(size, kNone);
   }
 
   int numberOf(const Vector3d& p) {
-    for (std::size_t place = hashOf(p);; ++place) {
-      int& number = numbers_[place & (numbers_.size() - 1)];
-      if (number != kNone && points[number] != p) continue;
-      if (number == kNone) {
-        number = static_cast<int>(points.size());
-        points.push_back(p);
-      }
-      return number;
-    }
+    int& number = slotOf(p);
+    if (number != kNone) return number;
+    const int added = number = static_cast<int>(points.size());
+    points.push_back(p);
+    if (2 * points.size() > numbers_.size()) grow();
+    return added;
   }
 
   std::vector<Vector3d> points;
 
  private:
   static constexpr int kNone = -1;
+
+  /// The entry of a point: its number, or kNone where that belongs.
+  int& slotOf(const Vector3d& p) {
+    for (std::size_t place = hashOf(p);; ++place) {
+      int& number = numbers_[place & (numbers_.size() - 1)];
+      if (number == kNone || points[number] == p) return number;
+    }
+  }
+
+  void grow() {
+    CancelTicks<4096> cancel;
+    numbers_.assign(2 * numbers_.size(), kNone);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      cancel.check();
+      slotOf(points[i]) = static_cast<int>(i);
+    }
+  }
 
   std::vector<int> numbers_;
 };
@@ -144,7 +158,7 @@ TriangleMesh merged(TriangleMesh first, const TriangleMesh& second) {
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   result.triangles.reserve(mesh.triangles.size());
-  PointNumbers numbers(mesh.vertices.size());
+  PointNumbers numbers(mesh.vertices.size() / 6);  // as of a mesh whose triangles share no vertices
   CancelTicks<4096> cancel;
   for (const Vector3i& t : mesh.triangles) {
     cancel.check();

@@ -130,7 +130,8 @@ class TriangleTree::Builder {
 
   void buildQuads() {
     if (isLeaf(0)) return;
-    std::vector<std::int32_t> parents = {0};  // of each quad
+    std::vector<std::int32_t> parents = {0};            // of each quad
+    tree_.quads_.reserve(tree_.nodes_.size() / 4 + 1);  // to copy large ones takes longer than a cancellation may
     for (std::size_t i = 0; i < parents.size(); ++i) {
       checkNowAndThen(i);
       Quad& quad = tree_.quads_.emplace_back();

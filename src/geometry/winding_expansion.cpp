@@ -32,7 +32,8 @@ TriangleTree::Expansion TriangleTree::expand(const Triangle* begin, const Triang
     const Matrix3d spread = (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose()) / 12;
     for (int i = 0; i < 3; ++i) second[i] += normal[i] / 2 * spread;
     // |d|³ is convex: its mean over the triangle is at most that of the corners.
-    const double cubes = std::pow(a.norm(), 3) + std::pow(b.norm(), 3) + std::pow(c.norm(), 3);
+    const auto cube = [](double length) { return length * length * length; };
+    const double cubes = cube(a.norm()) + cube(b.norm()) + cube(c.norm());
     result.spread += normal.norm() * cubes / 3;
   }
 
