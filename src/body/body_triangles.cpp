@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "body/body_builder.h"
 #include "geometry/mesh_edges.h"
 
 namespace sdf_ccd {
@@ -110,9 +111,9 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
 }  // namespace
 
 bool mayHaveTriangles(const BodyDescription& description) {
+  if (!whyNoShell(description).empty()) return false;
   std::size_t count = 0;
   for (const GeometryDescription& geometry : description.geometry) {
-    if (geometry.watertight_voxels || isHalfSpace(geometry)) return false;
     if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape))
       count += *mesh ? (*mesh)->triangles.size() : 0;
   }

@@ -215,7 +215,8 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& s
   if (deepest && (!slot.has_deepest || deepest->depth > contact.deepest.depth)) {
     contact.deepest = *deepest;
     // Of a contact that goes on over a swap the bodies may be in the other order now.
-    if (contact.body_a != groups_.keys[group].first.substr(1)) contact.deepest.normal_W = -deepest->normal_W;
+    if (groups_.keys[group].first.compare(1, std::string::npos, contact.body_a) != 0)
+      contact.deepest.normal_W = -deepest->normal_W;
     contact.deepest_origin = cycle.origin;
     slot.has_deepest = true;
   }

@@ -38,6 +38,17 @@ bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d
   });
 }
 
+/// Options to look closer at surfaces that graze each other within the resolution. Those are rare, so that a much finer
+/// one costs nothing on average; what stays that near, as a part that slides on a table, takes a few tests more in each
+/// cycle.
+SeparationOptions finer(SeparationOptions options, int tests) {
+  constexpr double kFiner = 0.02;
+  constexpr int kMaxTests = 2000;
+  options.resolution *= kFiner;
+  options.max_tests = std::min(kMaxTests, options.max_tests - tests);
+  return options;
+}
+
 }  // namespace
 
 SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution)
@@ -81,8 +92,16 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
       distance -= travel;
       continue;
     }
-    Separation found = separation(f, p, motion_.motion(step), options, witness, memory);
-    if (found.is_near) lookCloser(f, p, step, options, witness, memory, found);
+    const auto test = [&](const SeparationOptions& with) {
+      return separation(f, p, motion_.motion(step), with, witness, memory);
+    };
+    Separation found = test(options);
+    if (found.is_near && found.tests < options.max_tests) {
+      const int tests = found.tests;
+      const Separation closer = test(finer(options, tests));
+      if (closer.state != SeparationState::kOpen) found = closer;
+      found.tests = tests + closer.tests;
+    }
     if (found.state == SeparationState::kCrossing) {
       answer.state = found.state;
       answer.crossing = contactAt(found, step);
@@ -100,21 +119,6 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
   answer.state = SeparationState::kApart;
   answer.clearance = distance - deviation_;
   return answer;
-}
-
-/// Surfaces that graze each other within the resolution are rare, so that a much finer one costs nothing on average;
-/// what stays that near, as a part that slides on a table, takes a few tests more in each cycle.
-void SurfacePair::lookCloser(const BoxTree& f, const BoxTree& p, std::size_t step, SeparationOptions options,
-                             SeparationWitness& witness, SeparationMemory& memory, Separation& found) const {
-  constexpr double kFiner = 0.02;
-  constexpr int kMaxTests = 2000;
-  options.resolution *= kFiner;
-  options.max_tests = std::min(kMaxTests, options.max_tests - found.tests);
-  if (options.max_tests <= 0) return;
-  const Separation closer = separation(f, p, motion_.motion(step), options, witness, memory);
-  const int tests = found.tests + closer.tests;
-  if (closer.state != SeparationState::kOpen) found = closer;
-  found.tests = tests;
 }
 
 ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) const {

@@ -74,8 +74,6 @@ class SurfacePair {
  private:
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;
-  void lookCloser(const BoxTree& f, const BoxTree& p, std::size_t step, SeparationOptions options,
-                  SeparationWitness& witness, SeparationMemory& memory, Separation& found) const;
   ContactPoint contactAt(const Separation& found, std::size_t step) const;
 
   const Body *field_, *shell_;  // bodies F and P; P is the smaller one
