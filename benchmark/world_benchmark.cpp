@@ -148,6 +148,42 @@ class Room {
   std::vector<std::array<int, 3>> voxels_;
 };
 
+/// The world of a monitor in the room, kept up to date by scans of which `changed` voxels differ.
+class MappedRoom {
+ public:
+  MappedRoom(int changed, const BodyOptions& accuracy)
+      : changed_(changed), map_("map", "world", options()), editor_(accuracy) {}
+
+  std::shared_ptr<const WorldSnapshot> take(int scan) {
+    VoxelMap::Change change = map_.take(room_.scan(changed_, scan, options()), {});
+    for (std::size_t i = 0; i < change.made.size(); ++i) {
+      editor_.provide(std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry[0].shape),
+                      change.fields[i]);
+      tiles_[change.made[i].name] = std::move(change.made[i]);
+    }
+    for (const std::string& gone : change.removed) tiles_.erase(gone);
+    SceneDescription description{links(), {}};
+    for (const auto& [tile, body] : tiles_) description.bodies.push_back(body);
+    return editor_.next(std::move(description));
+  }
+
+  std::size_t tiles() const { return tiles_.size(); }
+  std::size_t voxels() const { return room_.size(); }
+
+ private:
+  static VoxelMapOptions options() {
+    VoxelMapOptions options;
+    options.band = 0.06;
+    return options;
+  }
+
+  int changed_;
+  Room room_;
+  VoxelMap map_;
+  WorldEditor editor_;
+  std::map<std::string, BodyDescription> tiles_;
+};
+
 class Study {
  public:
   explicit Study(const StudyOptions& options) : options_(options) {
@@ -238,39 +274,35 @@ class Study {
   void changeMap(int changed) {
     const std::string name = "map_" + std::to_string(changed);
     if (!isWanted(options_.cases, name)) return;
-    const Room room;
-    VoxelMapOptions options;
-    options.band = 0.06;
-    VoxelMap map("map", "world", options);
-    WorldEditor editor(accuracy_);
-    std::map<std::string, BodyDescription> tiles;
-    const auto take = [&](int scan) {
-      VoxelMap::Change change = map.take(room.scan(changed, scan, options), {});
-      for (std::size_t i = 0; i < change.made.size(); ++i) {
-        editor.provide(std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry[0].shape),
-                       change.fields[i]);
-        tiles[change.made[i].name] = std::move(change.made[i]);
-      }
-      for (const std::string& gone : change.removed) tiles.erase(gone);
-      SceneDescription description{links(), {}};
-      for (const auto& [tile, body] : tiles) description.bodies.push_back(body);
-      return editor.next(std::move(description));
-    };
     const auto begin = Clock::now();
-    const auto first = take(0);
+    MappedRoom room(changed, accuracy_);
+    const auto first = room.take(0);
     row(name, "ms_first", 1e3 * std::chrono::duration<double>(Clock::now() - begin).count(), "ms", 1);
-    row(name, "tiles", double(tiles.size()), "tiles", 1);
-    row(name, "voxels", double(room.size()), "voxels", 1);
+    row(name, "tiles", double(room.tiles()), "tiles", 1);
+    row(name, "voxels", double(room.voxels()), "voxels", 1);
     RunningMonitor monitor(first, placeOf);
     const std::vector<double> before = quietCycles(monitor);
+    const auto scans = [&](const std::function<void(int)>& take) {
+      for (int scan = 1; scan <= std::max(10, options_.measure.runs); ++scan) {
+        const Stopwatch watch;
+        take(scan);
+        std::this_thread::sleep_for(std::chrono::milliseconds(100) - std::chrono::duration<double>(watch.seconds()));
+      }
+    };
+    // The same work beside the cycles, whose world stays the same: how much a busy neighbour alone slows them down.
+    MappedRoom other(changed, accuracy_);
+    other.take(0);
+    monitor.takeTimes();
+    scans([&](int scan) { other.take(scan); });
+    const std::vector<double> beside = monitor.takeTimes();
+    row(name, "cycle_us_p99_beside", 1e6 * quantile(beside, 0.99), "us", static_cast<int>(beside.size()));
     std::vector<double> seconds, processor;
-    for (int scan = 1; scan <= std::max(10, options_.measure.runs); ++scan) {
+    scans([&](int scan) {
       const Stopwatch watch;
-      monitor.change(take(scan));
+      monitor.change(room.take(scan));
       seconds.push_back(watch.seconds());
       processor.push_back(watch.processorSeconds());
-      std::this_thread::sleep_for(std::chrono::milliseconds(100) - std::chrono::duration<double>(watch.seconds()));
-    }
+    });
     row(name, "processor_ms", 1e3 * quantile(processor, 0.5), "ms", static_cast<int>(processor.size()));
     report(name, seconds, monitor, before);
   }
