@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sdf_ccd/query/segment_batch.h"
-#include "sdf_ccd/query/shell_query.h"
+#include "shell_query.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sdf_ccd/motion/sample_motion.h"
+#include "motion/sample_motion.h"
 #include "sdf_ccd/robot/robot_trajectory.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/shell_query.h"
+#include "query/shell_query.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,7 +11,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/query/segment_batch.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/common/shared_value.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/motion/screw_motion.h"
 #include "sdf_ccd/query/verdict.h"
 #include "sdf_ccd/shell/point_shell.h"
 

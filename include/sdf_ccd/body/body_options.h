@@ -5,7 +5,7 @@
 #include <string>
 
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
 

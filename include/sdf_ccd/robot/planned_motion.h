@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "sdf_ccd/motion/cycle_motion.h"
-#include "sdf_ccd/motion/sample_motion.h"
+#include "sdf_ccd/robot/robot_scene.h"
 #include "sdf_ccd/robot/robot_trajectory.h"
-#include "sdf_ccd/robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/motion/screw_motion.h"
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/robot/robot_model.h"
 
 namespace sdf_ccd {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "motion/chords.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/motion/chords.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "sdf_ccd/shell/point_shell.h"
 
