@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/query/segment_batch.h"
+#include "sdf_ccd/query/segment_query.h"
 #include "shell_query.h"
 
 namespace sdf_ccd {

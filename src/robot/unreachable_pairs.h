@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/robot/planned_motion.h"
 #include "sdf_ccd/robot/robot_scene.h"
-#include "sdf_ccd/robot/robot_trajectory.h"
 
 namespace sdf_ccd {
 

@@ -10,7 +10,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_batch.h"
+#include "sdf_ccd/query/segment_query.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd {
