@@ -10,11 +10,11 @@
 #include "bound/reference.h"
 #include "bound/tally.h"
 #include "bound/verdicts.h"
+#include "contact/penalty.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/uniform/sparse_grid.h"
-#include "sdf_ccd/contact/penalty.h"
-#include "sdf_ccd/query/least_distance.h"
-#include "sdf_ccd/query/segment_batch.h"
+#include "query/least_distance.h"
+#include "sdf_ccd/query/segment_query.h"
 #include "study_fields.h"
 
 namespace sdf_ccd::benchmark {

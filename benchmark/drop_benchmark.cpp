@@ -8,6 +8,7 @@
 #include "results.h"
 #include "sdf_ccd/dynamics/rigid_world.h"
 #include "sdf_ccd/dynamics/simulation.h"
+#include "shell/sample_surface.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

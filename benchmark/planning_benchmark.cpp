@@ -11,7 +11,7 @@
 #include "monitor/fcl_scene.h"
 #include "monitor/monitor_system.h"
 #include "results.h"
-#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 #include "study.h"
 

@@ -3,7 +3,7 @@
 #include <random>
 #include <string>
 
-#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_model.h"

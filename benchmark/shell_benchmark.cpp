@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "motion_cases.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "shell/sample_surface.h"
 #include "study_fields.h"
 
 namespace sdf_ccd::benchmark {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "query/shell_query.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/query/shell_query.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -12,7 +12,7 @@
 
 #include <unistd.h>
 
-#include "sdf_ccd/monitor/voxel_map.h"
+#include "monitor/voxel_map.h"
 #include "study.h"
 #include "world/running_monitor.h"
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <memory>
 
-#include <sdf_ccd/body/body_options.h>
+#include <sdf_ccd/body/prepare_body.h>
 #include <sdf_ccd/robot_monitor/check_motion.h>
 #include <sdf_ccd/robot/robot_scene.h>
 

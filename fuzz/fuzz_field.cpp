@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_batch.h"
+#include "sdf_ccd/query/segment_query.h"
 #include "valid_file.h"
 
 namespace sdf_ccd::fuzz {

@@ -5,6 +5,7 @@
 
 #include <fcl/narrowphase/collision.h>
 
+#include "motion/screw_motion.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd::benchmark {

@@ -6,7 +6,7 @@
 
 #include "monitor/fcl_scene.h"
 #include "oracle/random.h"
-#include "sdf_ccd/monitor/scene_plan.h"
+#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd::benchmark {

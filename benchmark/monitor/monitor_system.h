@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sdf_ccd/model/scene_description.h"
-#include "sdf_ccd/monitor/scene_plan.h"
+#include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/segment_batch.h"
+#include "sdf_ccd/query/segment_query.h"
 
 #include "segment_system.h"
 

@@ -3,9 +3,9 @@
 /// Everything needed to check moving bodies. Robots have headers of their own: sdf_ccd/robot/robot_scene.h and its
 /// neighbours.
 #include "sdf_ccd/body/prepare_body.h"
+#include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/monitor/world.h"
-#include "sdf_ccd/query/segment_batch.h"
 #include "sdf_ccd/query/segment_query.h"

@@ -19,7 +19,9 @@
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "field/opening_caps.h"
+#include "motion/screw_motion.h"
 #include "shell/contact_gap.h"
+#include "shell/sample_surface.h"
 #include "shell/witness_points.h"
 
 namespace sdf_ccd {

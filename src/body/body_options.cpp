@@ -1,4 +1,4 @@
-#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/prepare_body.h"
 
 #include "model/error_budget.h"
 

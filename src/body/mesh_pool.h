@@ -7,7 +7,7 @@
 #include "body/geometry_keys.h"
 #include "body/shared_content.h"
 #include "geometry/closed_solid.h"
-#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/model/scene_description.h"

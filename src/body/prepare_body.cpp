@@ -5,7 +5,6 @@
 
 #include "body/body_builder.h"
 #include "body/body_triangles.h"
-#include "sdf_ccd/body/body_options.h"
 
 namespace sdf_ccd {
 namespace {

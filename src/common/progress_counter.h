@@ -2,16 +2,18 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/common/progress.h"
 
 namespace sdf_ccd {
 
 /// The share done, reported by any thread. Stops if the thread that constructed it is cancelled.
 class ProgressCounter {
  public:
+  using Progress = std::function<void(double)>;
+
   ProgressCounter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
   void add() {
     cancel_.check();

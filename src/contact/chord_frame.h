@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "sdf_ccd/motion/chords.h"
+#include "motion/chords.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/contact/penalty.h"
+#include "penalty.h"
 
 #include <algorithm>
 #include <cmath>

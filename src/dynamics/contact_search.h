@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/rigid_motion.h"
-#include "sdf_ccd/query/shell_query.h"
+#include "query/shell_query.h"
 
 namespace sdf_ccd {
 

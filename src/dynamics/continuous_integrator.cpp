@@ -1,5 +1,7 @@
 #include "explicit_step.h"
 
+#include "contact/penalty.h"
+
 namespace sdf_ccd {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/triangle_cut.h"
-#include "sdf_ccd/common/bounding_ball.h"
+#include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "motion/two_body_motion.h"
 #include "pose_rounding.h"
-#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "contact/penalty.h"
 #include "pair_role.h"
-#include "sdf_ccd/contact/penalty.h"
 
 namespace sdf_ccd {
 

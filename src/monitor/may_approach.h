@@ -1,7 +1,7 @@
 #pragma once
 
+#include "query/shell_query.h"
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/query/shell_query.h"
 
 namespace sdf_ccd {
 

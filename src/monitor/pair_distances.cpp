@@ -7,9 +7,9 @@
 #include "body/body_triangles.h"
 #include "monitor/contact_tracker.h"
 #include "monitor/pose_rounding.h"
+#include "motion/two_body_motion.h"
 #include "query/shell_distance.h"
 #include "query/surface_distance.h"
-#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 namespace {

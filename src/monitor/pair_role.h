@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "query/shell_query.h"
 #include "relative_motion.h"
 
 namespace sdf_ccd {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sdf_ccd/motion/chords.h"
+#include "motion/chords.h"
 #include "swept_bodies.h"
 
 namespace sdf_ccd {

@@ -16,6 +16,7 @@
 #include "body/mesh_pool.h"
 #include "field/field_cache.h"
 #include "field/source_field.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "body/body_surface.h"
+#include "query/shell_query.h"
 #include "sdf_ccd/body/body.h"
-#include "sdf_ccd/query/shell_query.h"
 
 /// A point inside a field with openings may have entered through an opening, without touching anything. There only a
 /// crossing of the surfaces proves contact (design §3.14).

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "clearance_table.h"
+#include "motion/two_body_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/voxel_map.h"
+#include "voxel_map.h"
 
 #include <algorithm>
 #include <array>

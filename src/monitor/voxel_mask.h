@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "sdf_ccd/body/body.h"
-#include "sdf_ccd/monitor/voxel_map.h"
+#include "voxel_map.h"
 
 namespace sdf_ccd {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/motion/screw_motion.h"
+#include "screw_motion.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/motion/chords.h"
+#include "chords.h"
 
 #include <algorithm>
 #include <cmath>

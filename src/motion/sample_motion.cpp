@@ -1,11 +1,11 @@
-#include "sdf_ccd/motion/sample_motion.h"
+#include "sample_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/motion/two_body_motion.h"
+#include "two_body_motion.h"
 
 namespace sdf_ccd {
 namespace {

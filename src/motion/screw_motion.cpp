@@ -1,8 +1,10 @@
-#include "sdf_ccd/motion/screw_motion.h"
+#include "screw_motion.h"
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "sdf_ccd/motion/cycle_motion.h"
 
 namespace sdf_ccd {
 

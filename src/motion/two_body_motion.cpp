@@ -1,4 +1,4 @@
-#include "sdf_ccd/motion/two_body_motion.h"
+#include "two_body_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "contact/penalty.h"
+#include "query/shell_query.h"
 #include "random_inputs.h"
-#include "sdf_ccd/contact/penalty.h"
-#include "sdf_ccd/query/shell_query.h"
 #include "sdf_ccd/shell/point_shell.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "shell/sample_surface.h"
 
 /// Moving shells against fields, for the studies of contact.
 namespace sdf_ccd::precision {

@@ -9,7 +9,7 @@
 #include "exact_surface.h"
 #include "random_inputs.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_batch.h"
+#include "sdf_ccd/query/segment_query.h"
 #include "studies.h"
 #include "timing.h"
 

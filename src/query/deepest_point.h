@@ -5,8 +5,8 @@
 
 #include "geometry/box_tree.h"
 #include "geometry/solid_boundary.h"
+#include "motion/chords.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/motion/chords.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/least_distance.h"
+#include "least_distance.h"
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,7 @@
 
 #include "geometry/box_tree.h"
 #include "lanes/triangle_pairs.h"
-#include "sdf_ccd/motion/chords.h"
+#include "motion/chords.h"
 
 /// Whether two surfaces of triangles stay apart while both move, and how far (design §3.17).
 namespace sdf_ccd {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/query/segment_batch.h"
-#include "sdf_ccd/query/shell_query.h"
+#include "sdf_ccd/query/segment_query.h"
+#include "shell_query.h"
 
 namespace sdf_ccd {
 

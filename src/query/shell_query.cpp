@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/shell_query.h"
+#include "shell_query.h"
 
 #include <algorithm>
 #include <limits>

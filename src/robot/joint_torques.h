@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/contact/penalty.h"
+#include "sdf_ccd/contact/contact_model.h"
 #include "sdf_ccd/robot/robot_model.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/robot_trajectory.h"
+#include "sdf_ccd/robot/planned_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,10 @@
 #include <stdexcept>
 
 #include "common/number_text.h"
+#include "motion/screw_motion.h"
 #include "motion/validate_motion.h"
 #include "robot/trajectory_motion.h"
-#include "sdf_ccd/motion/screw_motion.h"
+#include "robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 namespace {

@@ -9,8 +9,8 @@
 #include "link_geometry.h"
 #include "model/name_pair.h"
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/robot/unreachable_pairs.h"
 #include "srdf_pairs.h"
+#include "unreachable_pairs.h"
 
 namespace sdf_ccd {
 namespace {

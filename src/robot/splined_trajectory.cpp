@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "robot/joint_spline.h"
-#include "sdf_ccd/robot/robot_trajectory.h"
+#include "sdf_ccd/robot/planned_motion.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "sdf_ccd/motion/sample_motion.h"
-#include "sdf_ccd/robot/robot_trajectory.h"
+#include "motion/sample_motion.h"
+#include "sdf_ccd/robot/planned_motion.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/unreachable_pairs.h"
+#include "unreachable_pairs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 
 #include "common/number_text.h"
 #include "geometry_extent.h"
+#include "motion/screw_motion.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {

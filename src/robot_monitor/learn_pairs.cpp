@@ -13,7 +13,7 @@
 #include "monitor/scene_cost.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
-#include "sdf_ccd/robot/unreachable_pairs.h"
+#include "robot/unreachable_pairs.h"
 #include "state_verdicts.h"
 
 namespace sdf_ccd {

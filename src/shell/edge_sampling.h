@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/shell/sample_surface.h"
+#include "sample_surface.h"
 
 namespace sdf_ccd {
 

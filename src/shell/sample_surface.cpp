@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/sample_surface.h"
+#include "sample_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/closed_solid.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "sample_surface.h"
 #include "storage/file_cache.h"
 
 namespace sdf_ccd {

@@ -5,10 +5,10 @@
 
 #include "flat_pieces.h"
 #include "point_grid.h"
+#include "sample_surface.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 #include "sdf_ccd/shell/point_shell.h"
-#include "sdf_ccd/shell/sample_surface.h"
 #include "surface_piece.h"
 
 namespace sdf_ccd {

@@ -12,7 +12,7 @@
 #include "commands.h"
 #include "field_builder.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "sdf_ccd/monitor/scene_plan.h"
+#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_scene.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "tools/ros/prepare_robot.h"

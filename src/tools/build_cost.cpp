@@ -6,6 +6,7 @@
 #include "field/source_field.h"
 #include "field/uniform/sparse_grid.h"
 #include "print.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd::tools {
 namespace {

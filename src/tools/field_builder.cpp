@@ -12,7 +12,7 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/shell/point_shell.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -17,10 +17,10 @@
 #include "output_file.h"
 #include "print.h"
 #include "progress_bar.h"
+#include "query/least_distance.h"
 #include "resolution_options.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "sdf_ccd/query/least_distance.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "segment_csv.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "motion/chain_derivatives.h"
-#include "sdf_ccd/motion/sample_motion.h"
+#include "motion/sample_motion.h"
 
 namespace sdf_ccd::test {
 namespace {

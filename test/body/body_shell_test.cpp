@@ -8,6 +8,7 @@
 #include "monitor/scene_case.h"
 #include "oracle/random.h"
 #include "shell/contact_gap.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "contact/penalty.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/contact/penalty.h"
 
 namespace sdf_ccd::test {
 

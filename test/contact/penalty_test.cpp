@@ -1,4 +1,4 @@
-#include "sdf_ccd/contact/penalty.h"
+#include "contact/penalty.h"
 
 #include <gtest/gtest.h>
 

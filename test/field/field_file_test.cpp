@@ -20,7 +20,7 @@
 #include "oracle/mended_file.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
-#include "sdf_ccd/query/segment_batch.h"
+#include "sdf_ccd/query/segment_query.h"
 #include "storage/checked_file.h"
 
 namespace sdf_ccd {

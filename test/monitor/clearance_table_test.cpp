@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/two_body_motion.h"
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
-#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 namespace {

@@ -10,6 +10,7 @@
 #include "monitor/scene_case.h"
 #include "monitor/scene_cost.h"
 #include "oracle/failure.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd {
 namespace {

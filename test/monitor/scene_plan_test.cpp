@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/scene_plan.h"
+#include "sdf_ccd/monitor/scene.h"
 
 #include <gtest/gtest.h>
 

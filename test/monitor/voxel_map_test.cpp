@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/voxel_map.h"
+#include "monitor/voxel_map.h"
 
 #include <gtest/gtest.h>
 

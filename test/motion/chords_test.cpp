@@ -1,4 +1,4 @@
-#include "sdf_ccd/motion/chords.h"
+#include "motion/chords.h"
 
 #include <gtest/gtest.h>
 

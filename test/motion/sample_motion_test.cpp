@@ -1,4 +1,4 @@
-#include "sdf_ccd/motion/sample_motion.h"
+#include "motion/sample_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/motion/two_body_motion.h"
+#include "motion/two_body_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "motion/chain_derivatives.h"
+#include "motion/chords.h"
 #include "oracle/random.h"
-#include "sdf_ccd/motion/chords.h"
 
 namespace sdf_ccd {
 namespace {

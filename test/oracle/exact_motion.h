@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "motion/screw_motion.h"
 #include "robot/trajectory_motion.h"
-#include "sdf_ccd/motion/screw_motion.h"
 
 /// Motions in long double, by their definitions, and the error of a sampled motion.
 namespace sdf_ccd::test {

@@ -6,7 +6,6 @@
 #include "oracle/sampled_function.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_batch.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/random.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd {
 namespace {

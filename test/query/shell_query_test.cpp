@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/shell_query.h"
+#include "query/shell_query.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,8 +10,8 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_batch.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "sdf_ccd/query/segment_query.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd {
 namespace {

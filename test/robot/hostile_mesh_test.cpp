@@ -9,7 +9,7 @@
 #include "oracle/hostile_files.h"
 #include "oracle/parameter_name.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/monitor/scene_plan.h"
+#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/unreachable_pairs.h"
+#include "robot/unreachable_pairs.h"
 
 #include <gtest/gtest.h>
 

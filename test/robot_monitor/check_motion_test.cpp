@@ -10,7 +10,6 @@
 
 #include <tbb/global_control.h>
 
-#include "sdf_ccd/body/body_options.h"
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/robot/robot_scene.h"
 

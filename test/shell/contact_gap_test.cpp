@@ -12,7 +12,7 @@
 #include "oracle/test_data.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "sdf_ccd/shell/sample_surface.h"
+#include "shell/sample_surface.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/sample_surface.h"
+#include "shell/sample_surface.h"
 
 #include <cmath>
 #include <numeric>

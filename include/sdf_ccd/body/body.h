@@ -1,17 +1,42 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "sdf_ccd/common/shared_value.h"
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/motion/screw_motion.h"
 #include "sdf_ccd/query/verdict.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
+
+/// An immutable value; copies of it share memory.
+template <class T>
+class SharedValue {
+ public:
+  SharedValue() : value_(empty()) {}
+  SharedValue(T value) : value_(std::make_shared<const T>(std::move(value))) {}
+
+  // Copied, never moved: a moved-from object keeps its value.
+  SharedValue(const SharedValue&) = default;
+  SharedValue& operator=(const SharedValue&) = default;
+
+  const T& operator*() const { return *value_; }
+  const T* operator->() const { return value_.get(); }
+  operator const T&() const { return *value_; }
+
+ private:
+  static const std::shared_ptr<const T>& empty() {
+    static const auto none = std::make_shared<const T>();
+    return none;
+  }
+
+  std::shared_ptr<const T> value_;
+};
 
 struct BodySurface;
 struct BodyTriangles;
@@ -78,6 +103,66 @@ struct BodyReport {
   ErrorBound bound;   ///< of verdicts, largest over its pairs; chord: as the options allow
   std::string solid;  ///< parts of its meshes that were left out as inside their solids; empty if none, or cached
   std::vector<std::string> warnings;
+};
+
+/// Bodies by index. Lists share bodies: a copy of a list copies no body, and two lists hold the same body if shared()
+/// returns the same pointer.
+class BodyList {
+ public:
+  using Shared = std::shared_ptr<const Body>;
+
+  class const_iterator {
+   public:
+    using iterator_category = std::random_access_iterator_tag;
+    using value_type = Body;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Body*;
+    using reference = const Body&;
+
+    const_iterator() = default;
+    explicit const_iterator(std::vector<Shared>::const_iterator at) : at_(at) {}
+    const Body& operator*() const { return **at_; }
+    const Body* operator->() const { return at_->get(); }
+    const_iterator& operator++() { return ++at_, *this; }
+    const_iterator operator++(int) { return const_iterator(at_++); }
+    const_iterator& operator--() { return --at_, *this; }
+    const_iterator& operator+=(std::ptrdiff_t n) { return at_ += n, *this; }
+    const_iterator operator+(std::ptrdiff_t n) const { return const_iterator(at_ + n); }
+    std::ptrdiff_t operator-(const const_iterator& other) const { return at_ - other.at_; }
+    bool operator==(const const_iterator& other) const { return at_ == other.at_; }
+    bool operator!=(const const_iterator& other) const { return at_ != other.at_; }
+
+   private:
+    std::vector<Shared>::const_iterator at_;
+  };
+
+  BodyList() = default;
+  explicit BodyList(std::vector<Body> bodies) {
+    for (Body& body : bodies) push_back(std::move(body));
+  }
+
+  std::size_t size() const { return bodies_.size(); }
+  bool empty() const { return bodies_.empty(); }
+  const Body& operator[](std::size_t i) const { return *bodies_[i]; }
+  const Body& front() const { return *bodies_.front(); }
+  const Body& back() const { return *bodies_.back(); }
+  const_iterator begin() const { return const_iterator(bodies_.begin()); }
+  const_iterator end() const { return const_iterator(bodies_.end()); }
+  const Shared& shared(std::size_t i) const { return bodies_[i]; }
+
+  void push_back(Body body) { bodies_.push_back(std::make_shared<const Body>(std::move(body))); }
+  void push_back(Shared body) { bodies_.push_back(std::move(body)); }
+
+  /// Replaces the body by a copy that only this list holds, to be modified. The reference is valid until the next call.
+  Body& edit(std::size_t i) {
+    auto own = std::make_shared<Body>(*bodies_[i]);
+    Body& body = *own;
+    bodies_[i] = std::move(own);
+    return body;
+  }
+
+ private:
+  std::vector<Shared> bodies_;
 };
 
 }  // namespace sdf_ccd

@@ -1,13 +1,67 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "sdf_ccd/body/body.h"
-#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 #include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
+
+/// Required accuracy of bodies that are prepared for checks.
+struct Accuracy {
+  double max_error = 1e-3;           ///< of a verdict about two bodies, without the error of motions [m]
+  std::string cache_directory = {};  ///< of the cache of fields and shells; empty: no cache
+};
+
+/// Before anything is built, the fields' bands are widened to 1.1 × (shell.spacing, or edge_gap if there is one, + the
+/// field's own error + motion_margin), so that they contain the margin below which a pair is not CLEAR; at most to 32
+/// cells, beyond which the bounds that fields have everywhere are accurate enough.
+struct BodyOptions {
+  FieldOptions field;
+  ShellOptions shell;
+
+  /// Number of shell points and field cells along the square root of an element's surface area. Spacing and cells are
+  /// at least a millimetre; beyond shell.spacing and field.cell_size they grow by the fourth root of the size only, and
+  /// not at all where verdicts depend on the shell. 0: always shell.spacing and field.cell_size.
+  double points_across = 0.0, cells_across = 0.0;
+
+  double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
+  double motion_error = 0.0;    ///< part of motion_margin: motion error of two bodies, without chords [m]
+  std::string cache_directory;  ///< empty: nothing is read or written
+
+  /// Whether meshes that are decided by triangles keep their solids for measuring depths: CycleRequest::refine. This
+  /// takes several times the memory of the mesh.
+  bool exact_depths = false;
+
+  /// Whether data of equal content, made with equal options, is shared with all bodies of this process, and not only
+  /// with those of the same scene: several monitors in one nodelet manager then hold it once.
+  bool is_shared = false;
+
+  std::optional<double> max_error;  ///< required bound of every verdict [m]; the plan says whether it is met
+
+  /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a
+  /// field or shell that would be too large is made coarser, and its body's report says so; else the body cannot be
+  /// checked.
+  bool divides_max_error = false;
+};
+
+/// Fields and shells for contacts alone, where triangles decide the verdicts.
+/// @param accuracy  maximum distance from a surface location to a point that produces forces; field cells are 1.2
+/// times that [m]. None: by the sizes of the elements, at most 5 mm.
+BodyOptions optionsForContacts(const std::optional<double>& accuracy = {});
+
+/// Limits of a body's field and shell, whatever the required accuracy.
+constexpr std::size_t kMaxFieldBytes = std::size_t{256} << 20, kMaxShellPoints = 3'000'000;
+
+/// The options that meet an accuracy: its max_error is divided among field, edges and motions as 55 : 35 : 9, with the
+/// limits kMaxFieldBytes and kMaxShellPoints.
+/// @throws std::invalid_argument if it is below a nanometre.
+BodyOptions optionsFor(const Accuracy& accuracy);
 
 /// A body with everything that checks can use: field, shell and its tree, triangles. For whole robots and worlds
 /// buildScene() builds less, because it knows the pairs.

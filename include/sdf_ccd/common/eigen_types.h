@@ -16,4 +16,10 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Eigen::Vector3i;
 
+/// A ball in frame P that holds the points of interest.
+struct BoundingBall {
+  Vector3d center = Vector3d::Zero();  ///< [m], frame P
+  double radius = 0.0;                 ///< [m]
+};
+
 }  // namespace sdf_ccd

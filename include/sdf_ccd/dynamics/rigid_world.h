@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/contact/penalty.h"
+#include "sdf_ccd/contact/contact_model.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/motion/screw_motion.h"
 #include "sdf_ccd/shell/point_shell.h"
-#include "sdf_ccd/shell/sample_surface.h"
 
 namespace sdf_ccd {
 

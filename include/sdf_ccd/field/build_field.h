@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
-#include "sdf_ccd/common/progress.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
@@ -22,6 +22,9 @@ struct FieldOptions {
 
 /// Throws std::invalid_argument, with the value, for options that no field can have.
 void validate(const FieldOptions& options);
+
+/// Called from one thread at a time with the share done, from 0 to 1.
+using Progress = std::function<void(double)>;
 
 class ClosedSolid;
 class Solid;

@@ -35,7 +35,7 @@ struct BodyDescription {
   std::vector<GeometryDescription> geometry;
   std::string failure;    ///< why the body cannot be checked; empty if it can
   bool is_world = false;  ///< an object of the world, not a link
-  std::string map;        ///< the map that the body is a tile of (see VoxelMap); empty if it is none
+  std::string map;        ///< the map that the body is a tile of; empty if it is none
 };
 
 /// A pair that is left out, by the bodies' names.

@@ -1,17 +1,77 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/body/body_list.h"
-#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/model/scene_description.h"
-#include "sdf_ccd/monitor/scene_plan.h"
 #include "sdf_ccd/query/verdict.h"
 
 namespace sdf_ccd {
+
+/// Which tests a pair needs: A's shell against B's field, and the other way round.
+struct PlannedPair {
+  int body_a;
+  int body_b;
+  bool a_shell_b_field;
+  bool b_shell_a_field;
+  bool a_edges_only = false;  ///< A's shell has only points on edges, which detect contacts; B's shell gives the force
+  bool b_edges_only = false;
+  bool a_witnesses_b_field = false;  ///< A has no shell: one point of each of its components tells whether that lies
+                                     ///< wholly inside B (design §3.15)
+  bool b_witnesses_a_field = false;
+};
+
+struct LeftOut {
+  std::string what;  ///< "pair a - b", "shell of map", "field of ground"
+  std::string reason;
+  int body_a = -1, body_b = -1;  ///< of a pair
+};
+
+struct SceneCost;
+
+/// What a scene needs, decided before anything is built (design §4).
+struct ScenePlan {
+  std::vector<PlannedPair> pairs;
+  std::vector<bool> needs_field;      ///< per body
+  std::vector<bool> needs_shell;      ///< per body
+  std::vector<bool> edges_only;       ///< per body: pairs need only the points on edges of its shell
+  std::vector<bool> needs_witnesses;  ///< per body
+  std::vector<LeftOut> left_out;
+
+  /// Result of expectedCost() for the same scene and options; null if it was not called. With it, buildScene() does not
+  /// prepare the meshes again, and its progress advances evenly.
+  std::shared_ptr<const SceneCost> expected;
+};
+
+struct PlanOptions {
+  double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
+  double large_shell_points = 2e4;  ///< a primitive that needs more points gets no shell against smaller bodies
+  double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled separately
+  bool list_world_pairs = true;     ///< if not, pairs of two world objects (there are many) are left out in one line
+};
+
+/// Plans which fields, shells and tests the pairs of a scene need.
+///
+/// A body that cannot have a shell, but consists of more than half-spaces, has witnesses instead: a voxel map, and
+/// whatever shares a body with one or with a half-space. Witnesses are tested against bodies with a shell, which then
+/// need a field.
+///
+/// Left out are: pairs that are disabled, both of the world, in the same frame, or of a body without geometry; fields
+/// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot
+/// be covered with points), and pairs of two such bodies. A body that is one large primitive (a table, a wall) only has
+/// a field against bodies too small to contain it: their shells against its exact field detect every contact of the
+/// surfaces. If it is a box and edges are sampled separately, its points on edges are kept: with them, contacts are
+/// detected to the edge gap instead of the spacing. All others are tested in both roles. A pair with a body that cannot
+/// be checked stays, requires nothing to be built, and is NOT_CHECKED; but if that body is a tile of a map
+/// (BodyDescription::map), which is still to come, the other body is prepared for it. A disabled pair may name bodies
+/// that the scene does not have (an SRDF's links without collision geometry).
+/// @throws std::invalid_argument if two bodies share a name, or a disabled pair names the same body twice.
+ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 
 struct Scene {
   BodyList bodies;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/body/body_options.h"
+#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/monitor/scene.h"
 

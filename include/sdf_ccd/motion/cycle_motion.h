@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct WaypointSpan {
 /// which the error bound does not include, and much farther they overflow.
 constexpr double kFarthestPose = 1e8;
 
+/// From this angle on, two poses do not determine the direction of a frame's rotation [rad].
+constexpr double kAmbiguousTurn = 3.14159265358979323846 - 1e-6;
+
 /// Where the bodies were during a cycle (t₀, t₁]. Between two times each body moves with a constant twist in the
 /// world, along the shorter rotation: rotations of half a revolution and more between two times need times in between.
 struct CycleMotion {
@@ -32,6 +36,19 @@ struct CycleMotion {
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
   /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs are not read.
   std::vector<WaypointSpan> spans;
+};
+
+/// How closely samples follow a motion whose twists are not constant.
+struct MotionSampling {
+  double tolerance = 1e-4;  ///< deviation aimed at [m]
+  int max_halvings = 5;     ///< of the time between two waypoints; what deviation is left then is reported
+  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< with this many, no more times are halved
+};
+
+/// How closely chords follow the arcs of points that rotate.
+struct ChordOptions {
+  double tolerance = 1e-4;  ///< chord error aimed at [m]
+  int max_chords = 1000;    ///< per recorded interval; a larger deviation then remains in ErrorBound::chord
 };
 
 }  // namespace sdf_ccd

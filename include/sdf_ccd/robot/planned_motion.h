@@ -2,15 +2,101 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/motion/cycle_motion.h"
-#include "sdf_ccd/motion/sample_motion.h"
-#include "sdf_ccd/robot/robot_trajectory.h"
-#include "sdf_ccd/robot/unreachable_pairs.h"
+#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
+
+/// State of a robot at one time.
+struct RobotState {
+  Isometry3d X_WR = Isometry3d::Identity();  ///< its root link
+  JointPositions positions;                  ///< these and the poses: see RobotModel::forwardKinematics()
+  JointPoses poses;
+};
+
+/// Waypoints, between which joints move at constant speed. Positions change linearly. Poses (of joints' frames, and of
+/// the root) move on a straight line and rotate by slerp: the shortest rotation, about a fixed axis.
+struct RobotTrajectory {
+  std::vector<double> times;       ///< [s], increasing
+  std::vector<RobotState> states;  ///< one per time; all name the same joints
+  double joint_error = 0.0;        ///< bound on the deviation of joint positions [rad, m]
+};
+
+/// Joint values of a trajectory message at one time; velocities and accelerations may be empty.
+struct JointWaypoint {
+  double time = 0.0;  ///< [s]
+  std::vector<double> positions, velocities, accelerations;
+};
+
+/// A trajectory as ros_control's joint_trajectory_controller follows it: on quintic splines between points that
+/// both have velocities and accelerations, on cubic ones between points that both have velocities, else linearly.
+/// The splines are divided into linear pieces that deviate by no more than the tolerance, which becomes the
+/// joint_error.
+/// @param tolerance  positive [rad, m].
+/// @throws std::invalid_argument if sizes do not fit, or it would take more than 100,000 pieces.
+RobotTrajectory splined(const std::vector<std::string>& joints, const std::vector<JointWaypoint>& points,
+                        double tolerance);
+
+/// State at a time from the first to the last. @throws std::out_of_range if two states name different joints.
+RobotState stateAt(const RobotTrajectory& trajectory, double time);
+
+/// Combines two trajectories, with the waypoints of both; the root's poses are those of the second.
+/// @throws std::invalid_argument if they do not begin and end at the same times.
+RobotTrajectory merged(const RobotTrajectory& joints, const RobotTrajectory& joints_and_root);
+
+/// A body that moves with a link, or does not move.
+struct CarriedBody {
+  int link = -1;                             ///< by its index in RobotModel::links(); −1: it does not move
+  Isometry3d X_LB = Isometry3d::Identity();  ///< its frame in the link's; in the world without a link
+  BoundingBall ball_B;                       ///< contains its points
+};
+
+/// The current joint poses of a robot.
+struct CurrentJoints {
+  std::map<std::string, Isometry3d> X_PL;      ///< by joint: its child link in its parent link's frame
+  std::map<std::string, std::string> missing;  ///< by joint: why that is not known
+};
+
+/// A joint that a plan does not name, and its assumed position.
+struct AssumedJoint {
+  std::string name;
+  double position;  ///< [rad or m]; NaN for planar and floating joints, whose pose is not one number
+};
+
+/// A plan that gives the position of every joint.
+struct PlannedJoints {
+  RobotTrajectory trajectory;
+  std::vector<AssumedJoint> assumed;       ///< in the order of RobotModel::links()
+  std::vector<std::string> beyond_limits;  ///< limits that assumed positions exceed, as text
+  std::vector<std::string> missing;        ///< per link: why its pose in the root's frame is not known; empty if it is
+};
+
+struct PlanRules {
+  bool allow_beyond_limits = false;  ///< accept positions beyond limits
+};
+
+/// Completes a plan: a joint that it does not name, and whose leader it does not name, stays at the current pose of its
+/// link (its position is computed from the pose, not the other way round). If the pose is not known, fixed joints are
+/// at their pose in the URDF; for other joints, all links below are missing.
+///
+/// Rejected by std::invalid_argument, with joint, value and limit, are:
+/// - a joint that does not exist; a position or pose that is not finite; planar and
+///   floating joints with a position, other joints with a pose; a planar joint's pose
+///   outside its plane (by 1e-6);
+/// - a fixed joint with a position other than 0, a mimic joint whose position differs from
+///   its leader's (both by 1e-6), and a mimic joint whose leader is not named;
+/// - revolute and prismatic joints, also mimic joints, beyond their limits (by 1e-6, which
+///   covers rounding to single precision), unless PlanRules allows it. Limits in the wrong
+///   order are exchanged. Assumed positions are never rejected, but listed in
+///   beyond_limits.
+PlannedJoints completePlan(const RobotModel& robot, const RobotTrajectory& named, const CurrentJoints& now,
+                           const PlanRules& rules);
 
 /// A motion that is made piece by piece, because all samples of a long motion would take gigabytes.
 struct PlannedMotion {

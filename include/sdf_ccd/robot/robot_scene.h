@@ -76,4 +76,14 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
 /// added to `scene`.
 void disableUnreachable(const RobotModel& robot, SceneDescription& scene);
 
+/// A pair that is left out of a scene because its bodies never meet, and the assumptions of this.
+struct UnreachablePair {
+  int body_a = -1, body_b = -1;           ///< in SceneDescription::bodies
+  BoundingBall ball_a, ball_b;            ///< contain the geometry, in the body's frame; infinite for half-spaces
+  std::vector<RobotModel::Slide> slides;  ///< prismatic joints between them, which must stay in their ranges
+};
+
+/// @param scene  with all pairs disabled that will be.
+std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene);
+
 }  // namespace sdf_ccd

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "motion/chords.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/motion/chords.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "segment_lanes.h"
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "motion/screw_motion.h"
 #include "ros/messages/shape_marker.h"
 #include "ros/messages/status_text.h"
 

@@ -10,9 +10,9 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
+#include "monitor/voxel_map.h"
 #include "ros/messages/octomap_message.h"
 #include "ros/monitor/scene_editor.h"
-#include "sdf_ccd/monitor/voxel_map.h"
 
 namespace sdf_ccd {
 

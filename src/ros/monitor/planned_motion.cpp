@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "common/number_text.h"
+#include "motion/two_body_motion.h"
 #include "ros/messages/conversions.h"
 #include "ros/tf/seconds_between.h"
-#include "sdf_ccd/motion/two_body_motion.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/motion/two_body_motion.h"
+#include "motion/two_body_motion.h"
 
 namespace sdf_ccd {
 namespace {

@@ -9,13 +9,13 @@
 #include "model/pair_rules.h"
 #include "monitor/proximity.h"
 #include "monitor/velocity_scale.h"
+#include "monitor/voxel_map.h"
 #include "ros/messages/markers.h"
 #include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/world_object.h"
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/monitor/voxel_map.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "motion/sample_motion.h"
 #include "ros/tf/tf_history.h"
 #include "sdf_ccd/monitor/scene.h"
-#include "sdf_ccd/motion/sample_motion.h"
 
 namespace sdf_ccd {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "robot/unreachable_pairs.h"
 #include "ros/tf/tf_tracker.h"
 #include "sdf_ccd/monitor/world.h"
-#include "sdf_ccd/robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 

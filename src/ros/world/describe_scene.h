@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "monitor/scene_cost.h"
+#include "robot/unreachable_pairs.h"
 #include "ros/parameters/parameters.h"
-#include "sdf_ccd/robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 

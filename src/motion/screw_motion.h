@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/common/bounding_ball.h"
 #include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
@@ -52,9 +51,6 @@ class ScrewMotion {
   Vector3d omega_;     // angular part of the twist, frame P [rad]
   Vector3d velocity_;  // linear part of the twist at P's origin, frame P [m]
 };
-
-/// From this angle on, two poses do not determine the direction of a frame's rotation [rad].
-constexpr double kAmbiguousTurn = 3.14159265358979323846 - 1e-6;
 
 /// @throws std::invalid_argument, beginning with `what`, if a pose is kAmbiguousTurn or more from the one before.
 void requireUnambiguousTurns(const std::vector<Isometry3d>& poses, const std::string& what);

@@ -2,11 +2,10 @@
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <vector>
 
+#include "screw_motion.h"
 #include "sdf_ccd/motion/cycle_motion.h"
-#include "sdf_ccd/motion/screw_motion.h"
 
 namespace sdf_ccd {
 
@@ -21,12 +20,6 @@ using JerkBounds = std::function<void(double start, double end, std::vector<doub
 struct MotionSource {
   PosesAt poses_at;
   JerkBounds jerk_bounds;
-};
-
-struct MotionSampling {
-  double tolerance = 1e-4;  ///< deviation aimed at [m]
-  int max_halvings = 5;     ///< of the time between two waypoints; what deviation is left then is reported
-  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< with this many, no more times are halved
 };
 
 /// Samples motions whose twists are not constant between waypoints (tf2 and trajectories rotate joints uniformly), so

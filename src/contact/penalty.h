@@ -2,54 +2,13 @@
 
 #include <vector>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "motion/chords.h"
+#include "query/shell_query.h"
+#include "sdf_ccd/contact/contact_model.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/motion/chords.h"
-#include "sdf_ccd/query/shell_query.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
-
-/// Force [N] and torque [N·m] about a reference point, or impulse [N·s] and angular impulse [N·m·s], in the axes of
-/// one frame. Which point and which frame is said where it is used.
-struct Wrench {
-  Vector3d force = Vector3d::Zero();
-  Vector3d torque = Vector3d::Zero();
-
-  Wrench& operator+=(const Wrench& other) {
-    force += other.force;
-    torque += other.torque;
-    return *this;
-  }
-};
-
-inline Wrench operator*(double factor, const Wrench& w) {
-  return {factor * w.force, factor * w.torque};
-}
-
-/// The wrench `w_C`, about C's origin in C's axes, about B's origin in B's axes.
-inline Wrench expressedIn(const Isometry3d& X_CB, const Wrench& w_C) {
-  const Matrix3d R_BC = X_CB.linear().transpose();
-  return {R_BC * w_C.force, R_BC * (w_C.torque - X_CB.translation().cross(w_C.force))};
-}
-
-enum class StiffnessPer { kArea, kPoint };
-enum class NormalSource { kField, kShell };
-enum class Quadrature { kExact, kMidpoint };
-
-/// The contact model (paper §4).
-struct ContactOptions {
-  StiffnessPer stiffness_per = StiffnessPer::kArea;
-  double stiffness = 1e8;  ///< k: per area [N/m³] (elastic foundation) or per point [N/m] (the paper)
-  double damping = 0.0;    ///< k_D: per area [N·s/m³] or per point [N·s/m]; 0 leaves the damping term out
-  NormalSource normal = NormalSource::kField;
-  Quadrature quadrature = Quadrature::kExact;
-  int midpoint_intervals = 20;  ///< of the midpoint rule, per contact interval (paper §4: 20)
-};
-
-/// Throws std::invalid_argument, with the value, for a stiffness or damping that is negative or not finite, or a
-/// count below 1.
-void validate(const ContactOptions& options);
 
 /// Another part of the body that carries the field. Where it is deeper, the contact belongs to it, so that a point
 /// inside two overlapping parts counts once.

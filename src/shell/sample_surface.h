@@ -9,19 +9,6 @@ namespace sdf_ccd {
 
 class Solid;
 
-struct ShellOptions {
-  double spacing = 0.01;  ///< no location of the surface farther than this from a point [m]
-  /// If less than the spacing, edges are sampled separately: if two surfaces sampled like this touch, a point of one is
-  /// no farther than this from the other (see contact_gap.h) [m]. 0: edges are not sampled separately.
-  double edge_gap = 0.0;
-  bool has_siblings = false;  ///< the surface is one of several of a body, whose edges may be sampled separately
-  /// Mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all. For a mesh whose parts overlap, it
-  /// is at least a tenth of the spacing (or edge gap).
-  double vertex_spacing = 0.0;
-  std::uint64_t seed = 1;               ///< equal seeds give equal shells
-  std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
-};
-
 /// Point shell of the boundary of a mesh's solid (see Solid; faces inside it get no points): its vertices (paper §5)
 /// and a Poisson-disk sampling that fills the surface between them until no gap exceeds options.spacing. Vertex normals
 /// are weighted by angle; a vertex of a sharp edge keeps its averaged normal. Areas sum to the boundary's area.

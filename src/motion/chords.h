@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "sdf_ccd/motion/two_body_motion.h"
+#include "sdf_ccd/motion/cycle_motion.h"
+#include "two_body_motion.h"
 
 namespace sdf_ccd {
 
@@ -25,11 +26,6 @@ struct ChordPath {
 struct RelativePath {
   std::vector<double> times;  ///< [s]
   std::vector<Isometry3d> X_FP;
-};
-
-struct ChordOptions {
-  double tolerance = 1e-4;  ///< chord error aimed at [m]
-  int max_chords = 1000;    ///< per recorded interval; a larger deviation then remains in ChordPath::error
 };
 
 /// Cuts a relative motion with a constant twist between recorded poses (one of the bodies rests, or one joint lies

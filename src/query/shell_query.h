@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "motion/chords.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/motion/chords.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "sdf_ccd/shell/point_shell.h"
 
@@ -50,7 +50,7 @@ void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits);
 /// Source: Xu & Barbič 2014, §3.3. A node of the sphere tree is skipped if its centre's segment stays farther than
 /// radius + σ + the field's error from the surface; all points below a node that stays deeper than that are inside for
 /// the whole chord. The result equals that of testing every point. Grids are queried for spheres and points in batches
-/// (see segment_batch.h for the tolerance, and for the threads of large shells). Reuses the memory of `result`.
+/// (see segment_query.h for the tolerance, and for the threads of large shells). Reuses the memory of `result`.
 /// @param path         X_FP, as chords.
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
                     const ShellQueryOptions& options, ShellQueryResult& result);
