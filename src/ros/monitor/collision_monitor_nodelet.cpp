@@ -77,7 +77,7 @@ void CollisionMonitor::setUpThenCycle() {
   try {
     setUp();
   } catch (const std::exception& error) {
-    NODELET_FATAL("Nothing is checked: %s", error.what());
+    NODELET_FATAL("The monitor cannot start, so nothing is checked: %s", error.what());
     health_watch_.health().failure = error.what();
   }
   const std::string& failure = health_watch_.health().failure;
@@ -118,9 +118,9 @@ void CollisionMonitor::readWhenThere() {
 }
 
 void CollisionMonitor::setUp() {
-  idle("reading the robot");
+  idle("reading the robot description");
   readWhenThere();
-  for (const std::string& name : parameters_.unknown) NODELET_WARN("Unknown parameter %s", name.c_str());
+  for (const std::string& name : parameters_.unknown) NODELET_WARN("Unknown parameter %s is ignored", name.c_str());
   described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
   shareMeshes(described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
@@ -153,7 +153,7 @@ void CollisionMonitor::setUp() {
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
   const ScenePlan plan = affordablePlan(described_, parameters_.scene);
-  NODELET_INFO("Expected: %s", summary(*plan.expected).c_str());
+  NODELET_INFO("Expected cost of building: %s", summary(*plan.expected).c_str());
   const std::shared_ptr<const Scene> scene =
       buildDescribed(described_, plan, parameters_.scene, [this](const std::string& body, double share) {
         checkCancelled();
@@ -204,12 +204,13 @@ void CollisionMonitor::cycle() {
   if (step == TfTracker::Step::kCycle) return publishCycle();
   listener_->report(health_watch_.health());
   if (step == TfTracker::Step::kJump) {
-    NODELET_WARN("Time has jumped: starting anew");
+    NODELET_WARN("Time has jumped: contacts and distances are discarded, and cycles start again");
     return forget("time has jumped");
   }
   if (step == TfTracker::Step::kWaiting && !isSilent()) return diagnostics_->update(health_watch_.health());
   const bool lacks_clock = ros::Time::isSimTime() && ros::Time::now().isZero();
-  const std::string reason = lacks_clock ? "use_sim_time is set, and no /clock comes" : "no new transforms";
+  const std::string reason =
+      lacks_clock ? "use_sim_time is true, but no message arrives on /clock" : "no new transforms";
   health_watch_.takeStall(*loop_, reason);
   idle(reason);
 }

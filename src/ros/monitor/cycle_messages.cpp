@@ -64,10 +64,11 @@ std::string reasonOf(const MonitorLoop& loop) {
   std::string reason;
   const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
   if (first != result.pairs.end()) {
-    reason = std::to_string(result.not_checked) + " pairs could not be checked, as " + pairReason(loop, *first);
+    reason =
+        std::to_string(result.not_checked) + " pairs could not be checked, for example " + pairReason(loop, *first);
   }
   if (result.delayed > 0) {
-    reason += fmt::format("{}{} pairs wait for transforms, up to {:.3f} s already", reason.empty() ? "" : ", ",
+    reason += fmt::format("{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",
                           result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
   }
   return reason;
@@ -302,8 +303,8 @@ std::string uncheckedCause(const MonitorLoop& loop) {
   const std::size_t others = missing.size() - 1;
   return *std::max_element(missing.begin(), missing.end(), shares) +
          (others == 0   ? ""
-          : others == 1 ? "; and 1 body more"
-                        : "; and " + std::to_string(others) + " bodies more");
+          : others == 1 ? "; and 1 more body"
+                        : "; and " + std::to_string(others) + " more bodies");
 }
 
 std::string uncheckedPair(const MonitorLoop& loop) {

@@ -139,9 +139,9 @@ void HealthWatch::watchLate(const MonitorLoop& loop, const ros::WallTime& now) {
   const std::vector<LateTransforms>& late = loop.cycle().late;
   if (!late.empty()) {
     last_late_ = now;
-    health_.contradicted = late.front().frame + (late.size() > 1 ? " and others" : "") +
-                           " came late behind newer ones: what was said of the time since then is checked again";
-    ROS_WARN_THROTTLE(10.0, "Transforms of %s", health_.contradicted.c_str());
+    health_.contradicted = "transforms of " + late.front().frame + (late.size() > 1 ? " and other frames" : "") +
+                           " arrived after newer ones: results since their stamps are invalid, and are checked again";
+    ROS_WARN_THROTTLE(10.0, "Late transforms: %s", health_.contradicted.c_str());
   } else if (!last_late_.isZero() && (now - last_late_).toSec() > kLateShown) {
     health_.contradicted.clear();
   }

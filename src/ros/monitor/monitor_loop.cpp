@@ -147,8 +147,8 @@ std::string MonitorLoop::movingFixedFrame() const {
     }
     const double turned = Quaterniond(X_then.linear()).angularDistance(Quaterniond(X_now.linear()));
     if (turned < kTurned && (X_now.inverse().translation() - X_then.inverse().translation()).norm() < kMoved) continue;
-    return "the fixed frame " + fixed + " moves in " + above + ", and objects of the world with it, as " +
-           object->name + ": set fixed_frame to " + above + ", or to another frame that rests";
+    return "the fixed frame " + fixed + " moves in " + above + ", and objects of the world move with it, such as " +
+           object->name + ": set the parameter fixed_frame to " + above + " or another frame that does not move";
   }
   return {};
 }

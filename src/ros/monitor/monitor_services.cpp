@@ -76,7 +76,7 @@ void MonitorServices::answer(const Request& request, Response& response) {
     queries_->answer(request, response);
   } catch (const Cancelled&) {
     response = {};
-    response.message = "the monitor ends";
+    response.message = "the monitor is shutting down";
   }
 }
 
@@ -89,7 +89,7 @@ bool MonitorServices::updateScene(UpdateScene::Request& request, UpdateScene::Re
   } catch (const Cancelled&) {
     response = {};
     response.failed_change = -1;
-    response.message = "the monitor ends";
+    response.message = "the monitor is shutting down";
   }
   return true;
 }

@@ -172,7 +172,7 @@ void Outputs::send(Report& report) {
     if (report.distances) proximity_.publishDistances(report.distances);
     draw(report);
   } catch (const std::exception& error) {
-    ROS_ERROR_THROTTLE(1.0, "The messages of a cycle are not sent: %s", error.what());
+    ROS_ERROR_THROTTLE(1.0, "Messages of a cycle could not be published: %s", error.what());
   }
   report.contacts.reset();
   report.state.reset();

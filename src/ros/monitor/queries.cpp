@@ -24,7 +24,7 @@ constexpr std::size_t kMotionsPerPiece = 16;
 
 void requireAtMost(std::size_t most, std::size_t given, const std::string& what) {
   if (given <= most) return;
-  refuse(std::to_string(given) + " " + what + ", at most " + std::to_string(most) + " are answered at a time");
+  refuse(std::to_string(given) + " " + what + ": at most " + std::to_string(most) + " are allowed in one request");
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ void Queries::answerWith(const Work& work, Response& response) {
     response.success = true;
   } catch (const Cancelled&) {
     if (caller.asked()) throw;
-    fail("this takes more than " + numberText(limits_.seconds) + " s of computing: ask for it in parts");
+    fail("the request takes more than " + numberText(limits_.seconds) + " s of computing time: split it into parts");
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -177,7 +177,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
     const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
     if (!frame.empty() && !of_motion.empty() && of_motion != frame) {
-      refuse("root poses of all motions are to be in one frame, not in " + frame + " and " + of_motion);
+      refuse("the root poses of all motions must be in the same frame, but are in " + frame + " and " + of_motion);
     }
     if (!of_motion.empty()) frame = of_motion;
   }
@@ -247,7 +247,7 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   for (std::size_t body = 0; body < missing.size(); ++body) {
     const Body& description = scene.bodies[body];
     if (!description.failure.empty()) {
-      response.message += "not counted: " + description.failure + "\n";
+      response.message += "ignored: " + description.failure + "\n";
     } else if (!missing[body].empty()) {
       refuse("body " + description.name + ": " + missing[body]);
     } else if (!description.parts.empty() && !description.warning.empty()) {

@@ -107,7 +107,8 @@ void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>&
       if (way.squaredNorm() > reach * reach) continue;
       unchecked.push_back(
           {pair.body_a, pair.body_b,
-           std::string(kOutOfReach) + " by the URDF, but tf has them near each other: is it this robot's?"});
+           std::string(kOutOfReach) +
+               " according to the URDF, but close to each other in tf: do the URDF and tf belong to the same robot?"});
       break;
     }
   }
@@ -133,8 +134,8 @@ std::string ReachGuard::problem(std::size_t index, const TrackedCycle& cycle) {
   const std::size_t parent = 2 * index, child = parent + 1;
   for (const std::size_t frame : {child, parent}) {
     if (window_.problem(frame).empty()) continue;
-    return std::string(kOutOfReach) + " by joint " + joint.slide.joint +
-           ", which is not known: " + window_.problem(frame);
+    return std::string(kOutOfReach) + " because of joint " + joint.slide.joint +
+           ", whose position is not known: " + window_.problem(frame);
   }
   const double from = (parts_[child].from - cycle.origin).toSec();
   const double until = (parts_[child].until - cycle.origin).toSec();

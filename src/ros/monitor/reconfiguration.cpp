@@ -64,7 +64,7 @@ std::string notFinite(const Config& config) {
 
 std::string whyNot(const CollisionMonitorConfig& config) {
   if (config.warning_distance > 0.0 && config.warning_distance < config.stop_distance) {
-    return "warning_distance is less than stop_distance";
+    return "warning_distance must be 0 or at least stop_distance";
   }
   return notFinite(config);
 }
@@ -82,7 +82,7 @@ template <class Config>
 void ConfigServer<Config>::set(Config& config) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string why_not = why_not_(config);
-  if (!why_not.empty()) ROS_WARN("set_parameters refused: %s", why_not.c_str());
+  if (!why_not.empty()) ROS_WARN("dynamic_reconfigure: the new values are rejected: %s", why_not.c_str());
   // The server's own first configuration is clamped to its limits.
   if (begins_ || !why_not.empty()) {
     config = in_force_;

@@ -37,7 +37,8 @@ class SceneEditor::Turn {
   explicit Turn(SceneEditor& editor) : editor_(editor) {
     if (++editor.callers_ > kMaxCallers) {
       --editor.callers_;
-      throw std::runtime_error("too many changes at a time: " + std::to_string(kMaxCallers) + " wait already");
+      throw std::runtime_error("busy: " + std::to_string(kMaxCallers) +
+                               " changes of the scene are being made; try again later");
     }
     try {
       while (!editor.turn_.try_lock_for(std::chrono::milliseconds(20))) checkCancelled();
@@ -135,7 +136,8 @@ std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene
 void SceneEditor::save(const std::string& file, const ChangingScene& scene, ChangeSources& sources) {
   namespace fs = std::filesystem;
   const std::string path = sources.files.path(file);
-  if (fs::path(path).extension() != ".scene") throw std::invalid_argument(file + ": a scene's file ends in .scene");
+  if (fs::path(path).extension() != ".scene")
+    throw std::invalid_argument("save_file " + file + " does not end in .scene");
   const std::string text = scene.text(sources, sources.warnings);
   // Anyone who can write in the folder could have placed a link under any name that is known beforehand.
   TemporaryFile made(path);
@@ -152,7 +154,7 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   ChangingScene scene = scene_;
   ChangeSources sources{parts_.loop.history(), files_, limits_, limits_.triangles, {}};
   if (request.changes.size() > limits_.objects)
-    throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes");
+    throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes in one request");
   for (const SceneChange& change : request.changes) {
     response.failed_change = static_cast<std::int32_t>(&change - request.changes.data());
     scene.apply(change, sources);

@@ -8,7 +8,7 @@ namespace sdf_ccd {
 WorkTurns::Caller::Caller(WorkTurns& turns) : turns_(turns) {
   const std::lock_guard<std::mutex> lock(turns.mutex_);
   if (turns.callers_ == turns.most_) {
-    throw std::runtime_error("busy: " + std::to_string(turns.most_) + " queries are being answered, ask again later");
+    throw std::runtime_error("busy: " + std::to_string(turns.most_) + " queries are being answered; try again later");
   }
   ++turns.callers_;
 }

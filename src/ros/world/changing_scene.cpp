@@ -101,7 +101,7 @@ void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
     case SceneChange::CLEAR:
       return objects_.clear();
     default:
-      refuse("a change of type " + std::to_string(change.type) + " is not known");
+      refuse("unknown type " + std::to_string(change.type) + ", see SceneChange.msg");
   }
 }
 
@@ -122,7 +122,7 @@ ChangingScene::Object& ChangingScene::find(const std::string& name) {
 std::string ChangingScene::frameOf(const SceneChange& change, const std::string& otherwise) const {
   const std::string frame = withoutLeadingSlash(change.header.frame_id);
   if (frame.size() > RequestLimits().name || frame != shownText(frame))
-    refuse("frame " + shownText(frame) + " is none");
+    refuse(shownText(frame) + " is not a valid frame name");
   return frame.empty() ? otherwise : frame;
 }
 
@@ -132,7 +132,8 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
   BodyDescription body;
   WorldObject object{change.object, frame, X_frame_B, shapesIn(change, sources.limits, sources.triangles)};
   if (!change.octomap_file.empty()) {
-    if (!object.shapes.empty()) refuse("a map stands alone: add other shapes as another object");
+    if (!object.shapes.empty())
+      refuse("an object with octomap_file cannot have other shapes: add those as another object");
     OctomapObject octomap;
     octomap.file = sources.files.path(change.octomap_file);
     octomap.X_frame_B = X_frame_B;
@@ -160,7 +161,8 @@ void ChangingScene::add(const SceneChange& change, ChangeSources& sources) {
 
 void ChangingScene::move(const SceneChange& change) {
   Object& object = find(change.object);
-  if (!object.link.empty()) refuse(change.object + " is attached to " + object.link + ": attach it anew, or detach it");
+  if (!object.link.empty())
+    refuse(change.object + " is attached to " + object.link + ": detach it first, or attach it with the new pose");
   object.body.frame = frameOf(change, object.body.frame);
   object.body.X_frame_B = poseIn(change.pose).value_or(Isometry3d::Identity());
   object.is_as_first = false;
@@ -188,7 +190,8 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   const Isometry3d X_FB = given ? *given : object.body.X_frame_B;
   Isometry3d X_LB = X_FB;
   if (frame != link_frame) X_LB = poseOf(sources.history, frame, link_frame, change.header.stamp) * X_FB;
-  if (change.touch_links.size() > sources.limits.rules) refuse("too many touch_links");
+  if (change.touch_links.size() > sources.limits.rules)
+    refuse("more than " + std::to_string(sources.limits.rules) + " touch_links");
   for (const std::string& touched : change.touch_links) requireName(touched, "a touch_link", sources.limits);
   object.body.frame = link_frame;
   object.body.X_frame_B = X_LB;
@@ -222,7 +225,7 @@ void ChangingScene::addRule(const SceneChange& change, const RequestLimits& limi
   };
   rules_.erase(std::remove_if(rules_.begin(), rules_.end(), same), rules_.end());
   if (rules_.size() >= limits.rules)
-    refuse("more than " + std::to_string(limits.rules) + " rules about pairs: FORGET_RULES begins anew");
+    refuse("more than " + std::to_string(limits.rules) + " rules about pairs: remove them with FORGET_RULES");
   rules_.push_back({{change.body_a, change.body_b}, change.type == SceneChange::ALLOW});
 }
 
@@ -266,7 +269,7 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   const bool are_of_robot = isLink(object.link) && isLink(other_link);
   const bool may_touch = mayTouch(object.touch_links, other.name) ||
                          (known != objects_.end() && mayTouch(known->second.touch_links, name));
-  if (are_of_robot && may_touch) return "attached, and may touch";
+  if (are_of_robot && may_touch) return "attached, and allowed by touch_links";
   return whyAllowed(fixed_->rules, name, other.name);
 }
 
@@ -361,11 +364,11 @@ std::string ChangingScene::text(const ChangeSources& sources, std::vector<std::s
     BodyDescription body = object.body;
     if (std::any_of(body.geometry.begin(), body.geometry.end(),
                     [](const auto& part) { return part.watertight_voxels; })) {
-      warnings.push_back(name + " is a map, and is not written");
+      warnings.push_back(name + " is not saved: it is an OctoMap, which .scene files cannot hold");
       continue;
     }
     if (!body.failure.empty()) {
-      warnings.push_back(name + " is not saved, as it cannot be checked: " + body.failure);
+      warnings.push_back(name + " is not saved, because it cannot be checked: " + body.failure);
       continue;
     }
     if (body.frame != fixed_->fixed_frame)

@@ -39,7 +39,8 @@ std::string RequestFiles::path(const std::string& file) const {
   };
   const bool allowed = !error && named.is_absolute() && std::any_of(roots_.begin(), roots_.end(), holds);
   if (!allowed)
-    throw std::runtime_error(shownText(file) + ": is not an absolute path below one of the parameter resource_roots");
+    throw std::runtime_error(shownText(file) +
+                             ": not an absolute path below one of the folders in the parameter resource_roots");
   return canonical.string();
 }
 
