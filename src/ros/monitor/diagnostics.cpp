@@ -89,8 +89,8 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::WARN, health_.contradicted);
   } else if (!health_.moving_frame.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.moving_frame);
-  } else if (!health_.awaited_frame.empty()) {
-    status.summary(DiagnosticStatus::WARN, health_.awaited_frame);
+  } else if (!health_.trigger_warning.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.trigger_warning);
   } else if (health_.pairs_delayed > 0) {
     status.summaryf(DiagnosticStatus::WARN, "%d pairs wait for late transforms", health_.pairs_delayed);
   } else {

@@ -36,10 +36,10 @@ struct MonitorHealth {
   int pairs_postponed = 0;              ///< in the last cycle, because of max_cycle_time
   long short_cycles = 0;                ///< number of cycles with such pairs
   std::string moving_frame;             ///< MonitorLoop::movingFixedFrame()
-  std::string awaited_frame;  ///< frame of the trigger that has never arrived; empty if there is none
-  std::string contradicted;   ///< late transforms that contradicted results recently; empty if there were none
-  long out_of_order = 0;      ///< transforms that arrived after newer ones
-  long refused = 0;           ///< invalid transforms
+  std::string trigger_warning;          ///< about a frame of the trigger that has never arrived; empty if there is none
+  std::string contradicted;  ///< late transforms that contradicted results recently; empty if there were none
+  long out_of_order = 0;     ///< transforms that arrived after newer ones
+  long refused = 0;          ///< invalid transforms
   std::vector<std::string> bad_joints;  ///< joints with positions in joint_states that are not finite
   long not_kept = 0;                    ///< transforms ignored for lack of room, of frames that no body needs
 };

@@ -77,16 +77,16 @@ void HealthWatch::takeTrigger(const std::string& awaited_frame) {
   const ros::WallTime now = ros::WallTime::now();
   if (awaited_frame.empty()) {
     awaited_since_ = ros::WallTime();
-    health_.awaited_frame.clear();
+    awaited_frame_.clear();
+    health_.trigger_warning.clear();
     return;
   }
   if (awaited_since_.isZero()) awaited_since_ = now;
-  if ((now - awaited_since_).toSec() < kPatience) return;
-  const std::string warning =
-      "trigger_frames: no transform of " + awaited_frame + " has come, so cycles begin without it";
-  if (warning == health_.awaited_frame) return;
-  health_.awaited_frame = warning;
-  ROS_WARN("%s", warning.c_str());
+  if ((now - awaited_since_).toSec() < kPatience || awaited_frame == awaited_frame_) return;
+  awaited_frame_ = awaited_frame;
+  health_.trigger_warning =
+      "trigger_frames: no transform of " + awaited_frame + " has been received, so cycles start without it";
+  ROS_WARN("%s", health_.trigger_warning.c_str());
 }
 
 void HealthWatch::takeStall(const MonitorLoop& loop, const std::string& reason) {

@@ -45,6 +45,7 @@ class HealthWatch {
   ros::WallTime last_late_;                       // when transforms last contradicted a cycle
   ros::WallTime last_frame_check_;                // when the fixed frame was last tested
   ros::WallTime awaited_since_;                   // when a frame of the trigger was first missed; 0: none is
+  std::string awaited_frame_;                     // the frame that was warned about; empty: none
   ros::WallTime unchecked_since_, last_warning_;  // 0: everything is checked; no warning was given
 };
 
