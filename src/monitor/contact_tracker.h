@@ -89,15 +89,16 @@ class ContactTracker {
   /// Processes the next cycle of the adopted scene; all contacts must be computed (CycleRequest::contacts).
   void update(const ObservedCycle& cycle);
 
-  /// To be called if no cycle has come since: clears the begin and end flags of the last one.
-  void settle();
+  /// To be called when a cycle is over: contacts no longer count as begun, and those that have ended are no longer
+  /// listed.
+  void clearEvents();
 
   /// Ends all contacts as lost, as when time jumps back.
-  void lose();
+  void endAllAsLost();
 
   /// The contacts of the last cycle, including those that ended in it. Valid until the next call.
   std::size_t size() const { return listed_.size(); }
-  const TrackedContact& operator[](std::size_t i) const { return contacts_[static_cast<std::size_t>(listed_[i])].said; }
+  const TrackedContact& operator[](std::size_t i) const { return slots_[static_cast<std::size_t>(listed_[i])].contact; }
 
   /// Number of contacts that have not ended.
   std::size_t open() const { return open_; }
@@ -106,13 +107,13 @@ class ContactTracker {
   using Time = std::chrono::nanoseconds;
 
   struct Slot {
-    TrackedContact said;
+    TrackedContact contact;
     int group = -1;        // group of pairs; −1: free
     bool is_open = false;  // it has not ended
     bool is_listed = false;
-    bool is_unreported = false;  // it ended with its world, and no cycle has come since
+    bool is_unreported = false;  // it ended with its world, after the last cycle
     bool has_deepest = false;
-    double reach = 0.0;       // where refined: upper bound of the depth [m]
+    double max_depth = 0.0;   // where refined: upper bound of the depth [m]
     std::uint64_t cycle = 0;  // last cycle in which it was seen
   };
 
@@ -122,16 +123,16 @@ class ContactTracker {
     int pair, interval;
   };
 
-  void addTouch(const ObservedCycle& cycle, const TouchInterval& stay);
+  void addTouch(const ObservedCycle& cycle, const TouchInterval& touch);
   void closeIfOver(const ObservedCycle& cycle, Slot& slot);
   Slot& slotFor(std::size_t group, Time start, Time end);
   void close(Slot& slot, bool is_lost);
-  void list(int slot);
-  void reportPending();
+  void list(int index);
+  void listUnreported();
 
   Groups groups_;
   std::vector<int> last_;  // per group: slot of its last contact; −1: none
-  std::vector<Slot> contacts_;
+  std::vector<Slot> slots_;
   std::vector<int> free_;
   std::vector<int> listed_;
   std::vector<int> unreported_;         // to be listed with the next cycle

@@ -91,10 +91,10 @@ void MonitorLoop::adopt(LoopChange& change) {
 
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
   const TfTracker::Step step = tracker_->next(now, cycle_);
-  contacts_.settle();
+  contacts_.clearEvents();
   if (step == TfTracker::Step::kJump) {
     monitor_.reset();
-    contacts_.lose();
+    contacts_.endAllAsLost();
     distances_->forget();
   }
   if (step == TfTracker::Step::kCycle) {
@@ -125,7 +125,7 @@ void MonitorLoop::guardReach() {
 }
 
 void MonitorLoop::trackContacts(const CycleRequest& request) {
-  if (!request.wantsContacts()) return contacts_.lose();
+  if (!request.wantsContacts()) return contacts_.endAllAsLost();
   contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
 }
 
@@ -162,8 +162,8 @@ void MonitorLoop::reset() {
   history_.forgetMoving();
   tracker_->reset();
   monitor_.reset();
-  contacts_.settle();
-  contacts_.lose();
+  contacts_.clearEvents();
+  contacts_.endAllAsLost();
   distances_->forget();
 }
 
