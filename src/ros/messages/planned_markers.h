@@ -28,7 +28,7 @@ class PlannedMarkers {
  private:
   bool moves(std::size_t body) const;
   Isometry3d poseAt(std::size_t body, double time) const;
-  Vector3d placeOf(const PairResult& pair) const;
+  Vector3d contactLocation(const PairResult& pair) const;
   void drawGhost(std::size_t body, const Isometry3d& X_WB, const std_msgs::ColorRGBA& color,
                  visualization_msgs::MarkerArray& markers) const;
 

@@ -79,17 +79,17 @@ void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std
   const std::string& reason = uncheckedReason(loop, body);
   if (reason.empty()) return;
   const std::string& name = loop.scene().bodies[body].name;
-  auto said =
+  auto entry =
       std::find_if(bodies.begin(), bodies.end(), [&](const UncheckedBody& other) { return other.body == name; });
-  if (said == bodies.end()) {
-    said = bodies.emplace(bodies.end());
-    said->body = name;
-    said->reason = reason;
-    said->since = since;
-    said->pairs = 0;
+  if (entry == bodies.end()) {
+    entry = bodies.emplace(bodies.end());
+    entry->body = name;
+    entry->reason = reason;
+    entry->since = since;
+    entry->pairs = 0;
   }
-  said->since = std::min(said->since, since);
-  ++said->pairs;
+  entry->since = std::min(entry->since, since);
+  ++entry->pairs;
 }
 
 /// Sets the pairs that are neither clear nor delayed. Pairs of bodies that could not be checked at all are only

@@ -102,7 +102,7 @@ bool MonitorServices::getPlan(GetPlan::Request&, GetPlan::Response& response) {
 }
 
 bool MonitorServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  reset_asked_ = true;
+  reset_requested_ = true;
   return true;
 }
 

@@ -159,7 +159,7 @@ std::string notesOf(const PlannedJoints& plan) {
 
 /// Notes that objects whose frames are below the robot's links move along if the base moves, and never obstruct it.
 /// Usually their frame is the root link because no frame at rest was given.
-std::string carriedNote(const PlannedScene& planned) {
+std::string carriedObjectsNote(const PlannedScene& planned) {
   std::string names;
   int count = 0;
   for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
@@ -187,7 +187,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
   }
   PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.unreachable, planned.sampling);
   result.notes = notesOf(plan);
-  const std::string carried = movesRoot(request, planned) ? carriedNote(planned) : "";
+  const std::string carried = movesRoot(request, planned) ? carriedObjectsNote(planned) : "";
   if (!carried.empty()) result.notes += (result.notes.empty() ? "" : "; ") + carried;
   return result;
 }

@@ -23,12 +23,12 @@ bool isNear(const Vector3d& v) {
 Primitive toPrimitive(const shape_msgs::SolidPrimitive& message, const std::string& name) {
   using shape_msgs::SolidPrimitive;
   const std::vector<double>& size = message.dimensions;
-  const std::size_t wanted = message.type == SolidPrimitive::BOX ? 3 : message.type == SolidPrimitive::SPHERE ? 1 : 2;
+  const std::size_t expected = message.type == SolidPrimitive::BOX ? 3 : message.type == SolidPrimitive::SPHERE ? 1 : 2;
   if (message.type != SolidPrimitive::BOX && message.type != SolidPrimitive::SPHERE &&
       message.type != SolidPrimitive::CYLINDER)
     refuse(name + ": type " + std::to_string(message.type) + " is not supported, only BOX, SPHERE and CYLINDER");
-  if (size.size() != wanted)
-    refuse(name + " has " + std::to_string(size.size()) + " dimensions instead of " + std::to_string(wanted));
+  if (size.size() != expected)
+    refuse(name + " has " + std::to_string(size.size()) + " dimensions instead of " + std::to_string(expected));
   Primitive primitive = Sphere{size[0]};
   if (message.type == SolidPrimitive::BOX) primitive = Box{0.5 * Vector3d(size[0], size[1], size[2])};
   if (message.type == SolidPrimitive::CYLINDER)
@@ -89,14 +89,14 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
       message.primitives.size() + message.planes.size() + message.meshes.size() + message.mesh_resources.size();
   if (count > limits.shapes)
     refuse(std::to_string(count) + " shapes: at most " + std::to_string(limits.shapes) + " are allowed in one change");
-  const auto add = [&](const auto& of_a_kind, const std::vector<geometry_msgs::Pose>& poses, const std::string& kind,
+  const auto add = [&](const auto& elements, const std::vector<geometry_msgs::Pose>& poses, const std::string& kind,
                        const auto& shapeOf) {
-    if (!poses.empty() && poses.size() != of_a_kind.size())
-      refuse(std::to_string(poses.size()) + " poses for " + std::to_string(of_a_kind.size()) + " " + kind);
-    for (std::size_t i = 0; i < of_a_kind.size(); ++i) {
+    if (!poses.empty() && poses.size() != elements.size())
+      refuse(std::to_string(poses.size()) + " poses for " + std::to_string(elements.size()) + " " + kind);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
       const std::string name = kind + "[" + std::to_string(i) + "]";
       WorldShape& shape = shapes.emplace_back();
-      shape.shape = shapeOf(of_a_kind[i], name, i);
+      shape.shape = shapeOf(elements[i], name, i);
       if (!poses.empty()) shape.X_BG = poseIn(poses[i]).value_or(Isometry3d::Identity());
     }
   };
