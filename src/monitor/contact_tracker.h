@@ -43,7 +43,8 @@ struct ObservedCycle {
 /// Whether the interval contains one of the samples.
 bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 
-/// Tracks contacts over time: joins what cycles have cut, under an id that stays as long as the contact does.
+/// Tracks contacts over time: joins contacts that the ends of cycles have cut, under an id that stays as long as the
+/// contact lasts.
 ///
 /// A contact lasts while the pair's distance is at or below zero. It continues across breaks up to kJoin (rounding and
 /// field cells cause shorter ones) and across the ends of cycles, also across delayed cycles and changes of the world,
@@ -81,7 +82,7 @@ class ContactTracker {
   Change prepare(const Scene& next) const;
 
   /// Switches to another world between two cycles. Contacts of pairs that it has too continue; others end as lost, and
-  /// are listed with the next cycle. The cost grows with the contacts; nothing is freed or allocated.
+  /// are listed with the next cycle. The cost grows with the contacts; no memory is freed or allocated.
   /// @param change  from prepare(), called since the last adopt(); receives the data of the previous world.
   void adopt(Change& change);
   void adopt(const Scene& scene);
@@ -93,7 +94,7 @@ class ContactTracker {
   /// listed.
   void clearEvents();
 
-  /// Ends all contacts as lost, as when time jumps back.
+  /// Ends all contacts as lost, for example after a jump of time.
   void endAllAsLost();
 
   /// The contacts of the last cycle, including those that ended in it. Valid until the next call.

@@ -72,7 +72,7 @@ class MarkerDrawer {
   bool deletes_all_ = false;    // delete all markers before drawing, as ids have changed
 };
 
-/// Raises labels of this height so that no two of them overlap, seen from any direction beside them. Of two labels that
+/// Raises labels of this height so that no two of them overlap, seen from any horizontal direction. Of two labels that
 /// overlap, the upper one is raised.
 std::vector<Vector3d> staggered(std::vector<Vector3d> positions, double height);
 

@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// Draws a planned motion: ghosts of the moving links at its begin, its end and times between, the path of each of
+/// Draws a planned motion: ghosts of the moving links at its start, its end and times between, the path of each of
 /// them, and the time and approximate location of the first contact. Namespaces: ghosts, paths, first_contact.
 class PlannedMarkers {
  public:

@@ -19,7 +19,8 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
   for (const std::string& link : links) {
     options.wanted.push_back(withoutLeadingSlash(described.tf_prefix + link));
   }
-  // A cycle of max_cycle may have waited for max_latency; twice that, so that it can be checked again as long after.
+  // A cycle as long as max_cycle may have waited for max_latency. Twice that is kept, so that late transforms can have
+  // it checked again for as long afterwards.
   options.keep = std::max(options.keep, 2.0 * (parameters.tf.max_cycle + parameters.tf.max_latency));
   return options;
 }

@@ -38,7 +38,7 @@ namespace sdf_ccd {
 ///
 /// The thread of the cycles fills the messages, which takes no longer than to copy its results. Another thread
 /// publishes them in their order, without a copy for subscribers in the same process: serialising, sending and drawing
-/// take no time from the cycles. They wait only if the messages of several cycles wait.
+/// take no time from the cycles, which are blocked only while the messages of several cycles wait.
 class Outputs {
  public:
   /// @param state  publisher of the states given below.

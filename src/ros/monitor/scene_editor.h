@@ -43,7 +43,7 @@ class SceneEditor {
 
   /// @param editor  of the first version of the world, which `parts` use.
   /// @param wake    called when a version is ready: the thread of the cycles should call adopt() soon.
-  /// @param changed  called by the changing thread when the cycles have adopted a version, or will.
+  /// @param changed  called by the changing thread when the cycles have adopted a version, or will adopt it.
   SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described, const MonitorParameters& parameters,
               const Parts& parts, std::function<void()> wake, std::function<void(const CheckedWorld&)> changed);
   ~SceneEditor();

@@ -45,7 +45,7 @@ void TransformListener::recoverStatic() {
   tf_static_ = subscribe("/tf_static", true);
 }
 
-/// No message may end the manager and its other nodelets by an exception.
+/// An exception that escaped would end the nodelet manager with all its nodelets.
 void TransformListener::take(const tf2_msgs::TFMessage& message, bool is_static) {
   try {
     history_.watchClock(ros::Time::now());

@@ -6,8 +6,8 @@
 
 namespace sdf_ccd {
 
-/// Lets a bounded number of callers work in turns, piece by piece: the caller that has waited longest is next. So short
-/// work is done soon, however long the others' is.
+/// Lets a bounded number of callers work in turns, piece by piece: the caller that has waited longest is next. Short
+/// work is thus done soon, even beside long work.
 class WorkTurns {
  public:
   /// @param max_callers  at a time.
