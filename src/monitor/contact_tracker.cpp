@@ -105,71 +105,71 @@ void ContactTracker::adopt(const Scene& scene) {
 void ContactTracker::adopt(Change& change) {
   change.listed.assign(listed_.begin(), listed_.end());
   listed_.swap(change.listed);
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    Slot& contact = contacts_[i];
-    if (contact.group < 0) continue;
-    const auto group = static_cast<std::size_t>(contact.group);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    Slot& slot = slots_[i];
+    if (slot.group < 0) continue;
+    const auto group = static_cast<std::size_t>(slot.group);
     const bool is_last = last_[group] == static_cast<int>(i);
-    contact.group = is_last ? change.groups_now[group] : -1;
+    slot.group = is_last ? change.groups_now[group] : -1;
     if (!is_last) continue;
-    if (contact.group >= 0) {
-      change.last[static_cast<std::size_t>(contact.group)] = static_cast<int>(i);
+    if (slot.group >= 0) {
+      change.last[static_cast<std::size_t>(slot.group)] = static_cast<int>(i);
       continue;
     }
     // The next world does not have the pair.
-    if (contact.is_open) {
-      close(contact, true);
+    if (slot.is_open) {
+      close(slot, true);
       list(static_cast<int>(i));
-      contact.is_unreported = true;
+      slot.is_unreported = true;
     }
-    if (!contact.is_listed) free_.push_back(static_cast<int>(i));
+    if (!slot.is_listed) free_.push_back(static_cast<int>(i));
   }
   std::swap(groups_, change.groups);
   last_.swap(change.last);
 }
 
-void ContactTracker::settle() {
-  for (const int slot : listed_) {
-    Slot& contact = contacts_[slot];
-    contact.said.begins = false;
-    if (contact.is_unreported) {
-      unreported_.push_back(slot);
+void ContactTracker::clearEvents() {
+  for (const int index : listed_) {
+    Slot& slot = slots_[index];
+    slot.contact.begins = false;
+    if (slot.is_unreported) {
+      unreported_.push_back(index);
       continue;
     }
-    contact.said.ends = false;
-    contact.is_listed = contact.is_open;
-    if (!contact.is_open && (contact.group < 0 || last_[contact.group] != slot)) free_.push_back(slot);
+    slot.contact.ends = false;
+    slot.is_listed = slot.is_open;
+    if (!slot.is_open && (slot.group < 0 || last_[slot.group] != index)) free_.push_back(index);
   }
-  const auto isOver = [&](int slot) { return !contacts_[slot].is_listed || contacts_[slot].is_unreported; };
+  const auto isOver = [&](int index) { return !slots_[index].is_listed || slots_[index].is_unreported; };
   listed_.erase(std::remove_if(listed_.begin(), listed_.end(), isOver), listed_.end());
 }
 
-void ContactTracker::reportPending() {
-  for (const int slot : unreported_) contacts_[slot].is_unreported = false;
+void ContactTracker::listUnreported() {
+  for (const int index : unreported_) slots_[index].is_unreported = false;
   listed_.insert(listed_.end(), unreported_.begin(), unreported_.end());
   unreported_.clear();
 }
 
-void ContactTracker::lose() {
-  reportPending();
-  for (const int slot : listed_) {
-    if (contacts_[slot].is_open) close(contacts_[slot], true);
+void ContactTracker::endAllAsLost() {
+  listUnreported();
+  for (const int index : listed_) {
+    if (slots_[index].is_open) close(slots_[index], true);
   }
   // Later contacts do not join these.
   std::fill(last_.begin(), last_.end(), -1);
-  for (const int slot : listed_) {
-    contacts_[slot].group = -1;
-    contacts_[slot].is_unreported = false;
+  for (const int index : listed_) {
+    slots_[index].group = -1;
+    slots_[index].is_unreported = false;
   }
   free_.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (!contacts_[i].is_listed) free_.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (!slots_[i].is_listed) free_.push_back(static_cast<int>(i));
   }
 }
 
 void ContactTracker::update(const ObservedCycle& cycle) {
-  settle();
-  reportPending();
+  clearEvents();
+  listUnreported();
   ++cycle_;
   touches_.clear();
   if (cycle.result.verdict != Verdict::kClear) {
@@ -183,20 +183,20 @@ void ContactTracker::update(const ObservedCycle& cycle) {
       return std::tie(a.group, a.enter, a.pair, a.interval) < std::tie(b.group, b.enter, b.pair, b.interval);
     });
   }
-  for (const TouchInterval& stay : touches_) addTouch(cycle, stay);
+  for (const TouchInterval& touch : touches_) addTouch(cycle, touch);
   if (open_ == 0) return;
-  for (const int slot : listed_) {
-    if (contacts_[slot].is_open) closeIfOver(cycle, contacts_[slot]);
+  for (const int index : listed_) {
+    if (slots_[index].is_open) closeIfOver(cycle, slots_[index]);
   }
 }
 
-void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& stay) {
-  const PairResult& pair = cycle.result.pairs[stay.pair];
-  const Interval& interval = pair.intervals[stay.interval];
+void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& touch) {
+  const PairResult& pair = cycle.result.pairs[touch.pair];
+  const Interval& interval = pair.intervals[touch.interval];
   const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
-  const auto group = static_cast<std::size_t>(stay.group);
+  const auto group = static_cast<std::size_t>(touch.group);
   Slot& slot = slotFor(group, start, end);
-  TrackedContact& contact = slot.said;
+  TrackedContact& contact = slot.contact;
   contact.begin = std::min(contact.begin, start);
   contact.end = std::max(contact.end, end);
   contact.cycles += slot.cycle != cycle_;
@@ -220,8 +220,8 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& s
     contact.deepest_origin = cycle.origin;
     slot.has_deepest = true;
   }
-  if (pair.refined) slot.reach = std::max(slot.reach, pair.deepest.depth + pair.deepest.depth_error);
-  contact.deepest.depth_error = std::max(contact.deepest.depth_error, slot.reach - contact.deepest.depth);
+  if (pair.refined) slot.max_depth = std::max(slot.max_depth, pair.deepest.depth + pair.deepest.depth_error);
+  contact.deepest.depth_error = std::max(contact.deepest.depth_error, slot.max_depth - contact.deepest.depth);
 }
 
 /// Ends the contact as lost if a pair of its group is not checked and none was seen to touch in this cycle.
@@ -239,17 +239,17 @@ void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
       until = std::min(until, cycle.origin + toTime(cycle.motion.times[pair.span.last]));
     }
   }
-  if (!is_delayed && slot.said.end + kJoin < until) close(slot, false);
+  if (!is_delayed && slot.contact.end + kJoin < until) close(slot, false);
 }
 
 /// The contact of an interval: the group's last one if they meet, otherwise a new one.
 ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Time end) {
   if (last_[group] >= 0) {
-    Slot& last = contacts_[last_[group]];
-    if (start <= last.said.end + kJoin && end + kJoin >= last.said.begin && !last.said.is_lost) {
+    Slot& last = slots_[last_[group]];
+    if (start <= last.contact.end + kJoin && end + kJoin >= last.contact.begin && !last.contact.is_lost) {
       if (!last.is_open) {
         last.is_open = true;
-        last.said.ends = false;
+        last.contact.ends = false;
         ++open_;
       }
       list(last_[group]);
@@ -259,32 +259,32 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
     if (!last.is_listed) free_.push_back(last_[group]);
   }
   if (free_.empty()) {
-    free_.push_back(static_cast<int>(contacts_.size()));
-    contacts_.emplace_back();
-    free_.reserve(contacts_.capacity());
-    unreported_.reserve(contacts_.capacity());
+    free_.push_back(static_cast<int>(slots_.size()));
+    slots_.emplace_back();
+    free_.reserve(slots_.capacity());
+    unreported_.reserve(slots_.capacity());
   }
   const int index = free_.back();
   free_.pop_back();
   last_[group] = index;
-  Slot& slot = contacts_[index];
-  TrackedContact& said = slot.said;
+  Slot& slot = slots_[index];
+  TrackedContact& contact = slot.contact;
   const auto& [key_a, key_b] = groups_.keys[group];
-  said.body_a.assign(key_a, 1);
-  said.body_b.assign(key_b, 1);
-  said.id = next_id_++;
-  said.begins = true;
-  said.ends = said.is_lost = said.seen_at_samples = false;
-  said.verdict = Verdict::kUncertain;
-  said.begin = start;
-  said.end = end;
-  said.deepest = {};
-  said.deepest_origin = {};
-  said.error_bound = said.contact_error = said.max_force = 0.0;
-  said.cycles = 0;
+  contact.body_a.assign(key_a, 1);
+  contact.body_b.assign(key_b, 1);
+  contact.id = next_id_++;
+  contact.begins = true;
+  contact.ends = contact.is_lost = contact.seen_at_samples = false;
+  contact.verdict = Verdict::kUncertain;
+  contact.begin = start;
+  contact.end = end;
+  contact.deepest = {};
+  contact.deepest_origin = {};
+  contact.error_bound = contact.contact_error = contact.max_force = 0.0;
+  contact.cycles = 0;
   slot.group = static_cast<int>(group);
   slot.has_deepest = false;
-  slot.reach = 0.0;
+  slot.max_depth = 0.0;
   slot.is_open = true;
   slot.cycle = 0;
   ++open_;
@@ -294,15 +294,15 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
 
 void ContactTracker::close(Slot& slot, bool is_lost) {
   slot.is_open = false;
-  slot.said.ends = true;
-  slot.said.is_lost = is_lost;
+  slot.contact.ends = true;
+  slot.contact.is_lost = is_lost;
   --open_;
 }
 
-void ContactTracker::list(int slot) {
-  if (contacts_[slot].is_listed) return;
-  contacts_[slot].is_listed = true;
-  listed_.push_back(slot);
+void ContactTracker::list(int index) {
+  if (slots_[index].is_listed) return;
+  slots_[index].is_listed = true;
+  listed_.push_back(index);
 }
 
 }  // namespace sdf_ccd

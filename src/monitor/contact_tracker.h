@@ -43,7 +43,8 @@ struct ObservedCycle {
 /// Whether the interval contains one of the samples.
 bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 
-/// Tracks contacts over time: joins what cycles have cut, under an id that stays as long as the contact does.
+/// Tracks contacts over time: joins contacts that the ends of cycles have cut, under an id that stays as long as the
+/// contact lasts.
 ///
 /// A contact lasts while the pair's distance is at or below zero. It continues across breaks up to kJoin (rounding and
 /// field cells cause shorter ones) and across the ends of cycles, also across delayed cycles and changes of the world,
@@ -81,7 +82,7 @@ class ContactTracker {
   Change prepare(const Scene& next) const;
 
   /// Switches to another world between two cycles. Contacts of pairs that it has too continue; others end as lost, and
-  /// are listed with the next cycle. The cost grows with the contacts; nothing is freed or allocated.
+  /// are listed with the next cycle. The cost grows with the contacts; no memory is freed or allocated.
   /// @param change  from prepare(), called since the last adopt(); receives the data of the previous world.
   void adopt(Change& change);
   void adopt(const Scene& scene);
@@ -89,15 +90,16 @@ class ContactTracker {
   /// Processes the next cycle of the adopted scene; all contacts must be computed (CycleRequest::contacts).
   void update(const ObservedCycle& cycle);
 
-  /// To be called if no cycle has come since: clears the begin and end flags of the last one.
-  void settle();
+  /// To be called when a cycle is over: contacts no longer count as begun, and those that have ended are no longer
+  /// listed.
+  void clearEvents();
 
-  /// Ends all contacts as lost, as when time jumps back.
-  void lose();
+  /// Ends all contacts as lost, for example after a jump of time.
+  void endAllAsLost();
 
   /// The contacts of the last cycle, including those that ended in it. Valid until the next call.
   std::size_t size() const { return listed_.size(); }
-  const TrackedContact& operator[](std::size_t i) const { return contacts_[static_cast<std::size_t>(listed_[i])].said; }
+  const TrackedContact& operator[](std::size_t i) const { return slots_[static_cast<std::size_t>(listed_[i])].contact; }
 
   /// Number of contacts that have not ended.
   std::size_t open() const { return open_; }
@@ -106,13 +108,13 @@ class ContactTracker {
   using Time = std::chrono::nanoseconds;
 
   struct Slot {
-    TrackedContact said;
+    TrackedContact contact;
     int group = -1;        // group of pairs; −1: free
     bool is_open = false;  // it has not ended
     bool is_listed = false;
-    bool is_unreported = false;  // it ended with its world, and no cycle has come since
+    bool is_unreported = false;  // it ended with its world, after the last cycle
     bool has_deepest = false;
-    double reach = 0.0;       // where refined: upper bound of the depth [m]
+    double max_depth = 0.0;   // where refined: upper bound of the depth [m]
     std::uint64_t cycle = 0;  // last cycle in which it was seen
   };
 
@@ -122,16 +124,16 @@ class ContactTracker {
     int pair, interval;
   };
 
-  void addTouch(const ObservedCycle& cycle, const TouchInterval& stay);
+  void addTouch(const ObservedCycle& cycle, const TouchInterval& touch);
   void closeIfOver(const ObservedCycle& cycle, Slot& slot);
   Slot& slotFor(std::size_t group, Time start, Time end);
   void close(Slot& slot, bool is_lost);
-  void list(int slot);
-  void reportPending();
+  void list(int index);
+  void listUnreported();
 
   Groups groups_;
   std::vector<int> last_;  // per group: slot of its last contact; −1: none
-  std::vector<Slot> contacts_;
+  std::vector<Slot> slots_;
   std::vector<int> free_;
   std::vector<int> listed_;
   std::vector<int> unreported_;         // to be listed with the next cycle

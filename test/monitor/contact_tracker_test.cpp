@@ -50,7 +50,7 @@ struct Touch {
 };
 
 /// The result of one pair in a cycle.
-struct Said {
+struct PairInput {
   Verdict verdict = Verdict::kClear;
   std::vector<Touch> touches;
   bool is_delayed = false;
@@ -68,19 +68,19 @@ class TrackerTest : public ::testing::Test {
   }
 
   /// Runs the next cycle, or one that starts at the given time. Pairs without an entry are clear.
-  void cycle(const std::vector<Said>& pairs, double start = -1.0) {
+  void cycle(const std::vector<PairInput>& pairs, double start = -1.0) {
     if (start >= 0.0) now_ = start;
     CycleResult result;
     CycleMotion motion;
     motion.times = {0.0, kLength};
     result.verdict = Verdict::kClear;
     for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
-      const Said said = i < pairs.size() ? pairs[i] : Said();
+      const PairInput input = i < pairs.size() ? pairs[i] : PairInput();
       PairResult pair;
       pair.body_a = scene_.pairs[i].body_a;
       pair.body_b = scene_.pairs[i].body_b;
-      pair.verdict = said.verdict;
-      if (said.is_delayed) {
+      pair.verdict = input.verdict;
+      if (input.is_delayed) {
         result.verdict = Verdict::kNotChecked;
       } else {
         pair.span = {0, 1};
@@ -88,7 +88,7 @@ class TrackerTest : public ::testing::Test {
       pair.error = {0.0, 0.0001, 0.0, 0.0};  // of the verdict, from triangles; depths have the fields' errors
       pair.contact_error = {0.003, 0.0001, 0.0, 0.001};
       pair.on_a_W.force = Vector3d(0.0, 0.0, 6.0);
-      for (const Touch& touch : said.touches) {
+      for (const Touch& touch : input.touches) {
         pair.intervals.push_back({touch.enter, touch.exit});
         ContactPoint point;
         point.enter = point.time = touch.enter;
@@ -106,7 +106,7 @@ class TrackerTest : public ::testing::Test {
     now_ += kLength;
   }
 
-  std::vector<TrackedContact> said() const {
+  std::vector<TrackedContact> listed() const {
     std::vector<TrackedContact> all;
     for (std::size_t i = 0; i < tracker_->size(); ++i) all.push_back((*tracker_)[i]);
     return all;
@@ -122,8 +122,8 @@ class TrackerTest : public ::testing::Test {
   double now_ = 100.0;
 };
 
-const Said kClear;
-const Said kThrough{Verdict::kContact, {{0.0, kLength}}};
+const PairInput kClear;
+const PairInput kThrough{Verdict::kContact, {{0.0, kLength}}};
 
 TEST_F(TrackerTest, AContactBeginsGoesOnAndEndsUnderOneId) {
   world({{"hand", "table"}, {"foot", "table"}});
@@ -174,20 +174,20 @@ TEST_F(TrackerTest, BreaksShorterThanAMillisecondAreNone) {
   EXPECT_FALSE(only().ends);
   cycle({{Verdict::kContact, {{0.0004, 0.05}, {0.0511, 0.0995}}}});
   ASSERT_EQ(tracker_->size(), 2u);
-  EXPECT_EQ(said()[0].id, 1u);
-  EXPECT_TRUE(said()[0].ends);
-  EXPECT_TRUE(said()[1].begins);
-  EXPECT_FALSE(said()[1].ends);
+  EXPECT_EQ(listed()[0].id, 1u);
+  EXPECT_TRUE(listed()[0].ends);
+  EXPECT_TRUE(listed()[1].begins);
+  EXPECT_FALSE(listed()[1].ends);
 }
 
 TEST_F(TrackerTest, WhetherAContactIsSureFollowsFromItsOwnPoints) {
   world({{"a", "b"}});
-  const auto verdicts = [&](const std::vector<Said>& cycles) {
-    tracker_->lose();
+  const auto verdicts = [&](const std::vector<PairInput>& cycles) {
+    tracker_->endAllAsLost();
     std::map<std::uint64_t, Verdict> by_id;
-    for (const Said& each : cycles) {
+    for (const PairInput& each : cycles) {
       cycle({each});
-      for (const TrackedContact& contact : said()) by_id[contact.id] = contact.verdict;
+      for (const TrackedContact& contact : listed()) by_id[contact.id] = contact.verdict;
     }
     std::string text;
     for (const auto& [id, verdict] : by_id) text += std::string(toString(verdict)) + " ";
@@ -212,13 +212,13 @@ TEST_F(TrackerTest, SamplesSeeWhatTheyHit) {
   cycle({{Verdict::kContact, {{0.02, 0.05}}}});
   EXPECT_FALSE(only().seen_at_samples);
   cycle({{Verdict::kContact, {{0.05, 0.1}}}});
-  EXPECT_TRUE(said().back().seen_at_samples);
+  EXPECT_TRUE(listed().back().seen_at_samples);
 }
 
 TEST_F(TrackerTest, DelayKeepsAContactAndWhatIsNotCheckedLosesIt) {
   world({{"hand", "table"}});
   cycle({kThrough});
-  Said delayed{Verdict::kNotChecked, {}, true};
+  PairInput delayed{Verdict::kNotChecked, {}, true};
   cycle({delayed});
   EXPECT_FALSE(only().ends);
   cycle({kThrough}, 100.1);  // the delayed cycle
@@ -247,14 +247,14 @@ TEST_F(TrackerTest, TimesCheckedAgainJoinTheContactThatTheyMeet) {
 TEST_F(TrackerTest, NothingGoesOnAfterAJump) {
   world({{"hand", "table"}, {"foot", "table"}});
   cycle({kThrough, kThrough});
-  tracker_->settle();
+  tracker_->clearEvents();
   EXPECT_EQ(tracker_->size(), 2u);
-  EXPECT_FALSE(said()[0].begins);
-  tracker_->lose();
+  EXPECT_FALSE(listed()[0].begins);
+  tracker_->endAllAsLost();
   ASSERT_EQ(tracker_->size(), 2u);
-  EXPECT_TRUE(said()[0].ends && said()[0].is_lost && said()[1].is_lost);
-  tracker_->lose();
-  tracker_->settle();
+  EXPECT_TRUE(listed()[0].ends && listed()[0].is_lost && listed()[1].is_lost);
+  tracker_->endAllAsLost();
+  tracker_->clearEvents();
   EXPECT_EQ(tracker_->size(), 0u);
   cycle({kThrough}, 100.0);
   EXPECT_EQ(only().id, 3u);
@@ -265,10 +265,10 @@ TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
   cycle({kThrough, kThrough, kThrough});
   // In reverse order of names and of pairs, without the box, with a new body.
   world({{"table", "foot"}, {"new", "table"}, {"table", "hand"}});
-  for (const TrackedContact& contact : said()) EXPECT_EQ(contact.is_lost, contact.id == 3);
+  for (const TrackedContact& contact : listed()) EXPECT_EQ(contact.is_lost, contact.id == 3);
   cycle({kThrough, kThrough, kThrough});
   std::map<std::uint64_t, TrackedContact> by_id;
-  for (const TrackedContact& contact : said()) by_id[contact.id] = contact;
+  for (const TrackedContact& contact : listed()) by_id[contact.id] = contact;
   ASSERT_EQ(by_id.size(), 4u);
   EXPECT_TRUE(by_id[3].ends && by_id[3].is_lost);
   EXPECT_EQ(by_id[1].body_a, "hand");
@@ -276,18 +276,18 @@ TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
   EXPECT_FALSE(by_id[1].begins || by_id[2].begins);
   EXPECT_EQ(by_id[4].body_a, "new");
   EXPECT_TRUE(by_id[4].begins);
-  tracker_->settle();
+  tracker_->clearEvents();
   // The other pairs are gone: their contacts are reported as lost at once.
   world({{"hand", "table"}});
   ASSERT_EQ(tracker_->size(), 3u);
-  for (const TrackedContact& contact : said()) EXPECT_EQ(contact.is_lost, contact.id != 1);
+  for (const TrackedContact& contact : listed()) EXPECT_EQ(contact.is_lost, contact.id != 1);
   EXPECT_EQ(tracker_->open(), 1u);
   // They are reported again in the next cycle, whose message is the first one since, and only in that.
-  tracker_->settle();
+  tracker_->clearEvents();
   EXPECT_EQ(tracker_->size(), 1u);
   cycle({kThrough});
   ASSERT_EQ(tracker_->size(), 3u);
-  for (const TrackedContact& contact : said()) EXPECT_EQ(contact.ends && contact.is_lost, contact.id != 1);
+  for (const TrackedContact& contact : listed()) EXPECT_EQ(contact.ends && contact.is_lost, contact.id != 1);
   cycle({kThrough});
   EXPECT_EQ(only().id, 1u);
 }
@@ -307,13 +307,14 @@ TEST_F(TrackerTest, ANormalPointsFromTheFirstBodyAlsoWhereAnotherWorldHasThemThe
 std::multiset<std::tuple<std::string, Time, Time>> joined(
     std::map<std::string, std::vector<std::pair<Time, Time>>> all) {
   std::multiset<std::tuple<std::string, Time, Time>> contacts;
-  for (auto& [name, stays] : all) {
-    std::sort(stays.begin(), stays.end());
-    for (std::size_t i = 0; i < stays.size();) {
-      Time end = stays[i].second;
+  for (auto& [name, intervals] : all) {
+    std::sort(intervals.begin(), intervals.end());
+    for (std::size_t i = 0; i < intervals.size();) {
+      Time end = intervals[i].second;
       std::size_t k = i + 1;
-      while (k < stays.size() && stays[k].first <= end + ContactTracker::kJoin) end = std::max(end, stays[k++].second);
-      contacts.insert({name, stays[i].first, end});
+      while (k < intervals.size() && intervals[k].first <= end + ContactTracker::kJoin)
+        end = std::max(end, intervals[k++].second);
+      contacts.insert({name, intervals[i].first, end});
       i = k;
     }
   }
@@ -336,9 +337,9 @@ TEST_F(TrackerTest, AnyRunSaysWhatAllIntervalsTogetherSay) {
         std::shuffle(pairs.begin(), pairs.end(), random);
         world(pairs);
       }
-      std::vector<Said> cycles;
+      std::vector<PairInput> cycles;
       for (std::size_t p = 0; p < pairs.size(); ++p) {
-        Said one;
+        PairInput one;
         double t = uniform(random) < 0.5 ? 0.0 : 0.05 * uniform(random);
         while (uniform(random) < 0.6 && t < kLength) {
           const double end = std::min(kLength, t + 0.08 * uniform(random));
@@ -354,7 +355,7 @@ TEST_F(TrackerTest, AnyRunSaysWhatAllIntervalsTogetherSay) {
       }
       cycle(cycles);
       std::set<std::uint64_t> ids;
-      for (const TrackedContact& contact : said()) {
+      for (const TrackedContact& contact : listed()) {
         EXPECT_TRUE(ids.insert(contact.id).second);
         EXPECT_EQ(contact.begins, by_id.count(contact.id) == 0);
         EXPECT_EQ(ended.count(contact.id), 0u);
@@ -363,12 +364,12 @@ TEST_F(TrackerTest, AnyRunSaysWhatAllIntervalsTogetherSay) {
       }
       for (const auto& [id, contact] : by_id) EXPECT_TRUE(ended.count(id) > 0 || ids.count(id) > 0);
     }
-    std::multiset<std::tuple<std::string, Time, Time>> said;
+    std::multiset<std::tuple<std::string, Time, Time>> tracked;
     for (const auto& [id, contact] : by_id) {
       const auto& [a, b] = std::minmax(contact.body_a, contact.body_b);
-      said.insert({a + b, contact.begin, contact.end});
+      tracked.insert({a + b, contact.begin, contact.end});
     }
-    EXPECT_EQ(said, joined(all));
+    EXPECT_EQ(tracked, joined(all));
   }
 }
 
@@ -376,58 +377,58 @@ TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
   world({{"hand", "map/0_0_-1"}, {"hand", "map/1_0_-1"}, {"arm", "map/0_0_-1"}, {"hand", "map/x"}},
         {"map/0_0_-1", "map/1_0_-1"});
   cycle({{Verdict::kContact, {{0.05, 0.1, 0.004}}}});
-  const std::uint64_t id = said().at(0).id;
-  EXPECT_EQ(said()[0].body_a, "hand");
-  EXPECT_EQ(said()[0].body_b, "map");
+  const std::uint64_t id = listed().at(0).id;
+  EXPECT_EQ(listed()[0].body_a, "hand");
+  EXPECT_EQ(listed()[0].body_b, "map");
   // It leaves the first tile while it touches the second one, whose interval starts earlier in the cycle.
   cycle({{Verdict::kContact, {{0.02, 0.06, 0.005}}}, {Verdict::kContact, {{0.0, 0.03, 0.002}, {0.055, 0.1, 0.008}}}});
-  ASSERT_EQ(said().size(), 1u);
-  EXPECT_EQ(said()[0].id, id);
-  EXPECT_EQ(said()[0].cycles, 2u);
-  EXPECT_DOUBLE_EQ(said()[0].deepest.depth, 0.008);
+  ASSERT_EQ(listed().size(), 1u);
+  EXPECT_EQ(listed()[0].id, id);
+  EXPECT_EQ(listed()[0].cycles, 2u);
+  EXPECT_DOUBLE_EQ(listed()[0].deepest.depth, 0.008);
   // Both tiles are replaced, and the map gets another one.
   world({{"arm", "map/0_0_-1"}, {"map/5_5_5", "hand"}, {"hand", "map/1_0_-1"}, {"hand", "map/x"}},
         {"map/0_0_-1", "map/1_0_-1", "map/5_5_5"});
   cycle({{}, {}, {Verdict::kContact, {{0.0, 0.04, 0.002}}}});
-  ASSERT_EQ(said().size(), 1u);
-  EXPECT_EQ(said()[0].id, id);
-  EXPECT_TRUE(said()[0].ends);
-  EXPECT_FALSE(said()[0].is_lost);
-  EXPECT_EQ(said()[0].end - said()[0].begin, at(0.19));
+  ASSERT_EQ(listed().size(), 1u);
+  EXPECT_EQ(listed()[0].id, id);
+  EXPECT_TRUE(listed()[0].ends);
+  EXPECT_FALSE(listed()[0].is_lost);
+  EXPECT_EQ(listed()[0].end - listed()[0].begin, at(0.19));
   // Pairs without tiles are tracked separately.
   cycle({{Verdict::kContact, {{0.0, 0.1}}}, {}, {Verdict::kContact, {{0.0, 0.1}}}, {Verdict::kContact, {{0.0, 0.1}}}});
-  EXPECT_EQ(said().size(), 3u);
+  EXPECT_EQ(listed().size(), 3u);
 }
 
 TEST_F(TrackerTest, OfTilesOnlyWhatNobodySeesIsLost) {
   world({{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}}, {"map/0_0_0", "map/1_0_0"});
   cycle({{Verdict::kContact, {{0.05, 0.1}}}});
   cycle({{Verdict::kNotChecked, {}}, {Verdict::kContact, {{0.0, 0.1}}}});
-  ASSERT_EQ(said().size(), 1u);
-  EXPECT_FALSE(said()[0].ends);
+  ASSERT_EQ(listed().size(), 1u);
+  EXPECT_FALSE(listed()[0].ends);
   cycle({{Verdict::kNotChecked, {}}});
-  ASSERT_EQ(said().size(), 1u);
-  EXPECT_TRUE(said()[0].ends);
-  EXPECT_TRUE(said()[0].is_lost);
+  ASSERT_EQ(listed().size(), 1u);
+  EXPECT_TRUE(listed()[0].ends);
+  EXPECT_TRUE(listed()[0].is_lost);
 }
 
 TEST_F(TrackerTest, WhatIsOnlyCalledLikeAMapOrItsTileIsItself) {
   const Pairs pairs = {{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}, {"hand", "map"}};
-  const Said touches{Verdict::kContact, {{0.0, 0.1}}};
+  const PairInput touches{Verdict::kContact, {{0.0, 0.1}}};
   world(pairs, {"map/0_0_0"});
   cycle({touches, touches, touches});
-  ASSERT_EQ(said().size(), 3u);
-  const std::vector<TrackedContact> before = said();
+  ASSERT_EQ(listed().size(), 3u);
+  const std::vector<TrackedContact> before = listed();
   EXPECT_EQ(before[0].body_b, "map");
   EXPECT_EQ(before[1].body_b, "map/1_0_0");
   EXPECT_EQ(before[2].body_b, "map");
   // In another order, each contact continues or ends as before.
   world({pairs[2], pairs[1], pairs[0]}, {"map/0_0_0"});
   cycle({{}, touches, touches});
-  ASSERT_EQ(said().size(), 3u);
+  ASSERT_EQ(listed().size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(said()[i].id, before[i].id);
-    EXPECT_EQ(said()[i].ends, i == 2);
+    EXPECT_EQ(listed()[i].id, before[i].id);
+    EXPECT_EQ(listed()[i].ends, i == 2);
   }
 }
 

@@ -44,13 +44,13 @@ class AwaitedMapTest(MasterCase):
         for name, heard in self.contacts.items():
             first = heard.find(reasons)
             self.assertIsNotNone(first, name)
-            self.assertEqual(reasons(first), ['no map has come on /map yet'])
+            self.assertEqual(reasons(first), ['no map has been received on /map yet'])
             self.assertEqual(first.verdict, first.NOT_CHECKED)
             self.assertEqual(first.unchecked[0].pairs, 2)  # with both balls
         self.assertIsNotNone(states.find_new(lambda m: m.verdict == m.NOT_CHECKED and 'octomap' in str(m.missing)))
         plan = plans.find(lambda m: any(m.failures))
         self.assertIsNotNone(plan)
-        self.assertIn('no map has come on /map yet', ' '.join(plan.failures))
+        self.assertIn('no map has been received on /map yet', ' '.join(plan.failures))
         self.assertIsNotNone(self.bodies_are(DiagnosticStatus.ERROR))
         query = wait_for_service('/waits/query_motion', QueryMotion)
         answer = query(trajectory('slide', [0.0, 0.3]))

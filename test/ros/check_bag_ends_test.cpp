@@ -240,7 +240,7 @@ TEST_F(CheckBag, JointStatesThatLackPositionsAreCounted) {
   // The links beyond wait for transforms, which is why cycles are NOT_CHECKED.
   const std::size_t reasons = result.out.find("\nNOT_CHECKED as\n  ");
   ASSERT_NE(reasons, std::string::npos) << result.out;
-  EXPECT_NE(result.out.find(" pairs wait for transforms, up to ", reasons), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" pairs wait for transforms, for up to ", reasons), std::string::npos) << result.out;
 }
 
 TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {

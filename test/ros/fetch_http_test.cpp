@@ -79,7 +79,7 @@ TEST_F(FetchHttp, IsOnlyDoneWhereItIsAllowed) {
   for (const char* scheme : {"http", "https"}) {
     const std::string uri = std::string(scheme) + "://127.0.0.1:1/link.stl";
     EXPECT_EQ(failureOf([&] { loader(uri); }),
-              uri + ": http and https are fetched only if the parameter allow_http is true");
+              uri + ": http and https are only downloaded if the parameter allow_http is true");
   }
   const std::string long_uri = "http://127.0.0.1:1/" + std::string(1 << 20, 'a');
   EXPECT_LT(failureOf([&] { loader(long_uri); }).size(), 1000u);
@@ -97,7 +97,7 @@ TEST_F(FetchHttp, SilentServerIsLeftInTime) {
   };
   {
     const Server server(wait);
-    EXPECT_EQ(failureOf([&] { fetchHttp(server.uri(), {0.5}); }), "not there after 0.5 s");
+    EXPECT_EQ(failureOf([&] { fetchHttp(server.uri(), {0.5}); }), "not downloaded within 0.5 s");
     done = true;
   }
   done = false;

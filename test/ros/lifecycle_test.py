@@ -59,7 +59,7 @@ class Lifecycle(MasterCase):
 
     def test_1_a_clock_that_does_not_run_is_said(self):
         log = Recorder('/rosout', Log, PATIENCE)
-        reason = 'use_sim_time is set, and no /clock comes'
+        reason = 'use_sim_time is true, but no message arrives on /clock'
         for recorder in (self.states, self.contacts):
             self.assertIsNotNone(recorder.find(lambda m: m.reason == reason))
         self.assertIsNotNone(log.find(lambda m: m.msg.startswith('Not checked: ' + reason)))

@@ -34,7 +34,7 @@ TEST_F(MonitorLoopTest, TheCauseOfWhatIsNotCheckedIsNamed) {
     step(time + 0.01);
   }
   EXPECT_EQ(uncheckedCause(*loop_),
-            "hand: no transform from hand to world: tf's tree is rooted at base, not world; and 1 body more");
+            "hand: no transform from hand to world: tf's tree is rooted at base, not world; and 1 more body");
 }
 
 TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
@@ -186,7 +186,7 @@ TEST_F(MonitorLoopTest, ACheckThatFailsIsToldOfItsWholeTime) {
     end = last().header.stamp;
     ASSERT_EQ(last().unchecked.size(), 3u);
     EXPECT_EQ(last().unchecked[0].pairs, 2u);
-    EXPECT_EQ(last().reason.find("3 pairs could not be checked, as hand - "), 0u) << last().reason;
+    EXPECT_EQ(last().reason.find("3 pairs could not be checked, for example hand - "), 0u) << last().reason;
     EXPECT_NE(last().unchecked[0].reason.find("orthonormal"), std::string::npos) << last().unchecked[0].reason;
   }
 }
@@ -230,7 +230,7 @@ TEST_F(MonitorLoopTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   ASSERT_EQ(last().pairs.size(), 1u);
   ASSERT_NE(last().pairs[0].reason, "");
   EXPECT_EQ(uncheckedPair(*loop_), "hand - foot: " + last().pairs[0].reason);
-  EXPECT_EQ(last().reason, "1 pairs could not be checked, as " + uncheckedPair(*loop_));
+  EXPECT_EQ(last().reason, "1 pairs could not be checked, for example " + uncheckedPair(*loop_));
   EXPECT_EQ(toMonitorState(*loop_, ros::Time(10.0)).reason, last().reason);
   EXPECT_EQ(uncheckedCause(*loop_), "");
 }
@@ -329,7 +329,8 @@ TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
   EXPECT_EQ(driveTo(0.001), "");
   begin();
   const std::string warning = driveTo(0.5);
-  EXPECT_EQ(warning.find("the fixed frame world moves in odom, and objects of the world with it, as plate"), 0u)
+  EXPECT_EQ(warning.find("the fixed frame world moves in odom, and objects of the world move with it, such as plate"),
+            0u)
       << warning;
 }
 

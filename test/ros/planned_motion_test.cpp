@@ -102,8 +102,8 @@ TEST_F(PlannedMotionTest, TimesFartherApartThanADurationHoldsAreRefused) {
   request.trajectory.points[0].time_from_start = ros::Duration(-2147483648.0);
   request.trajectory.points[1].time_from_start = ros::Duration(2147483647.0);
   EXPECT_EQ(refusal(request),
-            "the trajectory: time_from_start of point 1 is 4.29497e+09 s from the first, ROS can tell no more than "
-            "2147483647 s apart");
+            "the trajectory: time_from_start of point 1 is 4.29497e+09 s after the first point; a ros::Duration "
+            "holds at most 2147483647 s");
 }
 
 TEST_F(PlannedMotionTest, OldTransformsAreSaid) {
@@ -182,7 +182,7 @@ TEST_F(PlannedMotionTest, JointsThatAreNotNamedAreWhereTfHasThem) {
   ASSERT_EQ(planned_.assumed.size(), 1u);
   EXPECT_EQ(planned_.assumed[0].name, "swing");
   EXPECT_NEAR(planned_.assumed[0].position, M_PI_2, 1e-12);
-  EXPECT_EQ(planned_.notes, "1 joints that are not named are where tf has them now");
+  EXPECT_EQ(planned_.notes, "1 joints that are not named stay at their current poses in tf");
   now_.joints.X_PL.clear();
   now_.joints.missing["swing"] = "no transform";
   EXPECT_EQ(motion(request).missing[0],
@@ -249,11 +249,12 @@ TEST_F(PlannedMotionTest, ObjectsThatMoveWithTheBaseAreSaid) {
 }
 
 TEST_F(PlannedMotionTest, BadRequestsAreRefusedWithTheReason) {
-  EXPECT_EQ(refusal(QueryMotion::Request()), "give either a trajectory or poses of links");
-  EXPECT_EQ(refusal(swing({0.0})), "the trajectory has 1 points, two or more are needed");
+  EXPECT_EQ(refusal(QueryMotion::Request()), "give either trajectories or poses of links, and not both");
+  EXPECT_EQ(refusal(swing({0.0})), "the trajectory has 1 points; two or more are needed");
   QueryMotion::Request request = swing({0.0, 1.0});
   request.trajectory.points[1].time_from_start = ros::Duration(0.5);
-  EXPECT_EQ(refusal(request), "the trajectory: time_from_start of point 1 does not increase");
+  EXPECT_EQ(refusal(request),
+            "the trajectory: time_from_start of point 1 is not greater than that of the point before");
   request = swing({0.0, 1.0});
   request.trajectory.points[1].positions.clear();
   EXPECT_EQ(refusal(request), "point 1 of the trajectory has 0 positions for 1 joints");

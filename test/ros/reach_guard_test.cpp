@@ -66,7 +66,8 @@ TEST_F(ReachGuardTest, WhereTfHasThemNearEachOtherTheyAreNotChecked) {
   ASSERT_EQ(said.pairs.size(), 1u);
   EXPECT_EQ(said.pairs[0].body_a, "left");
   EXPECT_EQ(said.pairs[0].body_b, "right");
-  EXPECT_NE(said.pairs[0].reason.find("out of reach by the URDF, but tf has them near"), std::string::npos);
+  EXPECT_NE(said.pairs[0].reason.find("out of reach according to the URDF, but close to each other in tf"),
+            std::string::npos);
 }
 
 }  // namespace

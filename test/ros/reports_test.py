@@ -112,7 +112,7 @@ class ReportsTest(MasterCase):
         # The verdict says so too.
         state = Recorder('/bad/state', MonitorState, PATIENCE)
         self.assertIsNotNone(state.find(lambda m: m.verdict == MonitorState.NOT_CHECKED))
-        self.status_of('good', 'bodies', lambda s: s.level == DiagnosticStatus.OK and s.message == 'all can be checked')
+        self.status_of('good', 'bodies', lambda s: s.level == DiagnosticStatus.OK and s.message == 'all bodies can be checked')
 
     def test_torques_are_those_that_walls_do(self):
         # Elastic foundation: a ball of radius R pressed d deep into a plane.

@@ -25,8 +25,7 @@ constexpr double kLineSpacing = 1.25;   // relative to a letter's height
 constexpr double kNumberOffset = 2.0;   // above the contact, in letters
 
 // Magenta for contacts that a check at the recorded transforms would have missed, white for the others: both differ
-// from the links' colours, whatever their verdicts.
-// the links in any verdict's colour.
+// from the colours of the links, whatever their verdicts.
 std_msgs::ColorRGBA contactColor(bool seen_at_samples) {
   return seen_at_samples ? toColor(1.0F, 1.0F, 1.0F, 1.0F) : toColor(1.0F, 0.15F, 0.85F, 1.0F);
 }
@@ -52,14 +51,14 @@ void addPath(const std::vector<Vector3d>& path, Marker& lines) {
 
 }  // namespace
 
-std::vector<Vector3d> staggered(std::vector<Vector3d> places, double height) {
-  std::vector<Vector3d*> upwards;
-  for (Vector3d& place : places) upwards.push_back(&place);
-  std::stable_sort(upwards.begin(), upwards.end(), [](auto* a, auto* b) { return a->z() < b->z(); });
-  for (std::size_t i = 1; i < upwards.size(); ++i) {
-    upwards[i]->z() = std::max(upwards[i]->z(), upwards[i - 1]->z() + height);
+std::vector<Vector3d> staggered(std::vector<Vector3d> positions, double height) {
+  std::vector<Vector3d*> by_height;
+  for (Vector3d& position : positions) by_height.push_back(&position);
+  std::stable_sort(by_height.begin(), by_height.end(), [](auto* a, auto* b) { return a->z() < b->z(); });
+  for (std::size_t i = 1; i < by_height.size(); ++i) {
+    by_height[i]->z() = std::max(by_height[i]->z(), by_height[i - 1]->z() + height);
   }
-  return places;
+  return positions;
 }
 
 Marker MarkerDrawer::marker(const char* name, int id, int type) const {
@@ -73,10 +72,10 @@ double MarkerDrawer::letter() const {
 
 MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now) {
   MarkerArray markers;
-  if (begins_anew_) {
+  if (deletes_all_) {
     markers.markers.push_back(marker("", 0, Marker::SPHERE));
     markers.markers.back().action = Marker::DELETEALL;
-    begins_anew_ = false;
+    deletes_all_ = false;
   }
   states_.update(result, cycle);
   box_.update(result, cycle);
@@ -102,7 +101,7 @@ MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cy
 
 void MarkerDrawer::take(const std::vector<int>& before) {
   states_.take(before);
-  begins_anew_ |= !shown_.empty();
+  deletes_all_ |= !shown_.empty();
   shown_.clear();
   numbers_ = 0;
 }
@@ -141,14 +140,14 @@ std::vector<const MarkerDrawer::Shown*> MarkerDrawer::deepest() const {
 }
 
 void MarkerDrawer::drawNumbers(const std::vector<const Shown*>& listed, MarkerArray& markers) {
-  std::vector<Vector3d> places;
-  for (const Shown* shown : listed) places.push_back(shown->p_W + kNumberOffset * letter() * Vector3d::UnitZ());
-  places = staggered(std::move(places), kLineSpacing * letter());
-  for (int i = 0; i < std::max(numbers_, static_cast<int>(places.size())); ++i) {
+  std::vector<Vector3d> positions;
+  for (const Shown* shown : listed) positions.push_back(shown->p_W + kNumberOffset * letter() * Vector3d::UnitZ());
+  positions = staggered(std::move(positions), kLineSpacing * letter());
+  for (int i = 0; i < std::max(numbers_, static_cast<int>(positions.size())); ++i) {
     Marker number = marker(kNumbers, i, Marker::TEXT_VIEW_FACING);
-    if (i < static_cast<int>(places.size())) {
+    if (i < static_cast<int>(positions.size())) {
       number.text = std::to_string(i + 1);
-      number.pose.position = toPoint(places[i]);
+      number.pose.position = toPoint(positions[i]);
       number.scale.z = letter();
       number.color = toColor(1.0F, 1.0F, 1.0F, 1.0F);
     } else {
@@ -156,7 +155,7 @@ void MarkerDrawer::drawNumbers(const std::vector<const Shown*>& listed, MarkerAr
     }
     markers.markers.push_back(number);
   }
-  numbers_ = static_cast<int>(places.size());
+  numbers_ = static_cast<int>(positions.size());
 }
 
 /// The lowest line is above the robot; rviz centres a text at its position.

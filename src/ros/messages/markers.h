@@ -68,12 +68,12 @@ class MarkerDrawer {
   PairStates states_;
   RobotBox box_;
   std::map<int, Shown> shown_;  // by pair
-  int numbers_ = 0;             // number of numbers that are drawn
-  bool begins_anew_ = false;    // all markers are deleted first, as ids have changed
+  int numbers_ = 0;             // count of numbers that are drawn
+  bool deletes_all_ = false;    // delete all markers before drawing, as ids have changed
 };
 
-/// Raises labels of this height so that no two of them overlap, seen from any direction beside them. Of two labels that
+/// Raises labels of this height so that no two of them overlap, seen from any horizontal direction. Of two labels that
 /// overlap, the upper one is raised.
-std::vector<Vector3d> staggered(std::vector<Vector3d> places, double height);
+std::vector<Vector3d> staggered(std::vector<Vector3d> positions, double height);
 
 }  // namespace sdf_ccd

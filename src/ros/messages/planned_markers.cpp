@@ -63,7 +63,7 @@ Isometry3d PlannedMarkers::poseAt(std::size_t body, double time) const {
 
 /// Location of the pair's first contact: of the known points the one that touches first, carried by the moving body to
 /// the time when the pair first touches.
-Vector3d PlannedMarkers::placeOf(const PairResult& pair) const {
+Vector3d PlannedMarkers::contactLocation(const PairResult& pair) const {
   const ContactPoint* first = &pair.deepest;
   for (const ContactPoint& point : pair.points) {
     if (point.enter < first->enter) first = &point;
@@ -115,17 +115,17 @@ MarkerArray PlannedMarkers::draw(const CycleResult& result, const CycleContext& 
     markers.markers.push_back(std::move(path));
   }
   if (first) {
-    Marker place = makeMarker("", "first_contact", 0, Marker::SPHERE);
-    place.pose.position = toPoint(placeOf(*first));
-    place.scale.x = place.scale.y = place.scale.z = box.size() / 40.0;
-    place.color = toColor(1.0F, 1.0F, 1.0F, 1.0F);
+    Marker location = makeMarker("", "first_contact", 0, Marker::SPHERE);
+    location.pose.position = toPoint(contactLocation(*first));
+    location.scale.x = location.scale.y = location.scale.z = box.size() / 40.0;
+    location.color = toColor(1.0F, 1.0F, 1.0F, 1.0F);
     Marker text = makeMarker("", "first_contact", 1, Marker::TEXT_VIEW_FACING);
     text.text = fmt::format("planned: first contact after {:.2f} s\n{} - {}", end,
                             ends.scene.bodies[first->body_a].name, ends.scene.bodies[first->body_b].name);
-    text.pose.position = toPoint(placeOf(*first) + Vector3d(0.0, 0.0, box.size() / 10.0));
+    text.pose.position = toPoint(contactLocation(*first) + Vector3d(0.0, 0.0, box.size() / 10.0));
     text.scale.z = box.size() / 28.0;
     text.color = toColor(1.0F, 1.0F, 1.0F, 1.0F);
-    markers.markers.insert(markers.markers.end(), {place, text});
+    markers.markers.insert(markers.markers.end(), {location, text});
   }
   for (Marker& marker : markers.markers) marker.header.frame_id = fixed_frame;
   return markers;

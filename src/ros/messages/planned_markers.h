@@ -9,7 +9,7 @@
 
 namespace sdf_ccd {
 
-/// Draws a planned motion: ghosts of the moving links at its begin, its end and times between, the path of each of
+/// Draws a planned motion: ghosts of the moving links at its start, its end and times between, the path of each of
 /// them, and the time and approximate location of the first contact. Namespaces: ghosts, paths, first_contact.
 class PlannedMarkers {
  public:
@@ -28,7 +28,7 @@ class PlannedMarkers {
  private:
   bool moves(std::size_t body) const;
   Isometry3d poseAt(std::size_t body, double time) const;
-  Vector3d placeOf(const PairResult& pair) const;
+  Vector3d contactLocation(const PairResult& pair) const;
   void drawGhost(std::size_t body, const Isometry3d& X_WB, const std_msgs::ColorRGBA& color,
                  visualization_msgs::MarkerArray& markers) const;
 

@@ -10,20 +10,20 @@ namespace {
 
 constexpr double kPeriod = 0.05;  // [s]
 
-volatile std::sig_atomic_t is_asked_to_end = 0;
+volatile std::sig_atomic_t shutdown_requested = 0;
 
-void askToEnd(int) {
-  is_asked_to_end = 1;
+void requestShutdown(int) {
+  shutdown_requested = 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // roscpp's handler would close the connections before the nodelet can report that it ends.
+  // roscpp's handler would close the connections before the nodelet can publish its last state.
   ros::init(argc, argv, "collision_monitor", ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, askToEnd);
-  std::signal(SIGTERM, askToEnd);
+  std::signal(SIGINT, requestShutdown);
+  std::signal(SIGTERM, requestShutdown);
   nodelet::Loader loader(false);  // without services to load or unload nodelets
   if (!loader.load(ros::this_node::getName(), "sdf_ccd/CollisionMonitor", ros::names::getRemappings(), {})) return 1;
-  while (ros::ok() && !is_asked_to_end) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPeriod));
+  while (ros::ok() && !shutdown_requested) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPeriod));
 }

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kIdlePeriod = 1.0;  // [s]
 constexpr double kLogPeriod = 3.0;   // between log messages about the progress of building [s]
-constexpr double kSending = 0.05;    // time for the last messages to leave [s]
+constexpr double kFlushTime = 0.05;  // for sending the last messages [s]
 
-/// glibc keeps memory that a thread has freed for that thread's heap, where it is of no use after threads that only
-/// build have ended.
+/// glibc keeps freed memory in the heap of the thread that allocated it, where it is of no use once the threads that
+/// build fields have ended.
 void returnFreedMemory() {
   malloc_trim(0);
 }
@@ -35,7 +35,7 @@ CollisionMonitor::~CollisionMonitor() {
     if (loop_) loop_->reset();
     publishUnchecked("the monitor has ended");
     if (outputs_) outputs_->finish();
-    ros::WallDuration(kSending).sleep();
+    ros::WallDuration(kFlushTime).sleep();
   }
   if (services_) services_->stop();
   reconfiguration_.reset();
@@ -77,7 +77,7 @@ void CollisionMonitor::setUpThenCycle() {
   try {
     setUp();
   } catch (const std::exception& error) {
-    NODELET_FATAL("Nothing is checked: %s", error.what());
+    NODELET_FATAL("The monitor cannot start, so nothing is checked: %s", error.what());
     health_watch_.health().failure = error.what();
   }
   const std::string& failure = health_watch_.health().failure;
@@ -87,7 +87,7 @@ void CollisionMonitor::setUpThenCycle() {
   while (trigger_.wait([this] { attempt([this] { betweenCycles(); }); }) && ros::ok()) {
     std::string problem = failure;
     if (problem.empty()) problem = attempt([this] { cycle(); });
-    if (!problem.empty()) attempt([&] { idle(problem); });
+    if (!problem.empty()) attempt([&] { reportIdle(problem); });
   }
 }
 
@@ -103,7 +103,7 @@ std::string CollisionMonitor::attempt(const std::function<void()>& work) const {
   return {};
 }
 
-void CollisionMonitor::readWhenThere() {
+void CollisionMonitor::waitForParameters() {
   for (;;) {
     try {
       parameters_ = readParameters(getPrivateNodeHandle());
@@ -111,16 +111,16 @@ void CollisionMonitor::readWhenThere() {
       return;
     } catch (const MissingDescription& missing) {
       NODELET_WARN_ONCE("Waiting: %s", missing.what());
-      idle(std::string("waiting: ") + missing.what());
+      reportIdle(std::string("waiting: ") + missing.what());
     }
     if (!trigger_.waitFor(kIdlePeriod) || !ros::ok()) throw Cancelled();
   }
 }
 
 void CollisionMonitor::setUp() {
-  idle("reading the robot");
-  readWhenThere();
-  for (const std::string& name : parameters_.unknown) NODELET_WARN("Unknown parameter %s", name.c_str());
+  reportIdle("reading the robot description");
+  waitForParameters();
+  for (const std::string& name : parameters_.unknown) NODELET_WARN("Unknown parameter %s is ignored", name.c_str());
   described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
   shareMeshes(described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
@@ -134,7 +134,7 @@ void CollisionMonitor::setUp() {
   listener_ = std::make_unique<TransformListener>(getNodeHandle(), *described_.robot, loop_->history(), trigger_);
   returnFreedMemory();
   queries_ = std::make_unique<Queries>(first_world_, described_, parameters_, loop_->history());
-  queries_->drawOn(getPrivateNodeHandle().advertise<visualization_msgs::MarkerArray>("planned", 2));
+  queries_->setMarkerPublisher(getPrivateNodeHandle().advertise<visualization_msgs::MarkerArray>("planned", 2));
   const auto wake = [this] { trigger_.wake(); };
   scene_editor_ = std::make_unique<SceneEditor>(std::move(world_editor_), described_, parameters_,
                                                 SceneEditor::Parts{*loop_, *outputs_, *queries_}, wake,
@@ -146,33 +146,33 @@ void CollisionMonitor::setUp() {
   }
   reconfiguration_ = std::make_unique<Reconfiguration>(services_->node(), parameters_, wake);
   health_watch_.health().building.clear();
-  forget("waiting for transforms");
+  restart("waiting for transforms");
   services_->setReady(*queries_, *scene_editor_, described_.fixed_frame);
 }
 
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
   const ScenePlan plan = affordablePlan(described_, parameters_.scene);
-  NODELET_INFO("Expected: %s", summary(*plan.expected).c_str());
+  NODELET_INFO("Expected cost of building: %s", summary(*plan.expected).c_str());
   const std::shared_ptr<const Scene> scene =
       buildDescribed(described_, plan, parameters_.scene, [this](const std::string& body, double share) {
         checkCancelled();
         const std::string progress =
             "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
-        idle(progress);
-        logNowAndThen(progress);
+        reportIdle(progress);
+        logProgress(progress);
       });
   checkCancelled();
   world_editor_ = std::make_unique<WorldEditor>(parameters_.scene);
   first_world_ = std::make_shared<const CheckedWorld>(world_editor_->begin(described_.scene, plan, *scene),
                                                       described_.unreachable);
-  health_watch_.takeScene(*scene, described_, parameters_);
+  health_watch_.recordScene(*scene, described_, parameters_);
   publishPlan(*first_world_);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
                described_.fixed_frame.c_str(), planTable(*scene).c_str());
 }
 
-void CollisionMonitor::logNowAndThen(const std::string& progress) {
+void CollisionMonitor::logProgress(const std::string& progress) {
   const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run yet
   if (!last_log_.isZero() && (now - last_log_).toSec() < kLogPeriod) return;
   last_log_ = now;
@@ -194,7 +194,7 @@ void CollisionMonitor::cycle() {
   diagnostics_->tick();
   if (services_->takeReset()) {
     loop_->reset();
-    forget("reset");
+    restart("reset");
   }
   listener_->recoverStatic();
   CycleRequest request = outputs_->request(parameters_.max_points);
@@ -204,14 +204,15 @@ void CollisionMonitor::cycle() {
   if (step == TfTracker::Step::kCycle) return publishCycle();
   listener_->report(health_watch_.health());
   if (step == TfTracker::Step::kJump) {
-    NODELET_WARN("Time has jumped: starting anew");
-    return forget("time has jumped");
+    NODELET_WARN("Time has jumped: contacts and distances are discarded, and cycles start again");
+    return restart("time has jumped");
   }
   if (step == TfTracker::Step::kWaiting && !isSilent()) return diagnostics_->update(health_watch_.health());
   const bool lacks_clock = ros::Time::isSimTime() && ros::Time::now().isZero();
-  const std::string reason = lacks_clock ? "use_sim_time is set, and no /clock comes" : "no new transforms";
-  health_watch_.takeStall(*loop_, reason);
-  idle(reason);
+  const std::string reason =
+      lacks_clock ? "use_sim_time is true, but no message arrives on /clock" : "no new transforms";
+  health_watch_.recordStall(*loop_, reason);
+  reportIdle(reason);
 }
 
 /// Whether no cycle has run for max_latency, on the wall clock: a simulated clock that stands still cannot tell.
@@ -219,7 +220,7 @@ bool CollisionMonitor::isSilent() const {
   return (ros::WallTime::now() - last_step_).toSec() > parameters_.tf.max_latency;
 }
 
-/// On the watchdog's thread, while the cycles' one works.
+/// Called by the watchdog's thread while the thread of the cycles works.
 void CollisionMonitor::reportLongCycle(CycleWatchdog::Seconds elapsed) const {
   const std::string reason = "a cycle has been running for " + numberText(elapsed.count()) + " s";
   NODELET_WARN_THROTTLE(1.0, "Not checked: %s", reason.c_str());
@@ -237,8 +238,8 @@ void CollisionMonitor::publishCycle() {
   setMonitorState(*loop_, sent, *state);
   outputs_->publish(state, proximity_->measure(*loop_, *state));
   listener_->report(health_watch_.health());
-  health_watch_.takeCycle(*loop_, *state, sent);
-  health_watch_.takeTrigger(trigger_.awaitedFrame());
+  health_watch_.recordCycle(*loop_, *state, sent);
+  health_watch_.recordTrigger(trigger_.awaitedFrame());
   diagnostics_->update(health_watch_.health());
 }
 
@@ -250,7 +251,7 @@ void CollisionMonitor::publishWorld() {
   is_world_drawn_ = true;
 }
 
-void CollisionMonitor::idle(const std::string& reason) {
+void CollisionMonitor::reportIdle(const std::string& reason) {
   publishWorld();
   services_->setWaiting(reason);
   MonitorHealth& health = health_watch_.health();
@@ -269,9 +270,9 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
   outputs_ ? outputs_->publishUnchecked(reason, state) : state_publisher_.publish(state);
 }
 
-void CollisionMonitor::forget(const std::string& reason) {
+void CollisionMonitor::restart(const std::string& reason) {
   if (outputs_) outputs_->drawWorldAgain();  // rviz deletes all markers when time jumps
-  health_watch_.forget();
+  health_watch_.restart();
   last_step_ = ros::WallTime::now();
   publishUnchecked(reason);
   diagnostics_->update(health_watch_.health(), true);

@@ -43,10 +43,10 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   void run();
   void setUpThenCycle();
-  void readWhenThere();
+  void waitForParameters();
   void setUp();
   void buildFields();
-  void logNowAndThen(const std::string& progress);
+  void logProgress(const std::string& progress);
   std::string attempt(const std::function<void()>& work) const;
   void betweenCycles();
   void cycle();
@@ -55,9 +55,9 @@ class CollisionMonitor : public nodelet::Nodelet {
   void publishCycle();
   void publishPlan(const CheckedWorld& world) { plan_->publish(world, described_.fixed_frame); }
   void publishWorld();
-  void idle(const std::string& reason);
+  void reportIdle(const std::string& reason);
   void publishUnchecked(const std::string& reason);
-  void forget(const std::string& reason);
+  void restart(const std::string& reason);
 
   // Set during set-up, in this order; afterwards only the thread of the cycles changes them.
   MonitorParameters parameters_;

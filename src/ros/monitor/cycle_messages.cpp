@@ -64,10 +64,11 @@ std::string reasonOf(const MonitorLoop& loop) {
   std::string reason;
   const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
   if (first != result.pairs.end()) {
-    reason = std::to_string(result.not_checked) + " pairs could not be checked, as " + pairReason(loop, *first);
+    reason =
+        std::to_string(result.not_checked) + " pairs could not be checked, for example " + pairReason(loop, *first);
   }
   if (result.delayed > 0) {
-    reason += fmt::format("{}{} pairs wait for transforms, up to {:.3f} s already", reason.empty() ? "" : ", ",
+    reason += fmt::format("{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",
                           result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
   }
   return reason;
@@ -78,17 +79,17 @@ void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std
   const std::string& reason = uncheckedReason(loop, body);
   if (reason.empty()) return;
   const std::string& name = loop.scene().bodies[body].name;
-  auto said =
+  auto entry =
       std::find_if(bodies.begin(), bodies.end(), [&](const UncheckedBody& other) { return other.body == name; });
-  if (said == bodies.end()) {
-    said = bodies.emplace(bodies.end());
-    said->body = name;
-    said->reason = reason;
-    said->since = since;
-    said->pairs = 0;
+  if (entry == bodies.end()) {
+    entry = bodies.emplace(bodies.end());
+    entry->body = name;
+    entry->reason = reason;
+    entry->since = since;
+    entry->pairs = 0;
   }
-  said->since = std::min(said->since, since);
-  ++said->pairs;
+  entry->since = std::min(entry->since, since);
+  ++entry->pairs;
 }
 
 /// Sets the pairs that are neither clear nor delayed. Pairs of bodies that could not be checked at all are only
@@ -302,8 +303,8 @@ std::string uncheckedCause(const MonitorLoop& loop) {
   const std::size_t others = missing.size() - 1;
   return *std::max_element(missing.begin(), missing.end(), shares) +
          (others == 0   ? ""
-          : others == 1 ? "; and 1 body more"
-                        : "; and " + std::to_string(others) + " bodies more");
+          : others == 1 ? "; and 1 more body"
+                        : "; and " + std::to_string(others) + " more bodies");
 }
 
 std::string uncheckedPair(const MonitorLoop& loop) {

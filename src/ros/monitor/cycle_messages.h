@@ -30,7 +30,7 @@ MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);
 
 /// The messages that report that nothing is checked after the loop's last cycle.
 ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason);
-/// The same for all of a gap, at its end: cycles then start anew, or have ended.
+/// The same for a whole gap between cycles, sent at its end: cycles then start again, or have ended.
 ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::string& reason);
 MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now);
 

@@ -11,15 +11,15 @@ CycleWatchdog::CycleWatchdog(Seconds limit, std::function<void(Seconds)> report)
 CycleWatchdog::~CycleWatchdog() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ends_ = true;
+    is_stopping_ = true;
   }
-  ends_changed_.notify_all();
+  stop_changed_.notify_all();
   thread_.join();
 }
 
 void CycleWatchdog::begin() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  begun_ = reported_ = Clock::now();
+  started_ = reported_ = Clock::now();
   is_running_ = true;
 }
 
@@ -28,15 +28,15 @@ void CycleWatchdog::end() {
   is_running_ = false;
 }
 
-/// Looks now and then instead of being told of each cycle, which would wake this thread a thousand times a second.
+/// Polls, as a notification in each cycle would wake this thread up to a thousand times a second.
 void CycleWatchdog::run() {
   const Seconds period = std::clamp(0.25 * limit_, Seconds(1e-3), Seconds(0.1));
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!ends_changed_.wait_for(lock, period, [this] { return ends_; })) {
+  while (!stop_changed_.wait_for(lock, period, [this] { return is_stopping_; })) {
     const Clock::time_point now = Clock::now();
     if (!is_running_ || now - reported_ < limit_) continue;
     reported_ = now;
-    report_(now - begun_);  // under the lock: the cycle's own messages come after this one
+    report_(now - started_);  // under the lock: the cycle's own messages come after this one
   }
 }
 

@@ -43,10 +43,10 @@ class CycleWatchdog {
   const Seconds limit_;
   const std::function<void(Seconds)> report_;
   std::mutex mutex_;
-  std::condition_variable ends_changed_;
-  Clock::time_point begun_, reported_;
-  bool is_running_ = false;  // a cycle is
-  bool ends_ = false;
+  std::condition_variable stop_changed_;
+  Clock::time_point started_, reported_;
+  bool is_running_ = false;  // a cycle is running
+  bool is_stopping_ = false;
   std::thread thread_;
 };
 

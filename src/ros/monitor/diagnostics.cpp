@@ -55,11 +55,12 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
   } else if (!health_.stall.empty()) {
     status.summary(DiagnosticStatus::ERROR, health_.stall + ": nothing is checked");
   } else if (health_.run_time * health_.wanted_rate > 1.0) {
-    status.summary(DiagnosticStatus::WARN, "a check takes longer than its period");
+    status.summary(DiagnosticStatus::WARN, "checking a cycle takes longer than its period, 1/rate");
   } else if (health_.pairs_postponed > 0) {
-    status.summaryf(DiagnosticStatus::WARN, "%d pairs are postponed, as max_cycle_time is up", health_.pairs_postponed);
+    status.summaryf(DiagnosticStatus::WARN, "%d pairs are postponed, because the cycle exceeded max_cycle_time",
+                    health_.pairs_postponed);
   } else if (health_.max_error > 0.0 && health_.error.total() > health_.max_error) {
-    status.summary(DiagnosticStatus::WARN, "running, but the error bound exceeds max_error");
+    status.summary(DiagnosticStatus::WARN, "running, but the error bound exceeds the parameter max_error");
   } else {
     status.summary(DiagnosticStatus::OK, "running");
   }
@@ -67,10 +68,10 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
   status.addf("latency [ms]", "%.1f", 1e3 * health_.latency);
   status.addf("run time [ms]", "%.2f", 1e3 * health_.run_time);
   status.addf("error bound [mm]", "%.3f", 1e3 * health_.error.total());
-  status.addf("of it field [mm]", "%.3f", 1e3 * health_.error.field);
-  status.addf("of it chords and motion [mm]", "%.3f", 1e3 * health_.error.chord);
-  status.addf("of it contact times [mm]", "%.3f", 1e3 * health_.error.root);
-  status.addf("of it gaps between points [mm]", "%.3f", 1e3 * health_.error.gap);
+  status.addf("error bound: field [mm]", "%.3f", 1e3 * health_.error.field);
+  status.addf("error bound: chords and motion [mm]", "%.3f", 1e3 * health_.error.chord);
+  status.addf("error bound: contact times [mm]", "%.3f", 1e3 * health_.error.root);
+  status.addf("error bound: gaps between points [mm]", "%.3f", 1e3 * health_.error.gap);
   status.addf("error bound of contacts [mm]", "%.3f", 1e3 * health_.contact_error);
   status.add("pairs", health_.pairs);
   status.add("pairs left out", health_.pairs_left_out);
@@ -79,29 +80,29 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
 
 void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
   if (!health_.stall.empty()) {
-    status.summary(DiagnosticStatus::ERROR, "none come");
+    status.summary(DiagnosticStatus::ERROR, "no new transforms");
   } else if (!health_.missing.empty()) {
-    status.summaryf(DiagnosticStatus::ERROR, "%zu bodies not known", health_.missing.size());
+    status.summaryf(DiagnosticStatus::ERROR, "transforms of %zu bodies are missing", health_.missing.size());
   } else if (!health_.bad_joints.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.bad_joints.front());
   } else if (!health_.contradicted.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.contradicted);
   } else if (!health_.moving_frame.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.moving_frame);
-  } else if (!health_.awaited_frame.empty()) {
-    status.summary(DiagnosticStatus::WARN, health_.awaited_frame);
+  } else if (!health_.trigger_warning.empty()) {
+    status.summary(DiagnosticStatus::WARN, health_.trigger_warning);
   } else if (health_.pairs_delayed > 0) {
-    status.summaryf(DiagnosticStatus::WARN, "%d pairs wait for them", health_.pairs_delayed);
+    status.summaryf(DiagnosticStatus::WARN, "%d pairs wait for late transforms", health_.pairs_delayed);
   } else {
-    status.summary(DiagnosticStatus::OK, "all known");
+    status.summary(DiagnosticStatus::OK, "the transforms of all bodies are known");
   }
   addLines("missing", health_.missing, status);
   addLines("joint", health_.bad_joints, status);
   status.addf("age [ms]", "%.1f", 1e3 * health_.age);
   status.add("pairs delayed", health_.pairs_delayed);
   status.add("out of order", health_.out_of_order);
-  status.add("refused", health_.refused);
-  status.add("not kept", health_.not_kept);
+  status.add("invalid", health_.refused);
+  status.add("dropped (frames of no body)", health_.not_kept);
 }
 
 void Diagnostics::bodies(DiagnosticStatusWrapper& status) const {
@@ -110,7 +111,7 @@ void Diagnostics::bodies(DiagnosticStatusWrapper& status) const {
   } else if (!health_.warnings.empty()) {
     status.summaryf(DiagnosticStatus::WARN, "%zu warnings", health_.warnings.size());
   } else {
-    status.summary(DiagnosticStatus::OK, "all can be checked");
+    status.summary(DiagnosticStatus::OK, "all bodies can be checked");
   }
   status.add("world version", health_.world_version);
   addLines("not checked", health_.bad_bodies, status);

@@ -18,7 +18,7 @@ struct MonitorHealth {
   std::string building;        ///< progress of building the fields; empty when they are built
   std::string stall;           ///< why no cycles run: no transforms arrive; empty if they run
   double wanted_rate = 0.0;    ///< [Hz]
-  bool is_timed = false;       ///< cycles run at that rate; else at most
+  bool is_timed = false;       ///< cycles run at that rate; else at most that often
   double rate = 0.0;           ///< of cycles [Hz]
   double latency = 0.0;        ///< of the last cycle [s]
   double age = 0.0;            ///< time since all pairs were last known [s]
@@ -36,12 +36,12 @@ struct MonitorHealth {
   int pairs_postponed = 0;              ///< in the last cycle, because of max_cycle_time
   long short_cycles = 0;                ///< number of cycles with such pairs
   std::string moving_frame;             ///< MonitorLoop::movingFixedFrame()
-  std::string awaited_frame;  ///< frame of the trigger that has never arrived; empty if there is none
-  std::string contradicted;   ///< late transforms that contradicted results recently; empty if there were none
-  long out_of_order = 0;      ///< transforms that arrived after newer ones
-  long refused = 0;           ///< invalid transforms
+  std::string trigger_warning;          ///< about a frame of the trigger that has never arrived; empty if there is none
+  std::string contradicted;  ///< late transforms that contradicted results recently; empty if there were none
+  long out_of_order = 0;     ///< transforms that arrived after newer ones
+  long refused = 0;          ///< invalid transforms
   std::vector<std::string> bad_joints;  ///< joints with positions in joint_states that are not finite
-  long not_kept = 0;                    ///< transforms ignored for lack of room, of frames that no body needs
+  long not_kept = 0;                    ///< transforms of frames that no body needs, ignored for lack of memory
 };
 
 /// Publishes:
@@ -52,7 +52,7 @@ class Diagnostics {
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name);
 
   /// Publishes if a second has passed, or `at_once`, for example after the clock has jumped. If the clock is set by
-  /// more than 2^31 s, diagnostic_updater throws: the rate is then measured anew.
+  /// more than 2^31 s, diagnostic_updater throws: measuring the rate then starts again.
   void update(const MonitorHealth& health, bool at_once = false);
 
   /// To be called at the start of each cycle, whether or not there is anything to check.

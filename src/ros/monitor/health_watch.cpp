@@ -11,9 +11,9 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kLateShown = 3.0;    // time for which late transforms are reported [s]
+constexpr double kLateHold = 3.0;     // time for which late transforms are reported [s]
 constexpr double kFramePeriod = 1.0;  // between two tests of the fixed frame [s]
-constexpr double kPatience = 2.0;     // time before bodies that are not checked are logged [s]
+constexpr double kWarnDelay = 2.0;    // time before bodies that are not checked are logged [s]
 constexpr double kWarnPeriod = 10.0;  // between such log messages [s]
 
 }  // namespace
@@ -23,12 +23,14 @@ void HealthWatch::warn(const std::string& warning) {
   health_.warnings.push_back(warning);
 }
 
-void HealthWatch::takeScene(const Scene& scene, const DescribedScene& described, const MonitorParameters& parameters) {
+void HealthWatch::recordScene(const Scene& scene, const DescribedScene& described,
+                              const MonitorParameters& parameters) {
   health_.warnings = described.warnings;
   health_.bad_bodies = failedBodies(scene);
   for (const Body& body : scene.bodies) {
     if (body.failure.empty()) continue;
-    const auto level = body.map.empty() ? ros::console::levels::Error : ros::console::levels::Warn;  // a map may come
+    const auto level =
+        body.map.empty() ? ros::console::levels::Error : ros::console::levels::Warn;  // a map may still arrive
     ROS_LOG(level, ROSCONSOLE_DEFAULT_NAME, "Not checked: %s: %s", body.name.c_str(), body.failure.c_str());
   }
   for (const BodyReport& report : scene.reports)
@@ -48,7 +50,7 @@ void HealthWatch::countPairs(const Scene& scene) {
       scene.left_out.begin(), scene.left_out.end(), [](const LeftOut& left_out) { return left_out.body_a >= 0; }));
 }
 
-void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent) {
+void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent) {
   const ros::WallTime now = ros::WallTime::now();
   const CycleResult& result = loop.result();
   measureRate(now);
@@ -73,29 +75,29 @@ void HealthWatch::takeCycle(const MonitorLoop& loop, const MonitorState& state, 
   watchUnchecked(body, result.not_checked > 0 ? uncheckedPair(loop) : "");
 }
 
-void HealthWatch::takeTrigger(const std::string& awaited_frame) {
+void HealthWatch::recordTrigger(const std::string& awaited_frame) {
   const ros::WallTime now = ros::WallTime::now();
   if (awaited_frame.empty()) {
     awaited_since_ = ros::WallTime();
-    health_.awaited_frame.clear();
+    awaited_frame_.clear();
+    health_.trigger_warning.clear();
     return;
   }
   if (awaited_since_.isZero()) awaited_since_ = now;
-  if ((now - awaited_since_).toSec() < kPatience) return;
-  const std::string warning =
-      "trigger_frames: no transform of " + awaited_frame + " has come, so cycles begin without it";
-  if (warning == health_.awaited_frame) return;
-  health_.awaited_frame = warning;
-  ROS_WARN("%s", warning.c_str());
+  if ((now - awaited_since_).toSec() < kWarnDelay || awaited_frame == awaited_frame_) return;
+  awaited_frame_ = awaited_frame;
+  health_.trigger_warning =
+      "trigger_frames: no transform of " + awaited_frame + " has been received, so cycles start without it";
+  ROS_WARN("%s", health_.trigger_warning.c_str());
 }
 
-void HealthWatch::takeStall(const MonitorLoop& loop, const std::string& reason) {
+void HealthWatch::recordStall(const MonitorLoop& loop, const std::string& reason) {
   health_.stall = reason;
   health_.rate = 0.0;
   watchUnchecked(reason, uncheckedCause(loop));
 }
 
-void HealthWatch::forget() {
+void HealthWatch::restart() {
   health_.missing.clear();
   last_cycle_ = ros::WallTime();
 }
@@ -117,19 +119,19 @@ void HealthWatch::watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& 
   health_.moving_frame = warning;  // kept from then on, also while the robot rests
 }
 
-void HealthWatch::watchUnchecked(const std::string& cause, const std::string& besides) {
+void HealthWatch::watchUnchecked(const std::string& cause, const std::string& other) {
   const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run
-  if (cause.empty() && besides.empty()) {
+  if (cause.empty() && other.empty()) {
     unchecked_since_ = ros::WallTime();
     return;
   }
   if (unchecked_since_.isZero()) unchecked_since_ = now;
-  if ((now - unchecked_since_).toSec() < kPatience) return;
+  if ((now - unchecked_since_).toSec() < kWarnDelay) return;
   if (!last_warning_.isZero() && (now - last_warning_).toSec() < kWarnPeriod) return;
   last_warning_ = now;
   std::string all = cause;
   const auto add = [&](const std::string& line) { all += (all.empty() || line.empty() ? "" : "; ") + line; };
-  add(besides);
+  add(other);
   for (const std::string& line : health_.bad_joints) add(line);
   ROS_WARN("Not checked: %s", all.c_str());
 }
@@ -139,10 +141,10 @@ void HealthWatch::watchLate(const MonitorLoop& loop, const ros::WallTime& now) {
   const std::vector<LateTransforms>& late = loop.cycle().late;
   if (!late.empty()) {
     last_late_ = now;
-    health_.contradicted = late.front().frame + (late.size() > 1 ? " and others" : "") +
-                           " came late behind newer ones: what was said of the time since then is checked again";
-    ROS_WARN_THROTTLE(10.0, "Transforms of %s", health_.contradicted.c_str());
-  } else if (!last_late_.isZero() && (now - last_late_).toSec() > kLateShown) {
+    health_.contradicted = "transforms of " + late.front().frame + (late.size() > 1 ? " and other frames" : "") +
+                           " arrived after newer ones: results since their stamps are invalid, and are checked again";
+    ROS_WARN_THROTTLE(10.0, "Late transforms: %s", health_.contradicted.c_str());
+  } else if (!last_late_.isZero() && (now - last_late_).toSec() > kLateHold) {
     health_.contradicted.clear();
   }
 }

@@ -17,27 +17,27 @@ class HealthWatch {
   MonitorHealth& health() { return health_; }
   const MonitorHealth& health() const { return health_; }
 
-  /// Takes the problems found while the scene was prepared: bodies that cannot be checked, warnings, pairs.
-  void takeScene(const Scene& scene, const DescribedScene& described, const MonitorParameters& parameters);
+  /// Records the problems found while the scene was prepared: bodies that cannot be checked, warnings, pairs.
+  void recordScene(const Scene& scene, const DescribedScene& described, const MonitorParameters& parameters);
 
-  /// Takes the results of the loop's last cycle. @param state  of that cycle.
-  void takeCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent);
+  /// Records the results of the loop's last cycle. @param state  of that cycle.
+  void recordCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent);
 
-  /// Takes the frame without which cycles begin though they should wait for it: CycleTrigger::awaitedFrame(), or empty.
-  void takeTrigger(const std::string& awaited_frame);
+  /// Records the frame that the trigger waits for in vain: CycleTrigger::awaitedFrame(), or empty.
+  void recordTrigger(const std::string& awaited_frame);
 
-  /// Takes the reason why no cycle runs: no transforms arrive, or the clock does not run.
-  void takeStall(const MonitorLoop& loop, const std::string& reason);
+  /// Records the reason why no cycle runs: no transforms arrive, or the clock does not run.
+  void recordStall(const MonitorLoop& loop, const std::string& reason);
 
-  /// To be called when cycles start anew.
-  void forget();
+  /// To be called when cycles start again, after a reset or a jump of time.
+  void restart();
 
  private:
   void warn(const std::string& warning);
   void countPairs(const Scene& scene);
   void measureRate(const ros::WallTime& now);
   void watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& now);
-  void watchUnchecked(const std::string& cause, const std::string& besides);
+  void watchUnchecked(const std::string& cause, const std::string& other);
   void watchLate(const MonitorLoop& loop, const ros::WallTime& now);
 
   MonitorHealth health_;
@@ -45,6 +45,7 @@ class HealthWatch {
   ros::WallTime last_late_;                       // when transforms last contradicted a cycle
   ros::WallTime last_frame_check_;                // when the fixed frame was last tested
   ros::WallTime awaited_since_;                   // when a frame of the trigger was first missed; 0: none is
+  std::string awaited_frame_;                     // the frame that was warned about; empty: none
   ros::WallTime unchecked_since_, last_warning_;  // 0: everything is checked; no warning was given
 };
 

@@ -4,7 +4,7 @@
 
 namespace sdf_ccd {
 
-/// Lets cycles, which have a nice value of 0, run before this thread from now on.
+/// Lowers the priority of the calling thread below that of cycles, which have a nice value of 0.
 inline void lowerPriority() {
   constexpr int kNiceness = 5;
   thread_local bool is_low = false;

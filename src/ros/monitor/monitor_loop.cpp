@@ -19,7 +19,8 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
   for (const std::string& link : links) {
     options.wanted.push_back(withoutLeadingSlash(described.tf_prefix + link));
   }
-  // A cycle of max_cycle may have waited for max_latency; twice that, so that it can be checked again as long after.
+  // A cycle as long as max_cycle may have waited for max_latency. Twice that is kept, so that late transforms can have
+  // it checked again for as long afterwards.
   options.keep = std::max(options.keep, 2.0 * (parameters.tf.max_cycle + parameters.tf.max_latency));
   return options;
 }
@@ -91,10 +92,10 @@ void MonitorLoop::adopt(LoopChange& change) {
 
 TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& request) {
   const TfTracker::Step step = tracker_->next(now, cycle_);
-  contacts_.settle();
+  contacts_.clearEvents();
   if (step == TfTracker::Step::kJump) {
     monitor_.reset();
-    contacts_.lose();
+    contacts_.endAllAsLost();
     distances_->forget();
   }
   if (step == TfTracker::Step::kCycle) {
@@ -125,7 +126,7 @@ void MonitorLoop::guardReach() {
 }
 
 void MonitorLoop::trackContacts(const CycleRequest& request) {
-  if (!request.wantsContacts()) return contacts_.lose();
+  if (!request.wantsContacts()) return contacts_.endAllAsLost();
   contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
 }
 
@@ -147,8 +148,8 @@ std::string MonitorLoop::movingFixedFrame() const {
     }
     const double turned = Quaterniond(X_then.linear()).angularDistance(Quaterniond(X_now.linear()));
     if (turned < kTurned && (X_now.inverse().translation() - X_then.inverse().translation()).norm() < kMoved) continue;
-    return "the fixed frame " + fixed + " moves in " + above + ", and objects of the world with it, as " +
-           object->name + ": set fixed_frame to " + above + ", or to another frame that rests";
+    return "the fixed frame " + fixed + " moves in " + above + ", and objects of the world move with it, such as " +
+           object->name + ": set the parameter fixed_frame to " + above + " or another frame that does not move";
   }
   return {};
 }
@@ -162,8 +163,8 @@ void MonitorLoop::reset() {
   history_.forgetMoving();
   tracker_->reset();
   monitor_.reset();
-  contacts_.settle();
-  contacts_.lose();
+  contacts_.clearEvents();
+  contacts_.endAllAsLost();
   distances_->forget();
 }
 

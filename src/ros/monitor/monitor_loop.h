@@ -10,7 +10,7 @@
 namespace sdf_ccd {
 
 /// The parts of a loop for another world, made in advance by MonitorLoop::prepare(); after MonitorLoop::adopt(), the
-/// loop's former parts. To be destroyed by a thread that has the time for it.
+/// loop's former parts, to be destroyed by a thread that is not time-critical.
 struct LoopChange {
   std::shared_ptr<const CheckedWorld> world;
   std::unique_ptr<MonitorChange> monitor;
@@ -27,7 +27,7 @@ struct LoopChange {
 /// Any thread may add transforms to history(); the other functions belong to one thread.
 class MonitorLoop {
  public:
-  /// @param described  the robot and its frames; its scene is not used, but that of `world`.
+  /// @param described  the robot and its frames; not its scene, as that of `world` is used.
   MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedScene described, const MonitorParameters& parameters);
 
   /// For a world that does not change.
@@ -53,8 +53,9 @@ class MonitorLoop {
   /// only its times. Frees no memory.
   /// @param change  made by prepare() since the last adopt().
   void adopt(LoopChange& change);
+
   /// A warning if the fixed frame moves in tf, like the base of a mobile robot, and objects of the world are fixed in
-  /// it, so that they move along; else empty.
+  /// it, so that they move with it; else empty.
   std::string movingFixedFrame() const;
 
   /// Discards everything but static transforms; the next cycle begins with the next moving ones.
@@ -77,7 +78,7 @@ class MonitorLoop {
   /// Whether some pair was delayed, and so not measured, and nothing was known of its distance before (PairDistances).
   bool hasUnknownDistance() const { return distances_->hasUnknown(); }
 
-  /// To be called for cycles that are not measured: what is known of delayed pairs does not hold later.
+  /// To be called for cycles that are not measured, as the known distances of delayed pairs are then outdated.
   void forgetDistances() { distances_->forget(); }
 
  private:

@@ -76,7 +76,7 @@ void MonitorServices::answer(const Request& request, Response& response) {
     queries_->answer(request, response);
   } catch (const Cancelled&) {
     response = {};
-    response.message = "the monitor ends";
+    response.message = "the monitor is shutting down";
   }
 }
 
@@ -89,7 +89,7 @@ bool MonitorServices::updateScene(UpdateScene::Request& request, UpdateScene::Re
   } catch (const Cancelled&) {
     response = {};
     response.failed_change = -1;
-    response.message = "the monitor ends";
+    response.message = "the monitor is shutting down";
   }
   return true;
 }
@@ -102,7 +102,7 @@ bool MonitorServices::getPlan(GetPlan::Request&, GetPlan::Response& response) {
 }
 
 bool MonitorServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  reset_asked_ = true;
+  reset_requested_ = true;
   return true;
 }
 

@@ -43,7 +43,7 @@ class MonitorServices {
   void setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame);
 
   /// Whether a reset has been requested since the last call.
-  bool takeReset() { return reset_asked_.exchange(false); }
+  bool takeReset() { return reset_requested_.exchange(false); }
 
   /// Answers no more requests.
   void stop();
@@ -60,7 +60,7 @@ class MonitorServices {
   void answer(const Request& request, Response& response);
 
   const std::atomic<bool>& stop_;
-  std::atomic<bool> reset_asked_{false};
+  std::atomic<bool> reset_requested_{false};
   std::mutex mutex_;
   std::string waiting_ = "starting";  // guarded by mutex_, as all up to fixed_frame_
   Queries* queries_ = nullptr;        // null: not ready

@@ -23,7 +23,7 @@ class OrderedWorker {
   ~OrderedWorker() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      ends_ = true;
+      is_stopping_ = true;
     }
     changed_.notify_all();
     thread_.join();
@@ -51,7 +51,7 @@ class OrderedWorker {
   void run() {
     std::unique_lock<std::mutex> lock(mutex_);
     for (;;) {
-      changed_.wait(lock, [&] { return waiting_ > 0 || ends_; });
+      changed_.wait(lock, [&] { return waiting_ > 0 || is_stopping_; });
       if (waiting_ == 0) return;
       Item& item = items_[first_];
       lock.unlock();
@@ -68,7 +68,7 @@ class OrderedWorker {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::size_t first_ = 0, waiting_ = 0;  // number of items handed over, including the one that is processed
-  bool ends_ = false;
+  bool is_stopping_ = false;
   std::thread thread_;
 };
 

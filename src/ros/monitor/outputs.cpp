@@ -13,8 +13,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kWaiting = 8;  // cycles whose messages may wait
-const ros::WallDuration kLookPeriod(0.02);
+constexpr std::size_t kQueue = 8;  // maximum number of cycles whose messages wait to be published
+const ros::WallDuration kCountPeriod(0.02);
 const ros::WallDuration kWorldPeriod(1.0);
 
 }  // namespace
@@ -36,8 +36,8 @@ Outputs::Outputs(const ros::NodeHandle& private_node, const ros::Publisher& stat
   links_ = node_.advertise<visualization_msgs::MarkerArray>("links", 10, true);
   torques_.advertise(node_);
   adopt(*prepare(*loop.world()));
-  goOnWith(loop.world());
-  worker_ = std::make_unique<OrderedWorker<Report>>(kWaiting, [this](Report& report) { send(report); });
+  setDrawnWorld(loop.world());
+  worker_ = std::make_unique<OrderedWorker<Report>>(kQueue, [this](Report& report) { send(report); });
 }
 
 Outputs::~Outputs() = default;
@@ -70,7 +70,7 @@ void Outputs::adopt(Change& change) {
 }
 
 CycleRequest Outputs::request(int max_points) {
-  lookForSubscribers();
+  countSubscribers();
   CycleRequest request;
   request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || state_wanted_;
   request.contacts = contacts_wanted_ || markers_wanted_ || state_wanted_;
@@ -80,11 +80,11 @@ CycleRequest Outputs::request(int max_points) {
   return request;
 }
 
-/// Each count of subscribers searches all topics of the process, so it is not made every millisecond.
-void Outputs::lookForSubscribers() {
+/// Counting searches all topics of the process, so it is not done in each cycle.
+void Outputs::countSubscribers() {
   const ros::WallTime now = ros::WallTime::now();
-  if (now - looked_ < kLookPeriod) return;
-  looked_ = now;
+  if (now - counted_at_ < kCountPeriod) return;
+  counted_at_ = now;
   contact_states_wanted_ = contact_states_.getNumSubscribers() > 0;
   contacts_wanted_ = contact_states_wanted_ || contacts_.getNumSubscribers() > 0;
   state_wanted_ = state_.getNumSubscribers() > 0;
@@ -124,7 +124,7 @@ void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost:
 }
 
 void Outputs::publishUnchecked(const std::string& reason, const boost::shared_ptr<MonitorState>& state) {
-  lookForSubscribers();
+  countSubscribers();
   Report& report = worker_->next();
   report.is_unchecked = true;
   report.has_contact_states = false;
@@ -150,7 +150,7 @@ void Outputs::setWorld(Report& report) {
 }
 
 /// Called by the drawing thread.
-void Outputs::goOnWith(const std::shared_ptr<const CheckedWorld>& world) {
+void Outputs::setDrawnWorld(const std::shared_ptr<const CheckedWorld>& world) {
   if (world == drawn_) return;
   if (drawn_) drawer_.take(findPairs(pairNames(world->scene()), pairNames(drawn_->scene())));
   link_markers_ = std::make_unique<LinkMarkers>(world->description());
@@ -158,7 +158,7 @@ void Outputs::goOnWith(const std::shared_ptr<const CheckedWorld>& world) {
 }
 
 void Outputs::finish() {
-  finishes_ = true;
+  is_finishing_ = true;
   worker_.reset();
 }
 
@@ -172,7 +172,7 @@ void Outputs::send(Report& report) {
     if (report.distances) proximity_.publishDistances(report.distances);
     draw(report);
   } catch (const std::exception& error) {
-    ROS_ERROR_THROTTLE(1.0, "The messages of a cycle are not sent: %s", error.what());
+    ROS_ERROR_THROTTLE(1.0, "Messages of a cycle could not be published: %s", error.what());
   }
   report.contacts.reset();
   report.state.reset();
@@ -184,11 +184,11 @@ void Outputs::send(Report& report) {
 }
 
 void Outputs::draw(const Report& report) {
-  if (report.world) goOnWith(report.world);
+  if (report.world) setDrawnWorld(report.world);
   if (report.draws_world) drawWorld(*report.world);
   if (report.is_unchecked) {
     markers_.publish(boost::make_shared<visualization_msgs::MarkerArray>(drawer_.clear(report.reason)));
-  } else if (finishes_ || (!report.draws_markers && !report.draws_links)) {
+  } else if (is_finishing_ || (!report.draws_markers && !report.draws_links)) {
     return;
   } else {
     drawer_.setOptions(report.marker_options);

@@ -38,7 +38,7 @@ namespace sdf_ccd {
 ///
 /// The thread of the cycles fills the messages, which takes no longer than to copy its results. Another thread
 /// publishes them in their order, without a copy for subscribers in the same process: serialising, sending and drawing
-/// take no time from the cycles. They wait only if the messages of several cycles wait.
+/// take no time from the cycles, which are blocked only while the messages of several cycles wait.
 class Outputs {
  public:
   /// @param state  publisher of the states given below.
@@ -112,13 +112,13 @@ class Outputs {
     std::string reason;  // of is_unchecked
   };
 
-  void lookForSubscribers();
+  void countSubscribers();
   void send(Report& report);
   void draw(const Report& report);
   void drawWorld(const CheckedWorld& world);
   void drawLinks();
   void setWorld(Report& report);
-  void goOnWith(const std::shared_ptr<const CheckedWorld>& world);
+  void setDrawnWorld(const std::shared_ptr<const CheckedWorld>& world);
 
   ros::NodeHandle node_;
   MonitorLoop& loop_;
@@ -138,12 +138,12 @@ class Outputs {
 
   MessagePool<ContactArray> contact_messages_;
 
-  ros::WallTime looked_;  // when subscribers were last counted
+  ros::WallTime counted_at_;  // when subscribers were last counted
   bool contact_states_wanted_ = false;
   bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
   bool markers_wanted_ = false, links_wanted_ = false;
 
-  std::atomic<bool> finishes_{false};
+  std::atomic<bool> is_finishing_{false};
   std::unique_ptr<OrderedWorker<Report>> worker_;
 };
 

@@ -21,17 +21,18 @@ namespace {
 /// Times [s] since `start`.
 template <class Point>
 std::vector<double> timesOf(const std::vector<Point>& points, const ros::Duration& start, const std::string& name) {
-  if (points.size() < 2) refuse(name + " has " + std::to_string(points.size()) + " points, two or more are needed");
+  if (points.size() < 2) refuse(name + " has " + std::to_string(points.size()) + " points; two or more are needed");
   std::vector<double> times;
   for (std::size_t i = 0; i < points.size(); ++i) {
     times.push_back(secondsBetween(start, points[i].time_from_start));
     if (i > 0 && times[i] <= times[i - 1]) {
-      refuse(name + ": time_from_start of point " + std::to_string(i) + " does not increase");
+      refuse(name + ": time_from_start of point " + std::to_string(i) +
+             " is not greater than that of the point before");
     }
     if (std::abs(times[i]) > kLongestDuration) {
       refuse(name + ": time_from_start of point " + std::to_string(i) + " is " + numberText(times[i]) +
-             " s from the first, ROS can tell no more than " + std::to_string(std::int64_t(kLongestDuration)) +
-             " s apart");
+             " s after the first point; a ros::Duration holds at most " +
+             std::to_string(std::int64_t(kLongestDuration)) + " s");
     }
   }
   return times;
@@ -150,15 +151,15 @@ RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const Plann
 std::string notesOf(const PlannedJoints& plan) {
   std::string notes;
   if (!plan.assumed.empty()) {
-    notes = std::to_string(plan.assumed.size()) + " joints that are not named are where tf has them now";
+    notes = std::to_string(plan.assumed.size()) + " joints that are not named stay at their current poses in tf";
   }
-  for (const std::string& beyond : plan.beyond_limits) notes += (notes.empty() ? "" : "; ") + ("now " + beyond);
+  for (const std::string& beyond : plan.beyond_limits) notes += (notes.empty() ? "" : "; ") + ("at present, " + beyond);
   return notes;
 }
 
 /// Notes that objects whose frames are below the robot's links move along if the base moves, and never obstruct it.
 /// Usually their frame is the root link because no frame at rest was given.
-std::string carriedNote(const PlannedScene& planned) {
+std::string carriedObjectsNote(const PlannedScene& planned) {
   std::string names;
   int count = 0;
   for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
@@ -166,8 +167,9 @@ std::string carriedNote(const PlannedScene& planned) {
     if (++count <= 3) names += (count == 1 ? "" : ", ") + planned.scene.bodies[body].name;
   }
   if (count == 0) return {};
-  return "these objects move with the robot's base, as their frames hang on it: " + names + (count > 3 ? ", ..." : "") +
-         "; give them, or fixed_frame, a frame that rests";
+  return "these objects move with the robot's base, because their tf frames are below it: " + names +
+         (count > 3 ? ", ..." : "") +
+         "; to keep them in place, set their frame or fixed_frame to one that does not move";
 }
 
 PlannedMotion alongTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
@@ -185,7 +187,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
   }
   PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.unreachable, planned.sampling);
   result.notes = notesOf(plan);
-  const std::string carried = movesRoot(request, planned) ? carriedNote(planned) : "";
+  const std::string carried = movesRoot(request, planned) ? carriedObjectsNote(planned) : "";
   if (!carried.empty()) result.notes += (result.notes.empty() ? "" : "; ") + carried;
   return result;
 }
@@ -196,7 +198,7 @@ std::vector<std::vector<Isometry3d>> linkPoses(const QueryMotion::Request& reque
   for (std::size_t i = 0; i < request.poses.size(); ++i) {
     const std::vector<geometry_msgs::Pose>& poses = request.poses[i].poses;
     if (poses.size() != request.links.size()) {
-      refuse("poses " + std::to_string(i) + " has " + std::to_string(poses.size()) + " for " +
+      refuse("poses[" + std::to_string(i) + "] has " + std::to_string(poses.size()) + " poses for " +
              std::to_string(request.links.size()) + " links");
     }
     for (std::size_t link = 0; link < poses.size(); ++link) X_WL[link].push_back(toIsometry(poses[link]));
@@ -299,7 +301,7 @@ PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const Planned
     refuse("interpolation " + std::to_string(request.interpolation) + " is neither LINEAR nor SPLINES");
   }
   const bool has_joints = !request.trajectory.points.empty() || !request.multi_dof_trajectory.points.empty();
-  if (has_joints == !request.poses.empty()) refuse("give either a trajectory or poses of links");
+  if (has_joints == !request.poses.empty()) refuse("give either trajectories or poses of links, and not both");
   return withMargin(has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned), request.margin);
 }
 

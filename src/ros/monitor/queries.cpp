@@ -22,9 +22,9 @@ constexpr std::size_t kMotionsPerPiece = 16;
   throw std::invalid_argument(what);
 }
 
-void requireAtMost(std::size_t most, std::size_t given, const std::string& what) {
-  if (given <= most) return;
-  refuse(std::to_string(given) + " " + what + ", at most " + std::to_string(most) + " are answered at a time");
+void requireAtMost(std::size_t limit, std::size_t given, const std::string& what) {
+  if (given <= limit) return;
+  refuse(std::to_string(given) + " " + what + ": at most " + std::to_string(limit) + " are allowed in one request");
 }
 
 }  // namespace
@@ -62,12 +62,12 @@ void Queries::answerWith(const Work& work, Response& response) {
     response.message = why;
   };
   try {
-    const WorkTurns::Caller place(turns_);
+    const WorkTurns::Caller registered(turns_);
     work();
     response.success = true;
   } catch (const Cancelled&) {
     if (caller.asked()) throw;
-    fail("this takes more than " + numberText(limits_.seconds) + " s of computing: ask for it in parts");
+    fail("the request takes more than " + numberText(limits_.seconds) + " s of computing time: split it into parts");
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -139,7 +139,8 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   wanted.refine = refine_;
   MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
-  if (drawn_ && drawn_.getNumSubscribers() > 0) markers = std::make_unique<PlannedMarkers>(world->description());
+  if (marker_publisher_ && marker_publisher_.getNumSubscribers() > 0)
+    markers = std::make_unique<PlannedMarkers>(world->description());
   while (!check.isDone()) {
     const Piece piece(*this, spent);
     const CancelPoint cancel;
@@ -159,7 +160,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   response.error_bound = std::max(0.0, result.error_bound - request.margin);
   const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
   setPairContacts(result, context, response.pairs);
-  if (markers) drawn_.publish(markers->draw(result, context, history_.fixedFrame()));
+  if (markers) marker_publisher_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
   response.not_checked = result.not_checked;
 }
@@ -177,7 +178,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
     const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
     if (!frame.empty() && !of_motion.empty() && of_motion != frame) {
-      refuse("root poses of all motions are to be in one frame, not in " + frame + " and " + of_motion);
+      refuse("the root poses of all motions must be in the same frame, but are in " + frame + " and " + of_motion);
     }
     if (!of_motion.empty()) frame = of_motion;
   }
@@ -247,7 +248,7 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   for (std::size_t body = 0; body < missing.size(); ++body) {
     const Body& description = scene.bodies[body];
     if (!description.failure.empty()) {
-      response.message += "not counted: " + description.failure + "\n";
+      response.message += "ignored: " + description.failure + "\n";
     } else if (!missing[body].empty()) {
       refuse("body " + description.name + ": " + missing[body]);
     } else if (!description.parts.empty() && !description.warning.empty()) {

@@ -43,7 +43,7 @@ class Queries {
   std::shared_ptr<const CheckedWorld> world() const;
 
   /// Draws each motion that is checked while there is a subscriber (PlannedMarkers). Must be called before answer().
-  void drawOn(const ros::Publisher& publisher) { drawn_ = publisher; }
+  void setMarkerPublisher(const ros::Publisher& publisher) { marker_publisher_ = publisher; }
 
   void answer(const QueryMotion::Request& request, QueryMotion::Response& response);
   void answer(const QueryMotions::Request& request, QueryMotions::Response& response);
@@ -72,7 +72,7 @@ class Queries {
   Refinement refine_;
   double max_age_;  // older transforms are mentioned in a note [s]
   const TfHistory& history_;
-  ros::Publisher drawn_;  // if it is empty, nothing is drawn
+  ros::Publisher marker_publisher_;  // if it is empty, nothing is drawn
   QueryLimits limits_;
   WorkTurns turns_;
   std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // shared by all answers, as one works at a time

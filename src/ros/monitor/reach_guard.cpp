@@ -39,15 +39,15 @@ ReachGuard::ReachGuard(const CheckedWorld& world, const DescribedScene& describe
   for (const UnreachablePair& pair : world.unreachable) {
     const auto isLink = [&](int body) { return !scene_.bodies[static_cast<std::size_t>(body)].is_world; };
     if (isLink(pair.body_a) && isLink(pair.body_b)) unreachable_.push_back(pair);
-    std::vector<std::size_t> rests_on;
+    std::vector<std::size_t> joints;
     for (const RobotModel::Slide& slide : pair.slides) {
       const auto joint =
           std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.slide.joint == slide.joint; });
-      rests_on.push_back(static_cast<std::size_t>(joint - joints_.begin()));
+      joints.push_back(static_cast<std::size_t>(joint - joints_.begin()));
     }
-    if (rests_on.empty()) continue;
+    if (joints.empty()) continue;
     pairs_.push_back({pair.body_a, pair.body_b, ""});
-    rest_on_.push_back(rests_on);
+    joints_of_pair_.push_back(joints);
   }
 }
 
@@ -55,10 +55,10 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
   std::vector<UncheckedPair> unchecked;
   if (!unreachable_.empty()) {
     findSpans(cycle.motion);
-    findNear(cycle.motion, unchecked);
+    findTouchingBalls(cycle.motion, unchecked);
   }
   if (joints_.empty()) return unchecked;
-  follow(history, cycle);
+  copyJointMotion(history, cycle);
   bool all_hold = true;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     joints_[j].problem = problem(j, cycle);
@@ -68,7 +68,7 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
     const auto isNamed = [&](const UncheckedPair& named) {
       return named.body_a == pairs_[p].body_a && named.body_b == pairs_[p].body_b;
     };
-    for (const std::size_t joint : rest_on_[p]) {
+    for (const std::size_t joint : joints_of_pair_[p]) {
       if (joints_[joint].problem.empty() || std::any_of(unchecked.begin(), unchecked.end(), isNamed)) continue;
       unchecked.push_back({pairs_[p].body_a, pairs_[p].body_b, joints_[joint].problem});
       break;
@@ -95,7 +95,7 @@ void ReachGuard::findSpans(const CycleMotion& motion) {
 }
 
 /// If two balls meet at a recorded time that cannot meet according to the URDF, tf is that of another robot.
-void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const {
+void ReachGuard::findTouchingBalls(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const {
   for (const UnreachablePair& pair : unreachable_) {
     const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
     if (known_[a].empty() || known_[b].empty()) continue;
@@ -103,18 +103,19 @@ void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>&
     const double reach = pair.ball_a.radius + pair.ball_b.radius;
     const std::size_t last = std::min(known_[a].last, known_[b].last);
     for (std::size_t k = std::max(known_[a].first, known_[b].first); k <= last; ++k) {
-      const Vector3d way = motion.X_WB[a][k] * pair.ball_a.center - motion.X_WB[b][k] * pair.ball_b.center;
-      if (way.squaredNorm() > reach * reach) continue;
+      const Vector3d displacement = motion.X_WB[a][k] * pair.ball_a.center - motion.X_WB[b][k] * pair.ball_b.center;
+      if (displacement.squaredNorm() > reach * reach) continue;
       unchecked.push_back(
           {pair.body_a, pair.body_b,
-           std::string(kOutOfReach) + " by the URDF, but tf has them near each other: is it this robot's?"});
+           std::string(kOutOfReach) +
+               " according to the URDF, but close to each other in tf: do the URDF and tf belong to the same robot?"});
       break;
     }
   }
 }
 
 /// Copies the joints' motion over the cycle, as far as each child is known.
-void ReachGuard::follow(const TfHistory& history, const TrackedCycle& cycle) {
+void ReachGuard::copyJointMotion(const TfHistory& history, const TrackedCycle& cycle) {
   history.spans(chains_, spans_);
   parts_.clear();
   for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -133,8 +134,8 @@ std::string ReachGuard::problem(std::size_t index, const TrackedCycle& cycle) {
   const std::size_t parent = 2 * index, child = parent + 1;
   for (const std::size_t frame : {child, parent}) {
     if (window_.problem(frame).empty()) continue;
-    return std::string(kOutOfReach) + " by joint " + joint.slide.joint +
-           ", which is not known: " + window_.problem(frame);
+    return std::string(kOutOfReach) + " because of joint " + joint.slide.joint +
+           ", whose position is not known: " + window_.problem(frame);
   }
   const double from = (parts_[child].from - cycle.origin).toSec();
   const double until = (parts_[child].until - cycle.origin).toSec();

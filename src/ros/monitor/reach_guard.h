@@ -30,8 +30,8 @@ class ReachGuard {
 
   /// Finds the waypoints at which a body's poses are those of tf, from its checked pairs.
   void findSpans(const CycleMotion& motion);
-  void findNear(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const;
-  void follow(const TfHistory& history, const TrackedCycle& cycle);
+  void findTouchingBalls(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const;
+  void copyJointMotion(const TfHistory& history, const TrackedCycle& cycle);
   std::string problem(std::size_t joint, const TrackedCycle& cycle);
 
   const Scene& scene_;
@@ -41,11 +41,11 @@ class ReachGuard {
   std::vector<TfSpan> spans_;
   std::vector<TimePart> parts_;
   TfWindow window_;
-  std::vector<UncheckedPair> pairs_;               // without reasons
-  std::vector<std::vector<std::size_t>> rest_on_;  // per pair: indices of joints
-  std::vector<UnreachablePair> unreachable_;       // links only: objects may be out of reach though their balls meet
-  std::vector<bool> is_checked_;                   // per body: whether it is in a pair
-  std::vector<WaypointSpan> known_;                // per body, in the last cycle
+  std::vector<UncheckedPair> pairs_;                      // without reasons
+  std::vector<std::vector<std::size_t>> joints_of_pair_;  // per pair: indices of joints
+  std::vector<UnreachablePair> unreachable_;  // links only: objects may be out of reach though their balls meet
+  std::vector<bool> is_checked_;              // per body: whether it is in a pair
+  std::vector<WaypointSpan> known_;           // per body, in the last cycle
 };
 
 }  // namespace sdf_ccd

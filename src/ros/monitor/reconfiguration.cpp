@@ -62,9 +62,9 @@ std::string notFinite(const Config& config) {
   return bad == message.doubles.end() ? "" : bad->name + " is not finite";
 }
 
-std::string whyNot(const CollisionMonitorConfig& config) {
+std::string whyInvalid(const CollisionMonitorConfig& config) {
   if (config.warning_distance > 0.0 && config.warning_distance < config.stop_distance) {
-    return "warning_distance is less than stop_distance";
+    return "warning_distance must be 0 or at least stop_distance";
   }
   return notFinite(config);
 }
@@ -73,38 +73,38 @@ std::string whyNot(const CollisionMonitorConfig& config) {
 
 template <class Config>
 ConfigServer<Config>::ConfigServer(const ros::NodeHandle& node, const Config& start,
-                                   std::function<std::string(const Config&)> why_not, std::function<void()> changed)
-    : in_force_(start), why_not_(std::move(why_not)), changed_(std::move(changed)), server_(node) {
+                                   std::function<std::string(const Config&)> why_invalid, std::function<void()> changed)
+    : current_(start), why_invalid_(std::move(why_invalid)), changed_(std::move(changed)), server_(node) {
   server_.setCallback([this](Config& config, std::uint32_t) { set(config); });
 }
 
 template <class Config>
 void ConfigServer<Config>::set(Config& config) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::string why_not = why_not_(config);
-  if (!why_not.empty()) ROS_WARN("set_parameters refused: %s", why_not.c_str());
+  const std::string why_invalid = why_invalid_(config);
+  if (!why_invalid.empty()) ROS_WARN("dynamic_reconfigure: the new values are rejected: %s", why_invalid.c_str());
   // The server's own first configuration is clamped to its limits.
-  if (begins_ || !why_not.empty()) {
-    config = in_force_;
-    begins_ = false;
+  if (is_first_call_ || !why_invalid.empty()) {
+    config = current_;
+    is_first_call_ = false;
     return;
   }
-  in_force_ = config;
-  is_new_ = true;
+  current_ = config;
+  has_changed_ = true;
   changed_();
 }
 
 template <class Config>
 std::optional<Config> ConfigServer<Config>::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!is_new_) return std::nullopt;
-  is_new_ = false;
-  return in_force_;
+  if (!has_changed_) return std::nullopt;
+  has_changed_ = false;
+  return current_;
 }
 
 Reconfiguration::Reconfiguration(const ros::NodeHandle& private_node, const MonitorParameters& parameters,
                                  const std::function<void()>& changed)
-    : monitor_(private_node, configOf(parameters), whyNot, changed) {
+    : monitor_(private_node, configOf(parameters), whyInvalid, changed) {
   if (!parameters.proximity.promise) return;
   velocity_scale_ = std::make_unique<ConfigServer<VelocityScaleConfig>>(ros::NodeHandle(private_node, "velocity_scale"),
                                                                         configOf(*parameters.proximity.promise),

@@ -20,10 +20,10 @@ namespace sdf_ccd {
 template <class Config>
 class ConfigServer {
  public:
-  /// @param start    the first values, whatever the parameter server holds.
-  /// @param why_not  returns why a configuration is invalid; empty if it is valid.
+  /// @param start  the first values, whatever the parameter server holds.
+  /// @param why_invalid  returns why a configuration is invalid; empty if it is valid.
   /// @param changed  called by the serving thread when new values have been set.
-  ConfigServer(const ros::NodeHandle& node, const Config& start, std::function<std::string(const Config&)> why_not,
+  ConfigServer(const ros::NodeHandle& node, const Config& start, std::function<std::string(const Config&)> why_invalid,
                std::function<void()> changed);
 
   /// The values set since the last call.
@@ -33,10 +33,10 @@ class ConfigServer {
   void set(Config& config);
 
   std::mutex mutex_;
-  Config in_force_;
-  bool begins_ = true;
-  bool is_new_ = false;
-  std::function<std::string(const Config&)> why_not_;
+  Config current_;
+  bool is_first_call_ = true;
+  bool has_changed_ = false;
+  std::function<std::string(const Config&)> why_invalid_;
   std::function<void()> changed_;
   dynamic_reconfigure::Server<Config> server_;
 };

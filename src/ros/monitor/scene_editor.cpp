@@ -19,9 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMaxCallers = 3;  // one at work, and others that wait
-constexpr auto kLook = std::chrono::microseconds(200);
-constexpr auto kPatience = std::chrono::milliseconds(500);  // longest wait for a cycle to adopt a version
+constexpr int kMaxCallers = 3;  // one that changes the scene, and others that wait
+constexpr auto kPollPeriod = std::chrono::microseconds(200);
+constexpr auto kMaxAdoptWait = std::chrono::milliseconds(500);  // longest wait for a cycle to adopt a version
 
 int lastChangeOf(const std::string& object, const UpdateScene::Request& request) {
   for (auto change = request.changes.rbegin(); change != request.changes.rend(); ++change)
@@ -31,27 +31,28 @@ int lastChangeOf(const std::string& object, const UpdateScene::Request& request)
 
 }  // namespace
 
-/// The turn of one caller, for its lifetime.
-class SceneEditor::Turn {
+/// The exclusive right of one caller to change the scene, for its lifetime.
+class SceneEditor::EditLock {
  public:
-  explicit Turn(SceneEditor& editor) : editor_(editor) {
+  explicit EditLock(SceneEditor& editor) : editor_(editor) {
     if (++editor.callers_ > kMaxCallers) {
       --editor.callers_;
-      throw std::runtime_error("too many changes at a time: " + std::to_string(kMaxCallers) + " wait already");
+      throw std::runtime_error("busy: " + std::to_string(kMaxCallers) +
+                               " changes of the scene are being made; try again later");
     }
     try {
-      while (!editor.turn_.try_lock_for(std::chrono::milliseconds(20))) checkCancelled();
+      while (!editor.edit_mutex_.try_lock_for(std::chrono::milliseconds(20))) checkCancelled();
     } catch (...) {
       --editor.callers_;
       throw;
     }
   }
-  ~Turn() {
-    editor_.turn_.unlock();
+  ~EditLock() {
+    editor_.edit_mutex_.unlock();
     --editor_.callers_;
   }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
+  EditLock(const EditLock&) = delete;
+  EditLock& operator=(const EditLock&) = delete;
 
  private:
   SceneEditor& editor_;
@@ -72,7 +73,7 @@ SceneEditor::SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedSce
 SceneEditor::~SceneEditor() = default;
 
 bool SceneEditor::adopt() {
-  PreparedWorld* const ready = offered_.exchange(nullptr);
+  PreparedWorld* const ready = pending_.exchange(nullptr);
   if (!ready) return false;
   try {
     const std::shared_ptr<const CheckedWorld> world = ready->loop->world;
@@ -80,21 +81,22 @@ bool SceneEditor::adopt() {
     parts_.outputs.adopt(*ready->outputs);
     parts_.queries.setWorld(world);
   } catch (...) {
-    adopted_ = ready;  // else whoever handed it over would wait for ever
+    adopted_ = ready;  // otherwise withdraw() would wait forever
     throw;
   }
   adopted_ = ready;
   return true;
 }
 
-/// Withdraws the version handed over last if no cycle has taken it, else waits until it is adopted; frees what is left.
+/// Withdraws the version that was handed over last if the cycles have not taken it, else waits until they have adopted
+/// it; then frees its parts.
 void SceneEditor::withdraw() {
-  if (!given_) return;
-  if (!offered_.exchange(nullptr)) {
-    while (adopted_ != given_.get()) std::this_thread::sleep_for(kLook);
+  if (!handed_over_) return;
+  if (!pending_.exchange(nullptr)) {
+    while (adopted_ != handed_over_.get()) std::this_thread::sleep_for(kPollPeriod);
   }
   adopted_ = nullptr;
-  given_.reset();
+  handed_over_.reset();
 }
 
 std::unique_ptr<PreparedWorld> SceneEditor::prepare(const std::shared_ptr<const CheckedWorld>& world) {
@@ -106,14 +108,14 @@ std::unique_ptr<PreparedWorld> SceneEditor::prepare(const std::shared_ptr<const 
 }
 
 bool SceneEditor::handOver(std::unique_ptr<PreparedWorld> prepared) {
-  given_ = std::move(prepared);
-  offered_ = given_.get();
+  handed_over_ = std::move(prepared);
+  pending_ = handed_over_.get();
   wake_();
   const CancelPoint cancel;
   for (const auto start = Clock::now();
-       adopted_ != given_.get() && Clock::now() - start < kPatience && !cancel.asked();)
-    std::this_thread::sleep_for(kLook);
-  const bool is_adopted = adopted_ == given_.get();
+       adopted_ != handed_over_.get() && Clock::now() - start < kMaxAdoptWait && !cancel.asked();)
+    std::this_thread::sleep_for(kPollPeriod);
+  const bool is_adopted = adopted_ == handed_over_.get();
   if (is_adopted) withdraw();  // frees the former version
   return is_adopted;
 }
@@ -135,7 +137,8 @@ std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene
 void SceneEditor::save(const std::string& file, const ChangingScene& scene, ChangeSources& sources) {
   namespace fs = std::filesystem;
   const std::string path = sources.files.path(file);
-  if (fs::path(path).extension() != ".scene") throw std::invalid_argument(file + ": a scene's file ends in .scene");
+  if (fs::path(path).extension() != ".scene")
+    throw std::invalid_argument("save_file " + file + " does not end in .scene");
   const std::string text = scene.text(sources, sources.warnings);
   // Anyone who can write in the folder could have placed a link under any name that is known beforehand.
   TemporaryFile made(path);
@@ -152,7 +155,7 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   ChangingScene scene = scene_;
   ChangeSources sources{parts_.loop.history(), files_, limits_, limits_.triangles, {}};
   if (request.changes.size() > limits_.objects)
-    throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes");
+    throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes in one request");
   for (const SceneChange& change : request.changes) {
     response.failed_change = static_cast<std::int32_t>(&change - request.changes.data());
     scene.apply(change, sources);
@@ -173,7 +176,7 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   response.adopted = true;
   if (!request.changes.empty()) {
     const auto ready = Clock::now();
-    response.adopted = goOnWith(std::move(scene), world, std::move(prepared));
+    response.adopted = commit(std::move(scene), world, std::move(prepared));
     response.adopt_seconds = secondsSince(ready);
     response.prepared = static_cast<std::uint32_t>(world->snapshot->prepared);
     response.shared = static_cast<std::uint32_t>(world->snapshot->shared);
@@ -182,9 +185,9 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
   response.success = true;
 }
 
-/// @return whether the cycles have adopted it.
-bool SceneEditor::goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
-                           std::unique_ptr<PreparedWorld> prepared) {
+/// Makes this the scene, and hands its world over to the cycles. @return whether they have adopted it.
+bool SceneEditor::commit(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
+                         std::unique_ptr<PreparedWorld> prepared) {
   scene_ = std::move(scene);
   setLast(world);
   const bool is_adopted = handOver(std::move(prepared));
@@ -204,13 +207,13 @@ std::shared_ptr<const CheckedWorld> SceneEditor::world() {
 
 std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, const std::vector<MadeField>& fields) {
   lowerPriority();
-  const Turn turn(*this);
+  const EditLock lock(*this);
   for (const MadeField& made : fields) editor_->provide(made.mesh, made.field);
   ChangingScene scene = scene_;
   scene.setTiles(std::move(tiles));
   std::string making;
   const std::shared_ptr<const CheckedWorld> world = make(scene, making);
-  goOnWith(std::move(scene), world, prepare(world));
+  commit(std::move(scene), world, prepare(world));
   return world->version();
 }
 
@@ -218,7 +221,7 @@ void SceneEditor::update(const UpdateScene::Request& request, UpdateScene::Respo
   lowerPriority();
   response.failed_change = -1;
   try {
-    const Turn turn(*this);
+    const EditLock lock(*this);
     try {
       edit(request, response);
     } catch (const std::exception& error) {

@@ -43,7 +43,7 @@ class SceneEditor {
 
   /// @param editor  of the first version of the world, which `parts` use.
   /// @param wake    called when a version is ready: the thread of the cycles should call adopt() soon.
-  /// @param changed  called by the changing thread when the cycles have adopted a version, or will.
+  /// @param changed  called by the changing thread when the cycles have adopted a version, or will adopt it.
   SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described, const MonitorParameters& parameters,
               const Parts& parts, std::function<void()> wake, std::function<void(const CheckedWorld&)> changed);
   ~SceneEditor();
@@ -68,13 +68,13 @@ class SceneEditor {
   bool adopt();
 
  private:
-  class Turn;
+  class EditLock;
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
   std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene, std::string& making);
   std::unique_ptr<PreparedWorld> prepare(const std::shared_ptr<const CheckedWorld>& world);
   bool handOver(std::unique_ptr<PreparedWorld> prepared);
-  bool goOnWith(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
-                std::unique_ptr<PreparedWorld> prepared);
+  bool commit(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
+              std::unique_ptr<PreparedWorld> prepared);
   void setLast(std::shared_ptr<const CheckedWorld> world);
   void withdraw();
   void save(const std::string& file, const ChangingScene& scene, ChangeSources& sources);
@@ -88,13 +88,13 @@ class SceneEditor {
   tbb::task_arena arena_;
 
   std::mutex last_mutex_;
-  std::timed_mutex turn_;
+  std::timed_mutex edit_mutex_;
   std::atomic<int> callers_{0};
-  ChangingScene scene_;                                 // guarded by turn_, as all below
+  ChangingScene scene_;                                 // guarded by edit_mutex_, as all below
   std::shared_ptr<const CheckedWorld> last_;            // last version made; also guarded by last_mutex_
-  std::unique_ptr<PreparedWorld> given_;                // last version handed over
-  std::atomic<PreparedWorld*> offered_{nullptr};        // null once the thread of the cycles takes it
-  std::atomic<const PreparedWorld*> adopted_{nullptr};  // set once that has adopted it
+  std::unique_ptr<PreparedWorld> handed_over_;          // last version handed over to the cycles
+  std::atomic<PreparedWorld*> pending_{nullptr};        // the same; null once the thread of the cycles has taken it
+  std::atomic<const PreparedWorld*> adopted_{nullptr};  // the same, once the cycles use it
 };
 
 }  // namespace sdf_ccd

@@ -45,7 +45,7 @@ void TransformListener::recoverStatic() {
   tf_static_ = subscribe("/tf_static", true);
 }
 
-/// No message may end the manager and its other nodelets by an exception.
+/// An exception that escaped would end the nodelet manager with all its nodelets.
 void TransformListener::take(const tf2_msgs::TFMessage& message, bool is_static) {
   try {
     history_.watchClock(ros::Time::now());
@@ -55,18 +55,20 @@ void TransformListener::take(const tf2_msgs::TFMessage& message, bool is_static)
       trigger_.onFrame(withoutLeadingSlash(message.transforms[i].child_frame_id));
     }
   } catch (const std::exception& error) {
-    ROS_WARN_THROTTLE(10.0, "Transforms are dropped: %s", error.what());
+    ROS_WARN_THROTTLE(10.0, "A message on /tf or /tf_static is dropped: %s", error.what());
   }
 }
 
 void TransformListener::report(MonitorHealth& health) {
   const long refused = history_.refused(), not_kept = history_.notKept();
   if (refused > health.refused) {
-    ROS_WARN_THROTTLE(10.0, "%ld transforms are refused so far, the last as %s", refused, history_.refusal().c_str());
+    ROS_WARN_THROTTLE(10.0, "%ld invalid transforms were ignored so far; the last one: %s", refused,
+                      history_.refusal().c_str());
   }
   if (not_kept > health.not_kept) {
-    ROS_WARN_THROTTLE(10.0, "There are more frames than are kept: %ld transforms that no body needs are dropped",
-                      not_kept);
+    ROS_WARN_THROTTLE(
+        10.0, "tf has more frames than the monitor stores: %ld transforms of frames that no body needs were dropped",
+        not_kept);
   }
   health.refused = refused;
   health.not_kept = not_kept;

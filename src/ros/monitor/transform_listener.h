@@ -25,8 +25,8 @@ class TransformListener {
   TransformListener(const ros::NodeHandle& node, const RobotModel& robot, TfHistory& history, CycleTrigger& trigger);
   ~TransformListener();
 
-  /// Subscribes to /tf_static again, at most every two seconds, if static transforms that are needed now had no room
-  /// before: every new subscriber is sent all of them.
+  /// Subscribes to /tf_static again, at most every two seconds, if static transforms that are needed now were dropped
+  /// before: publishers send all of them to a new subscriber.
   void recoverStatic();
 
   /// Sets the problems of received messages, and logs at intervals what was dropped since the last call.

@@ -7,8 +7,9 @@ namespace sdf_ccd {
 
 WorkTurns::Caller::Caller(WorkTurns& turns) : turns_(turns) {
   const std::lock_guard<std::mutex> lock(turns.mutex_);
-  if (turns.callers_ == turns.most_) {
-    throw std::runtime_error("busy: " + std::to_string(turns.most_) + " queries are being answered, ask again later");
+  if (turns.callers_ == turns.max_callers_) {
+    throw std::runtime_error("busy: " + std::to_string(turns.max_callers_) +
+                             " queries are being answered; try again later");
   }
   ++turns.callers_;
 }
@@ -20,16 +21,16 @@ WorkTurns::Caller::~Caller() {
 
 WorkTurns::Turn::Turn(WorkTurns& turns) : turns_(turns) {
   std::unique_lock<std::mutex> lock(turns.mutex_);
-  const std::uint64_t ticket = turns.tickets_++;
-  turns.next_.wait(lock, [&] { return turns.turn_ == ticket; });
+  const std::uint64_t ticket = turns.next_ticket_++;
+  turns.served_changed_.wait(lock, [&] { return turns.served_ticket_ == ticket; });
 }
 
 WorkTurns::Turn::~Turn() {
   {
     const std::lock_guard<std::mutex> lock(turns_.mutex_);
-    ++turns_.turn_;
+    ++turns_.served_ticket_;
   }
-  turns_.next_.notify_all();
+  turns_.served_changed_.notify_all();
 }
 
 }  // namespace sdf_ccd

@@ -6,12 +6,12 @@
 
 namespace sdf_ccd {
 
-/// Lets a bounded number of callers work in turns, piece by piece: the caller that has waited longest is next. So short
-/// work is done soon, however long the others' is.
+/// Lets a bounded number of callers work in turns, piece by piece: the caller that has waited longest is next. Short
+/// work is thus done soon, even beside long work.
 class WorkTurns {
  public:
-  /// @param most  maximum number of callers at a time.
-  explicit WorkTurns(int most) : most_(most) {}
+  /// @param max_callers  at a time.
+  explicit WorkTurns(int max_callers) : max_callers_(max_callers) {}
 
   /// A caller, for its lifetime.
   class Caller {
@@ -39,12 +39,12 @@ class WorkTurns {
   };
 
  private:
-  const int most_;
+  const int max_callers_;
   std::mutex mutex_;
-  std::condition_variable next_;
+  std::condition_variable served_changed_;
   int callers_ = 0;
-  std::uint64_t tickets_ = 0;  // number given out
-  std::uint64_t turn_ = 0;     // the ticket whose turn it is
+  std::uint64_t next_ticket_ = 0;
+  std::uint64_t served_ticket_ = 0;
 };
 
 }  // namespace sdf_ccd

@@ -35,7 +35,7 @@ Isometry3d poseOf(const TfHistory& history, const std::string& frame, const std:
 
 }  // namespace
 
-struct ChangingScene::Fixed {
+struct ChangingScene::StartUp {
   std::shared_ptr<const RobotModel> robot;
   std::string tf_prefix, fixed_frame, tiles_begin;
   PairRules rules;
@@ -49,32 +49,32 @@ struct ChangingScene::Fixed {
 };
 
 ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& rules, const SceneDescription& first) {
-  auto fixed = std::make_shared<Fixed>();
-  fixed->robot = described.robot;
-  fixed->tf_prefix = described.tf_prefix;
-  fixed->fixed_frame = described.fixed_frame;
-  fixed->tiles_begin = described.tiles_begin;
-  fixed->rules = rules;
-  fixed->visual_only = first.visual_only;
-  fixed->disabled = first.disabled;
-  fixed->unreachable = described.unreachable;
+  auto start_up = std::make_shared<StartUp>();
+  start_up->robot = described.robot;
+  start_up->tf_prefix = described.tf_prefix;
+  start_up->fixed_frame = described.fixed_frame;
+  start_up->tiles_begin = described.tiles_begin;
+  start_up->rules = rules;
+  start_up->visual_only = first.visual_only;
+  start_up->disabled = first.disabled;
+  start_up->unreachable = described.unreachable;
   for (const UnreachablePair& pair : described.unreachable)
-    fixed->unreachable_names.emplace_back(first.bodies[pair.body_a].name, first.bodies[pair.body_b].name);
+    start_up->unreachable_names.emplace_back(first.bodies[pair.body_a].name, first.bodies[pair.body_b].name);
   for (const std::string& link : described.robot->links()) {
-    fixed->link_names.insert(link);
+    start_up->link_names.insert(link);
     if (described.robot->rigidlyJoined(described.robot->root(), link))
-      fixed->root_frames.insert(described.tf_prefix + link);
+      start_up->root_frames.insert(described.tf_prefix + link);
   }
   for (const BodyDescription& body : first.bodies) {
     if (!body.is_world) {
-      fixed->links.push_back(body);
+      start_up->links.push_back(body);
     } else if (!body.map.empty()) {
       setTiles({body});  // the awaited map
     } else {
-      objects_[body.name] = {body, "", {}, ++count_, true};
+      objects_[body.name] = {body, "", {}, ++added_, true};
     }
   }
-  fixed_ = fixed;
+  start_up_ = start_up;
 }
 
 void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
@@ -101,15 +101,15 @@ void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
     case SceneChange::CLEAR:
       return objects_.clear();
     default:
-      refuse("a change of type " + std::to_string(change.type) + " is not known");
+      refuse("unknown type " + std::to_string(change.type) + ", see SceneChange.msg");
   }
 }
 
 void ChangingScene::set(BodyDescription body) {
   const auto known = objects_.find(body.name);
-  const std::size_t since = known == objects_.end() ? ++count_ : known->second.since;
+  const std::size_t order = known == objects_.end() ? ++added_ : known->second.order;
   const std::string name = body.name;
-  objects_[name] = {std::move(body), "", {}, since, false};
+  objects_[name] = {std::move(body), "", {}, order, false};
 }
 
 ChangingScene::Object& ChangingScene::find(const std::string& name) {
@@ -118,21 +118,22 @@ ChangingScene::Object& ChangingScene::find(const std::string& name) {
   return found->second;
 }
 
-/// The tf frame in the header of a change; `otherwise` if it is empty.
-std::string ChangingScene::frameOf(const SceneChange& change, const std::string& otherwise) const {
+/// The tf frame in the header of a change; `fallback` if it is empty.
+std::string ChangingScene::frameOf(const SceneChange& change, const std::string& fallback) const {
   const std::string frame = withoutLeadingSlash(change.header.frame_id);
   if (frame.size() > RequestLimits().name || frame != shownText(frame))
-    refuse("frame " + shownText(frame) + " is none");
-  return frame.empty() ? otherwise : frame;
+    refuse(shownText(frame) + " is not a valid frame name");
+  return frame.empty() ? fallback : frame;
 }
 
 BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& sources) const {
-  const std::string frame = frameOf(change, fixed_->fixed_frame);
+  const std::string frame = frameOf(change, start_up_->fixed_frame);
   const Isometry3d X_frame_B = poseIn(change.pose).value_or(Isometry3d::Identity());
   BodyDescription body;
   WorldObject object{change.object, frame, X_frame_B, shapesIn(change, sources.limits, sources.triangles)};
   if (!change.octomap_file.empty()) {
-    if (!object.shapes.empty()) refuse("a map stands alone: add other shapes as another object");
+    if (!object.shapes.empty())
+      refuse("an object with octomap_file cannot have other shapes: add those as another object");
     OctomapObject octomap;
     octomap.file = sources.files.path(change.octomap_file);
     octomap.X_frame_B = X_frame_B;
@@ -147,23 +148,24 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
 }
 
 /// Throws unless an object may have this name.
-void ChangingScene::requireFree(const std::string& name) const {
+void ChangingScene::requireUsableName(const std::string& name) const {
   if (const std::string why = whyNoName(name); !why.empty()) refuse(why);
-  if (fixed_->link_names.count(name) > 0) refuse(name + " is a link of the robot");
-  requireNoTile(name, fixed_->tiles_begin);
+  if (start_up_->link_names.count(name) > 0) refuse(name + " is a link of the robot");
+  requireNoTile(name, start_up_->tiles_begin);
 }
 
 void ChangingScene::add(const SceneChange& change, ChangeSources& sources) {
-  requireFree(change.object);
+  requireUsableName(change.object);
   set(make(change, sources));
 }
 
 void ChangingScene::move(const SceneChange& change) {
   Object& object = find(change.object);
-  if (!object.link.empty()) refuse(change.object + " is attached to " + object.link + ": attach it anew, or detach it");
+  if (!object.link.empty())
+    refuse(change.object + " is attached to " + object.link + ": detach it first, or attach it with the new pose");
   object.body.frame = frameOf(change, object.body.frame);
   object.body.X_frame_B = poseIn(change.pose).value_or(Isometry3d::Identity());
-  object.is_as_first = false;
+  object.is_unchanged = false;
 }
 
 void ChangingScene::erase(const SceneChange& change) {
@@ -177,8 +179,8 @@ void ChangingScene::erase(const SceneChange& change) {
 }
 
 void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
-  if (fixed_->link_names.count(change.link) == 0) refuse("the robot has no link " + shownText(change.link));
-  const std::string link_frame = fixed_->tf_prefix + change.link;
+  if (start_up_->link_names.count(change.link) == 0) refuse("the robot has no link " + shownText(change.link));
+  const std::string link_frame = start_up_->tf_prefix + change.link;
   SceneChange made = change;
   if (made.header.frame_id.empty()) made.header.frame_id = link_frame;
   if (objects_.count(change.object) == 0) add(made, sources);
@@ -188,20 +190,21 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   const Isometry3d X_FB = given ? *given : object.body.X_frame_B;
   Isometry3d X_LB = X_FB;
   if (frame != link_frame) X_LB = poseOf(sources.history, frame, link_frame, change.header.stamp) * X_FB;
-  if (change.touch_links.size() > sources.limits.rules) refuse("too many touch_links");
+  if (change.touch_links.size() > sources.limits.rules)
+    refuse("more than " + std::to_string(sources.limits.rules) + " touch_links");
   for (const std::string& touched : change.touch_links) requireName(touched, "a touch_link", sources.limits);
   object.body.frame = link_frame;
   object.body.X_frame_B = X_LB;
   object.body.is_world = false;
   object.link = change.link;
   object.touch_links = change.touch_links;
-  object.is_as_first = false;
+  object.is_unchanged = false;
 }
 
 void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
   Object& object = find(change.object);
   if (object.link.empty()) refuse(change.object + " is not attached");
-  const std::string frame = frameOf(change, fixed_->fixed_frame);
+  const std::string frame = frameOf(change, start_up_->fixed_frame);
   if (const auto given = poseIn(change.pose)) {
     object.body.X_frame_B = *given;
   } else {
@@ -222,7 +225,7 @@ void ChangingScene::addRule(const SceneChange& change, const RequestLimits& limi
   };
   rules_.erase(std::remove_if(rules_.begin(), rules_.end(), same), rules_.end());
   if (rules_.size() >= limits.rules)
-    refuse("more than " + std::to_string(limits.rules) + " rules about pairs: FORGET_RULES begins anew");
+    refuse("more than " + std::to_string(limits.rules) + " rules about pairs: remove them with FORGET_RULES");
   rules_.push_back({{change.body_a, change.body_b}, change.type == SceneChange::ALLOW});
 }
 
@@ -231,8 +234,8 @@ void ChangingScene::load(const SceneChange& change, ChangeSources& sources) {
   for (const WorldObject& object : loadWorldFile(sources.files.path(change.file))) {
     checkCancelled();
     requireName(object.name, "an object's name", sources.limits);
-    requireFree(object.name);
-    const std::string frame = object.frame.empty() ? fixed_->fixed_frame : withoutLeadingSlash(object.frame);
+    requireUsableName(object.name);
+    const std::string frame = object.frame.empty() ? start_up_->fixed_frame : withoutLeadingSlash(object.frame);
     BodyDescription body = toBody(object, frame, loader, sources.warnings);
     if (!body.failure.empty()) refuse(body.failure);
     set(std::move(body));
@@ -253,11 +256,11 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   const auto known = objects_.find(other.name);
   const std::string& other_link = known == objects_.end() ? other.name : known->second.link;
   proved = true;
-  const auto isLink = [&](const std::string& link) { return fixed_->link_names.count(link) > 0; };
-  if (isLink(object.link) && isLink(other_link) && fixed_->robot->rigidlyJoined(object.link, other_link))
+  const auto isLink = [&](const std::string& link) { return start_up_->link_names.count(link) > 0; };
+  if (isLink(object.link) && isLink(other_link) && start_up_->robot->rigidlyJoined(object.link, other_link))
     return "rigidly joined";
-  const bool rests = fixed_->root_frames.count(object.body.frame) > 0 || object.body.frame == other.frame;
-  if (object.link.empty() && rests && fixed_->root_frames.count(other.frame) > 0) return "rigidly joined";
+  const bool is_static = start_up_->root_frames.count(object.body.frame) > 0 || object.body.frame == other.frame;
+  if (object.link.empty() && is_static && start_up_->root_frames.count(other.frame) > 0) return "rigidly joined";
   proved = false;
   const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
     return std::any_of(patterns.begin(), patterns.end(),
@@ -266,35 +269,36 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   const bool are_of_robot = isLink(object.link) && isLink(other_link);
   const bool may_touch = mayTouch(object.touch_links, other.name) ||
                          (known != objects_.end() && mayTouch(known->second.touch_links, name));
-  if (are_of_robot && may_touch) return "attached, and may touch";
-  return whyAllowed(fixed_->rules, name, other.name);
+  if (are_of_robot && may_touch) return "attached, and allowed by touch_links";
+  return whyAllowed(start_up_->rules, name, other.name);
 }
 
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   if (objects_.size() > limits.objects)
     throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
   SceneDescription scene;
-  scene.visual_only = fixed_->visual_only;
-  scene.bodies = fixed_->links;
+  scene.visual_only = start_up_->visual_only;
+  scene.bodies = start_up_->links;
   std::vector<const Object*> ordered;
   for (const auto& [name, object] : objects_) ordered.push_back(&object);
-  std::sort(ordered.begin(), ordered.end(), [](const Object* a, const Object* b) { return a->since < b->since; });
+  std::sort(ordered.begin(), ordered.end(), [](const Object* a, const Object* b) { return a->order < b->order; });
   for (const Object* object : ordered) scene.bodies.push_back(object->body);
   const std::size_t first_tile = scene.bodies.size();
   if (tiles_) scene.bodies.insert(scene.bodies.end(), tiles_->begin(), tiles_->end());
 
   const auto objectOf = [&](std::size_t body) -> const Object* {
-    return body < fixed_->links.size() || body >= first_tile ? nullptr : ordered[body - fixed_->links.size()];
+    return body < start_up_->links.size() || body >= first_tile ? nullptr : ordered[body - start_up_->links.size()];
   };
   // Pairs that were left out at start-up, of bodies that have not changed since.
-  std::set<std::string> as_first;
-  for (const BodyDescription& link : fixed_->links) as_first.insert(link.name);
+  std::set<std::string> unchanged;
+  for (const BodyDescription& link : start_up_->links) unchanged.insert(link.name);
   for (const Object* object : ordered)
-    if (object->is_as_first) as_first.insert(object->body.name);
+    if (object->is_unchanged) unchanged.insert(object->body.name);
   std::set<NamePair> left_out;
-  for (const DisabledPair& pair : fixed_->disabled) {
-    if (as_first.count(pair.body_a) == 0 || as_first.count(pair.body_b) == 0) {
-      const bool are_links = fixed_->link_names.count(pair.body_a) > 0 && fixed_->link_names.count(pair.body_b) > 0;
+  for (const DisabledPair& pair : start_up_->disabled) {
+    if (unchanged.count(pair.body_a) == 0 || unchanged.count(pair.body_b) == 0) {
+      const bool are_links =
+          start_up_->link_names.count(pair.body_a) > 0 && start_up_->link_names.count(pair.body_b) > 0;
       if (!are_links) continue;
     }
     const Rule* rule = pair.proved ? nullptr : lastRule(pair.body_a, pair.body_b);
@@ -314,13 +318,13 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       const Object* b = objectOf(k);
       const BodyDescription &body_a = scene.bodies[i], &body_b = scene.bodies[k];
       if (body_a.is_world && body_b.is_world) continue;
-      const bool is_new = (a && !a->is_as_first) || (b && !b->is_as_first);
-      if (!is_new && rules_.empty() && (k < first_tile || fixed_->rules.allowed.empty())) continue;
+      const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
+      if (!is_new && rules_.empty() && (k < first_tile || start_up_->rules.allowed.empty())) continue;
       const Rule* rule = lastRule(body_a.name, body_b.name);
       bool proved = false;
       std::string reason;
-      if (is_new) reason = b && !b->is_as_first ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
-      if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(fixed_->rules, body_b.name, body_a.name);
+      if (is_new) reason = b && !b->is_unchanged ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
+      if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
       if (rule && !proved) reason = rule->is_allowed ? "update_scene: " + rule->pair.a + " - " + rule->pair.b : "";
       if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
       scene.disabled.push_back({body_a.name, body_b.name, reason, proved});
@@ -330,20 +334,20 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
 }
 
 std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& description) const {
-  std::map<std::string, int> places;
-  for (std::size_t b = 0; b < description.bodies.size(); ++b) places[description.bodies[b].name] = static_cast<int>(b);
+  std::map<std::string, int> indices;
+  for (std::size_t b = 0; b < description.bodies.size(); ++b) indices[description.bodies[b].name] = static_cast<int>(b);
   std::vector<UnreachablePair> pairs;
-  for (std::size_t p = 0; p < fixed_->unreachable.size(); ++p) {
-    UnreachablePair pair = fixed_->unreachable[p];
-    const auto placeOf = [&](const std::string& name) {
+  for (std::size_t p = 0; p < start_up_->unreachable.size(); ++p) {
+    UnreachablePair pair = start_up_->unreachable[p];
+    const auto indexOf = [&](const std::string& name) {
       const auto object = objects_.find(name);
       const bool has_changed =
-          object == objects_.end() ? fixed_->link_names.count(name) == 0 : !object->second.is_as_first;
-      const auto place = places.find(name);
-      return has_changed || place == places.end() ? -1 : place->second;
+          object == objects_.end() ? start_up_->link_names.count(name) == 0 : !object->second.is_unchanged;
+      const auto index = indices.find(name);
+      return has_changed || index == indices.end() ? -1 : index->second;
     };
-    pair.body_a = placeOf(fixed_->unreachable_names[p].first);
-    pair.body_b = placeOf(fixed_->unreachable_names[p].second);
+    pair.body_a = indexOf(start_up_->unreachable_names[p].first);
+    pair.body_b = indexOf(start_up_->unreachable_names[p].second);
     if (pair.body_a >= 0 && pair.body_b >= 0) pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -361,14 +365,14 @@ std::string ChangingScene::text(const ChangeSources& sources, std::vector<std::s
     BodyDescription body = object.body;
     if (std::any_of(body.geometry.begin(), body.geometry.end(),
                     [](const auto& part) { return part.watertight_voxels; })) {
-      warnings.push_back(name + " is a map, and is not written");
+      warnings.push_back(name + " is not saved: it is an OctoMap, which .scene files cannot hold");
       continue;
     }
     if (!body.failure.empty()) {
-      warnings.push_back(name + " is not saved, as it cannot be checked: " + body.failure);
+      warnings.push_back(name + " is not saved, because it cannot be checked: " + body.failure);
       continue;
     }
-    if (body.frame != fixed_->fixed_frame)
+    if (body.frame != start_up_->fixed_frame)
       body.X_frame_B = lookup(sources.history, body.frame, ros::Time()) * body.X_frame_B;
     bodies.push_back(std::move(body));
   }

@@ -60,14 +60,14 @@ class ChangingScene {
     BodyDescription body;
     std::string link;  // link that it is attached to; empty if there is none
     std::vector<std::string> touch_links;
-    std::size_t since = 0;     // rank in the order in which objects were added
-    bool is_as_first = false;  // unchanged since start-up
+    std::size_t order = 0;      // rank in the order in which objects were added
+    bool is_unchanged = false;  // since start-up
   };
   struct Rule {
     PairRule pair;
     bool is_allowed;
   };
-  struct Fixed;  // data that does not change: the links, and what start-up left out
+  struct StartUp;  // data that does not change: the links, and the pairs that were left out at start-up
 
   void add(const SceneChange& change, ChangeSources& sources);
   void move(const SceneChange& change);
@@ -78,17 +78,17 @@ class ChangingScene {
   void load(const SceneChange& change, ChangeSources& sources);
 
   BodyDescription make(const SceneChange& change, ChangeSources& sources) const;
-  std::string frameOf(const SceneChange& change, const std::string& otherwise) const;
-  void requireFree(const std::string& name) const;
+  std::string frameOf(const SceneChange& change, const std::string& fallback) const;
+  void requireUsableName(const std::string& name) const;
   Object& find(const std::string& name);
   const Rule* lastRule(const std::string& a, const std::string& b) const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
 
-  std::shared_ptr<const Fixed> fixed_;
+  std::shared_ptr<const StartUp> start_up_;
   std::map<std::string, Object> objects_;
   std::shared_ptr<const std::vector<BodyDescription>> tiles_;
   std::vector<Rule> rules_;
-  std::size_t count_ = 0;
+  std::size_t added_ = 0;  // number of objects ever added
 };
 
 }  // namespace sdf_ccd

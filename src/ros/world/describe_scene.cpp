@@ -24,7 +24,7 @@ ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::stri
     if (!isHttp(uri)) return loadLocalResource(uri, packages, directory);
     if (!allow_http) {
       throw std::runtime_error(shownText(uri) +
-                               ": http and https are fetched only if the parameter allow_http is true");
+                               ": http and https are only downloaded if the parameter allow_http is true");
     }
     try {
       return Resource{fetchHttp(uri), uri, ""};
@@ -69,20 +69,19 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   for (const std::string& root : parameters.resource_roots) {
     std::error_code error;
     if (!std::filesystem::is_directory(root, error))
-      described.warnings.push_back("resource_roots: there is no folder " + root + ", so no request may name its files");
+      described.warnings.push_back("resource_roots: the folder " + root + " does not exist, so requests cannot use it");
   }
   if (!parameters.live_map.topic.empty()) described.tiles_begin = std::string(LiveMapParameters::kName) + "/";
   for (const BodyDescription& body : described.scene.bodies) requireNoTile(body.name, described.tiles_begin);
   disableUnreachable(*robot, described.scene);
   if (!parameters.live_map.topic.empty()) {
-    const std::string why = "no map has come on " + parameters.live_map.topic + " yet";
+    const std::string why = "no map has been received on " + parameters.live_map.topic + " yet";
     described.scene.bodies.push_back(awaitedTile(frameOf(""), why));
     const std::optional<StoppingPromise>& promise = parameters.proximity.promise;
     if (promise && promise->stop_distance <= parameters.live_map.padding) {
       described.warnings.push_back(
-          "the velocity scale does not keep the robot from voxels of the map that are nearer than " +
-          numberText(parameters.live_map.padding) +
-          " m, which are ignored (octomap/padding): set a larger stop_distance");
+          "velocity_scale: the robot may touch the live map, because voxels closer to it than octomap/padding (" +
+          numberText(parameters.live_map.padding) + " m) are ignored: set stop_distance to more than that");
     }
   }
   applyRules(parameters.pairs, described.scene, described.warnings);
@@ -98,7 +97,8 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
 
 void requireNoTile(const std::string& body, const std::string& tiles_begin) {
   if (tiles_begin.empty() || body.rfind(tiles_begin, 0) != 0) return;
-  throw std::invalid_argument(body + ": names that begin with " + tiles_begin + " are those of the live map's tiles");
+  throw std::invalid_argument(body + ": names that begin with " + tiles_begin +
+                              " are reserved for the live map's tiles");
 }
 
 ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options) {

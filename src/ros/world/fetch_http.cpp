@@ -27,7 +27,7 @@ std::string contentFrom(ChildProcess& child, std::size_t max_bytes) {
   const int status = child.wait();
   if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return bytes;
   const bool has_reason = status != -1 && WIFEXITED(status) && !bytes.empty();
-  throw std::runtime_error(has_reason ? shownText(bytes) : "the program that fetches it ended without an answer");
+  throw std::runtime_error(has_reason ? shownText(bytes) : "sdf_ccd_fetch ended without an answer");
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ std::string fetchHttp(const std::string& uri, const FetchLimits& limits) {
   try {
     return contentFrom(child, limits.bytes);
   } catch (const ChildProcess::Late&) {
-    throw std::runtime_error("not there after " + numberText(limits.seconds) + " s");
+    throw std::runtime_error("not downloaded within " + numberText(limits.seconds) + " s");
   }
 }
 

@@ -23,40 +23,41 @@ bool isNear(const Vector3d& v) {
 Primitive toPrimitive(const shape_msgs::SolidPrimitive& message, const std::string& name) {
   using shape_msgs::SolidPrimitive;
   const std::vector<double>& size = message.dimensions;
-  const std::size_t wanted = message.type == SolidPrimitive::BOX ? 3 : message.type == SolidPrimitive::SPHERE ? 1 : 2;
+  const std::size_t expected = message.type == SolidPrimitive::BOX ? 3 : message.type == SolidPrimitive::SPHERE ? 1 : 2;
   if (message.type != SolidPrimitive::BOX && message.type != SolidPrimitive::SPHERE &&
       message.type != SolidPrimitive::CYLINDER)
-    refuse(name + ": only BOX, SPHERE and CYLINDER are known, not type " + std::to_string(message.type));
-  if (size.size() != wanted)
-    refuse(name + ": " + std::to_string(size.size()) + " dimensions, not " + std::to_string(wanted));
+    refuse(name + ": type " + std::to_string(message.type) + " is not supported, only BOX, SPHERE and CYLINDER");
+  if (size.size() != expected)
+    refuse(name + " has " + std::to_string(size.size()) + " dimensions instead of " + std::to_string(expected));
   Primitive primitive = Sphere{size[0]};
   if (message.type == SolidPrimitive::BOX) primitive = Box{0.5 * Vector3d(size[0], size[1], size[2])};
   if (message.type == SolidPrimitive::CYLINDER)
     primitive = Cylinder{size[SolidPrimitive::CYLINDER_RADIUS], 0.5 * size[SolidPrimitive::CYLINDER_HEIGHT]};
   for (const double length : size)
-    if (!(length > 0.0) || !(length <= kFarthestPose)) refuse(name + ": a dimension of " + numberText(length) + " m");
+    if (!(length > 0.0) || !(length <= kFarthestPose))
+      refuse(name + ": dimension " + numberText(length) + " m is not positive, or too large");
   return primitive;
 }
 
 std::shared_ptr<const TriangleMesh> toMesh(const shape_msgs::Mesh& message, const std::string& name,
                                            std::size_t& triangles) {
-  if (message.triangles.empty()) refuse(name + ": no triangles");
+  if (message.triangles.empty()) refuse(name + " has no triangles");
   if (message.triangles.size() > triangles || message.vertices.size() > 3 * triangles)
-    refuse(name + ": more triangles than one call may hold");
+    refuse(name + " has too many triangles or vertices for one call");
   triangles -= message.triangles.size();
   auto mesh = std::make_shared<TriangleMesh>();
   for (const geometry_msgs::Point& vertex : message.vertices) {
     mesh->vertices.push_back(toEigen(vertex));
     const Vector3d& p = mesh->vertices.back();
-    if (!isNear(p)) refuse(name + ": a vertex that is not finite, or too far away");
+    if (!isNear(p)) refuse(name + " has a vertex that is not finite, or too far from the origin");
   }
   for (const shape_msgs::MeshTriangle& triangle : message.triangles) {
     Vector3i corners;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t vertex = triangle.vertex_indices[static_cast<std::size_t>(k)];
       if (vertex >= message.vertices.size())
-        refuse(name + ": a triangle has vertex " + std::to_string(vertex) + ", of " +
-               std::to_string(message.vertices.size()));
+        refuse(name + " has a triangle with vertex index " + std::to_string(vertex) + ", but only " +
+               std::to_string(message.vertices.size()) + " vertices");
       corners[k] = static_cast<int>(vertex);
     }
     mesh->triangles.push_back(corners);
@@ -70,32 +71,32 @@ std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose) {
   const Vector3d p = toEigen(pose.position);
   const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
   if (p.isZero(0.0) && q.coeffs().isZero(0.0)) return std::nullopt;
-  if (!isNear(p)) refuse("a position that is not finite, or too far away");
+  if (!isNear(p)) refuse("the pose has a position that is not finite, or too far from the origin");
   const auto known = poseOf(p, q);
-  if (!known) refuse("an orientation that is no unit quaternion");
+  if (!known) refuse("the pose has an orientation that is not a unit quaternion");
   return known;
 }
 
 void requireName(const std::string& name, const std::string& what, const RequestLimits& limits) {
   if (name.empty()) refuse(what + " is missing");
   if (name.size() > limits.name) refuse(what + " has more than " + std::to_string(limits.name) + " characters");
-  if (name != shownText(name)) refuse(what + " " + shownText(name) + " holds control characters");
+  if (name != shownText(name)) refuse(what + " " + shownText(name) + " contains control characters");
 }
 
 std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits& limits, std::size_t& triangles) {
   std::vector<WorldShape> shapes;
-  const std::size_t count = message.primitives.size() + message.planes.size() + message.meshes.size() +
-                            message.mesh_resources.size();
+  const std::size_t count =
+      message.primitives.size() + message.planes.size() + message.meshes.size() + message.mesh_resources.size();
   if (count > limits.shapes)
-    refuse(std::to_string(count) + " shapes, at most " + std::to_string(limits.shapes) + " are taken");
-  const auto add = [&](const auto& of_a_kind, const std::vector<geometry_msgs::Pose>& poses, const std::string& kind,
+    refuse(std::to_string(count) + " shapes: at most " + std::to_string(limits.shapes) + " are allowed in one change");
+  const auto add = [&](const auto& elements, const std::vector<geometry_msgs::Pose>& poses, const std::string& kind,
                        const auto& shapeOf) {
-    if (!poses.empty() && poses.size() != of_a_kind.size())
-      refuse(std::to_string(poses.size()) + " poses of " + std::to_string(of_a_kind.size()) + " " + kind);
-    for (std::size_t i = 0; i < of_a_kind.size(); ++i) {
+    if (!poses.empty() && poses.size() != elements.size())
+      refuse(std::to_string(poses.size()) + " poses for " + std::to_string(elements.size()) + " " + kind);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
       const std::string name = kind + "[" + std::to_string(i) + "]";
       WorldShape& shape = shapes.emplace_back();
-      shape.shape = shapeOf(of_a_kind[i], name, i);
+      shape.shape = shapeOf(elements[i], name, i);
       if (!poses.empty()) shape.X_BG = poseIn(poses[i]).value_or(Isometry3d::Identity());
     }
   };
@@ -107,13 +108,13 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
         const auto& c = plane.coef;
         const bool finite = std::all_of(c.begin(), c.end(), [](double x) { return std::abs(x) <= kFarthestPose; });
         const auto solid = finite ? solidBelow({c[0], c[1], c[2]}, c[3]) : std::nullopt;
-        if (!solid) refuse(name + ": no plane");
+        if (!solid) refuse(name + ": the normal is zero, or a coefficient is not finite or too large");
         return Shape(*solid);
       });
   add(message.meshes, message.mesh_poses, "meshes",
       [&](const auto& mesh, const std::string& name, std::size_t) { return Shape(toMesh(mesh, name, triangles)); });
   if (!message.mesh_resource_scales.empty() && message.mesh_resource_scales.size() != message.mesh_resources.size())
-    refuse("as many mesh_resource_scales as mesh_resources are wanted, or none");
+    refuse("mesh_resource_scales must be empty, or have one scale per mesh_resource");
   add(message.mesh_resources, message.mesh_resource_poses, "mesh_resources",
       [&](const std::string& uri, const std::string& name, std::size_t i) {
         Vector3d scale = Vector3d::Ones();
@@ -123,7 +124,7 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
           if (scale.isZero(0.0)) scale = Vector3d::Ones();
         }
         const bool is_scale = (scale.array().abs() > 0.0).all() && isNear(scale);
-        if (!is_scale) refuse(name + ": a scale that is 0 or not finite");
+        if (!is_scale) refuse(name + ": a component of the scale is zero, not finite or too large");
         return Shape(MeshObject{uri, scale});
       });
   return shapes;

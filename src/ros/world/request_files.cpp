@@ -29,17 +29,18 @@ RequestFiles::RequestFiles(std::vector<std::string> roots, ResourceLoader loader
     : roots_(std::move(roots)), loader_(std::move(loader)) {}
 
 std::string RequestFiles::path(const std::string& file) const {
-  const fs::path named = startsWith(file, kFile) ? file.substr(std::string(kFile).size()) : file;
+  const fs::path requested = startsWith(file, kFile) ? file.substr(std::string(kFile).size()) : file;
   std::error_code error;
-  const fs::path canonical = fs::weakly_canonical(named, error);
+  const fs::path canonical = fs::weakly_canonical(requested, error);
   const auto holds = [&](const std::string& root) {
     std::error_code missing;
     const fs::path folder = fs::canonical(root, missing);
     return !missing && isBelow(canonical, folder);
   };
-  const bool allowed = !error && named.is_absolute() && std::any_of(roots_.begin(), roots_.end(), holds);
+  const bool allowed = !error && requested.is_absolute() && std::any_of(roots_.begin(), roots_.end(), holds);
   if (!allowed)
-    throw std::runtime_error(shownText(file) + ": is not an absolute path below one of the parameter resource_roots");
+    throw std::runtime_error(shownText(file) +
+                             ": not an absolute path below one of the folders in the parameter resource_roots");
   return canonical.string();
 }
 

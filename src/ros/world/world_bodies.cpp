@@ -44,8 +44,9 @@ GeometryDescription toGeometry(const WorldShape& made, const ResourceLoader& loa
 }  // namespace
 
 std::string whyNoName(const std::string& name) {
-  if (!isSavedName(name)) return "object '" + name + "': a name may not begin or end with a blank";
-  if (isPattern(name)) return "object " + name + ": a name may not hold * or ?, which stand for other names in patterns";
+  if (!isSavedName(name))
+    return "object '" + name + "': a name must not be empty, begin or end with a blank, or contain control characters";
+  if (isPattern(name)) return "object " + name + ": a name must not contain * or ?, which are wildcards in patterns";
   return {};
 }
 

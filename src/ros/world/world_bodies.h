@@ -19,8 +19,8 @@ BodyDescription toBody(const WorldObject& object, const std::string& frame, cons
 /// The same for an OctoMap file, with the given name.
 BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame);
 
-/// Stands for a live map that has not come yet: the robot is NOT_CHECKED against it, for this reason, and its bodies
-/// are prepared for it.
+/// Placeholder for a live map that has not been received yet: the robot is NOT_CHECKED against it, for this reason, and
+/// its bodies are prepared for it.
 BodyDescription awaitedTile(const std::string& frame, const std::string& why);
 
 }  // namespace sdf_ccd

@@ -31,8 +31,7 @@ struct PrimitiveLines {
 std::string meshLines(const TriangleMesh& mesh) {
   std::string text = fmt::format("mesh\n{} {}\n", mesh.vertices.size(), mesh.triangles.size());
   for (const Vector3d& vertex : mesh.vertices) text += numbers(vertex) + "\n";
-  for (const Vector3i& corners : mesh.triangles)
-    text += fmt::format("{} {} {}\n", corners[0], corners[1], corners[2]);
+  for (const Vector3i& corners : mesh.triangles) text += fmt::format("{} {} {}\n", corners[0], corners[1], corners[2]);
   return text;
 }
 
@@ -46,8 +45,9 @@ std::string moveitScene(const std::vector<BodyDescription>& bodies) {
   std::string text = "sdf_ccd\n";
   for (const BodyDescription& body : bodies) {
     if (!isSavedName(body.name))
-      throw std::invalid_argument("object '" + shownText(body.name) +
-                                  "' cannot be saved: of its name blanks at the ends and control characters are lost");
+      throw std::invalid_argument(
+          "object '" + shownText(body.name) +
+          "' cannot be saved: its name begins or ends with a blank, or contains control characters");
     text += "* " + body.name + "\n" + poseLines(body.X_frame_B) + std::to_string(body.geometry.size()) + "\n";
     for (const GeometryDescription& geometry : body.geometry) {
       const auto* primitive = std::get_if<Primitive>(&geometry.shape);
