@@ -259,7 +259,8 @@ void addCheckBagCommand(CLI::App& app) {
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
       "code 1: some bodies or pairs were never checked, no cycle was checked as a whole, or a part of the bag was not, "
-      "as its transforms end before it or are refused; 2: nothing was checked.");
+      "as its transforms end before it or are refused; 2: nothing was checked. Without gnuplot there is no "
+      "error_time.svg, which does not change the exit code.");
   command->add_option("bag", arguments->bag, "Bag to read")->required();
   command->add_option("--urdf", arguments->config.urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")
       ->required();
