@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <console_bridge/console.h>
-#include <tbb/global_control.h>
 
 #include "commands.h"
 #include "common/number_text.h"
@@ -21,6 +20,7 @@
 #include "progress_bar.h"
 #include "ros/bag/bag_check.h"
 #include "ros/bag/checked_bag.h"
+#include "threads_option.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -34,7 +34,7 @@ struct Arguments {
   std::string out;
   MonitorConfig config;
   RecordedMotionOptions motion;
-  int threads = 0;  // 0: one per core
+  ThreadsOption threads;
 };
 
 void require(bool is_good, const std::string& what) {
@@ -234,11 +234,7 @@ void checkThenRun(const Arguments& arguments) {
   require(arguments.motion.duration > 0.0, "--duration must be positive");
   require(!arguments.config.rate || *arguments.config.rate > 0.0, "--rate must be positive");
   require(!arguments.config.max_error || *arguments.config.max_error > 0.0, "--max-error must be positive");
-  require(arguments.threads >= 0, "--threads must not be negative");
-  std::unique_ptr<tbb::global_control> limit;
-  if (arguments.threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
-  }
+  const auto limit = arguments.threads.limit();
   console_bridge::noOutputHandler();  // tf's own messages: the effects of broken transforms are reported
   try {
     run(arguments);
@@ -277,7 +273,7 @@ void addCheckBagCommand(CLI::App& app) {
   command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
   command->add_option("--joint-states", arguments->motion.joint_states,
                       "Topic of joint states; default joint_states, else the only one");
-  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  arguments->threads.addTo(*command);
   command->callback([arguments] { checkThenRun(*arguments); });
 }
 
