@@ -105,8 +105,7 @@ void addWorkPrecisionCommand(CLI::App& app) {
       "Each runs the same random queries at every setting, in turn, on one thread, prints a table and writes "
       "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Uniform fields have 16 bits a sample; adaptive ones "
       "(of a maximum error) 7 bits per corner of a leaf, whose rounding is part of that error. Exit code 1: no plot, "
-      "as gnuplot is not "
-      "installed.");
+      "as gnuplot is not installed.");
   command->add_option("study", arguments->study, "One of the studies below; all if omitted");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--mesh", arguments->mesh,
