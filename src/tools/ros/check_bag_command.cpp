@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -138,20 +137,15 @@ void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
           bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
 }
 
-/// Prints pairs of bodies that were each checked, but never both in the same cycle; true if there is none.
-bool areBodiesCheckedTogether(const Scene& scene, const std::vector<bool>& was_checked,
-                              const std::set<std::string>& never_checked) {
-  std::size_t count = 0;
-  std::string example;
-  for (std::size_t p = 0; p < was_checked.size(); ++p) {
-    const std::string &a = scene.bodies[scene.pairs[p].body_a].name, &b = scene.bodies[scene.pairs[p].body_b].name;
-    if (was_checked[p] || never_checked.count(a) > 0 || never_checked.count(b) > 0) continue;
-    if (never_checked.count(a + " - " + b) > 0) continue;
-    if (count++ == 0) example = a + " - " + b;
-  }
-  if (count == 0) return true;
-  std::cerr << "sdf_ccd: " << count << " pairs were checked in no cycle, as " << example
-            << ": their bodies were never known at the same time" << std::endl;
+/// Prints how many pairs no cycle checked; true if there are none.
+/// @param why  the most frequent reason.
+bool areAllChecked(const Scene& scene, const std::vector<bool>& was_checked, const std::string& why) {
+  const auto first = std::find(was_checked.begin(), was_checked.end(), false);
+  if (first == was_checked.end()) return true;
+  const PlannedPair& pair = scene.pairs[std::size_t(first - was_checked.begin())];
+  std::cerr << "sdf_ccd: " << std::count(first, was_checked.end(), false) << " pairs were never checked, for example "
+            << scene.bodies[pair.body_a].name << " - " << scene.bodies[pair.body_b].name
+            << (why.empty() ? "" : "; the most frequent reason: " + why) << std::endl;
   return false;
 }
 
@@ -165,13 +159,7 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene, const std
     std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
   }
   is_complete &= areAllMade(scene);
-  const std::set<std::string> never = statistics.neverChecked();
-  if (!never.empty()) {
-    std::cerr << "sdf_ccd: " << never.size() << " bodies or pairs were never checked: " << statistics.whyNotChecked()
-              << std::endl;
-    is_complete = false;
-  }
-  is_complete &= areBodiesCheckedTogether(scene, was_checked, never);
+  is_complete &= areAllChecked(scene, was_checked, statistics.whyNotChecked());
   for (const std::string& gap : statistics.gaps(begin)) {
     std::cerr << "sdf_ccd: nothing was checked " << gap << std::endl;
     is_complete = false;
@@ -254,7 +242,7 @@ void addCheckBagCommand(CLI::App& app) {
       "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
-      "code 1: some bodies or pairs were never checked, no cycle was checked as a whole, or a part of the bag was not, "
+      "code 1: some pairs were never checked, no cycle was checked as a whole, or a part of the bag was not, "
       "as its transforms end before it or are refused; 2: nothing was checked. Without gnuplot there is no "
       "error_time.svg, which does not change the exit code.");
   command->add_option("bag", arguments->bag, "Bag to read")->required();

@@ -71,14 +71,6 @@ void CycleStatistics::Count::addUnchecked(const std::string& why, const std::vec
   kind = kindOf(why, names);
 }
 
-std::set<std::string> CycleStatistics::neverChecked() const {
-  std::set<std::string> never;
-  for (const auto* counts : {&pairs_, &bodies_})
-    for (const auto& [name, count] : *counts)
-      if (count.not_checked == cycles_.size()) never.insert(name);
-  return never;
-}
-
 bool CycleStatistics::hasCheckedCycle() const {
   return std::any_of(cycles_.begin(), cycles_.end(),
                      [](const CycleRecord& cycle) { return cycle.verdict != Verdict::kNotChecked; });
