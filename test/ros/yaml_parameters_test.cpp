@@ -55,6 +55,16 @@ TEST(YamlParameters, WhatExpandsWithoutEndIsRefused) {
   EXPECT_NE(errorOf("a: " + std::string(100'000, '[')).find("levels deep"), std::string::npos);
   EXPECT_NE(errorOf(blocks).find("levels deep"), std::string::npos) << errorOf(blocks);
   EXPECT_NE(errorOf(signs + "1\n").find("levels deep"), std::string::npos);
+  std::string closed_in_strings, closed_in_comments, slashes;
+  for (int i = 0; i < 1000; ++i) {
+    closed_in_strings += "[\"]\",\n ";
+    closed_in_comments += "[ # ]\n ";
+    slashes += "a/";
+  }
+  for (const std::string& text : {"a: " + closed_in_strings, "a: " + closed_in_comments, "? " + slashes + "a\n: 1\n"})
+    EXPECT_NE(errorOf(text).find("nested more than 64 levels deep"), std::string::npos) << errorOf(text);
+  std::string shallow = "rate: 30  # [[[\nurdf_parameter: \"";
+  EXPECT_EQ(errorOf(shallow + std::string(100, '[') + "\"\n"), "");
 }
 
 TEST(YamlParameters, AValueIsNoGroup) {
