@@ -176,6 +176,17 @@ TEST(YamlParameters, ContactAccuracySetsFieldsAndShells) {
   EXPECT_NE(errorOf("field: {cell_size: 0.0002, max_error: 0.0002}").find("only one of cells"), std::string::npos);
 }
 
+TEST(YamlParameters, LimitsOfTheVelocityScaleNeedItsMaxSpeed) {
+  const auto promise = [](const std::string& limits) {
+    return parseParameters(load("velocity_scale: {" + limits + "}"), "~").proximity.promise;
+  };
+  EXPECT_FALSE(promise("deceleration: 2.0"));  // the default
+  EXPECT_EQ(promise("max_speed: 1.0, deceleration: 3.0").value().deceleration, 3.0);
+  EXPECT_EQ(errorOf("velocity_scale: {deceleration: 3.0}"),
+            "parameter ~/velocity_scale/max_speed is missing, expected a positive number, as other limits of the "
+            "velocity scale are set");
+}
+
 TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {
   EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]"),
             "unknown parameter ~/world[0]/xzy, did you mean xyz?");
