@@ -6,18 +6,12 @@
 #include "common/number_text.h"
 #include "common/shown_text.h"
 #include "ros/messages/conversions.h"
-#include "sdf_ccd/motion/cycle_motion.h"
 
 namespace sdf_ccd {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
-}
-
-/// False for NaN, which lpNorm() may ignore.
-bool isNear(const Vector3d& v) {
-  return (v.array().abs() <= kFarthestPose).all();
 }
 
 Primitive toPrimitive(const shape_msgs::SolidPrimitive& message, const std::string& name) {
@@ -48,7 +42,7 @@ std::shared_ptr<const TriangleMesh> toMesh(const shape_msgs::Mesh& message, cons
   for (const geometry_msgs::Point& vertex : message.vertices) {
     mesh->vertices.push_back(toEigen(vertex));
     const Vector3d& p = mesh->vertices.back();
-    if (!isNear(p)) refuse(name + ": a vertex that is not finite, or too far away");
+    if (!isNearOrigin(p)) refuse(name + ": a vertex that is not finite, or too far away");
   }
   for (const shape_msgs::MeshTriangle& triangle : message.triangles) {
     Vector3i corners;
@@ -70,7 +64,7 @@ std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose) {
   const Vector3d p = toEigen(pose.position);
   const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
   if (p.isZero(0.0) && q.coeffs().isZero(0.0)) return std::nullopt;
-  if (!isNear(p)) refuse("a position that is not finite, or too far away");
+  if (!isNearOrigin(p)) refuse("a position that is not finite, or too far away");
   const auto known = poseOf(p, q);
   if (!known) refuse("an orientation that is no unit quaternion");
   return known;
@@ -122,7 +116,7 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
           scale = {given.x, given.y, given.z};
           if (scale.isZero(0.0)) scale = Vector3d::Ones();
         }
-        const bool is_scale = (scale.array().abs() > 0.0).all() && isNear(scale);
+        const bool is_scale = (scale.array().abs() > 0.0).all() && isNearOrigin(scale);
         if (!is_scale) refuse(name + ": a scale that is 0 or not finite");
         return Shape(MeshObject{uri, scale});
       });
