@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <vector>
 
 namespace sdf_ccd {
 namespace {
-
-void requireSize(const std::string& text, std::size_t most) {
-  if (text.size() > most) throw std::runtime_error("it is larger than " + std::to_string(most >> 20) + " MiB");
-}
 
 /// Length of the UTF-8 sequence at `position`; 0 if there is none.
 std::size_t sequenceAt(const std::string& text, std::size_t position) {
@@ -30,7 +25,8 @@ std::size_t sequenceAt(const std::string& text, std::size_t position) {
 }  // namespace
 
 void requireXmlSize(const std::string& xml) {
-  requireSize(xml, kMaxXmlBytes);
+  if (xml.size() > kMaxXmlBytes)
+    throw std::runtime_error("it is larger than " + std::to_string(kMaxXmlBytes >> 20) + " MiB");
 }
 
 std::string soundText(std::string text) {
@@ -42,35 +38,6 @@ std::string soundText(std::string text) {
     i += std::max<std::size_t>(length, 1);
   }
   return text;
-}
-
-void requireSoundYaml(const std::string& yaml) {
-  requireSize(yaml, kMaxYamlBytes);
-  // Depth of flow style by brackets, also those in strings; and of block style by indentation and by the indicators at
-  // the start of a line.
-  int flow = 0;
-  std::size_t position = 0;
-  std::vector<std::size_t> indents;
-  while (position < yaml.size()) {
-    const std::size_t end = std::min(yaml.find('\n', position), yaml.size());
-    std::size_t at = position;
-    while (at < end && yaml[at] == ' ') ++at;
-    if (at < end && yaml[at] != '#') {
-      while (!indents.empty() && indents.back() >= at - position) indents.pop_back();
-      indents.push_back(at - position);
-    }
-    int signs = 0;
-    for (; at + 1 < end && (yaml[at] == '-' || yaml[at] == '?' || yaml[at] == ':') && yaml[at + 1] == ' '; ++signs) {
-      do ++at;
-      while (at < end && yaml[at] == ' ');
-    }
-    for (; at < end; ++at) flow += (yaml[at] == '[' || yaml[at] == '{') - (yaml[at] == ']' || yaml[at] == '}');
-    if (flow + signs + static_cast<int>(indents.size()) > kMaxYamlDepth) {
-      throw std::runtime_error("it is nested more than " + std::to_string(kMaxYamlDepth) + " levels deep");
-    }
-    flow = std::max(flow, 0);
-    position = end + 1;
-  }
 }
 
 }  // namespace sdf_ccd

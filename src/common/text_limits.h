@@ -8,15 +8,11 @@
 namespace sdf_ccd {
 
 constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20, kMaxYamlBytes = std::size_t{16} << 20;
-constexpr int kMaxYamlDepth = 64;
 
 /// @throws std::runtime_error if it is larger than kMaxXmlBytes.
 void requireXmlSize(const std::string& xml);
 
 /// The text as valid UTF-8: invalid bytes, and control characters except tabs and line ends, become '?'.
 std::string soundText(std::string text);
-
-/// @throws std::runtime_error if the YAML is larger than kMaxYamlBytes or nested deeper than kMaxYamlDepth.
-void requireSoundYaml(const std::string& yaml);
 
 }  // namespace sdf_ccd

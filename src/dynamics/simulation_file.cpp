@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "common/load_yaml.h"
 #include "common/text_limits.h"
 #include "scene_shape.h"
 #include "storage/regular_file.h"
@@ -161,14 +162,7 @@ void moveOriginNearBodies(SimulationSetup& setup) {
 }  // namespace
 
 SimulationSetup parseSimulation(const std::string& text, const std::string& directory) {
-  requireSoundYaml(text);
-  YAML::Node root;
-  try {
-    root = YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw std::runtime_error(error.what());
-  }
-  YamlMap scene(root, "scene");
+  YamlMap scene(loadYaml(text), "scene");
   SimulationSetup setup;
   setup.scheme = schemeOf(scene.get<std::string>("integrator", toString(setup.scheme)));
   setup.step = scene.get<double>("step");

@@ -1,10 +1,11 @@
 #include "gnuplot.h"
 
-#include <unistd.h>
-
-#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+
+#include "storage/temporary_file.h"
 
 namespace sdf_ccd::precision {
 
@@ -14,15 +15,12 @@ bool haveGnuplot() {
 
 /// From a file: a pipe to a gnuplot that ends early would end this process too (SIGPIPE).
 void runGnuplot(const std::string& script) {
-  char path[] = "/tmp/sdf_ccd_plot_XXXXXX";
-  const int descriptor = ::mkstemp(path);
-  if (descriptor < 0) throw std::runtime_error("gnuplot's script cannot be written");
-  FILE* file = ::fdopen(descriptor, "w");
-  bool is_good = std::fwrite(script.data(), 1, script.size(), file) == script.size();
-  is_good &= std::fclose(file) == 0;
-  is_good = is_good && std::system((std::string("gnuplot ") + path).c_str()) == 0;
-  ::unlink(path);
-  if (!is_good) throw std::runtime_error("gnuplot failed");
+  const TemporaryFile file((std::filesystem::temp_directory_path() / "sdf_ccd_plot").string());
+  std::ofstream stream(file.path());
+  stream << script;
+  stream.close();
+  if (!stream) throw std::runtime_error("gnuplot's script cannot be written");
+  if (std::system(("gnuplot '" + file.path() + "'").c_str()) != 0) throw std::runtime_error("gnuplot failed");
 }
 
 std::string quoted(const std::string& text) {

@@ -7,7 +7,8 @@ namespace sdf_ccd::precision {
 /// True if gnuplot can be run here.
 bool haveGnuplot();
 
-/// Runs gnuplot. @throws std::runtime_error if it fails.
+/// Runs gnuplot; the script is written to the directory for temporary files (TMPDIR).
+/// @throws std::runtime_error if that or gnuplot fails.
 void runGnuplot(const std::string& script);
 
 /// A text as a gnuplot string in single quotes.

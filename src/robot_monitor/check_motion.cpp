@@ -1,13 +1,11 @@
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
-#include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "monitor/join_results.h"
 #include "monitor/summarise.h"
@@ -99,10 +97,6 @@ class MotionChecker {
  private:
   void lookAt(const PlannedMotion& motion, std::size_t first, std::size_t last, MotionVerdict& found) {
     motion.piece(first, last, piece_);
-    if (wanted_.margin > 0.0) {
-      piece_.motion_error.resize(monitor_.scene().bodies.size(), 0.0);
-      for (double& error : piece_.motion_error) error += 0.5 * wanted_.margin;
-    }
     const CycleResult& result = monitor_.run(piece_, request_);
     found.error_bound = std::max(found.error_bound, result.error_bound - wanted_.margin);
     if (result.verdict <= found.verdict) return;
@@ -126,8 +120,6 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
                                         std::size_t count,
                                         const std::function<PlannedMotion(std::size_t i, double tolerance)>& motionOf,
                                         const MotionsRequest& request) {
-  if (!(request.margin >= 0.0) || !std::isfinite(request.margin))
-    throw std::invalid_argument("check motions: a margin of " + numberText(request.margin) + " m");
   if (request.tolerances.empty()) throw std::invalid_argument("check motions: no tolerances");
   std::vector<MotionVerdict> verdicts(count);
   tbb::enumerable_thread_specific<std::unique_ptr<MotionChecker>> lookers;
@@ -139,7 +131,7 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
       for (std::size_t i = first; i < last; ++i) {
         checkCancelled();
         for (const double tolerance : request.tolerances) {
-          verdicts[i] = looker->look(motionOf(i, tolerance));
+          verdicts[i] = looker->look(withMargin(motionOf(i, tolerance), request.margin));
           if (verdicts[i].verdict == Verdict::kClear) break;
         }
       }

@@ -156,7 +156,7 @@ class States {
     for (; states.size() < count && next_ < size_; ++next_) {
       const std::size_t recorded = next_ - 1;
       states.push_back(next_ == 0                            ? JointPositions()
-                       : recorded < options_.recorded.size() ? options_.recorded[recorded]
+                       : recorded < options_.recorded.size() ? options_.recorded.state(recorded)
                                                              : sampler_.next());
     }
     return states;

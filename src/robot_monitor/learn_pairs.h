@@ -5,16 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "robot/joint_states.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
 
 struct LearnOptions {
-  std::size_t states = 10'000;           ///< drawn by JointSampler
-  std::uint64_t seed = 1;                ///< of the sampler
-  std::vector<JointPositions> recorded;  ///< further states; joints that are not named are as in the default state
-  double max_error = 0.005;              ///< of the verdict about a pair in a state [m]; see BodyOptions::max_error
-  bool default_pairs = false;            ///< also leave out pairs that touch in the default state, but not always
+  std::size_t states = 10'000;  ///< drawn by JointSampler
+  std::uint64_t seed = 1;       ///< of the sampler
+  JointStates recorded;         ///< further states; joints that are not named are as in the default state
+  double max_error = 0.005;     ///< of the verdict about a pair in a state [m]; see BodyOptions::max_error
+  bool default_pairs = false;   ///< also leave out pairs that touch in the default state, but not always
   std::function<void(const std::string& what, double share)> progress;  ///< may throw to cancel
 };
 

@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include <tbb/global_control.h>
-
 #include "commands.h"
 #include "field_builder.h"
+#include "read_text.h"
 #include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_scene.h"
+#include "threads_option.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "tools/ros/prepare_robot.h"
 #endif
@@ -32,15 +32,11 @@ struct Arguments {
   ResolutionOptions resolution;
   std::optional<double> spacing;
   std::string config;
-  int threads = 0;
+  ThreadsOption threads;
 };
 
 std::string stemOf(const std::string& path) {
   return fs::path(path).stem().string();
-}
-
-std::string readText(const std::string& path) {
-  return loadLocalResource(path, nullptr, "").bytes;
 }
 
 /// Assigns a unique file name to each mesh of each link. Links whose names differ only by a slash, or by a number at
@@ -151,12 +147,8 @@ void prepare(const Arguments& arguments) {
 void run(Arguments& arguments) {
   if (!arguments.srdf.empty() && arguments.urdf.empty()) throw std::runtime_error("--srdf needs --urdf");
   if (arguments.spacing && !(*arguments.spacing > 0.0)) throw std::runtime_error("--spacing must be positive");
-  if (arguments.threads < 0) throw std::runtime_error("--threads must not be negative");
   arguments.resolution.fieldOptions();  // rejects bad values before anything is read
-  std::unique_ptr<tbb::global_control> limit;
-  if (arguments.threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
-  }
+  const auto limit = arguments.threads.limit();
 #ifdef SDF_CCD_WITH_ROS
   if (!arguments.config.empty()) return prepare(arguments);
 #endif
@@ -210,7 +202,7 @@ void addBuildCommand(CLI::App& app) {
       "With --urdf: the monitor's parameters, as config/monitor.yaml. Builds everything that the monitor builds at "
       "start-up, including the world's bodies; load it with cache_directory: DIR (or a copy of DIR)");
 #endif
-  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  arguments->threads.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -17,7 +17,7 @@
 namespace sdf_ccd::tools {
 namespace {
 
-std::string time(double seconds) {
+std::string secondsText(double seconds) {
   return rounded(seconds, 2) + " s";
 }
 
@@ -106,8 +106,8 @@ void FieldBuilder::addMesh(const std::string& name, const std::shared_ptr<const 
   const Made& made = found->second;
   std::cout << "  mesh   " << made.quality << "\n";
   printSolid(made.solid, "  solid  ");
-  writeField(name, made.field, is_new ? time(made.field_seconds) : "built above");
-  writeShell(name, made.shell, is_new ? time(made.shell_seconds) : "built above");
+  writeField(name, made.field, is_new ? secondsText(made.field_seconds) : "built above");
+  writeShell(name, made.shell, is_new ? secondsText(made.shell_seconds) : "built above");
 }
 
 void FieldBuilder::addVoxels(const std::string& name, const std::shared_ptr<const TriangleMesh>& mesh,
@@ -119,7 +119,7 @@ void FieldBuilder::addVoxels(const std::string& name, const std::shared_ptr<cons
   const DistanceField field = buildWithBar("field of " + name, SolidSource(pooled.mesh, pooled.made),
                                            resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
-  writeField(name, field, time(secondsSince(start)));
+  writeField(name, field, secondsText(secondsSince(start)));
 }
 
 void FieldBuilder::writeField(const std::string& name, const DistanceField& field, const std::string& time) {
@@ -140,7 +140,7 @@ void FieldBuilder::writeShell(const std::string& name, const PointShell& shell, 
 
 void FieldBuilder::printTotals() const {
   std::cout << fields_ << " fields, " << megabytes(field_bytes_) << "; " << shells_ << " shells, " << shell_points_
-            << " points; " << rounded(seconds_, 2) << " s" << std::endl;
+            << " points; " << secondsText(seconds_) << std::endl;
 }
 
 }  // namespace sdf_ccd::tools

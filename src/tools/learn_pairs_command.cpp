@@ -4,14 +4,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include <tbb/global_control.h>
-
 #include "commands.h"
 #include "interrupt.h"
 #include "output_file.h"
 #include "print.h"
 #include "progress_bar.h"
+#include "read_text.h"
 #include "robot_monitor/learn_pairs.h"
+#include "threads_option.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "ros/bag/recorded_positions.h"
 #endif
@@ -27,16 +27,10 @@ struct Arguments {
   std::string urdf, srdf, out, bag, topic;
   long states = 10'000;
   long seed = 1;
-  int threads = 0;  // 0: one per core
+  ThreadsOption threads;
   double max_error = 0.005;
   bool default_pairs = false;
 };
-
-std::string readText(const std::string& path) {
-  const std::string text = loadLocalResource(path, nullptr, "").bytes;
-  if (text.empty()) throw std::runtime_error(path + ": is empty");
-  return text;
-}
 
 /// A progress bar for each part of the work.
 class Bars {
@@ -104,12 +98,8 @@ void run(const Arguments& arguments) {
   if (arguments.states < 0) throw std::runtime_error("--states must not be negative");
   if (arguments.states == 0 && arguments.bag.empty()) throw std::runtime_error("--states 0 needs --bag");
   if (arguments.seed < 0) throw std::runtime_error("--seed must not be negative");
-  if (arguments.threads < 0) throw std::runtime_error("--threads must not be negative");
   if (!(arguments.max_error > 0.0)) throw std::runtime_error("--max-error must be positive");
-  std::unique_ptr<tbb::global_control> limit;
-  if (arguments.threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
-  }
+  const auto limit = arguments.threads.limit();
   const std::string directory = fs::absolute(arguments.urdf).parent_path().string();
   const PackageFinder packages = packagesFromEnvironment();
   const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); };
@@ -156,7 +146,7 @@ void addLearnPairsCommand(CLI::App& app) {
   command->add_option("--srdf", arguments->srdf, "SRDF to start from: all that it holds is kept");
   command->add_option("--states", arguments->states, "Random states; default 10000");
   command->add_option("--seed", arguments->seed, "Seed of the random states; default 1");
-  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  arguments->threads.addTo(*command);
   command->add_option("--max-error", arguments->max_error,
                       "Error bound [m]: pairs that come nearer than this are not left out; default 0.005");
   command->add_flag("--default", arguments->default_pairs,

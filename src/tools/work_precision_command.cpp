@@ -85,8 +85,9 @@ void run(const Arguments& arguments) {
     if (can_plot) writePlot(result, directory.file(std::string(study.name) + ".svg"));
   }
   if (!can_plot) {
-    throw std::runtime_error("gnuplot not found, so there is no plot (Debian: gnuplot-nox); the tables are in " +
-                             arguments.out + "/*.csv");
+    std::cerr << "sdf_ccd: gnuplot not found, so there is no plot (Debian: gnuplot-nox); the tables are in "
+              << arguments.out << "/*.csv" << std::endl;
+    throw PartlyDone();
   }
 }
 
@@ -103,7 +104,8 @@ void addWorkPrecisionCommand(CLI::App& app) {
       described +
       "Each runs the same random queries at every setting, in turn, on one thread, prints a table and writes "
       "DIR/STUDY.csv and, with gnuplot, DIR/STUDY.svg. Uniform fields have 16 bits a sample; adaptive ones "
-      "(of a maximum error) 7 bits per corner of a leaf, whose rounding is part of that error.");
+      "(of a maximum error) 7 bits per corner of a leaf, whose rounding is part of that error. Exit code 1: no plot, "
+      "as gnuplot is not installed.");
   command->add_option("study", arguments->study, "One of the studies below; all if omitted");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--mesh", arguments->mesh,

@@ -125,9 +125,9 @@ TEST(LearnPairs, RecordedStatesCount) {
   LearnOptions options = coarse();
   options.states = 0;
   EXPECT_THROW(learn(scissors(), options), std::invalid_argument);
-  options.recorded = {{{"to_a", 0.2}}};  // c stays at 0, b at 0.5
+  options.recorded = {{"to_a"}, {{0.2}}};  // c stays at 0, b at 0.5
   EXPECT_TRUE(namesOf(learn(scissors(), options).disabled, "Never").count("a b") > 0);
-  options.recorded.push_back({{"to_a", 0.52}});
+  options.recorded.positions.push_back({0.52});
   EXPECT_TRUE(namesOf(learn(scissors(), options).touching).count("a b") > 0);
   options.default_pairs = true;
   EXPECT_TRUE(namesOf(learn(scissors(), options).disabled, "Default").count("a c") > 0);

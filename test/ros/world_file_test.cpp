@@ -109,6 +109,7 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
   EXPECT_NE(error("3 1\n", "4000000 1\n").find("a number is wanted"), std::string::npos)
       << "nothing is set aside for it";
   EXPECT_NE(error("0 0 0.7071068 0.7071068", "0 0 0 0").find("line 4: a unit quaternion"), std::string::npos);
+  EXPECT_NE(error("0.5 0 0.25", "0.5 2e8 0.25").find("line 3: a position more than 1e+08 m"), std::string::npos);
   EXPECT_NE(error("\n.\n", "\n").find("the text ends too early"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "").find("it is empty"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "name\nbox").find("line 2: * and an object's name"), std::string::npos);
@@ -155,6 +156,10 @@ world:
   const auto error = [](const std::string& text) {
     return errorOf(".yaml", "world: {collision_objects: [{id: a, " + text + "}]}");
   };
+  EXPECT_NE(error("pose: {position: [2.0e+8, 0, 0]}").find("a position at most 1e+08 m"), std::string::npos);
+  EXPECT_NE(errorOf(".yaml", "world: [{name: a, type: sphere, radius: 1, xyz: [0, 0, -2.0e+8]}]")
+                .find("xyz is [0, 0, -2e+08], expected a position at most 1e+08 m from the origin"),
+            std::string::npos);
   EXPECT_NE(error("primitives: []").find("one or more primitives"), std::string::npos);
   EXPECT_NE(error("primitives: [{type: box, dimensions: [1, 2]}]").find("a list of 3 finite numbers"),
             std::string::npos);

@@ -55,6 +55,16 @@ TEST(YamlParameters, WhatExpandsWithoutEndIsRefused) {
   EXPECT_NE(errorOf("a: " + std::string(100'000, '[')).find("levels deep"), std::string::npos);
   EXPECT_NE(errorOf(blocks).find("levels deep"), std::string::npos) << errorOf(blocks);
   EXPECT_NE(errorOf(signs + "1\n").find("levels deep"), std::string::npos);
+  std::string closed_in_strings, closed_in_comments, slashes;
+  for (int i = 0; i < 1000; ++i) {
+    closed_in_strings += "[\"]\",\n ";
+    closed_in_comments += "[ # ]\n ";
+    slashes += "a/";
+  }
+  for (const std::string& text : {"a: " + closed_in_strings, "a: " + closed_in_comments, "? " + slashes + "a\n: 1\n"})
+    EXPECT_NE(errorOf(text).find("nested more than 64 levels deep"), std::string::npos) << errorOf(text);
+  std::string shallow = "rate: 30  # [[[\nurdf_parameter: \"";
+  EXPECT_EQ(errorOf(shallow + std::string(100, '[') + "\"\n"), "");
 }
 
 TEST(YamlParameters, AValueIsNoGroup) {
@@ -164,6 +174,17 @@ TEST(YamlParameters, ContactAccuracySetsFieldsAndShells) {
   EXPECT_GT(points.cells_across, 0.0);
   EXPECT_NE(errorOf("contact: {accuracy: 0}").find("~/contact/accuracy is 0"), std::string::npos);
   EXPECT_NE(errorOf("field: {cell_size: 0.0002, max_error: 0.0002}").find("only one of cells"), std::string::npos);
+}
+
+TEST(YamlParameters, LimitsOfTheVelocityScaleNeedItsMaxSpeed) {
+  const auto promise = [](const std::string& limits) {
+    return parseParameters(load("velocity_scale: {" + limits + "}"), "~").proximity.promise;
+  };
+  EXPECT_FALSE(promise("deceleration: 2.0"));  // the default
+  EXPECT_EQ(promise("max_speed: 1.0, deceleration: 3.0").value().deceleration, 3.0);
+  EXPECT_EQ(errorOf("velocity_scale: {deceleration: 3.0}"),
+            "parameter ~/velocity_scale/max_speed is missing, expected a positive number, as other limits of the "
+            "velocity scale are set");
 }
 
 TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {

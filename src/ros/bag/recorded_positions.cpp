@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include <rosbag/view.h>
@@ -12,12 +13,12 @@
 
 namespace sdf_ccd {
 
-std::vector<JointPositions> recordedPositions(const std::string& file, const RobotModel& robot,
-                                              const std::string& topic) {
-  std::vector<JointPositions> states;
+JointStates recordedPositions(const std::string& file, const RobotModel& robot, const std::string& topic) {
+  JointStates states;
   readBag(file, [&] {
     rosbag::Bag bag(file);
-    JointPositions positions;
+    std::map<std::string, std::size_t> indices;  // in states.joints
+    std::vector<double> positions;
     for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
       if (!topic.empty() && withoutLeadingSlash(message.getTopic()) != withoutLeadingSlash(topic)) continue;
       const auto joints = message.instantiate<sensor_msgs::JointState>();
@@ -25,14 +26,19 @@ std::vector<JointPositions> recordedPositions(const std::string& file, const Rob
       bool has_changed = false;
       for (std::size_t i = 0; i < std::min(joints->name.size(), joints->position.size()); ++i) {
         if (robot.urdf().joints_.count(joints->name[i]) == 0 || !std::isfinite(joints->position[i])) continue;
-        const auto [known, is_new] = positions.try_emplace(joints->name[i], joints->position[i]);
-        has_changed |= is_new || known->second != joints->position[i];
-        known->second = joints->position[i];
+        const auto [index, is_new] = indices.try_emplace(joints->name[i], positions.size());
+        if (is_new) {
+          states.joints.push_back(joints->name[i]);
+          positions.push_back(0.0);
+        }
+        double& position = positions[index->second];
+        has_changed |= is_new || position != joints->position[i];
+        position = joints->position[i];
       }
-      if (has_changed) states.push_back(positions);
+      if (has_changed) states.positions.push_back(positions);
     }
   });
-  if (states.empty()) {
+  if (states.size() == 0) {
     throw std::runtime_error(file + ": holds no joint states of the robot's joints" +
                              (topic.empty() ? "" : " on " + topic));
   }

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "sdf_ccd/robot/robot_model.h"
+#include "robot/joint_states.h"
 
 namespace sdf_ccd {
 
@@ -12,7 +11,6 @@ namespace sdf_ccd {
 /// change nothing are left out.
 /// @param topic  of the joint states; empty: all topics.
 /// @throws std::runtime_error that names the bag, if it cannot be read or contains none of the robot's joints.
-std::vector<JointPositions> recordedPositions(const std::string& bag, const RobotModel& robot,
-                                              const std::string& topic = {});
+JointStates recordedPositions(const std::string& bag, const RobotModel& robot, const std::string& topic = {});
 
 }  // namespace sdf_ccd

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "common/shown_text.h"
 
 namespace sdf_ccd {
@@ -83,7 +84,9 @@ class Words {
     return {x, y, number()};
   }
   Isometry3d pose() {
-    const Vector3d p = vector(), axis = vector();
+    const Vector3d p = vector();
+    if (!isNearOrigin(p)) fail("a position more than " + numberText(kFarthestPose) + " m from the origin");
+    const Vector3d axis = vector();
     const auto pose = poseOf(p, {number(), axis.x(), axis.y(), axis.z()});
     if (!pose) fail("a unit quaternion is wanted");
     return *pose;

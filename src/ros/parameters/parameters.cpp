@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <tuple>
 
 #include "common/number_text.h"
 #include "ros/parameters/parameter_reader.h"
@@ -94,6 +95,11 @@ ProximityParameters readProximity(ParameterReader& reader) {
   promise.period = scale.positive("period", promise.period);
   promise.max_age = scale.positive("max_age", promise.max_age);
   scale.finish();
+  const auto limits = [](const StoppingPromise& p) {
+    return std::tie(p.max_acceleration, p.deceleration, p.reaction_time, p.period, p.max_age);
+  };
+  if (!is_wanted && limits(promise) != limits(StoppingPromise()))
+    scale.fail("max_speed", "a positive number, as other limits of the velocity scale are set");
   if (is_wanted) proximity.promise = promise;
   return proximity;
 }

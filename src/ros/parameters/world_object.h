@@ -9,6 +9,7 @@
 
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/motion/cycle_motion.h"
 
 namespace sdf_ccd {
 
@@ -21,6 +22,11 @@ struct WorldShape {
   std::variant<Primitive, MeshObject, std::shared_ptr<const TriangleMesh>> shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
 };
+
+/// Whether the point can be part of a pose; false for NaN, which lpNorm() may ignore.
+inline bool isNearOrigin(const Vector3d& p) {
+  return (p.array().abs() <= kFarthestPose).all();
+}
 
 /// The pose, or none if the quaternion's length is not 1 within 0.01.
 inline std::optional<Isometry3d> poseOf(const Vector3d& p, const Quaterniond& q) {

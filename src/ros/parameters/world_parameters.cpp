@@ -1,5 +1,7 @@
 #include "ros/parameters/world_parameters.h"
 
+#include "common/number_text.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -58,9 +60,14 @@ std::vector<double> fields(ParameterReader& reader, const std::string& key, cons
   return values;
 }
 
+void requireNear(const ParameterReader& reader, const std::string& key, const Vector3d& p) {
+  if (!isNearOrigin(p)) reader.fail(key, "a position at most " + numberText(kFarthestPose) + " m from the origin");
+}
+
 Isometry3d messagePose(ParameterReader& reader) {
   const std::vector<double> p = fields(reader, "position", {"x", "y", "z"}, {0.0, 0.0, 0.0});
   const std::vector<double> q = fields(reader, "orientation", {"x", "y", "z", "w"}, {0.0, 0.0, 0.0, 1.0});
+  requireNear(reader, "position", {p[0], p[1], p[2]});
   const auto pose = poseOf({p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]});
   if (!pose) reader.fail("orientation", "a unit quaternion");
   return *pose;
@@ -127,8 +134,9 @@ WorldObject collisionObject(ParameterReader& reader) {
 }  // namespace
 
 Isometry3d readPose(ParameterReader& reader) {
-  const Vector3d rpy = reader.vector("rpy", Vector3d::Zero());
-  return Eigen::Translation3d(reader.vector("xyz", Vector3d::Zero())) * Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
+  const Vector3d xyz = reader.vector("xyz", Vector3d::Zero()), rpy = reader.vector("rpy", Vector3d::Zero());
+  requireNear(reader, "xyz", xyz);
+  return Eigen::Translation3d(xyz) * Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) *
          Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) * Eigen::AngleAxisd(rpy.x(), Vector3d::UnitX());
 }
 

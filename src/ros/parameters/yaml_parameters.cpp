@@ -7,8 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include <yaml-cpp/yaml.h>
-
+#include "common/load_yaml.h"
 #include "common/text_limits.h"
 #include "storage/regular_file.h"
 
@@ -56,16 +55,20 @@ XmlRpcValue toScalar(const YAML::Node& node) {
 class ValueReader {
  public:
   XmlRpcValue value(const YAML::Node& node) {
-    constexpr int kMaxValues = 100'000, kMaxLevels = 64;
+    constexpr int kMaxValues = 100'000;
     if (++values_ > kMaxValues) refuse(node.Mark(), "more than " + std::to_string(kMaxValues) + " values");
-    if (levels_ == kMaxLevels) refuse(node.Mark(), "nested more than " + std::to_string(kMaxLevels) + " levels deep");
-    ++levels_;
+    enter(node);
     XmlRpcValue made = node.IsScalar() ? toScalar(node) : node.IsSequence() ? sequence(node) : structure(node);
     --levels_;
     return made;
   }
 
  private:
+  void enter(const YAML::Node& node) {
+    if (++levels_ > kMaxYamlDepth)
+      refuse(node.Mark(), "nested more than " + std::to_string(kMaxYamlDepth) + " levels deep");
+  }
+
   XmlRpcValue sequence(const YAML::Node& node) {
     XmlRpcValue made;
     made.setSize(static_cast<int>(node.size()));
@@ -91,9 +94,14 @@ class ValueReader {
       refuse(name.Mark(), "parameter " + name.Scalar() + " lies in one that is a value itself");
     }
     const std::size_t slash = key.find('/');
-    if (slash != std::string::npos) return setMember(tree[key.substr(0, slash)], name, key.substr(slash + 1), node);
-    if (tree.hasMember(key)) refuse(name.Mark(), "parameter " + name.Scalar() + " is there twice");
-    tree[key] = value(node);
+    if (slash == std::string::npos) {
+      if (tree.hasMember(key)) refuse(name.Mark(), "parameter " + name.Scalar() + " is there twice");
+      tree[key] = value(node);
+      return;
+    }
+    enter(name);
+    setMember(tree[key.substr(0, slash)], name, key.substr(slash + 1), node);
+    --levels_;
   }
 
   int values_ = 0, levels_ = 0;
@@ -103,9 +111,7 @@ class ValueReader {
 
 XmlRpcValue loadYamlParameters(const std::string& file) {
   try {
-    const std::string text = readRegularFile(file, kMaxYamlBytes);
-    requireSoundYaml(text);
-    const YAML::Node document = YAML::Load(text);
+    const YAML::Node document = loadYaml(readRegularFile(file, kMaxYamlBytes));
     if (document.IsNull()) return {};
     if (!document.IsMap()) refuse(document.Mark(), "expected parameters, as in config/monitor.yaml");
     return ValueReader().value(document);

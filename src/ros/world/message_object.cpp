@@ -6,18 +6,12 @@
 #include "common/number_text.h"
 #include "common/shown_text.h"
 #include "ros/messages/conversions.h"
-#include "sdf_ccd/motion/cycle_motion.h"
 
 namespace sdf_ccd {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
-}
-
-/// False for NaN, which lpNorm() may ignore.
-bool isNear(const Vector3d& v) {
-  return (v.array().abs() <= kFarthestPose).all();
 }
 
 Primitive toPrimitive(const shape_msgs::SolidPrimitive& message, const std::string& name) {
@@ -49,7 +43,7 @@ std::shared_ptr<const TriangleMesh> toMesh(const shape_msgs::Mesh& message, cons
   for (const geometry_msgs::Point& vertex : message.vertices) {
     mesh->vertices.push_back(toEigen(vertex));
     const Vector3d& p = mesh->vertices.back();
-    if (!isNear(p)) refuse(name + " has a vertex that is not finite, or too far from the origin");
+    if (!isNearOrigin(p)) refuse(name + " has a vertex that is not finite, or too far from the origin");
   }
   for (const shape_msgs::MeshTriangle& triangle : message.triangles) {
     Vector3i corners;
@@ -71,7 +65,7 @@ std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose) {
   const Vector3d p = toEigen(pose.position);
   const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
   if (p.isZero(0.0) && q.coeffs().isZero(0.0)) return std::nullopt;
-  if (!isNear(p)) refuse("the pose has a position that is not finite, or too far from the origin");
+  if (!isNearOrigin(p)) refuse("the pose has a position that is not finite, or too far from the origin");
   const auto known = poseOf(p, q);
   if (!known) refuse("the pose has an orientation that is not a unit quaternion");
   return known;
@@ -123,7 +117,7 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
           scale = {given.x, given.y, given.z};
           if (scale.isZero(0.0)) scale = Vector3d::Ones();
         }
-        const bool is_scale = (scale.array().abs() > 0.0).all() && isNear(scale);
+        const bool is_scale = (scale.array().abs() > 0.0).all() && isNearOrigin(scale);
         if (!is_scale) refuse(name + ": a component of the scale is zero, not finite or too large");
         return Shape(MeshObject{uri, scale});
       });

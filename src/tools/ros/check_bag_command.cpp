@@ -3,12 +3,10 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <utility>
 
 #include <console_bridge/console.h>
-#include <tbb/global_control.h>
 
 #include "commands.h"
 #include "common/number_text.h"
@@ -21,6 +19,7 @@
 #include "progress_bar.h"
 #include "ros/bag/bag_check.h"
 #include "ros/bag/checked_bag.h"
+#include "threads_option.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -34,7 +33,7 @@ struct Arguments {
   std::string out;
   MonitorConfig config;
   RecordedMotionOptions motion;
-  int threads = 0;  // 0: one per core
+  ThreadsOption threads;
 };
 
 void require(bool is_good, const std::string& what) {
@@ -138,20 +137,15 @@ void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
           bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
 }
 
-/// Prints pairs of bodies that were each checked, but never both in the same cycle; true if there is none.
-bool areBodiesCheckedTogether(const Scene& scene, const std::vector<bool>& was_checked,
-                              const std::set<std::string>& never_checked) {
-  std::size_t count = 0;
-  std::string example;
-  for (std::size_t p = 0; p < was_checked.size(); ++p) {
-    const std::string &a = scene.bodies[scene.pairs[p].body_a].name, &b = scene.bodies[scene.pairs[p].body_b].name;
-    if (was_checked[p] || never_checked.count(a) > 0 || never_checked.count(b) > 0) continue;
-    if (never_checked.count(a + " - " + b) > 0) continue;
-    if (count++ == 0) example = a + " - " + b;
-  }
-  if (count == 0) return true;
-  std::cerr << "sdf_ccd: " << count << " pairs were checked in no cycle, as " << example
-            << ": their bodies were never known at the same time" << std::endl;
+/// Prints how many pairs no cycle checked; true if there are none.
+/// @param why  the most frequent reason.
+bool areAllChecked(const Scene& scene, const std::vector<bool>& was_checked, const std::string& why) {
+  const auto first = std::find(was_checked.begin(), was_checked.end(), false);
+  if (first == was_checked.end()) return true;
+  const PlannedPair& pair = scene.pairs[std::size_t(first - was_checked.begin())];
+  std::cerr << "sdf_ccd: " << std::count(first, was_checked.end(), false) << " pairs were never checked, for example "
+            << scene.bodies[pair.body_a].name << " - " << scene.bodies[pair.body_b].name
+            << (why.empty() ? "" : "; the most frequent reason: " + why) << std::endl;
   return false;
 }
 
@@ -165,13 +159,7 @@ bool isComplete(const CycleStatistics& statistics, const Scene& scene, const std
     std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
   }
   is_complete &= areAllMade(scene);
-  const std::set<std::string> never = statistics.neverChecked();
-  if (!never.empty()) {
-    std::cerr << "sdf_ccd: " << never.size() << " bodies or pairs were never checked: " << statistics.whyNotChecked()
-              << std::endl;
-    is_complete = false;
-  }
-  is_complete &= areBodiesCheckedTogether(scene, was_checked, never);
+  is_complete &= areAllChecked(scene, was_checked, statistics.whyNotChecked());
   for (const std::string& gap : statistics.gaps(begin)) {
     std::cerr << "sdf_ccd: nothing was checked " << gap << std::endl;
     is_complete = false;
@@ -234,11 +222,7 @@ void checkThenRun(const Arguments& arguments) {
   require(arguments.motion.duration > 0.0, "--duration must be positive");
   require(!arguments.config.rate || *arguments.config.rate > 0.0, "--rate must be positive");
   require(!arguments.config.max_error || *arguments.config.max_error > 0.0, "--max-error must be positive");
-  require(arguments.threads >= 0, "--threads must not be negative");
-  std::unique_ptr<tbb::global_control> limit;
-  if (arguments.threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, arguments.threads);
-  }
+  const auto limit = arguments.threads.limit();
   console_bridge::noOutputHandler();  // tf's own messages: the effects of broken transforms are reported
   try {
     run(arguments);
@@ -258,8 +242,9 @@ void addCheckBagCommand(CLI::App& app) {
       "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
-      "code 1: some bodies or pairs were never checked, no cycle was checked as a whole, or a part of the bag was not, "
-      "as its transforms end before it or are refused; 2: nothing was checked.");
+      "code 1: some pairs were never checked, no cycle was checked as a whole, or a part of the bag was not, "
+      "as its transforms end before it or are refused; 2: nothing was checked. Without gnuplot there is no "
+      "error_time.svg, which does not change the exit code.");
   command->add_option("bag", arguments->bag, "Bag to read")->required();
   command->add_option("--urdf", arguments->config.urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")
       ->required();
@@ -276,7 +261,7 @@ void addCheckBagCommand(CLI::App& app) {
   command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
   command->add_option("--joint-states", arguments->motion.joint_states,
                       "Topic of joint states; default joint_states, else the only one");
-  command->add_option("--threads", arguments->threads, "Threads to use; default one per core");
+  arguments->threads.addTo(*command);
   command->callback([arguments] { checkThenRun(*arguments); });
 }
 

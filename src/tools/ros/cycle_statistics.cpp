@@ -25,7 +25,7 @@ std::string nameOf(const std::string& body_a, const std::string& body_b) {
   return body_a + " - " + body_b;
 }
 
-std::string secondsSince(const ros::Time& begin, const ros::Time& time) {
+std::string secondsAfter(const ros::Time& begin, const ros::Time& time) {
   return rounded((time - begin).toSec(), 3) + " s";
 }
 
@@ -69,14 +69,6 @@ void CycleStatistics::Count::addUnchecked(const std::string& why, const std::vec
   if (!reason.empty() || why.empty()) return;
   reason = why;
   kind = kindOf(why, names);
-}
-
-std::set<std::string> CycleStatistics::neverChecked() const {
-  std::set<std::string> never;
-  for (const auto* counts : {&pairs_, &bodies_})
-    for (const auto& [name, count] : *counts)
-      if (count.not_checked == cycles_.size()) never.insert(name);
-  return never;
 }
 
 bool CycleStatistics::hasCheckedCycle() const {
@@ -129,9 +121,9 @@ std::string CycleStatistics::timeLine(const ros::Time& begin) const {
   if (cycles_.empty()) return "";
   const CycleRecord& last = cycles_.back();
   std::string text =
-      "time             from " + secondsSince(begin, cycles_.front().start) + " to " + secondsSince(begin, last.end);
+      "time             from " + secondsAfter(begin, cycles_.front().start) + " to " + secondsAfter(begin, last.end);
   if (last.delayed > 0) {
-    text += ", " + std::to_string(last.delayed) + " pairs to " + secondsSince(begin, last.complete_until) +
+    text += ", " + std::to_string(last.delayed) + " pairs to " + secondsAfter(begin, last.complete_until) +
             " or more, where their transforms end";
   }
   return text + "\n";
@@ -140,7 +132,7 @@ std::string CycleStatistics::timeLine(const ros::Time& begin) const {
 std::vector<std::string> CycleStatistics::gaps(const ros::Time& begin) const {
   std::vector<std::string> lines;
   for (const CycleRecord& gap : gaps_) {
-    lines.push_back("from " + secondsSince(begin, gap.start) + " to " + secondsSince(begin, gap.end) + ", as " +
+    lines.push_back("from " + secondsAfter(begin, gap.start) + " to " + secondsAfter(begin, gap.end) + ", as " +
                     gap.reason);
   }
   return lines;
@@ -157,7 +149,7 @@ std::string CycleStatistics::jumpLines(const ros::Time& begin) const {
   std::vector<std::string> items;
   for (std::size_t i = 1; i < cycles_.size(); ++i) {
     if (cycles_[i].start >= cycles_[i - 1].end) continue;
-    items.push_back("from " + secondsSince(begin, cycles_[i - 1].end) + " to " + secondsSince(begin, cycles_[i].start));
+    items.push_back("from " + secondsAfter(begin, cycles_[i - 1].end) + " to " + secondsAfter(begin, cycles_[i].start));
   }
   return items.empty() ? "" : list("time jumped back and the monitor was reset", items);
 }
@@ -166,7 +158,7 @@ std::string CycleStatistics::contactLines(const ros::Time& begin) const {
   std::vector<std::string> items;
   for (const Contact& contact : contacts_.contacts()) {
     if (contact.verdict != Contact::CONTACT) continue;
-    items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsSince(begin, contact.begin) + " for " +
+    items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsAfter(begin, contact.begin) + " for " +
                     shortly((contact.end - contact.begin).toSec()) + " s, " + shortly(1e3 * contact.deepest.depth) +
                     " mm deep" + (contact.seen_at_samples ? "" : ", between samples"));
   }
@@ -228,7 +220,7 @@ std::string CycleStatistics::contradictedLine(const ros::Time& begin) const {
   const auto first = std::find_if(cycles_.begin(), cycles_.end(), isContradicting);
   if (first == cycles_.end()) return "";
   const auto count = std::count_if(first, cycles_.end(), isContradicting);
-  return "late transforms  in " + std::to_string(count) + " cycles, the first at " + secondsSince(begin, first->end) +
+  return "late transforms  in " + std::to_string(count) + " cycles, the first at " + secondsAfter(begin, first->end) +
          ": results of earlier cycles are invalid from contradicted_since on, see cycles.csv; the first of " +
          std::to_string(late_frames_.size()) + " frames: " + *late_frames_.begin() + "\n";
 }

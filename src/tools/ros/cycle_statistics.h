@@ -21,10 +21,6 @@ class CycleStatistics {
   std::vector<std::string> gaps(const ros::Time& begin) const;
   std::vector<Contact> contacts() const { return contacts_.contacts(); }
 
-  /// Bodies, and pairs of others ("body - body"), that were NOT_CHECKED in every cycle. Messages leave out pairs of
-  /// bodies that are not checked, so a pair whose bodies are only known at different times is not among them.
-  std::set<std::string> neverChecked() const;
-
   /// Whether any cycle as a whole has a verdict other than NOT_CHECKED.
   bool hasCheckedCycle() const;
 

@@ -2,16 +2,11 @@
 
 #include <stdexcept>
 
+#include "read_text.h"
 #include "ros/parameters/yaml_parameters.h"
 
 namespace sdf_ccd::tools {
 namespace {
-
-std::string readText(const std::string& path) {
-  const std::string text = loadLocalResource(path, nullptr, "").bytes;
-  if (text.empty()) throw std::runtime_error(path + ": is empty");
-  return text;
-}
 
 /// The parameter tree, overridden by the options.
 XmlRpc::XmlRpcValue parameterTree(const MonitorConfig& config) {

@@ -76,7 +76,7 @@ void addPlotBagCommand(CLI::App& app) {
   command->footer(
       "Every cycle's message carries its error bound and run time. Writes to DIR: error_time.svg (gnuplot), cycles.csv "
       "(a row per cycle), contacts.csv (a row per pair and contact, over however many cycles it lasts). Times are "
-      "seconds, lengths metres.");
+      "seconds, lengths metres. Exit code 1: no plot, as gnuplot is not installed or failed, or no cycle has a bound.");
   command->add_option("bag", arguments->bag, "Bag with contacts of the monitor, or of check-bag")->required();
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--topic", arguments->topic, "Topic of the contacts; default the only one");
