@@ -183,19 +183,31 @@ void ContactTracker::update(const ObservedCycle& cycle) {
       return std::tie(a.group, a.enter, a.pair, a.interval) < std::tie(b.group, b.enter, b.pair, b.interval);
     });
   }
-  for (const TouchInterval& stay : touches_) addTouch(cycle, stay);
+  const auto timeOf = [&](double t) { return cycle.origin + toTime(t); };
+  for (auto first = touches_.begin(); first != touches_.end();) {
+    // The intervals that meet are of one contact.
+    Time end = timeOf(exitOf(cycle.result, *first));
+    auto last = first + 1;
+    for (; last != touches_.end() && last->group == first->group && timeOf(last->enter) <= end + kJoin; ++last)
+      end = std::max(end, timeOf(exitOf(cycle.result, *last)));
+    Slot& slot = slotFor(static_cast<std::size_t>(first->group), timeOf(first->enter), end);
+    for (; first != last; ++first) addTouch(cycle, *first, slot);
+  }
   if (open_ == 0) return;
   for (const int slot : listed_) {
     if (contacts_[slot].is_open) closeIfOver(cycle, contacts_[slot]);
   }
 }
 
-void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& stay) {
+double ContactTracker::exitOf(const CycleResult& result, const TouchInterval& touch) {
+  return result.pairs[touch.pair].intervals[touch.interval].exit;
+}
+
+void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& stay, Slot& slot) {
   const PairResult& pair = cycle.result.pairs[stay.pair];
   const Interval& interval = pair.intervals[stay.interval];
   const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
   const auto group = static_cast<std::size_t>(stay.group);
-  Slot& slot = slotFor(group, start, end);
   TrackedContact& contact = slot.said;
   contact.begin = std::min(contact.begin, start);
   contact.end = std::max(contact.end, end);
@@ -242,11 +254,13 @@ void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
   if (!is_delayed && slot.said.end + kJoin < until) close(slot, false);
 }
 
-/// The contact of an interval: the group's last one if they meet, otherwise a new one.
+/// The contact of the times from `start` to `end`: the group's last one if they meet, otherwise a new one. It has ended
+/// if it lies before the last one.
 ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Time end) {
-  if (last_[group] >= 0) {
+  const bool is_earlier = last_[group] >= 0 && end + kJoin < contacts_[last_[group]].said.begin;
+  if (last_[group] >= 0 && !is_earlier) {
     Slot& last = contacts_[last_[group]];
-    if (start <= last.said.end + kJoin && end + kJoin >= last.said.begin && !last.said.is_lost) {
+    if (start <= last.said.end + kJoin && !last.said.is_lost) {
       if (!last.is_open) {
         last.is_open = true;
         last.said.ends = false;
@@ -266,7 +280,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   }
   const int index = free_.back();
   free_.pop_back();
-  last_[group] = index;
+  if (!is_earlier) last_[group] = index;
   Slot& slot = contacts_[index];
   TrackedContact& said = slot.said;
   const auto& [key_a, key_b] = groups_.keys[group];
@@ -289,6 +303,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   slot.cycle = 0;
   ++open_;
   list(index);
+  if (is_earlier) close(slot, false);
   return slot;
 }
 
