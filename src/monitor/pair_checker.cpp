@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pair_bound.h"
+#include "pair_result.h"
 #include "pose_rounding.h"
 #include "surface_crossing.h"
 
@@ -12,11 +13,6 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kRootTolerance = 1e-9;  // relative to the path; guaranteed by segmentIntervals()
-
-void setNotChecked(const std::string& reason, PairResult& result) {
-  result.verdict = Verdict::kNotChecked;
-  result.reason = reason;
-}
 
 /// Relative weight of a role's impulse among the roles of its pair (design §3.7): equal, except for shells whose
 /// spacing is more than three times the finest. The error of a wrench comes from how few points touch, so such points
@@ -33,21 +29,6 @@ void requireFinite(const ErrorBound& error) {
 }
 
 }  // namespace
-
-void clear(PairResult& result) {
-  result.verdict = Verdict::kNotChecked;
-  result.reason.clear();
-  result.skipped = result.postponed = false;
-  result.error = result.contact_error = {};
-  result.clearance = -1.0;
-  result.intervals.clear();
-  result.deepest = {};
-  result.refined = false;
-  result.first_touch.reset();
-  result.on_a_W = {};
-  result.on_b_W = {};
-  result.points.clear();
-}
 
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
                          const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)

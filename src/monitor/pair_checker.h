@@ -22,9 +22,6 @@ struct PairMemory {
   ContactRefinement::Memory refinement;
 };
 
-/// Resets the result, but keeps its span and its allocated memory.
-void clear(PairResult& result);
-
 /// Checks one pair, cycle after cycle, and stores a bound of its distance in between.
 class PairChecker {
  public:
