@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "field/opening_caps.h"
+#include "motion/time_at.h"
 #include "sdf_ccd/common/cancel.h"
 #include "surface_crossing.h"
 
@@ -128,10 +129,7 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     const ShellHit& hit = hits_[h];
     const HitDepth& depth = impulse_.depths[h];
     const Chord& chord = input.path.chords[hit.chord];
-    const auto timeAt = [&](double s) {
-      return s == 1.0 ? chord.t_end : chord.t_start + s * (chord.t_end - chord.t_start);
-    };
-    const Interval times{timeAt(hit.interval.enter), timeAt(hit.interval.exit)};
+    const Interval times{timeAt(chord, hit.interval.enter), timeAt(chord, hit.interval.exit)};
     intervals_.push_back(times);
     if (depth.siblings) continue;
     Found found{shell_is_a ? 0 : 1,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/time_at.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -114,7 +116,7 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
     const DeepestPoint& found = search.deepest();
     const auto& [direction, motion] = ways[found.motion];
     const Isometry3d X_WF = motion.X_WF.pose(found.s);
-    point.time = found.s == 1.0 ? motion.t_end : motion.t_start + found.s * (motion.t_end - motion.t_start);
+    point.time = timeAt(motion, found.s);
     point.p_W = X_WF * found.p_F;
     // Outward from the solid: this is from A to B if the solid is A.
     point.normal_W = (direction->f == result.body_a ? 1.0 : -1.0) * (X_WF.linear() * found.out_F);

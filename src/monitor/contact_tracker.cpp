@@ -183,19 +183,31 @@ void ContactTracker::update(const ObservedCycle& cycle) {
       return std::tie(a.group, a.enter, a.pair, a.interval) < std::tie(b.group, b.enter, b.pair, b.interval);
     });
   }
-  for (const TouchInterval& touch : touches_) addTouch(cycle, touch);
+  const auto timeOf = [&](double t) { return cycle.origin + toTime(t); };
+  for (auto first = touches_.begin(); first != touches_.end();) {
+    // The intervals that meet are of one contact.
+    Time end = timeOf(exitOf(cycle.result, *first));
+    auto last = first + 1;
+    for (; last != touches_.end() && last->group == first->group && timeOf(last->enter) <= end + kJoin; ++last)
+      end = std::max(end, timeOf(exitOf(cycle.result, *last)));
+    Slot& slot = slotFor(static_cast<std::size_t>(first->group), timeOf(first->enter), end);
+    for (; first != last; ++first) addTouch(cycle, *first, slot);
+  }
   if (open_ == 0) return;
   for (const int index : listed_) {
     if (slots_[index].is_open) closeIfOver(cycle, slots_[index]);
   }
 }
 
-void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& touch) {
+double ContactTracker::exitOf(const CycleResult& result, const TouchInterval& touch) {
+  return result.pairs[touch.pair].intervals[touch.interval].exit;
+}
+
+void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& touch, Slot& slot) {
   const PairResult& pair = cycle.result.pairs[touch.pair];
   const Interval& interval = pair.intervals[touch.interval];
   const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
   const auto group = static_cast<std::size_t>(touch.group);
-  Slot& slot = slotFor(group, start, end);
   TrackedContact& contact = slot.contact;
   contact.begin = std::min(contact.begin, start);
   contact.end = std::max(contact.end, end);
@@ -242,11 +254,13 @@ void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
   if (!is_delayed && slot.contact.end + kJoin < until) close(slot, false);
 }
 
-/// The contact of an interval: the group's last one if they meet, otherwise a new one.
+/// The contact of the times from `start` to `end`: the group's last one if they meet, otherwise a new one. It has ended
+/// if it lies before the last one.
 ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Time end) {
-  if (last_[group] >= 0) {
+  const bool is_earlier = last_[group] >= 0 && end + kJoin < slots_[last_[group]].contact.begin;
+  if (last_[group] >= 0 && !is_earlier) {
     Slot& last = slots_[last_[group]];
-    if (start <= last.contact.end + kJoin && end + kJoin >= last.contact.begin && !last.contact.is_lost) {
+    if (start <= last.contact.end + kJoin && !last.contact.is_lost) {
       if (!last.is_open) {
         last.is_open = true;
         last.contact.ends = false;
@@ -266,7 +280,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   }
   const int index = free_.back();
   free_.pop_back();
-  last_[group] = index;
+  if (!is_earlier) last_[group] = index;
   Slot& slot = slots_[index];
   TrackedContact& contact = slot.contact;
   const auto& [key_a, key_b] = groups_.keys[group];
@@ -289,6 +303,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   slot.cycle = 0;
   ++open_;
   list(index);
+  if (is_earlier) close(slot, false);
   return slot;
 }
 

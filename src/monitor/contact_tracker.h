@@ -55,7 +55,8 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 /// replaced, is one contact. It continues as long as one of the tiles is touched.
 ///
 /// If a cycle checks earlier times again, because transforms came late, a contact found there joins the pair's last one
-/// if the two meet, even if that had ended. Earlier messages are not corrected.
+/// if the two meet, even if that had ended. One that lies before the last one has ended, and the last one continues.
+/// Earlier messages are not corrected.
 ///
 /// The cost of a cycle grows with its contacts: in a CLEAR cycle only existing contacts are visited. Memory is
 /// allocated only if a pair touches for the first time, or more pairs touch at a time than ever before.
@@ -124,7 +125,8 @@ class ContactTracker {
     int pair, interval;
   };
 
-  void addTouch(const ObservedCycle& cycle, const TouchInterval& touch);
+  static double exitOf(const CycleResult& result, const TouchInterval& touch);
+  void addTouch(const ObservedCycle& cycle, const TouchInterval& touch, Slot& slot);
   void closeIfOver(const ObservedCycle& cycle, Slot& slot);
   Slot& slotFor(std::size_t group, Time start, Time end);
   void close(Slot& slot, bool is_lost);

@@ -1,11 +1,7 @@
 #include "sdf_ccd/monitor/monitor.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstdint>
-#include <mutex>
 #include <stdexcept>
 
 #include <tbb/task_arena.h>
@@ -14,17 +10,13 @@
 #include "common/parallel_for.h"
 #include "common/seconds_since.h"
 #include "model/error_budget.h"
-#include "motion/validate_motion.h"
-#include "pair_checker.h"
-#include "scene_difference.h"
-#include "schedule.h"
+#include "monitor_impl.h"
+#include "pair_result.h"
 #include "sdf_ccd/common/cancel.h"
 #include "summarise.h"
 
 namespace sdf_ccd {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
   std::vector<ContactCollector::Siblings> siblings(scene.bodies.size());
@@ -38,70 +30,11 @@ std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
   return siblings;
 }
 
-/// Sets the result of a pair that is clear without a test. @param clearance  lower bound of its distance [m].
-void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
-  clear(result);
-  result.verdict = Verdict::kClear;
-  result.skipped = true;
-  result.error = error;
-  result.clearance = clearance;
-}
-
 }  // namespace
-
-/// Scratch memory, taken for a few pairs and given back, so that there is one per thread that checks pairs at the same
-/// time. The last one given back is taken first.
-struct MonitorMemory {
-  std::unique_ptr<PairMemory> take() {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (idle.empty()) return std::make_unique<PairMemory>();
-    std::unique_ptr<PairMemory> last = std::move(idle.back());
-    idle.pop_back();
-    return last;
-  }
-  void giveBack(std::unique_ptr<PairMemory> memory) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    idle.push_back(std::move(memory));
-  }
-
-  std::mutex mutex;
-  std::vector<std::unique_ptr<PairMemory>> idle;
-};
 
 std::shared_ptr<MonitorMemory> makeMonitorMemory() {
   return std::make_shared<MonitorMemory>();
 }
-
-struct Monitor::Impl {
-  Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
-       std::shared_ptr<MonitorMemory> shared_memory);
-
-  void takeSpans(const CycleMotion& motion);
-  void takeSkipped(const CycleRequest& request);
-  void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
-  void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
-  void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& with);
-  void summarise();
-  ErrorBound errorOf(int pair) const;
-  void forget();
-
-  std::shared_ptr<const Scene> scene;
-  MonitorOptions options;
-  std::vector<ContactCollector::Siblings> siblings;
-  std::vector<PairChecker> checkers;
-  std::unique_ptr<SweptBodies> bodies;
-  std::unique_ptr<Schedule> schedule;
-  std::shared_ptr<MonitorMemory> memory;
-  MotionShape shape;
-  CycleResult result;
-  std::vector<int> last_due;                // pairs
-  std::vector<DuePair> in_line;             // due pairs, those that have waited longest first
-  std::vector<std::uint32_t> waited;        // per pair: number of consecutive cycles in which it was postponed
-  std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
-  std::uint64_t cycle = 0;
-  bool are_of_cycle = false;  // results of pairs that are not due hold the clearance and error of the last cycle
-  std::atomic<std::size_t> last_waypoint{0};  // last index of all results' spans; 0 if they differ
-};
 
 Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
                     std::shared_ptr<MonitorMemory> shared_memory)
@@ -122,28 +55,13 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
   schedule = std::make_unique<Schedule>(*scene, checkers);
   due_in_cycle.assign(pairs, 0);
   last_due.reserve(pairs);
-  in_line.reserve(pairs);
+  queue.reserve(pairs);
   waited.assign(pairs, 0);
   shape.pairs = pairs;
   for (const Body& body : scene->bodies) {
     shape.bodies.push_back(body.name);
     shape.without_poses.push_back(!body.failure.empty());
   }
-}
-
-/// The monitor of the next scene, and what it takes over from the present one.
-struct MonitorChange::Impl {
-  std::unique_ptr<Monitor::Impl> monitor;
-  std::shared_ptr<const Scene> before;
-  SceneDifference difference;
-  Schedule::Kept kept;
-};
-
-MonitorChange::MonitorChange(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-MonitorChange::~MonitorChange() = default;
-
-const SceneDifference& MonitorChange::difference() const {
-  return impl_->difference;
 }
 
 Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
@@ -168,7 +86,7 @@ Monitor::Monitor(std::vector<Body> bodies, const MonitorOptions& options)
 Monitor::~Monitor() = default;
 
 const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
-  const auto start = Clock::now();
+  const auto start = Impl::Clock::now();
   validate(motion, impl_->shape, "cycle motion");
   try {
     impl_->schedule->take(motion, impl_->checkers);
@@ -223,10 +141,10 @@ ErrorBound Monitor::Impl::errorOf(int pair) const {
 }
 
 void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
-                          PairMemory& with) {
+                          PairMemory& pair_memory) {
   checkCancelled();
   const auto i = static_cast<std::size_t>(due.pair);
-  checkers[i].run(motion, *bodies, request, with, result.pairs[i]);
+  checkers[i].run(motion, *bodies, request, pair_memory, result.pairs[i]);
 }
 
 void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start) {
@@ -254,22 +172,22 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
 
 /// All threads take pairs from one queue, so that the most urgent pairs are done first.
 void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
-  in_line = schedule->due();
+  queue = schedule->due();
   const auto waitedFor = [&](const DuePair& due) { return waited[static_cast<std::size_t>(due.pair)]; };
-  std::sort(in_line.begin(), in_line.end(), [&](const DuePair& a, const DuePair& b) {
+  std::sort(queue.begin(), queue.end(), [&](const DuePair& a, const DuePair& b) {
     if (waitedFor(a) != waitedFor(b)) return waitedFor(a) > waitedFor(b);
     return a.left != b.left ? a.left < b.left : a.pair < b.pair;
   });
   std::atomic<std::size_t> next{0};
   parallelFor(0, tbb::this_task_arena::max_concurrency(), [&](int) {
     std::unique_ptr<PairMemory> taken = memory->take();
-    for (std::size_t k = next++; k < in_line.size(); k = next++) {
-      const auto i = static_cast<std::size_t>(in_line[k].pair);
+    for (std::size_t k = next++; k < queue.size(); k = next++) {
+      const auto i = static_cast<std::size_t>(queue[k].pair);
       const bool is_late = k > 0 && Clock::now() >= until;
       if (is_late) {
-        checkers[i].postpone(motion, *bodies, schedule->leftClearance(in_line[k]), *taken, result.pairs[i]);
+        checkers[i].postpone(motion, *bodies, schedule->leftClearance(queue[k]), *taken, result.pairs[i]);
       } else {
-        check(in_line[k], motion, request, *taken);
+        check(queue[k], motion, request, *taken);
       }
       waited[i] = result.pairs[i].postponed ? waited[i] + 1 : 0;
     }
@@ -301,53 +219,6 @@ const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_
   for (std::size_t b = 0; b < X_WB.size() && b < scene().bodies.size(); ++b)
     requireUnambiguousTurns(X_WB[b], "monitor: " + scene().bodies[b].name);
   return run(motion, request);
-}
-
-std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next) const {
-  if (!next) throw std::invalid_argument("monitor: no scene");
-  auto made = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
-  Impl& monitor = *made;
-  auto change = std::make_unique<MonitorChange::Impl>(
-      MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, *monitor.scene}, {}});
-  change->kept.bodies = change->difference.bodyRuns();
-  const std::vector<int>& pairs_now = change->difference.pairsNow();
-  // Common pairs that are not tested in the next cycle are clear; all others are set by their tests.
-  const std::size_t last = impl_->last_waypoint;
-  monitor.last_waypoint = last;
-  for (PairResult& result : monitor.result.pairs)
-    if (last > 0) result.span = {0, last};
-  for (std::size_t p = 0; p < pairs_now.size(); ++p) {
-    const int now = pairs_now[p];
-    if (now < 0) continue;
-    const PairChecker& checker = monitor.checkers[static_cast<std::size_t>(now)];
-    setSkipped(checker.bound(), checker.margin(), monitor.result.pairs[static_cast<std::size_t>(now)]);
-    change->kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));
-  }
-  return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));
-}
-
-void Monitor::adopt(MonitorChange& change) {
-  MonitorChange::Impl& made = *change.impl_;
-  if (made.before != impl_->scene) throw std::logic_error("monitor: the change was prepared from another scene");
-  Impl& next = *made.monitor;
-  next.schedule->take(*impl_->schedule, made.kept);
-  // For pairs that are not due, the checker's other data would only make the next test faster.
-  for (const int pair : impl_->last_due) {
-    const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];
-    if (now < 0) continue;
-    const auto from = static_cast<std::size_t>(pair), to = static_cast<std::size_t>(now);
-    next.checkers[to].take(impl_->checkers[from]);
-    next.waited[to] = impl_->waited[from];
-    const int body_a = next.result.pairs[to].body_a, body_b = next.result.pairs[to].body_b;
-    const WaypointSpan span = next.result.pairs[to].span;
-    std::swap(next.result.pairs[to], impl_->result.pairs[from]);
-    next.result.pairs[to].body_a = body_a;
-    next.result.pairs[to].body_b = body_b;
-    next.result.pairs[to].span = span;
-    next.last_due.push_back(now);
-  }
-  impl_.swap(made.monitor);
-  made.before.reset();  // prevents a second adopt()
 }
 
 void Monitor::reset() {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pair_bound.h"
+#include "pair_result.h"
 #include "pose_rounding.h"
 #include "surface_crossing.h"
 
@@ -13,41 +14,11 @@ namespace {
 
 constexpr double kRootTolerance = 1e-9;  // relative to the path; guaranteed by segmentIntervals()
 
-void setNotChecked(const std::string& reason, PairResult& result) {
-  result.verdict = Verdict::kNotChecked;
-  result.reason = reason;
-}
-
-/// Relative weight of a role's impulse among the roles of its pair (design §3.7): equal, except for shells whose
-/// spacing is more than three times the finest. The error of a wrench comes from how few points touch, so such points
-/// count by their number per area.
-double forceWeight(const PairRole& role, double finest) {
-  constexpr double kAlike = 3.0;  // within which spacings by the sizes of elements mostly are
-  if (!role.bearsForce()) return 0.0;
-  const double coarser = role.shell().covering_radius / finest;
-  return coarser <= kAlike ? 1.0 : 1.0 / (coarser * coarser);
-}
-
 void requireFinite(const ErrorBound& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
 
 }  // namespace
-
-void clear(PairResult& result) {
-  result.verdict = Verdict::kNotChecked;
-  result.reason.clear();
-  result.skipped = result.postponed = false;
-  result.error = result.contact_error = {};
-  result.clearance = -1.0;
-  result.intervals.clear();
-  result.deepest = {};
-  result.refined = false;
-  result.first_touch.reset();
-  result.on_a_W = {};
-  result.on_b_W = {};
-  result.points.clear();
-}
 
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
                          const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)
@@ -56,16 +27,8 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
       siblings_(siblings),
       options_(options),
       balls_contain_bodies_(ballContainsBody(scene.bodies[pair.body_a]) && ballContainsBody(scene.bodies[pair.body_b])),
-      open_(isInsideUncertain(scene.bodies[pair.body_a]) || isInsideUncertain(scene.bodies[pair.body_b])) {
-  const auto addRole = [&](int shell, int field, ShellPurpose purpose) {
-    PairRole role(scene, shell, field, purpose);
-    if (role.shell().size() > 0 && !scene.bodies[field].parts.empty()) roles_.push_back(role);
-  };
-  const auto purpose = [](bool edges_only) { return edges_only ? ShellPurpose::kEdges : ShellPurpose::kSurface; };
-  if (pair.a_shell_b_field) addRole(pair.body_a, pair.body_b, purpose(pair.a_edges_only));
-  if (pair.b_shell_a_field) addRole(pair.body_b, pair.body_a, purpose(pair.b_edges_only));
-  if (pair.a_witnesses_b_field) addRole(pair.body_a, pair.body_b, ShellPurpose::kWitnesses);
-  if (pair.b_witnesses_a_field) addRole(pair.body_b, pair.body_a, ShellPurpose::kWitnesses);
+      open_(isInsideUncertain(scene.bodies[pair.body_a]) || isInsideUncertain(scene.bodies[pair.body_b])),
+      roles_(scene, pair) {
   if (hasTriangles(scene, pair)) surfaces_.emplace(scene, pair, 0.5 * options.max_error);
   if (surfaces_ && ContactRefinement::isPossible(scene, pair))
     refinement_.emplace(scene, pair, surfaces_->resolution());
@@ -87,10 +50,7 @@ bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bod
     forget();
     return because(why);
   }
-  const int wanted =
-      pair_.a_shell_b_field + pair_.b_shell_a_field + pair_.a_witnesses_b_field + pair_.b_witnesses_a_field;
-  if (roles_.size() != static_cast<std::size_t>(wanted) || roles_.empty())
-    return because("its fields and shells were not built");
+  if (!roles_.areBuilt()) return because("its fields and shells were not built");
   return true;
 }
 
@@ -109,9 +69,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
     }
   } else {
     setRoles(bodies, result.span);
-    for (const PairRole& role : roles_)
-      if (role.ballHoldsBody())
-        apart = std::max(apart, role.ballClearance(role.motion().start()) - role.motion().travel());
+    apart = roles_.ballClearance();
   }
   motion_error_ += givenError(motion);
   result.error = bound();
@@ -186,17 +144,10 @@ void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span)
   X_FP_last_ = motion.end();
 }
 
-/// Sets the motion of the roles.
 void PairChecker::setRoles(const SweptBodies& bodies, const WaypointSpan& span) {
-  travel_ = std::numeric_limits<double>::infinity();
-  double pose_error = 0.0;
-  for (std::size_t i = 0; i < roles_.size(); ++i) {
-    PairRole& role = roles_[i];
-    role.setMotion(bodies, span, memory_->roles[i]);
-    if (role.ballHoldsBody()) travel_ = std::min(travel_, role.motion().travel());
-    pose_error = std::max(pose_error, role.motion().poseError());
-  }
-  motion_error_ = pose_error;
+  roles_.setMotion(bodies, span, memory_->roles);
+  travel_ = roles_.travel();
+  motion_error_ = roles_.poseError();
 }
 
 /// The motion error given with the motion, for both bodies together [m].
@@ -204,9 +155,8 @@ double PairChecker::givenError(const CycleMotion& motion) const {
   if (motion.motion_error.empty()) return 0.0;
   const double error_a = motion.motion_error[pair_.body_a], error_b = motion.motion_error[pair_.body_b];
   if (surfaces_) return error_a + error_b;
-  const PairRole& role = roles_.front();
-  const double scale = role.fieldErrorScale();
-  return role.fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
+  const double scale = roles_.front().fieldErrorScale();
+  return roles_.front().fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
 }
 
 /// @param bound  without the motion's error. @throws std::runtime_error if the sum is not finite.
@@ -237,15 +187,16 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     setRoles(bodies, result.span);
     motion_error_ += given_error;
     setError(bound_, kRootTolerance * travel_, result);
-  } else if (isClearByBalls(margin, result)) {
+  } else if (const auto clearance = roles_.clearanceByBalls(margin)) {
+    setClear(*clearance, result);
     return doubt(result);
   }
 
-  cutRoles(result);
+  result.error.chord = std::max(result.error.chord, roles_.cut(options_.chords) + motion_error_);
   requireFinite(result.error);
   const double near = result.error.total();
   const std::optional<ContactPoint>& crossing = by_surfaces.crossing;
-  if (crossing || std::any_of(roles_.begin(), roles_.end(), [&](PairRole& role) { return role.mayComeNearer(near); })) {
+  if (crossing || roles_.mayComeNearer(near)) {
     forgetClearance();
     findContacts(motion, request, crossing, result);
     if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
@@ -254,9 +205,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     return setSurfaceError(by_surfaces.is_near, surface_error, result);
   }
   // With both shells the surfaces' distance is known up to the gap; with one, up to its covering radius.
-  double clearance = std::numeric_limits<double>::infinity();
-  for (const PairRole& role : roles_) clearance = std::min(clearance, role.pointClearanceAtEnd(0.5 * near));
-  setClear(clearance - bound_.gap, result);
+  setClear(roles_.pointClearanceAtEnd(0.5 * near) - bound_.gap, result);
   doubt(result);
   outside_ = result.verdict == Verdict::kClear;
   setSurfaceError(false, surface_error, result);
@@ -278,10 +227,7 @@ bool PairChecker::isCertain(const PairResult& result) const {
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const Body& other = scene_.bodies[body == pair_.body_a ? pair_.body_b : pair_.body_a];
     const bool is_bounded = other.shell->size() > 0 || other.witnesses->size() > 0;  // half-spaces lie inside no body
-    if (!scene_.bodies[body].doubtful || !is_bounded) continue;
-    const auto role =
-        std::find_if(roles_.begin(), roles_.end(), [&](const PairRole& role) { return role.fieldBody() == body; });
-    if (role == roles_.end() || !role->isOutsideAtEnd()) return false;
+    if (scene_.bodies[body].doubtful && is_bounded && !roles_.isOutsideAtEnd(body)) return false;
   }
   return true;
 }
@@ -332,61 +278,15 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
   return true;
 }
 
-/// Whether the ball of one role's shell alone proves that the bodies stay apart.
-bool PairChecker::isClearByBalls(double margin, PairResult& result) {
-  for (const PairRole& role : roles_) {
-    const RelativeMotion& motion = role.motion();
-    if (!role.ballHoldsBody() || !(role.ballClearance(motion.start()) - motion.travel() > margin)) continue;
-    setClear(role.ballClearance(motion.end()), result);
-    return true;
-  }
-  return false;
-}
-
-void PairChecker::cutRoles(PairResult& result) {
-  for (PairRole& role : roles_) {
-    role.cut(options_.chords);
-    result.error.chord = std::max(result.error.chord, role.path().error + motion_error_);
-  }
-}
-
-/// A crossing of the bodies' surfaces at one of up to 8 recorded times, searched backwards from the last.
-std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const {
-  const bool b_has_fields = !scene_.bodies[pair_.body_b].parts.empty();
-  const int a = b_has_fields ? pair_.body_a : pair_.body_b, b = b_has_fields ? pair_.body_b : pair_.body_a;
-  constexpr std::size_t kMaxTimes = 8;
-  const std::size_t stride = (span.last - span.first) / kMaxTimes + 1;
-  for (std::size_t back = 0; back <= span.last - span.first; back += stride) {
-    const std::size_t waypoint = span.last - back;
-    const Isometry3d &X_WA = motion.X_WB[a][waypoint], &X_WB = motion.X_WB[b][waypoint];
-    const auto found = surfacesCross(scene_.bodies[a], scene_.bodies[b], relativePose(X_WB, X_WA), motion_error_);
-    if (!found) continue;
-    ContactPoint contact;
-    contact.enter = contact.exit = contact.time = motion.times[waypoint];
-    contact.p_W = X_WB * found->p_B;
-    contact.normal_W = (b_has_fields ? -1.0 : 1.0) * (X_WB.linear() * found->normal_B);
-    return contact;
-  }
-  return std::nullopt;
-}
-
 /// @param known  a known crossing of the surfaces, if any.
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request,
                                const std::optional<ContactPoint>& known, PairResult& result) {
   const std::optional<ContactPoint> crossing = known   ? known
-                                               : open_ ? crossingAtATime(motion, result.span)
+                                               : open_ ? crossingAtARecordedTime(scene_, motion, result, motion_error_)
                                                        : std::nullopt;
   ContactCollector& collector = memory_->collector;
   collector.begin(motion, result, crossing.has_value());
-  double finest = std::numeric_limits<double>::infinity(), all = 0.0;
-  for (const PairRole& role : roles_)
-    if (role.bearsForce()) finest = std::min(finest, role.shell().covering_radius);
-  for (const PairRole& role : roles_) all += forceWeight(role, finest);
-  for (PairRole& role : roles_) {
-    const bool shell_is_a = role.fieldBody() == pair_.body_b;
-    collector.add(role, shell_is_a, forceWeight(role, finest) / all, siblings_[role.fieldBody()], options_.contact,
-                  request.wrenches && role.bearsForce());
-  }
+  roles_.addContacts(siblings_, options_.contact, request.wrenches, collector);
   collector.finish(request, result);
   // A crossing between shell points is not seen by fields, so it is no deeper than their error bound.
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;

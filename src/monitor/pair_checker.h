@@ -1,13 +1,11 @@
 #pragma once
 
-#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
 
-#include "contact_collector.h"
 #include "contact_refinement.h"
-#include "pair_role.h"
+#include "pair_roles.h"
 #include "surface_pair.h"
 
 namespace sdf_ccd {
@@ -15,15 +13,12 @@ namespace sdf_ccd {
 /// Scratch memory for checking a pair. It is reused for the next pair, so that a cycle like the last one allocates
 /// nothing and the memory does not grow with the number of pairs.
 struct PairMemory {
-  std::array<RoleMemory, 4> roles;
+  PairRoles::Memory roles;
   ContactCollector collector;
   std::vector<RelativeMotionBounds> bounds;  ///< of the motion of SurfacePair
   SeparationMemory separation;
   ContactRefinement::Memory refinement;
 };
-
-/// Resets the result, but keeps its span and its allocated memory.
-void clear(PairResult& result);
 
 /// Checks one pair, cycle after cycle, and stores a bound of its distance in between.
 class PairChecker {
@@ -90,10 +85,7 @@ class PairChecker {
   bool isCertain(const PairResult& result) const;
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
-  bool isClearByBalls(double margin, PairResult& result);
   double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;
-  void cutRoles(PairResult& result);
-  std::optional<ContactPoint> crossingAtATime(const CycleMotion& motion, const WaypointSpan& span) const;
   void findContacts(const CycleMotion& motion, const CycleRequest& request, const std::optional<ContactPoint>& known,
                     PairResult& result);
 
@@ -101,9 +93,9 @@ class PairChecker {
   const PlannedPair& pair_;
   const std::vector<ContactCollector::Siblings>& siblings_;  // per body
   const MonitorOptions& options_;
-  std::vector<PairRole> roles_;                  // one to four
-  bool balls_contain_bodies_;                    // the bodies' balls contain all of them
-  bool open_;                                    // a point inside some field may be outside its body
+  bool balls_contain_bodies_;  // the bodies' balls contain all of them
+  bool open_;                  // a point inside some field may be outside its body
+  PairRoles roles_;
   std::optional<SurfacePair> surfaces_;          // if both bodies have triangles
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles
   bool outside_ = false;         // neither body had a component wholly inside the other at the last cycle's end

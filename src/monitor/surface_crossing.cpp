@@ -74,16 +74,13 @@ bool mayMeet(const Body& b, const Vector3d& center_B, double radius) {
   });
 }
 
-}  // namespace
+/// A point at which the surfaces of two bodies cross.
+struct SurfaceCrossing {
+  Vector3d p_B;       // on B's surface [m]
+  Vector3d normal_B;  // of B's triangle there, unit
+};
 
-bool passesThroughMesh(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, const ShellHit& hit,
-                       double path_error) {
-  PointWalk walk(field, path, p_P, path_error);
-  const auto [enter, exit] = hit.interval;
-  return (enter > 0.0 && walk.reaches(1, hit.chord, enter, -1) && walk.reaches(-1, hit.chord, enter, 1)) ||
-         (exit < 1.0 && walk.reaches(1, hit.chord, exit, 1) && walk.reaches(-1, hit.chord, exit, -1));
-}
-
+/// @param a, b  B must have fields, which select the triangles of A that come near.
 std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const Isometry3d& X_BA, double pose_error) {
   if (!a.surface || !b.surface) return std::nullopt;
   const AlignedBox3d box_a = boundingBox(a.surface->mesh), box_b = boundingBox(b.surface->mesh);
@@ -116,6 +113,37 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
     b.surface->tree.forEachTriangle(near_a, [&](int triangle_b) { test(t_A, triangle_b); });
   });
   return found;
+}
+
+}  // namespace
+
+bool passesThroughMesh(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, const ShellHit& hit,
+                       double path_error) {
+  PointWalk walk(field, path, p_P, path_error);
+  const auto [enter, exit] = hit.interval;
+  return (enter > 0.0 && walk.reaches(1, hit.chord, enter, -1) && walk.reaches(-1, hit.chord, enter, 1)) ||
+         (exit < 1.0 && walk.reaches(1, hit.chord, exit, 1) && walk.reaches(-1, hit.chord, exit, -1));
+}
+
+std::optional<ContactPoint> crossingAtARecordedTime(const Scene& scene, const CycleMotion& motion,
+                                                    const PairResult& pair, double pose_error) {
+  const bool b_has_fields = !scene.bodies[pair.body_b].parts.empty();
+  const int a = b_has_fields ? pair.body_a : pair.body_b, b = b_has_fields ? pair.body_b : pair.body_a;
+  constexpr std::size_t kMaxTimes = 8;
+  const WaypointSpan& span = pair.span;
+  const std::size_t stride = (span.last - span.first) / kMaxTimes + 1;
+  for (std::size_t back = 0; back <= span.last - span.first; back += stride) {
+    const std::size_t waypoint = span.last - back;
+    const Isometry3d &X_WA = motion.X_WB[a][waypoint], &X_WB = motion.X_WB[b][waypoint];
+    const auto found = surfacesCross(scene.bodies[a], scene.bodies[b], relativePose(X_WB, X_WA), pose_error);
+    if (!found) continue;
+    ContactPoint contact;
+    contact.enter = contact.exit = contact.time = motion.times[waypoint];
+    contact.p_W = X_WB * found->p_B;
+    contact.normal_W = (b_has_fields ? -1.0 : 1.0) * (X_WB.linear() * found->normal_B);
+    return contact;
+  }
+  return std::nullopt;
 }
 
 bool isInsideUncertain(const Body& body) {

@@ -5,7 +5,7 @@
 
 #include "body/body_surface.h"
 #include "query/shell_query.h"
-#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/monitor/monitor.h"
 
 /// A point inside a field with openings may have entered through an opening, without touching anything. There only a
 /// crossing of the surfaces proves contact (design §3.14).
@@ -20,18 +20,13 @@ namespace sdf_ccd {
 bool passesThroughMesh(const DistanceField& field, const ChordPath& path, const Vector3d& p_P, const ShellHit& hit,
                        double path_error);
 
-/// A point at which the surfaces of two bodies cross.
-struct SurfaceCrossing {
-  Vector3d p_B;       ///< on B's surface [m]
-  Vector3d normal_B;  ///< of B's triangle there, unit
-};
-
-/// Whether the surfaces of A and B certainly cross at a pose: an edge of one pierces a triangle of the other, also if A
-/// is displaced by up to `pose_error`; see piercedPoint() for the proof.
-/// @param a, b  with BodySurface. B must have fields, which select the triangles of A that come near.
-/// @param pose_error  [m].
-/// Cost: one test per pair of triangles that meet; after 10⁵ tests the result is empty.
-std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const Isometry3d& X_BA, double pose_error);
+/// A certain crossing of the pair's surfaces at one of up to 8 recorded times of its span, searched backwards from the
+/// last: an edge of one pierces a triangle of the other, also if one is displaced by up to `pose_error` [m]; see
+/// piercedPoint() for the proof. Empty if a body has no BodySurface, or neither has fields.
+/// @param pair  gives the bodies and the span.
+/// Cost: one test per pair of triangles that meet; a time ends without a crossing after 10⁵ tests.
+std::optional<ContactPoint> crossingAtARecordedTime(const Scene& scene, const CycleMotion& motion,
+                                                    const PairResult& pair, double pose_error);
 
 /// Whether a point inside the body's fields may be outside the body: a field has openings, or the inside of a mesh is
 /// doubtful.

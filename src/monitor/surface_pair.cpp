@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/triangle_tree.h"
+#include "motion/time_at.h"
 
 namespace sdf_ccd {
 namespace {
@@ -125,8 +126,7 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) c
   const TwoBodyMotion motion = motion_.motion(step);
   const Isometry3d X_WF = motion.X_WF.pose(found.s), X_WP = motion.X_WP.pose(found.s);
   ContactPoint contact;
-  contact.time = contact.enter = contact.exit =
-      found.s == 1.0 ? motion.t_end : motion.t_start + found.s * (motion.t_end - motion.t_start);
+  contact.time = contact.enter = contact.exit = timeAt(motion, found.s);
   contact.p_W = X_WF * found.p_A;
   contact.normal_W = X_WF.linear() * found.normal_A;
   // From body A to body B. A single triangle does not tell the side: take the one where the other ball's centre lies.
@@ -151,10 +151,6 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
     const TwoBodyMotion part{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration};
     return separation(f, p, part, options, witness_, memory);
   };
-  const auto timeAt = [&](std::size_t step, double s) {
-    const TwoBodyMotion motion = motion_.motion(step);
-    return s == 1.0 ? motion.t_end : motion.t_start + s * (motion.t_end - motion.t_start);
-  };
   std::optional<Interval> touch;
   for (std::size_t step = 0; step < motion_.steps(); ++step) {
     const Separation found = over(step, 0.0, 1.0);
@@ -172,9 +168,9 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
         if (crosses) crossing = end;
       }
     }
-    if (!touch) touch = Interval{timeAt(step, apart), kInfinity};
+    if (!touch) touch = Interval{timeAt(motion_.motion(step), apart), kInfinity};
     if (crossing == kInfinity) continue;
-    touch->exit = timeAt(step, crossing);
+    touch->exit = timeAt(motion_.motion(step), crossing);
     break;
   }
   return touch;

@@ -9,6 +9,7 @@
 
 #include "contact_query.h"
 #include "exact_surface.h"
+#include "motion/time_at.h"
 #include "sdf_ccd/field/build_field.h"
 #include "studies.h"
 #include "timing.h"
@@ -83,7 +84,7 @@ class ChordSystem {
     double first = -1.0;
     const auto offer = [&](int chord_index, double s) {
       const Chord& chord = path_.chords[chord_index];
-      const double t = chord.t_start + s * (chord.t_end - chord.t_start);
+      const double t = timeAt(chord, s);
       if (first < 0.0 || t < first) first = t;
     };
     for (const ShellHit& hit : result_.hits) offer(hit.chord, hit.interval.enter);

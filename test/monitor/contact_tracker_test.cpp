@@ -244,6 +244,30 @@ TEST_F(TrackerTest, TimesCheckedAgainJoinTheContactThatTheyMeet) {
   EXPECT_TRUE(only().ends);
 }
 
+TEST_F(TrackerTest, AnEarlierTouchThatIsFoundLaterLeavesTheContactThatGoesOn) {
+  world({{"hand", "table"}});
+  cycle({{Verdict::kContact, {{0.08, 0.1}}}});
+  // The same times again: two touches before that contact, which goes on.
+  cycle({{Verdict::kContact, {{0.01, 0.02}, {0.04, 0.05}, {0.0505, 0.06}, {0.08, 0.1}}}}, 100.0);
+  ASSERT_EQ(tracker_->size(), 3u);
+  EXPECT_EQ(tracker_->open(), 1u);
+  std::map<std::uint64_t, TrackedContact> by_id;
+  for (const TrackedContact& contact : said()) by_id[contact.id] = contact;
+  EXPECT_FALSE(by_id[1].begins || by_id[1].ends);
+  EXPECT_EQ(by_id[1].begin, at(100.08));
+  EXPECT_TRUE(by_id[2].begins && by_id[2].ends && by_id[3].begins && by_id[3].ends);
+  EXPECT_FALSE(by_id[2].is_lost || by_id[3].is_lost);
+  EXPECT_EQ(by_id[2].end, at(100.02));
+  EXPECT_EQ(by_id[3].begin, at(100.04));
+  EXPECT_EQ(by_id[3].end, at(100.06));
+  cycle({kThrough});
+  EXPECT_EQ(only().id, 1u);
+  cycle({});
+  EXPECT_TRUE(only().ends);
+  cycle({kThrough});
+  EXPECT_EQ(only().id, 4u);
+}
+
 TEST_F(TrackerTest, NothingGoesOnAfterAJump) {
   world({{"hand", "table"}, {"foot", "table"}});
   cycle({kThrough, kThrough});

@@ -144,16 +144,4 @@ void setContact(const TrackedContact& contact, Contact& message) {
   message.contact_error_bound = contact.contact_error;
 }
 
-void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages) {
-  std::size_t count = 0;
-  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const PairResult& pair = result.pairs[i];
-    if (pair.verdict == Verdict::kClear || pair.span.empty()) continue;
-    if (count == messages.size()) messages.emplace_back();
-    setPairContact(pair, cycle, messages[count++]);
-  }
-  messages.resize(count);
-}
-
 }  // namespace sdf_ccd

@@ -51,7 +51,19 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
 
 void setContact(const TrackedContact& contact, Contact& message);
 
-/// Sets the pairs that are neither clear nor delayed.
-void setPairContacts(const CycleResult& result, const CycleContext& cycle, std::vector<PairContact>& messages);
+/// Sets the pairs that are neither clear nor delayed and for which isListed(pair), called in their order, is true.
+template <class IsListed>
+void setPairContacts(const CycleResult& result, const CycleContext& cycle, const IsListed& isListed,
+                     std::vector<PairContact>& messages) {
+  std::size_t count = 0;
+  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const PairResult& pair = result.pairs[i];
+    if (pair.verdict == Verdict::kClear || pair.span.empty() || !isListed(pair)) continue;
+    if (count == messages.size()) messages.emplace_back();
+    setPairContact(pair, cycle, messages[count++]);
+  }
+  messages.resize(count);
+}
 
 }  // namespace sdf_ccd

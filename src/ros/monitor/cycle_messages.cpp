@@ -4,10 +4,8 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <map>
 
-#include <fmt/format.h>
-
+#include "ros/monitor/unchecked.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -35,45 +33,6 @@ void setDelays(const TrackedCycle& cycle, Message& message) {
   }
 }
 
-/// Why none of a body's pairs can be checked; empty if they can.
-const std::string& uncheckedReason(const MonitorLoop& loop, int body) {
-  const std::string& failure = loop.scene().bodies[body].failure;
-  return failure.empty() ? loop.cycle().motion.missing[body] : failure;
-}
-
-bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair) {
-  return !uncheckedReason(loop, pair.body_a).empty() || !uncheckedReason(loop, pair.body_b).empty();
-}
-
-/// Delayed pairs are not counted: their result is still open.
-bool isUnchecked(const PairResult& pair) {
-  return pair.verdict == Verdict::kNotChecked && !pair.span.empty();
-}
-
-std::string pairReason(const MonitorLoop& loop, const PairResult& pair) {
-  const BodyList& bodies = loop.scene().bodies;
-  return bodies[pair.body_a].name + " - " + bodies[pair.body_b].name + ": " + pair.reason;
-}
-
-/// Why a cycle as a whole is not checked; empty if it is.
-std::string reasonOf(const MonitorLoop& loop) {
-  const CycleResult& result = loop.result();
-  const TrackedCycle& cycle = loop.cycle();
-  if (result.verdict != Verdict::kNotChecked) return "";
-  if (result.pairs.empty()) return "no pairs: there is nothing to check";
-  std::string reason;
-  const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
-  if (first != result.pairs.end()) {
-    reason =
-        std::to_string(result.not_checked) + " pairs could not be checked, for example " + pairReason(loop, *first);
-  }
-  if (result.delayed > 0) {
-    reason += fmt::format("{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",
-                          result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
-  }
-  return reason;
-}
-
 /// Counts a pair of the body, if the body is the reason why it is not checked.
 void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std::vector<UncheckedBody>& bodies) {
   const std::string& reason = uncheckedReason(loop, body);
@@ -95,23 +54,15 @@ void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std
 /// Sets the pairs that are neither clear nor delayed. Pairs of bodies that could not be checked at all are only
 /// counted, in `unchecked`.
 void setPairs(const MonitorLoop& loop, ContactArray& message) {
-  const CycleResult& result = loop.result();
   const CycleContext context = contextOf(loop);
   message.unchecked.clear();
-  std::size_t count = 0;
-  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const PairResult& pair = result.pairs[i];
-    if (pair.verdict == Verdict::kClear || pair.span.empty()) continue;
-    if (pair.verdict == Verdict::kNotChecked && isOfUncheckedBody(loop, pair)) {
-      const ros::Time since = context.start + ros::Duration(context.motion.times[pair.span.first]);
-      for (const int body : {pair.body_a, pair.body_b}) addUnchecked(loop, body, since, message.unchecked);
-      continue;
-    }
-    if (count == message.pairs.size()) message.pairs.emplace_back();
-    setPairContact(pair, context, message.pairs[count++]);
-  }
-  message.pairs.resize(count);
+  const auto isListed = [&](const PairResult& pair) {
+    if (pair.verdict != Verdict::kNotChecked || !isOfUncheckedBody(loop, pair)) return true;
+    const ros::Time since = context.start + ros::Duration(context.motion.times[pair.span.first]);
+    for (const int body : {pair.body_a, pair.body_b}) addUnchecked(loop, body, since, message.unchecked);
+    return false;
+  };
+  setPairContacts(loop.result(), context, isListed, message.pairs);
 }
 
 void setContacts(const MonitorLoop& loop, std::vector<Contact>& messages) {
@@ -152,7 +103,7 @@ void setContactArray(const MonitorLoop& loop, ContactArray& message) {
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
   message.verdict = static_cast<std::uint8_t>(result.verdict);
-  message.reason = reasonOf(loop);
+  message.reason = uncheckedCycle(loop);
   setErrorBound(result, message);
   setDelays(cycle, message);
   setPairs(loop, message);
@@ -200,10 +151,8 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   message.scene_version = loop.world()->version();
   message.verdict = static_cast<std::uint8_t>(result.verdict);
   message.missing = missingBodies(loop);
-  for (const Body& body : loop.scene().bodies) {
-    if (!body.failure.empty()) message.missing.push_back(body.name + ": " + body.failure);
-  }
-  message.reason = reasonOf(loop);
+  for (const std::string& failed : failedBodies(loop.scene())) message.missing.push_back(failed);
+  message.reason = uncheckedCycle(loop);
   message.cycle_start = cycle.start;
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
@@ -280,46 +229,6 @@ std::string wrenchTopic(const Body& body) {
   std::replace_if(
       link.begin(), link.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '/'; }, '_');
   return "wrenches/" + link;
-}
-
-std::vector<std::string> missingBodies(const MonitorLoop& loop) {
-  const std::vector<std::string>& missing = loop.cycle().motion.missing;
-  std::vector<std::string> lines;
-  for (std::size_t body = 0; body < missing.size(); ++body) {
-    if (!missing[body].empty()) lines.push_back(loop.scene().bodies[body].name + ": " + missing[body]);
-  }
-  return lines;
-}
-
-std::string uncheckedCause(const MonitorLoop& loop) {
-  const std::vector<std::string> missing = missingBodies(loop);
-  if (missing.empty()) return {};
-  const auto causeOf = [](const std::string& line) { return line.substr(line.rfind(": ") + 1); };
-  std::map<std::string, std::size_t> bodies;  // by cause
-  for (const std::string& line : missing) ++bodies[causeOf(line)];
-  const auto shares = [&](const std::string& a, const std::string& b) {
-    return bodies[causeOf(a)] < bodies[causeOf(b)];
-  };
-  const std::size_t others = missing.size() - 1;
-  return *std::max_element(missing.begin(), missing.end(), shares) +
-         (others == 0   ? ""
-          : others == 1 ? "; and 1 more body"
-                        : "; and " + std::to_string(others) + " more bodies");
-}
-
-std::string uncheckedPair(const MonitorLoop& loop) {
-  for (const PairResult& pair : loop.result().pairs) {
-    if (isUnchecked(pair) && !isOfUncheckedBody(loop, pair)) return pairReason(loop, pair);
-  }
-  return {};
-}
-
-std::vector<std::string> failedBodies(const Scene& scene) {
-  std::vector<std::string> lines;
-  for (const Body& body : scene.bodies) {
-    if (!body.failure.empty()) lines.push_back(body.name + ": " + body.failure);
-  }
-  return lines;
 }
 
 }  // namespace sdf_ccd

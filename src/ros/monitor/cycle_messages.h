@@ -41,18 +41,4 @@ geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body);
 /// Topic below the monitor's name. Characters in the body's name that are not allowed in topics are replaced.
 std::string wrenchTopic(const Body& body);
 
-/// "body: reason" of the bodies that the cycle could not check because transforms are missing.
-std::vector<std::string> missingBodies(const MonitorLoop& loop);
-
-/// Why bodies are not checked, in one line: an example of the most frequent reason, and the number of other bodies.
-/// Empty if the cycle could check all bodies.
-std::string uncheckedCause(const MonitorLoop& loop);
-
-/// "body - body: reason" of the first pair that the cycle could not check although it could check both bodies; empty if
-/// there is none.
-std::string uncheckedPair(const MonitorLoop& loop);
-
-/// "body: reason" of the bodies that no cycle can check.
-std::vector<std::string> failedBodies(const Scene& scene);
-
 }  // namespace sdf_ccd

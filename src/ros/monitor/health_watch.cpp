@@ -5,7 +5,7 @@
 #include <ros/console.h>
 
 #include "monitor/over_budget.h"
-#include "ros/monitor/cycle_messages.h"
+#include "ros/monitor/unchecked.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {

@@ -1,0 +1,72 @@
+#include <stdexcept>
+#include <utility>
+
+#include "monitor_impl.h"
+#include "pair_result.h"
+#include "scene_difference.h"
+
+namespace sdf_ccd {
+
+/// The monitor of the next scene, and what it takes over from the present one.
+struct MonitorChange::Impl {
+  std::unique_ptr<Monitor::Impl> monitor;
+  std::shared_ptr<const Scene> before;
+  SceneDifference difference;
+  Schedule::Kept kept;
+};
+
+MonitorChange::MonitorChange(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MonitorChange::~MonitorChange() = default;
+
+const SceneDifference& MonitorChange::difference() const {
+  return impl_->difference;
+}
+
+std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next) const {
+  if (!next) throw std::invalid_argument("monitor: no scene");
+  auto made = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
+  Impl& monitor = *made;
+  auto change = std::make_unique<MonitorChange::Impl>(
+      MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, *monitor.scene}, {}});
+  change->kept.bodies = change->difference.bodyRuns();
+  const std::vector<int>& pairs_now = change->difference.pairsNow();
+  // Common pairs that are not tested in the next cycle are clear; all others are set by their tests.
+  const std::size_t last = impl_->last_waypoint;
+  monitor.last_waypoint = last;
+  for (PairResult& result : monitor.result.pairs)
+    if (last > 0) result.span = {0, last};
+  for (std::size_t p = 0; p < pairs_now.size(); ++p) {
+    const int now = pairs_now[p];
+    if (now < 0) continue;
+    const PairChecker& checker = monitor.checkers[static_cast<std::size_t>(now)];
+    setSkipped(checker.bound(), checker.margin(), monitor.result.pairs[static_cast<std::size_t>(now)]);
+    change->kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));
+  }
+  return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));
+}
+
+void Monitor::adopt(MonitorChange& change) {
+  MonitorChange::Impl& made = *change.impl_;
+  if (made.before != impl_->scene) throw std::logic_error("monitor: the change was prepared from another scene");
+  Impl& next = *made.monitor;
+  next.schedule->take(*impl_->schedule, made.kept);
+  // For pairs that are not due, the checker's other data would only make the next test faster.
+  for (const int pair : impl_->last_due) {
+    const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];
+    if (now < 0) continue;
+    const auto from = static_cast<std::size_t>(pair), to = static_cast<std::size_t>(now);
+    next.checkers[to].take(impl_->checkers[from]);
+    next.waited[to] = impl_->waited[from];
+    const int body_a = next.result.pairs[to].body_a, body_b = next.result.pairs[to].body_b;
+    const WaypointSpan span = next.result.pairs[to].span;
+    std::swap(next.result.pairs[to], impl_->result.pairs[from]);
+    next.result.pairs[to].body_a = body_a;
+    next.result.pairs[to].body_b = body_b;
+    next.result.pairs[to].span = span;
+    next.last_due.push_back(now);
+  }
+  impl_.swap(made.monitor);
+  made.before.reset();  // prevents a second adopt()
+}
+
+}  // namespace sdf_ccd

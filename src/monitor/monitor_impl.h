@@ -1,0 +1,49 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "monitor_memory.h"
+#include "motion/validate_motion.h"
+#include "schedule.h"
+
+namespace sdf_ccd {
+
+/// The state of a monitor of one scene.
+struct Monitor::Impl {
+  using Clock = std::chrono::steady_clock;
+
+  Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
+       std::shared_ptr<MonitorMemory> shared_memory);
+
+  void takeSpans(const CycleMotion& motion);
+  void takeSkipped(const CycleRequest& request);
+  void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
+  void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
+  void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory);
+  void summarise();
+  ErrorBound errorOf(int pair) const;
+  void forget();
+
+  std::shared_ptr<const Scene> scene;
+  MonitorOptions options;
+  std::vector<ContactCollector::Siblings> siblings;
+  std::vector<PairChecker> checkers;
+  std::unique_ptr<SweptBodies> bodies;
+  std::unique_ptr<Schedule> schedule;
+  std::shared_ptr<MonitorMemory> memory;
+  MotionShape shape;
+  CycleResult result;
+  std::vector<int> last_due;                // pairs
+  std::vector<DuePair> queue;               // due pairs, those that have waited longest first
+  std::vector<std::uint32_t> waited;        // per pair: number of consecutive cycles in which it was postponed
+  std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
+  std::uint64_t cycle = 0;
+  bool are_of_cycle = false;  // results of pairs that are not due hold the clearance and error of the last cycle
+  std::atomic<std::size_t> last_waypoint{0};  // last index of all results' spans; 0 if they differ
+};
+
+}  // namespace sdf_ccd

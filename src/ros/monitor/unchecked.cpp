@@ -1,0 +1,91 @@
+#include "ros/monitor/unchecked.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "ros/tf/seconds_between.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Delayed pairs are not counted: their result is still open.
+bool isUnchecked(const PairResult& pair) {
+  return pair.verdict == Verdict::kNotChecked && !pair.span.empty();
+}
+
+std::string pairReason(const MonitorLoop& loop, const PairResult& pair) {
+  const BodyList& bodies = loop.scene().bodies;
+  return bodies[pair.body_a].name + " - " + bodies[pair.body_b].name + ": " + pair.reason;
+}
+
+}  // namespace
+
+const std::string& uncheckedReason(const MonitorLoop& loop, int body) {
+  const std::string& failure = loop.scene().bodies[body].failure;
+  return failure.empty() ? loop.cycle().motion.missing[body] : failure;
+}
+
+bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair) {
+  return !uncheckedReason(loop, pair.body_a).empty() || !uncheckedReason(loop, pair.body_b).empty();
+}
+
+std::string uncheckedCycle(const MonitorLoop& loop) {
+  const CycleResult& result = loop.result();
+  const TrackedCycle& cycle = loop.cycle();
+  if (result.verdict != Verdict::kNotChecked) return "";
+  if (result.pairs.empty()) return "no pairs: there is nothing to check";
+  std::string reason;
+  const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
+  if (first != result.pairs.end()) {
+    reason = std::to_string(result.not_checked) + " pairs could not be checked, for example " + pairReason(loop, *first);
+  }
+  if (result.delayed > 0) {
+    reason += fmt::format("{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",
+                          result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
+  }
+  return reason;
+}
+
+std::vector<std::string> missingBodies(const MonitorLoop& loop) {
+  const std::vector<std::string>& missing = loop.cycle().motion.missing;
+  std::vector<std::string> lines;
+  for (std::size_t body = 0; body < missing.size(); ++body) {
+    if (!missing[body].empty()) lines.push_back(loop.scene().bodies[body].name + ": " + missing[body]);
+  }
+  return lines;
+}
+
+std::string uncheckedCause(const MonitorLoop& loop) {
+  const std::vector<std::string> missing = missingBodies(loop);
+  if (missing.empty()) return {};
+  const auto causeOf = [](const std::string& line) { return line.substr(line.rfind(": ") + 1); };
+  std::map<std::string, std::size_t> bodies;  // by cause
+  for (const std::string& line : missing) ++bodies[causeOf(line)];
+  const auto shares = [&](const std::string& a, const std::string& b) {
+    return bodies[causeOf(a)] < bodies[causeOf(b)];
+  };
+  const std::size_t others = missing.size() - 1;
+  return *std::max_element(missing.begin(), missing.end(), shares) +
+         (others == 0   ? ""
+          : others == 1 ? "; and 1 more body"
+                        : "; and " + std::to_string(others) + " more bodies");
+}
+
+std::string uncheckedPair(const MonitorLoop& loop) {
+  for (const PairResult& pair : loop.result().pairs) {
+    if (isUnchecked(pair) && !isOfUncheckedBody(loop, pair)) return pairReason(loop, pair);
+  }
+  return {};
+}
+
+std::vector<std::string> failedBodies(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const Body& body : scene.bodies) {
+    if (!body.failure.empty()) lines.push_back(body.name + ": " + body.failure);
+  }
+  return lines;
+}
+
+}  // namespace sdf_ccd

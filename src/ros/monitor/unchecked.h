@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ros/monitor/monitor_loop.h"
+
+/// What the loop's last cycle did not check, and why, as texts.
+namespace sdf_ccd {
+
+/// Why none of a body's pairs can be checked; empty if they can.
+const std::string& uncheckedReason(const MonitorLoop& loop, int body);
+
+/// Whether one of the pair's bodies cannot be checked at all.
+bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair);
+
+/// Why the cycle as a whole is not checked; empty if it is.
+std::string uncheckedCycle(const MonitorLoop& loop);
+
+/// "body: reason" of the bodies that the cycle could not check because transforms are missing.
+std::vector<std::string> missingBodies(const MonitorLoop& loop);
+
+/// Why bodies are not checked, in one line: an example of the most frequent reason, and the number of other bodies.
+/// Empty if the cycle could check all bodies.
+std::string uncheckedCause(const MonitorLoop& loop);
+
+/// "body - body: reason" of the first pair that the cycle could not check although it could check both bodies; empty if
+/// there is none.
+std::string uncheckedPair(const MonitorLoop& loop);
+
+/// "body: reason" of the bodies that no cycle can check.
+std::vector<std::string> failedBodies(const Scene& scene);
+
+}  // namespace sdf_ccd

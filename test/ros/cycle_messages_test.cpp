@@ -1,0 +1,167 @@
+// What the messages of a complete monitor's cycles say.
+
+#include "ros/monitor/cycle_messages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "monitor/scene_case.h"
+#include "ros/loop_case.h"
+#include "ros/monitor/unchecked.h"
+#include "ros/tf_messages.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+using CycleMessagesTest = MonitorLoopTest;
+
+TEST_F(CycleMessagesTest, TheCauseOfWhatIsNotCheckedIsNamed) {
+  step(100.0);
+  EXPECT_EQ(uncheckedCause(*loop_).find("hand: no transform from hand to world: none of hand has come"), 0u)
+      << uncheckedCause(*loop_);
+  for (int i = 0; i < 30; ++i) {
+    const double time = 100.0 + kPeriod * i;
+    for (const char* link : {"hand", "foot"}) send(stampedTransform("base", link, time, 0.1));
+    step(time + 0.01);
+  }
+  EXPECT_EQ(uncheckedCause(*loop_),
+            "hand: no transform from hand to world: tf's tree is rooted at base, not world; and 1 more body");
+}
+
+TEST_F(CycleMessagesTest, ACheckThatFailsIsToldOfItsWholeTime) {
+  Scene broken = *handFootAndPlate();
+  broken.bodies.edit(0).X_frame_B.linear() *= 1.1;  // not a rotation
+  MonitorParameters parameters;
+  parameters.monitor = soft();
+  loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), describedWorld(), parameters);
+  ros::Time end;
+  for (int i = 0; i < 10; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendHand(now, 0.1 * i);
+    sendFoot(now);
+    ASSERT_EQ(step(now), i == 0 ? Step::kWaiting : Step::kCycle);
+    if (i == 0) continue;
+    EXPECT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+    EXPECT_EQ(last().not_checked, 3u);
+    if (!end.isZero()) {
+      EXPECT_EQ(last().cycle_start, end);
+    }
+    end = last().header.stamp;
+    ASSERT_EQ(last().unchecked.size(), 3u);
+    EXPECT_EQ(last().unchecked[0].pairs, 2u);
+    EXPECT_EQ(last().reason.find("3 pairs could not be checked, for example hand - "), 0u) << last().reason;
+    EXPECT_NE(last().unchecked[0].reason.find("orthonormal"), std::string::npos) << last().unchecked[0].reason;
+  }
+}
+
+TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
+  constexpr double kAside = 0.2;  // of the object's origin from the link's, along y [m]
+  BodyDescription held = body("held", Sphere{kRadius}),
+                  plate = body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true);
+  held.frame = "hand";
+  held.X_frame_B = translation({0.0, kAside, 0.0}) * pose({0, 0, 0}, 1.0, Vector3d(1, 2, 3).normalized());
+  plate.geometry[0].X_BG.translation().x() = kPlate;
+  MonitorParameters parameters;
+  parameters.monitor = soft();
+  loop_ = std::make_unique<MonitorLoop>(build({held, plate}, fine(0.005)), describedWorld(), parameters);
+  for (int i = 0; i < 3; ++i) {
+    sendHand(10.0 + i * kPeriod, kPlate - kRadius);
+    step(10.0 + i * kPeriod);
+  }
+  ASSERT_EQ(last().verdict, ContactArray::CONTACT) << last().reason;
+  const geometry_msgs::WrenchStamped wrench = toWrenchStamped(*loop_, 0);
+  EXPECT_EQ(wrench.header.frame_id, "hand");
+  const double force = wrench.wrench.force.x;
+  EXPECT_LT(force, -0.1);
+  EXPECT_NEAR(wrench.wrench.force.y, 0.0, 0.01 * std::abs(force));
+  EXPECT_NEAR(wrench.wrench.force.z, 0.0, 0.01 * std::abs(force));
+  EXPECT_NEAR(wrench.wrench.torque.z, -kAside * force, 0.02 * kAside * std::abs(force));
+  EXPECT_NEAR(wrench.wrench.torque.x, 0.0, 0.02 * kAside * std::abs(force));
+}
+
+TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
+  DescribedScene described = describedWorld();
+  described.unreachable = {
+      {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}}};  // of each other, although they are close
+  loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), described, MonitorParameters());
+  for (int i = 0; i < 3; ++i) {
+    sendHand(10.0 + i * kPeriod, 0.0);
+    sendFoot(10.0 + i * kPeriod, 0.15);
+    step(10.0 + i * kPeriod);
+  }
+  ASSERT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+  ASSERT_EQ(last().pairs.size(), 1u);
+  ASSERT_NE(last().pairs[0].reason, "");
+  EXPECT_EQ(uncheckedPair(*loop_), "hand - foot: " + last().pairs[0].reason);
+  EXPECT_EQ(last().reason, "1 pairs could not be checked, for example " + uncheckedPair(*loop_));
+  EXPECT_EQ(toMonitorState(*loop_, ros::Time(10.0)).reason, last().reason);
+  EXPECT_EQ(uncheckedCause(*loop_), "");
+}
+
+TEST_F(CycleMessagesTest, AContactHasOneIdFromItsBeginToItsEnd) {
+  std::vector<Contact> told;
+  for (int i = 0; i < 30; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    sendHand(now, 0.03 * i);  // through the plate
+    if (step(now) != Step::kCycle) continue;
+    const MonitorState state = toMonitorState(*loop_, ros::Time(now));
+    EXPECT_EQ(state.contacts, last().contacts.size());
+    EXPECT_EQ(state.max_depth > 0.0, !last().pairs.empty());
+    EXPECT_EQ(state.max_force > 0.0, !last().pairs.empty());
+    EXPECT_EQ(state.min_clearance > 0.0, last().verdict == ContactArray::CLEAR);
+    told.insert(told.end(), last().contacts.begin(), last().contacts.end());
+  }
+  ASSERT_GT(told.size(), 3u);
+  EXPECT_TRUE(told.front().begins);
+  EXPECT_TRUE(told.back().ends);
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(told[i].id, 1u);
+    EXPECT_EQ(told[i].begins, i == 0);
+    EXPECT_EQ(told[i].ends, i + 1 == told.size());
+  }
+  EXPECT_NEAR((told.back().begin - ros::Time(10.0)).toSec(), (kPlate - kPlateHalf - kRadius) / 0.03 * kPeriod, 1e-3);
+  EXPECT_NEAR((told.back().end - ros::Time(10.0)).toSec(), (kPlate + kPlateHalf + kRadius) / 0.03 * kPeriod, 1e-3);
+  EXPECT_EQ(told.back().verdict, Contact::CONTACT);
+  EXPECT_GT(told.back().max_force, 0.0);
+  EXPECT_EQ(told.back().cycles, told.size());
+}
+
+TEST_F(CycleMessagesTest, ResetsAndJumpsEndAllContacts) {
+  const auto touch = [&](double from) {
+    for (int i = 0; i < 5; ++i) {
+      sendFoot(from + i * kPeriod);
+      sendHand(from + i * kPeriod, kPlate - kRadius);
+      step(from + i * kPeriod);
+    }
+    return from + 4 * kPeriod;
+  };
+  touch(10.0);
+  ASSERT_EQ(last().contacts.size(), 1u);
+  loop_->reset();
+  ContactArray told = toUncheckedContacts(*loop_, "reset");
+  ASSERT_EQ(told.contacts.size(), 1u);
+  EXPECT_TRUE(told.contacts[0].ends && told.contacts[0].is_lost);
+  const double end = touch(11.0);
+  ASSERT_EQ(last().contacts.size(), 1u);
+  EXPECT_EQ(last().contacts[0].id, 2u);
+  // While no transforms come, the contact is reported unchanged.
+  ASSERT_EQ(step(end + 0.6), Step::kStalled);
+  told = toUncheckedContacts(*loop_, "no new transforms");
+  ASSERT_EQ(told.contacts.size(), 1u);
+  EXPECT_FALSE(told.contacts[0].begins || told.contacts[0].ends);
+  sendFoot(5.0);
+  sendHand(5.0, 0.0);
+  ASSERT_EQ(step(5.0), Step::kJump);
+  told = toUncheckedContacts(*loop_, "time has jumped");
+  ASSERT_EQ(told.contacts.size(), 1u);
+  EXPECT_TRUE(told.contacts[0].is_lost);
+  touch(5.1);
+  EXPECT_EQ(last().contacts[0].id, 3u);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
