@@ -71,8 +71,7 @@ PointShell loadShell(const std::string& path, const std::string& key) {
   const auto* normal = file->section<Vector3f>(2, normals);
   const auto* area = file->section<float>(3, areas);
   if (numbers != 3) throw std::runtime_error(path + ": damaged: " + std::to_string(numbers) + " radii, not 3");
-  const std::string fault =
-      faultOf({{point, points}, {normal, normals}, {area, areas}, radii[0], radii[1], radii[2]});
+  const std::string fault = faultOf({{point, points}, {normal, normals}, {area, areas}, radii[0], radii[1], radii[2]});
   if (!fault.empty()) throw std::runtime_error(path + ": damaged: " + fault);
   PointShell shell;
   shell.points.assign(point, point + points);

@@ -52,7 +52,8 @@ TEST_F(ShellFile, PartsThatDoNotFitEachOtherAreRefused) {
   saveShell(shell_, path_.string());
   const test::EditedFile good(path_.string(), "shell", kVersion);
   good.write(path_.string(), [](auto& sections) { sections[3].resize(sizeof(float)); });
-  EXPECT_NE(test::failureOf([&] { loadShell(path_.string()); }).find("2 points, 2 normals, 1 areas"), std::string::npos);
+  EXPECT_NE(test::failureOf([&] { loadShell(path_.string()); }).find("2 points, 2 normals, 1 areas"),
+            std::string::npos);
   shell_.areas.pop_back();
   EXPECT_NE(test::failureOf([&] { saveShell(shell_, path_.string()); }).find("2 points, 2 normals, 1 areas"),
             std::string::npos);
