@@ -21,12 +21,6 @@ std::string millimetres(double metres) {
   return fmt::format("{:.2f}", 1e3 * metres);
 }
 
-double fieldError(const Body& body) {
-  double error = 0.0;
-  for (const BodyPart& part : body.parts) error = std::max(error, part.field.errorBound());
-  return error;
-}
-
 double ownGap(const Body& body) {
   return body.shell->size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
 }

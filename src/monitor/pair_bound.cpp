@@ -7,12 +7,6 @@
 namespace sdf_ccd {
 namespace {
 
-double fieldError(const Body& body) {
-  double error = 0.0;
-  for (const BodyPart& part : body.parts) error = std::max(error, part.field.errorBound());
-  return error;
-}
-
 bool isPlane(const Body& body) {
   return std::all_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
     return part.field.primitive() && isHalfSpace(*part.field.primitive());
@@ -24,6 +18,12 @@ double gapToField(const PointShell& shell, const Body& field) {
 }
 
 }  // namespace
+
+double fieldError(const Body& body) {
+  double error = 0.0;
+  for (const BodyPart& part : body.parts) error = std::max(error, part.field.errorBound());
+  return error;
+}
 
 ErrorBound pairBound(const Scene& scene, const PlannedPair& pair) {
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];

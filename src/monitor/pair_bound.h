@@ -6,6 +6,9 @@
 
 namespace sdf_ccd {
 
+/// The largest error bound of a body's fields [m]; 0 if it has none.
+double fieldError(const Body& body);
+
 /// Error bound of a result of fields and shells before any motion: the field's error and the gap between points. Zero
 /// if the pair's fields or shells were not built.
 ErrorBound pairBound(const Scene& scene, const PlannedPair& pair);
