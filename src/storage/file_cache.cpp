@@ -110,6 +110,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
       if (::access(directory_.c_str(), W_OK) != 0) throw std::runtime_error(directory_ + ": " + std::strerror(errno));
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
+      outcome.is_missing = true;
       outcome.warning = std::string("cache unavailable: ") + error.what();
     }
   }
@@ -121,6 +122,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
     actions.save(path);
     trimCache(directory_, name, max_bytes_);
   } catch (const std::runtime_error& error) {
+    outcome.is_missing = true;
     outcome.warning = std::string("not cached: ") + error.what();
   }
   return outcome;
