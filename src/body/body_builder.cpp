@@ -169,6 +169,7 @@ class BodyBuilder {
   }
 
   void note(const CacheOutcome& outcome) {
+    report_.is_cache_incomplete |= outcome.is_missing;
     if (!outcome.warning.empty()) report_.warnings.push_back(outcome.warning);
   }
 

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// Largest error of the body's fields [m]; 0 if it has none.
+/// The largest error bound of a body's fields [m]; 0 if it has none.
 double fieldError(const Body& body);
 
 /// Error bound of a result of fields and shells before any motion: the field's error and the gap between points. Zero

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include <tbb/parallel_for.h>
@@ -14,6 +13,7 @@
 #endif
 #include "representation_queries.h"
 #include "sdf_ccd/common/cancel.h"
+#include "segment_reach.h"
 
 namespace sdf_ccd {
 namespace {
@@ -21,8 +21,7 @@ namespace {
 using Hits = std::vector<SegmentHit>;
 
 [[noreturn]] void refuse(std::size_t segment) {
-  throw std::invalid_argument("segment query: segment " + std::to_string(segment) +
-                              " is not finite or has a coordinate above 1e12 m");
+  failOutOfReach("segment query: segment " + std::to_string(segment));
 }
 
 /// Queries segments [first, last) one by one.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "representation_queries.h"
+#include "segment_reach.h"
 
 namespace sdf_ccd {
 
@@ -18,9 +19,7 @@ void checkIsovalue(const DistanceField& field, double sigma) {
 void segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options,
                       Intervals& intervals) {
   intervals.clear();
-  if (!isWithinReach(segment)) {
-    throw std::invalid_argument("segment query: the segment is not finite or has a coordinate above 1e12 m");
-  }
+  requireWithinReach(segment, "segment query");
   checkIsovalue(field, options.sigma);
   if (const Primitive* primitive = field.primitive()) {
     primitiveIntervals(*primitive, segment, options, intervals);

@@ -37,9 +37,13 @@ std::vector<double> exactly(std::size_t count, const XMLElement& element) {
                            std::to_string(count));
 }
 
-Eigen::Affine3d lookAt(const std::vector<double>& n) {
+Eigen::Affine3d lookAt(const XMLElement& element) {
+  const std::vector<double> n = exactly(9, element);
   const Vector3d eye(n[0], n[1], n[2]), target(n[3], n[4], n[5]), up(n[6], n[7], n[8]);
-  const Vector3d back = (eye - target).normalized(), right = up.cross(back).normalized();
+  const Vector3d back = (eye - target).normalized(), across = up.normalized().cross(back), right = across.normalized();
+  if (!(across.norm() > 1e-6)) {
+    throw std::runtime_error(describe(element) + " has no direction, or one along its own up-axis");
+  }
   Eigen::Affine3d X = Eigen::Affine3d::Identity();
   X.linear() << right, back.cross(right), back;
   X.translation() = eye;
@@ -52,6 +56,9 @@ Eigen::Affine3d transformOf(const XMLElement& element) {
   Eigen::Affine3d X = Eigen::Affine3d::Identity();
   if (name == "matrix") {
     const std::vector<double> n = exactly(16, element);
+    if (n[12] != 0.0 || n[13] != 0.0 || n[14] != 0.0 || n[15] != 1.0) {
+      throw std::runtime_error(describe(element) + " is projective: its last row is not 0 0 0 1");
+    }
     X.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(n.data());
   } else if (name == "translate") {
     X.translation() = Vector3d(exactly(3, element).data());
@@ -62,7 +69,7 @@ Eigen::Affine3d transformOf(const XMLElement& element) {
     const Vector3d axis(n[0], n[1], n[2]);
     if (axis.norm() > 0.0) X.linear() = Eigen::AngleAxisd(n[3] * M_PI / 180.0, axis.normalized()).toRotationMatrix();
   } else if (name == "lookat") {
-    X = lookAt(exactly(9, element));
+    X = lookAt(element);
   } else if (name == "skew") {
     throw std::runtime_error(describe(element) + ": skewed nodes (<skew>) are not supported");
   }

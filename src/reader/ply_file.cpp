@@ -1,7 +1,9 @@
 #include "ply_file.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 #include "ply_header.h"
@@ -103,6 +105,15 @@ class ElementReader {
   PlyNumbers& numbers_;
 };
 
+/// Throws if a vertex lacks a coordinate: it is unknown, not 0.
+void requireCoordinates(const PlyElement& vertex) {
+  for (const char* name : {"x", "y", "z"}) {
+    const bool is_there = std::any_of(vertex.properties.begin(), vertex.properties.end(),
+                                      [&](const PlyProperty& p) { return !p.is_list && p.name == name; });
+    if (!is_there) throw std::runtime_error(std::string("the PLY header gives vertices no property ") + name);
+  }
+}
+
 /// Adds a triangle for every corner after the second of a strip, with alternating orientation; -1 ends a strip.
 void addStrips(const std::vector<std::int64_t>& strips, PolygonList& faces) {
   std::size_t begin = 0;
@@ -123,6 +134,7 @@ TriangleMesh parsePly(const std::string& bytes) {
   PolygonList faces;
   for (const PlyElement& element : header.elements) {
     ElementReader reader(element, numbers);
+    if (element.name == "vertex") requireCoordinates(element);
     if (element.properties.empty()) continue;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       if (!reader.read()) failTruncated(element.name, element.count, i);

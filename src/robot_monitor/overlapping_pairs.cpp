@@ -80,7 +80,8 @@ void leaveOutOverlapping(const RobotModel& robot, const std::vector<PairRule>& k
   std::vector<OverlappingPair> always, at_rest;
   std::vector<std::string> reasons(scene.pairs.size());
   constexpr std::size_t kStates = 200;
-  const std::string always_overlap = "overlap at rest and in all " + std::to_string(kStates) + " random states tested";
+  const std::string always_overlap =
+      "overlap at rest and in all of " + std::to_string(kStates) + " random states, which is no proof for others";
   for (const OverlappingPair& pair : overlappingPairs(robot, scene, kStates)) {
     const PlannedPair& planned = scene.pairs[static_cast<std::size_t>(pair.pair)];
     const bool stays = matchesAny(kept, scene.bodies[planned.body_a].name, scene.bodies[planned.body_b].name);

@@ -23,8 +23,9 @@ struct OverlappingPair {
 /// a hundred states is classified as `always` in 13 % of cases with 200 states, one apart in one of twenty in 0.004 %.
 std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Scene& scene, std::size_t states = 200);
 
-/// Removes pairs that always overlap from the scene, as MoveIt's setup assistant does: they would always be in contact,
-/// which costs most time and means nothing. Pairs that only overlap at rest stay. Scene::warnings lists both.
+/// Removes the pairs that are `always` from the scene, as MoveIt's setup assistant does: they would be in contact
+/// nearly always, which costs most time and means nothing. That is no proof: states in which they are apart may exist.
+/// Pairs that only overlap at rest stay. Scene::warnings lists both.
 /// @param kept  pairs that always stay.
 void leaveOutOverlapping(const RobotModel& robot, const std::vector<PairRule>& kept, Scene& scene);
 

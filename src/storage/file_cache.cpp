@@ -22,12 +22,13 @@ namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
 
-/// Held by the one process that makes a file; the kernel frees it if that process dies.
+/// Held by the one process that makes a file; the kernel frees it if that process dies. Other users cannot open, and so
+/// not hold, its file.
 class FileLock {
  public:
   /// @throws std::runtime_error if the lock is not obtained, or not in time; Cancelled.
   FileLock(const std::string& path, double seconds)
-      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644)) {
+      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600)) {
     if (descriptor_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
     try {
       wait(path, seconds);
@@ -109,6 +110,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
       if (::access(directory_.c_str(), W_OK) != 0) throw std::runtime_error(directory_ + ": " + std::strerror(errno));
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
+      outcome.is_missing = true;
       outcome.warning = std::string("cache unavailable: ") + error.what();
     }
   }
@@ -120,6 +122,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
     actions.save(path);
     trimCache(directory_, name, max_bytes_);
   } catch (const std::runtime_error& error) {
+    outcome.is_missing = true;
     outcome.warning = std::string("not cached: ") + error.what();
   }
   return outcome;

@@ -9,6 +9,7 @@ namespace sdf_ccd {
 /// How a cached file came to be.
 struct CacheOutcome {
   bool from_cache = false;
+  bool is_missing = false;  ///< what was made is not in the cache, although it should be
   std::string warning;  ///< a damaged file was made again, or the directory cannot be used; empty if all went well
 };
 

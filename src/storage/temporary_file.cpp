@@ -6,18 +6,21 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
 namespace sdf_ccd {
 namespace {
 
-constexpr mode_t kMode = 0644;
+constexpr mode_t kMode = 0644;  // at most; the user's umask may take more away
 constexpr int kMaxNames = 100;  // tried before it is given up
 
 [[noreturn]] void fail() {
   throw std::system_error(errno, std::generic_category());
+}
+
+std::string nameBeside(const std::string& target, int number) {
+  return target + "." + std::to_string(::getpid()) + "-" + std::to_string(number);
 }
 
 }  // namespace
@@ -33,7 +36,6 @@ TemporaryFile::TemporaryFile(const std::string& target) : target_(target) {
     }
   }
   if (descriptor_ < 0) openNamed();
-  ::fchmod(descriptor_, kMode);
 }
 
 TemporaryFile::~TemporaryFile() {
@@ -42,13 +44,13 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::openNamed() {
-  name_ = target_ + ".XXXXXX";
-  descriptor_ = ::mkostemp(&name_[0], O_CLOEXEC);
-  if (descriptor_ < 0) {
-    name_.clear();
-    fail();
+  errno = EEXIST;
+  for (int i = 0; i < kMaxNames && descriptor_ < 0 && errno == EEXIST; ++i) {
+    path_ = nameBeside(target_, i);
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
   }
-  path_ = name_;
+  if (descriptor_ < 0) fail();
+  name_ = path_;
 }
 
 void TemporaryFile::place() {
@@ -65,7 +67,7 @@ void TemporaryFile::giveName() {
   };
   if (link(target_)) return;
   for (int i = 0; i < kMaxNames && errno == EEXIST; ++i) {
-    const std::string name = target_ + "." + std::to_string(::getpid()) + "-" + std::to_string(i);
+    const std::string name = nameBeside(target_, i);
     if (!link(name)) continue;
     name_ = name;
     return;

@@ -5,8 +5,8 @@
 namespace sdf_ccd {
 
 /// A file that is written before it gets its name. It has none until then, so that whatever ends the program leaves
-/// nothing of it; where the file system has no such files, it has a random name in the target's directory, which stays
-/// after `kill -9`.
+/// nothing of it; where the file system has no such files, it has a name of its own in the target's directory, which
+/// stays after `kill -9`. Others may at most read it, if the user's umask allows that.
 class TemporaryFile {
  public:
   /// @param target  the location that it is for; links are not followed.

@@ -181,8 +181,24 @@ TEST_F(FieldFile, BadStepsAreRefused) {
     return loadField(path("b.field"));
   };
   EXPECT_EQ(loadWith(1e-5).grid()->shape().step, 1e-5);
-  for (const double step : {0.0, -1e-5, std::nan(""), HUGE_VAL}) {
+  for (const double step : {0.0, -1e-5, std::nan(""), HUGE_VAL, 1e307, 1.0}) {
     EXPECT_THROW(loadWith(step), std::runtime_error) << step;
+  }
+}
+
+/// The checksum is valid, but a box beyond the grid's would be searched for a surface that the grid does not hold.
+TEST_F(FieldFile, BoxesOfTheSurfaceBeyondTheGridAreRefused) {
+  constexpr std::size_t kSurfaceMin = 6 * sizeof(double), kSurfaceMax = 9 * sizeof(double);
+  for (const FieldOptions& options : {options_, adaptive()}) {
+    saveField(buildField(mesh_, options), path("a.field"));
+    const test::EditedFile good(path("a.field"), options.max_error ? "adaptive field" : "field", kVersion);
+    const auto loadWith = [&](std::size_t offset, double x) {
+      good.write(path("b.field"), [&](auto& sections) { test::put(x, offset, sections[0]); });
+      return loadField(path("b.field"));
+    };
+    EXPECT_NO_THROW(loadWith(kSurfaceMin, -0.27));
+    EXPECT_THROW(loadWith(kSurfaceMin, -5.0), std::runtime_error);
+    EXPECT_THROW(loadWith(kSurfaceMax, 5.0), std::runtime_error);
   }
 }
 

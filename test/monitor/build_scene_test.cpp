@@ -142,6 +142,7 @@ TEST(BuildScene, SecondStartTakesTheCache) {
   EXPECT_EQ(first->reports[0].field.substr(0, 5), "built");
   EXPECT_EQ(second->reports[0].field, "cached");
   EXPECT_TRUE(second->reports[0].warnings.empty());
+  EXPECT_FALSE(first->reports[0].is_cache_incomplete || second->reports[0].is_cache_incomplete);
   std::filesystem::remove_all(directory);
 }
 
@@ -151,7 +152,10 @@ TEST(BuildScene, ACacheThatCannotBeUsedIsWarnedOfOnce) {
   BodyOptions options = fine();
   options.cache_directory = directory.string();
   const auto scene = build({body("a", meshShape(icosphere(0.1, 1))), body("b", meshShape(icosphere(0.2, 1)))}, options);
-  for (const BodyReport& report : scene->reports) EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+  for (const BodyReport& report : scene->reports) {
+    EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+    EXPECT_TRUE(report.is_cache_incomplete);
+  }
   ASSERT_EQ(scene->warnings.size(), 1u);
   EXPECT_EQ(scene->warnings[0],
             "cache unavailable: " + directory.string() + ": other users can write to it (2 bodies)");

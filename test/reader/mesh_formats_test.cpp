@@ -1,6 +1,7 @@
 // Features of the formats that test/import/mesh_file_test.cpp does not cover.
 #include <gtest/gtest.h>
 
+#include "oracle/failure.h"
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
@@ -61,6 +62,17 @@ TEST(MeshFormats, PlyStrips) {
   for (int i = 0; i < 3; ++i) EXPECT_GT(areaNormal(mesh, i).z(), 0.0) << i;
 }
 
+TEST(MeshFormats, PlyVerticesNeedAllCoordinates) {
+  const std::string good = test::ply(test::boxMesh({1, 2, 3}));
+  for (const char* name : {"x", "y", "z"}) {
+    std::string bytes = good;
+    const std::string property = std::string("property float ") + name;
+    bytes.replace(bytes.find(property), property.size(), "property float nx");
+    EXPECT_NE(test::failureOf([&] { parseMeshUnconfined(bytes, "ply"); }).find(std::string("no property ") + name),
+              std::string::npos);
+  }
+}
+
 TEST(MeshFormats, OffWithColoursAndNormals) {
   const std::string faces = "3 0 2 1 255 0 0\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
   for (const char* head : {"COFF\n", "NOFF ", "STCNOFF # all\n", ""}) {
@@ -77,6 +89,22 @@ TEST(MeshFormats, AsciiStlOfSeveralSolids) {
   EXPECT_NEAR(signedVolume(parseMeshUnconfined(solid + test::asciiStl(test::boxMesh({1, 1, 1})), "stl")), kVolume + 8.0,
               1e-9);
   EXPECT_THROW(parseMeshUnconfined(solid.substr(0, solid.rfind("endsolid")), "stl"), std::runtime_error);
+}
+
+TEST(MeshFormats, DaeTransformsThatAreNotAffineAreRefused) {
+  const auto with = [](const std::string& transform) {
+    return parseMeshUnconfined(
+        test::dae(test::boxMesh({1, 2, 3}), "", "<node>" + transform + test::kDaeInstance + "</node>"), "dae");
+  };
+  // Looks along -z with y up: only moved.
+  EXPECT_TRUE(boundingBox(with("<lookat>4 5 6 4 5 0 0 1 0</lookat>")).center().isApprox(Vector3d(4, 5, 6), 1e-12));
+  for (const char* degenerate : {"4 5 6 4 5 6 0 1 0", "4 5 6 4 0 6 0 1 0", "4 5 6 4 5 0 0 0 0"}) {
+    EXPECT_THROW(with(std::string("<lookat>") + degenerate + "</lookat>"), std::runtime_error) << degenerate;
+  }
+  for (const char* last : {"0 0 0.1 1", "1 0 0 1", "0 0 0 2", "0 0 0 0"}) {
+    const std::string matrix = std::string("<matrix>1 0 0 0 0 1 0 0 0 0 1 0 ") + last + "</matrix>";
+    EXPECT_NE(test::failureOf([&] { with(matrix); }).find("projective"), std::string::npos) << last;
+  }
 }
 
 TEST(MeshFormats, DaePolygonsAndTransforms) {

@@ -1,15 +1,20 @@
 #include "sdf_ccd/shell/point_shell.h"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
+#include "oracle/failure.h"
 #include "oracle/files.h"
+#include "oracle/mended_file.h"
 
 namespace sdf_ccd {
 namespace {
+
+constexpr std::uint32_t kVersion = 5;
 
 class ShellFile : public ::testing::Test {
  protected:
@@ -44,17 +49,32 @@ TEST_F(ShellFile, EmptyShellComesBack) {
 }
 
 TEST_F(ShellFile, PartsThatDoNotFitEachOtherAreRefused) {
-  shell_.areas.pop_back();
   saveShell(shell_, path_.string());
-  EXPECT_THROW(loadShell(path_.string()), std::runtime_error);
+  const test::EditedFile good(path_.string(), "shell", kVersion);
+  good.write(path_.string(), [](auto& sections) { sections[3].resize(sizeof(float)); });
+  EXPECT_NE(test::failureOf([&] { loadShell(path_.string()); }).find("2 points, 2 normals, 1 areas"),
+            std::string::npos);
+  shell_.areas.pop_back();
+  EXPECT_NE(test::failureOf([&] { saveShell(shell_, path_.string()); }).find("2 points, 2 normals, 1 areas"),
+            std::string::npos);
 }
 
+/// By saving, and by loading a file with a valid checksum.
 TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
   const PointShell good = shell_;
+  saveShell(good, path_.string());
+  const test::EditedFile file(path_.string(), "shell", kVersion);
   const auto expectRefused = [&](auto change) {
     shell_ = good;
     change();
-    saveShell(shell_, path_.string());
+    EXPECT_THROW(saveShell(shell_, path_.string()), std::runtime_error);
+    const double radii[] = {shell_.covering_radius, shell_.edge_radius, shell_.flatness};
+    file.write(path_.string(), [&](auto& sections) {
+      std::memcpy(sections[0].data(), radii, sections[0].size());
+      std::memcpy(sections[1].data(), shell_.points.data(), sections[1].size());
+      std::memcpy(sections[2].data(), shell_.normals.data(), sections[2].size());
+      std::memcpy(sections[3].data(), shell_.areas.data(), sections[3].size());
+    });
     EXPECT_THROW(loadShell(path_.string()), std::runtime_error);
   };
   for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan(""), 1e300}) {

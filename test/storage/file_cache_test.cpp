@@ -125,6 +125,13 @@ TEST_F(TextCacheTest, IsItsOwnersAlone) {
   EXPECT_NE(outcome.warning.find("other users can write to it"), std::string::npos) << outcome.warning;
 }
 
+TEST_F(TextCacheTest, OthersCannotHoldALock) {
+  get("a.field");
+  struct stat status {};
+  ASSERT_EQ(::stat((directory_ + "/a.field.lock").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
+}
+
 TEST_F(TextCacheTest, LinksAreNotFollowed) {
   get("a.field");
   std::ofstream(base_ + "/elsewhere") << "mine";

@@ -57,7 +57,7 @@ struct SphereTree {
 SphereTree buildSphereTree(PointShell& shell);
 
 /// Writes a point shell, as saveField() does a field.
-/// @throws std::runtime_error naming the path and the reason.
+/// @throws std::runtime_error naming the path and the reason, also if loadShell() would refuse the shell.
 void saveShell(const PointShell& shell, const std::string& path, const std::string& key = {});
 
 /// Reads a shell file, as loadField().

@@ -73,10 +73,11 @@ void AdaptiveGrid::check() const {
   if (!(shape_.band >= 0.0) || !std::isfinite(shape_.band)) fail("invalid band " + numberText(shape_.band) + " m");
   if (!(shape_.error_bound >= 0.0) || !std::isfinite(shape_.error_bound))
     fail("invalid error bound " + numberText(shape_.error_bound) + " m");
-  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's bounding box is not valid");
   if (shape_.size.minCoeff() < 1 || shape_.size.maxCoeff() > 1024)
     fail("the number of top cells per axis is not within 1 to 1024");
   if (!canResolve(shape_.box(), shape_.unit())) fail("the grid is too far from its origin to resolve its cells");
+  if (!isSurfaceBox(shape_.surface_box, shape_.box()))
+    fail("the surface's bounding box is not valid, or not within that of the grid");
   if (arrays_.top.size != shape_.count())
     fail(std::to_string(arrays_.top.size) + " words for " + std::to_string(shape_.count()) + " top cells");
   if (arrays_.bases.size != arrays_.nodes.size)

@@ -92,14 +92,16 @@ void SparseGrid::check() const {
     fail("invalid error bound " + numberText(error_bound_) + " m");
   if (shape_.bricks.minCoeff() < 1 || shape_.bricks.maxCoeff() > 4096)
     fail("the number of bricks per axis is not within 1 to 4096");
-  if (!isSurfaceBox(shape_.surface_box)) fail("the surface's bounding box is not valid");
   if (!canResolve(shape_.box(), shape_.cell)) fail("the grid is too far from its origin to resolve its cells");
+  if (!isSurfaceBox(shape_.surface_box, shape_.box()))
+    fail("the surface's bounding box is not valid, or not within that of the grid");
   if (arrays_.words.size != shape_.brickCount())
     fail(std::to_string(arrays_.words.size) + " words for " + std::to_string(shape_.brickCount()) + " bricks");
   if (arrays_.corners.size != shape_.cornerCount()) {
     fail(std::to_string(arrays_.corners.size) + " corners for " + std::to_string(shape_.brickCount()) + " bricks");
   }
-  if (!(shape_.step > 0.0) || !std::isfinite(shape_.step)) fail("invalid step " + numberText(shape_.step) + " m");
+  const double brick = GridShape::kBrick * shape_.cell;  // the band, within the grid, needs no larger steps
+  if (!(shape_.step > 0.0) || !(shape_.step <= brick)) fail("invalid step " + numberText(shape_.step) + " m");
   if (arrays_.samples.size % GridShape::kSamples != 0) fail("the samples end in the middle of a brick");
   if (!allFinite(arrays_.corners)) fail("a corner value is not finite");
   const auto stored = static_cast<std::uint32_t>(arrays_.samples.size / GridShape::kSamples);

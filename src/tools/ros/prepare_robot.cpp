@@ -30,13 +30,10 @@ Kept keptIn(const std::string& directory) {
   return kept;
 }
 
-void requireKept(const Scene& scene) {
-  const auto require = [](const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-      if (warning.find("cache unavailable") == 0 || warning.find("not cached") == 0) throw std::runtime_error(warning);
-  };
-  for (const BodyReport& report : scene.reports) require(report.warnings);
-  require(scene.warnings);
+void requireKept(const Scene& scene, const std::string& directory) {
+  for (const BodyReport& report : scene.reports)
+    if (report.is_cache_incomplete)
+      throw std::runtime_error(report.name + ": not all of it is in " + directory + "; the warnings above say why");
 }
 
 }  // namespace
@@ -61,7 +58,7 @@ void prepareRobot(const MonitorConfig& config, const std::string& directory) {
   if (!over.empty()) warnings.push_back(over);
   std::cout << planText(*scene, warnings);
   const bool is_complete = areAllMade(*scene);
-  requireKept(*scene);
+  requireKept(*scene, directory);
   const Kept kept = keptIn(parameters.scene.cache_directory);
   std::cout << kept.files << " files, " << megabytes(kept.bytes)
             << "; the monitor loads them with cache_directory: " << parameters.scene.cache_directory
