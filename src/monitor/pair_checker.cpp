@@ -75,7 +75,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   result.error = bound();
   result.error.chord = motion_error_;
   if (balls_contain_bodies_ && apart > margin() + motion_error_) {
-    remember(apart, motion.X_WB[pair_.body_a][result.span.last], motion.X_WB[pair_.body_b][result.span.last]);
+    remember(apart, motion.pose(pair_.body_a, result.span.last), motion.pose(pair_.body_b, result.span.last));
     setClear(apart, result);
     result.skipped = outside_ = true;
     return;

@@ -134,7 +134,7 @@ std::optional<ContactPoint> crossingAtARecordedTime(const Scene& scene, const Cy
   const std::size_t stride = (span.last - span.first) / kMaxTimes + 1;
   for (std::size_t back = 0; back <= span.last - span.first; back += stride) {
     const std::size_t waypoint = span.last - back;
-    const Isometry3d &X_WA = motion.X_WB[a][waypoint], &X_WB = motion.X_WB[b][waypoint];
+    const Isometry3d &X_WA = motion.pose(a, waypoint), &X_WB = motion.pose(b, waypoint);
     const auto found = surfacesCross(scene.bodies[a], scene.bodies[b], relativePose(X_WB, X_WA), pose_error);
     if (!found) continue;
     ContactPoint contact;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -28,7 +29,7 @@ constexpr double kAmbiguousTurn = 3.14159265358979323846 - 1e-6;
 /// world, along the shorter rotation: rotations of half a revolution and more between two times need times in between.
 struct CycleMotion {
   std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
-  std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
+  std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time; or a single pose, of a body at rest
   std::vector<std::string> missing;  ///< per body: why its poses are not known, else empty; may be empty as a whole
   /// Per body: distance of the true motion of its ball from that of X_WB [m]; may be infinite, or empty (no error).
   std::vector<double> motion_error;
@@ -36,13 +37,19 @@ struct CycleMotion {
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
   /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs are not read.
   std::vector<WaypointSpan> spans;
+
+  /// Pose X_WB of a body at a time, by their indices.
+  const Isometry3d& pose(std::size_t body, std::size_t time) const {
+    return X_WB[body][std::min(time, X_WB[body].size() - 1)];
+  }
 };
 
 /// How closely samples follow a motion whose twists are not constant.
 struct MotionSampling {
   double tolerance = 1e-4;  ///< deviation aimed at [m]
   int max_halvings = 5;     ///< of the time between two waypoints; what deviation is left then is reported
-  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< with this many, no more times are halved
+  /// Of all sampled bodies together; with this many, no more times are halved.
+  std::size_t max_poses = std::numeric_limits<std::size_t>::max();
 };
 
 /// How closely chords follow the arcs of points that rotate.
