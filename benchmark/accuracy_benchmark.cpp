@@ -1,11 +1,11 @@
 /// Error of the first hits of random segments on the interpolated field, against exact hits on the mesh (Embree,
 /// robust), over the cell size. Prints rows of results.csv.
 
-#include <algorithm>
 #include <cmath>
 
 #include "embree_scene.h"
 #include "oracle/random.h"
+#include "precision/error_summary.h"
 #include "results.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/query/segment_query.h"
@@ -14,11 +14,7 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-double quantile(std::vector<double>& values, double q) {
-  const auto at = values.begin() + std::ptrdiff_t(q * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
+using precision::quantile;
 
 void study(const std::string& name, const TriangleMesh& mesh, const StudyOptions& study_options) {
   const EmbreeScene rays(mesh);

@@ -12,6 +12,7 @@
 #include "build_systems.h"
 #include "geometry/triangle_tree.h"
 #include "peak_memory.h"
+#include "precision/error_summary.h"
 #include "precision/random_inputs.h"
 #include "segment_cases.h"
 
@@ -60,13 +61,12 @@ void printErrors(Row row, const ExactPoints& exact, const BuiltField& field, dou
   for (std::size_t i = 0; i < exact.points.size(); ++i) {
     errors.push_back(std::abs(field.distance(exact.points[i]) - exact.distances[i]) / side);
   }
-  std::sort(errors.begin(), errors.end());
   row.unit = "box side";
   row.runs = int(errors.size());
   const std::string place = row.metric;
-  for (const auto& [name, quantile] : {std::pair{"_median", 0.5}, {"_p99", 0.99}, {"_max", 1.0}}) {
+  for (const auto& [name, share] : {std::pair{"_median", 0.5}, {"_p99", 0.99}, {"_max", 1.0}}) {
     row.metric = place + name;
-    row.value = errors[std::size_t(quantile * double(errors.size() - 1))];
+    row.value = precision::quantile(errors, share);
     print(row);
   }
 }

@@ -10,6 +10,7 @@
 #include "monitor/box_world.h"
 #include "monitor/fcl_scene.h"
 #include "monitor/monitor_system.h"
+#include "precision/error_summary.h"
 #include "results.h"
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
@@ -25,11 +26,6 @@ constexpr double kMaxMissShare = 1e-4;   // of the edges; a system that misses f
 constexpr int kFinest = 512;             // poses per edge, for the reference
 constexpr double kSecondsPerRun = 20.0;  // a system expected to take longer is left out
 constexpr std::uint64_t kSeed = 1;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 struct Edge {
   JointPositions start, end;
@@ -147,8 +143,10 @@ class Study {
       check();
       single.push_back(secondsSince(start_single));
     }
-    row("sdf_ccd", "us_edge", 1e6 * median(single) / double(edges_.size()), "us", options_.measure.runs);
-    row("sdf_ccd_threads", "us_edge", 1e6 * median(threaded) / double(edges_.size()), "us", options_.measure.runs);
+    row("sdf_ccd", "us_edge", 1e6 * precision::quantile(single, 0.5) / double(edges_.size()), "us",
+        options_.measure.runs);
+    row("sdf_ccd_threads", "us_edge", 1e6 * precision::quantile(threaded, 0.5) / double(edges_.size()), "us",
+        options_.measure.runs);
   }
 
   /// Computes the reference: an edge has contact if that is certified, or if FCL finds it at one of kFinest poses.

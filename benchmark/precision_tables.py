@@ -56,7 +56,7 @@ def truth(results):
                      *('%.0f %%' % (100.0 * get(m)) for m in ('uncertain_share', 'near_share')),
                      number(get('bound_over_error') or None)])
     return ['family', 'cases', 'false CLEAR', 'false CONTACT', 'false bound', 'opposite', 'CLEAR', 'CONTACT',
-            'UNCERTAIN', 'nearer than 3 bounds', 'bound / error, median'], rows
+            'UNCERTAIN', 'nearer than 3 bounds', 'reported / true error, median'], rows
 
 
 def work_precision(results):

@@ -9,6 +9,7 @@
 
 #include "common/seconds_since.h"
 #include "monitor/scene_cost.h"
+#include "precision/error_summary.h"
 #include "results.h"
 #include "robot_case.h"
 #include "sdf_ccd/monitor/monitor.h"
@@ -43,11 +44,7 @@ struct Checked {
   std::vector<Verdict> verdicts;                         // per cycle and pair
   std::vector<Vector3d> forces_W;                        // on body A, per cycle and pair [N]
 
-  double medianCycle() {
-    const auto middle = milliseconds.begin() + static_cast<std::ptrdiff_t>(milliseconds.size() / 2);
-    std::nth_element(milliseconds.begin(), middle, milliseconds.end());
-    return *middle;
-  }
+  double medianCycle() { return precision::quantile(milliseconds, 0.5); }
 };
 
 /// Prepares a robot and checks random short cycles, the same ones in every call.
@@ -136,10 +133,7 @@ void studyAccuracy(const Robot& robot, const StudyOptions& options) {
       all_forces += force;
       if (force > 0.0) errors.push_back((checked.forces_W[i] - reference.forces_W[i]).norm() / force);
     }
-    std::sort(errors.begin(), errors.end());
-    const auto quantile = [&](double q) {
-      return errors.empty() ? 0.0 : errors[std::size_t(q * double(errors.size() - 1))];
-    };
+    const auto quantile = [&](double q) { return errors.empty() ? 0.0 : precision::quantile(errors, q); };
     const auto row = [&](const char* metric, double value, const char* unit) {
       print({"robots", name, "sdf_ccd", metric, value, unit, int(errors.size())});
     };

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "monitor/voxel_map.h"
+#include "precision/error_summary.h"
 #include "study.h"
 #include "world/running_monitor.h"
 
@@ -23,11 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kLinks = 12;
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * double(values.size())))];
-}
+using precision::quantile;
 
 /// Wall-clock time, and CPU time of this process on all cores, cycles included.
 class Stopwatch {
@@ -206,9 +203,9 @@ class Study {
     print(Row{"world", name, "sdf_ccd", metric, value, unit, runs});
   }
 
-  void report(const std::string& name, const std::vector<double>& seconds, RunningMonitor& monitor,
-              const std::vector<double>& before) const {
-    const std::vector<double> meanwhile = monitor.takeTimes(), adoptions = monitor.takeAdoptions();
+  void report(const std::string& name, std::vector<double> seconds, RunningMonitor& monitor,
+              std::vector<double> before) const {
+    std::vector<double> meanwhile = monitor.takeTimes(), adoptions = monitor.takeAdoptions();
     const int runs = static_cast<int>(seconds.size());
     row(name, "ms_to_adopted", 1e3 * quantile(seconds, 0.5), "ms", runs);
     row(name, "ms_to_adopted_max", 1e3 * quantile(seconds, 1.0), "ms", runs);

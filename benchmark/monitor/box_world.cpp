@@ -78,23 +78,37 @@ class Placer {
     shape.source = "box";
     const int index = fcl_.add(box);
 
-    const std::vector<Isometry3d>& seen = poses_[random() % poses_.size()];
-    const int aim = moved_[random() % moved_.size()];
-    fcl_.move(aim, seen[std::size_t(aim)]);
-    const Vector3d from = test::direction(random);
-    Isometry3d X_WB = test::pose(random, 3.0, 0.0);
-    X_WB.translation() = fcl_.ball(aim).center_W + 2.0 * from;
-    const double gap = std::max(wanted, 1e-4);
-    for (double free = 1.0; free > 1e-4;) {  // conservative advancement
-      free = leastDistance(index, X_WB) - gap;
-      X_WB.translation() -= std::max(free, 0.0) * from;
+    constexpr int kAttempts = 100;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const std::vector<Isometry3d>& seen = poses_[random() % poses_.size()];
+      const int aim = moved_[random() % moved_.size()];
+      fcl_.move(aim, seen[std::size_t(aim)]);
+      const Vector3d from = test::direction(random);
+      Isometry3d X_WB = test::pose(random, 3.0, 0.0);
+      X_WB.translation() = fcl_.ball(aim).center_W + kFar * from;
+      if (!approach(index, std::max(wanted, 1e-4), from, X_WB)) continue;
+      if (wanted < 0.0) X_WB.translation() += wanted * from;
+      box.X_frame_B = X_WB;
+      return box;
     }
-    if (wanted < 0.0) X_WB.translation() += wanted * from;
-    box.X_frame_B = X_WB;
-    return box;
+    throw std::runtime_error(robot_.name + ": no pose found at which " + box.name + " is " + std::to_string(wanted) +
+                             " m from the robot, in " + std::to_string(kAttempts) + " attempts");
   }
 
  private:
+  static constexpr double kFar = 2.0;  // from where a box approaches [m]
+
+  /// Moves a box against `from` until its minimum distance is `gap`, by conservative advancement.
+  /// @return false if it passes the robot.
+  bool approach(int box, double gap, const Vector3d& from, Isometry3d& X_WB) {
+    double moved = 0.0;
+    for (double free = 1.0; free > 1e-4 && moved < 2.0 * kFar; moved += std::max(free, 0.0)) {
+      free = leastDistance(box, X_WB) - gap;
+      X_WB.translation() -= std::max(free, 0.0) * from;
+    }
+    return moved < 2.0 * kFar;
+  }
+
   /// Minimum distance [m] over all poses between the robot's moving bodies and a box at X_WB; at most 1 m.
   double leastDistance(int box, const Isometry3d& X_WB) {
     fcl_.move(box, X_WB);

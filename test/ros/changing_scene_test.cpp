@@ -7,6 +7,8 @@
 
 #include "oracle/failure.h"
 #include "oracle/files.h"
+#include "oracle/mesh_bytes.h"
+#include "oracle/shapes.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/tf_messages.h"
 
@@ -266,6 +268,19 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   limits_.objects = 3;
   apply({box("1"), box("2"), box("3")});
   EXPECT_THROW(description(), std::length_error);
+}
+
+TEST_F(ChangingSceneTest, TrianglesOfMeshFilesCountAgainstTheLimit) {
+  test::writeText(folder_ / "ball.off", test::off(test::icosphere(0.1, 1)));  // 80 triangles
+  SceneChange ball = change(SceneChange::ADD, "ball");
+  ball.mesh_resources = {(folder_ / "ball.off").string()};
+  limits_.triangles = 160;
+  SceneChange other = ball;
+  other.object = "other";
+  apply({ball, other});
+  limits_.triangles = 159;
+  const std::string refused = failureOf<std::exception>([&] { apply({ball, other}); });
+  EXPECT_NE(refused.find("more triangles than one call may hold"), std::string::npos) << refused;
 }
 
 TEST_F(ChangingSceneTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved) {

@@ -33,6 +33,16 @@ Isometry3d poseOf(const TfHistory& history, const std::string& frame, const std:
   return lookup(history, in, time).inverse() * lookup(history, frame, time);
 }
 
+/// Counts the meshes of an object, also those from files, against the triangles that the call may still contain.
+void countTriangles(const BodyDescription& body, std::size_t& triangles) {
+  for (const GeometryDescription& part : body.geometry) {
+    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&part.shape);
+    if (!mesh) continue;
+    if ((*mesh)->triangles.size() > triangles) refuse(part.source + ": more triangles than one call may hold");
+    triangles -= (*mesh)->triangles.size();
+  }
+}
+
 }  // namespace
 
 struct ChangingScene::StartUp {
@@ -142,6 +152,7 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
     if (object.shapes.empty()) refuse("object " + change.object + " has no shape");
     const ResourceLoader loader = [&](const std::string& uri) { return sources.files.resource(uri); };
     body = toBody(object, frame, loader, sources.warnings);
+    countTriangles(body, sources.triangles);
   }
   if (!body.failure.empty()) refuse(body.failure);
   return body;
@@ -238,6 +249,7 @@ void ChangingScene::load(const SceneChange& change, ChangeSources& sources) {
     const std::string frame = object.frame.empty() ? start_up_->fixed_frame : withoutLeadingSlash(object.frame);
     BodyDescription body = toBody(object, frame, loader, sources.warnings);
     if (!body.failure.empty()) refuse(body.failure);
+    countTriangles(body, sources.triangles);
     set(std::move(body));
   }
 }

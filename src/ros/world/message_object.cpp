@@ -77,7 +77,7 @@ void requireName(const std::string& name, const std::string& what, const Request
   if (name != shownText(name)) refuse(what + " " + shownText(name) + " contains control characters");
 }
 
-std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits& limits, std::size_t& triangles) {
+std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits& limits, std::size_t triangles) {
   std::vector<WorldShape> shapes;
   const std::size_t count =
       message.primitives.size() + message.planes.size() + message.meshes.size() + message.mesh_resources.size();

@@ -28,8 +28,8 @@ std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose);
 void requireName(const std::string& name, const std::string& what, const RequestLimits& limits);
 
 /// The shapes of a message, without its OctoMap. Meshes in it are copied; mesh resources are named, not loaded.
-/// @param triangles  number that the call may still contain; reduced by those of the message.
+/// @param triangles  number that the meshes in the message may contain together.
 /// @throws std::invalid_argument with the shape and its error.
-std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits& limits, std::size_t& triangles);
+std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits& limits, std::size_t triangles);
 
 }  // namespace sdf_ccd
