@@ -80,7 +80,7 @@ std::vector<ExactPlace> placesOfMesh(const ExactSurface& mesh, std::size_t count
   }
   for (std::size_t i = 0; i < count; ++i) {
     const int triangle = surface.triangle(random);
-    add(medialPlace(mesh, triangle, surface.place(random, triangle)));
+    add(medialPlace(mesh, triangle, surface.pointOn(random, triangle)));
   }
   return places;
 }
@@ -122,7 +122,7 @@ std::vector<Segment> segmentsOfMesh(const ExactSurface& mesh, std::size_t count,
   }
   for (std::size_t i = 0; i < count;) {
     const int triangle = surface.triangle(random);
-    const Vector3d p = surface.place(random, triangle), normal = areaNormal(mesh.mesh(), triangle).normalized();
+    const Vector3d p = surface.pointOn(random, triangle), normal = areaNormal(mesh.mesh(), triangle).normalized();
     const Vector3d along = normal.cross(direction(random)).normalized();
     const Vector3d middle = p + uniform(random, -1e-3, 1e-3) * side * normal;
     i += add(middle - 0.5 * side * along, middle + 0.5 * side * along);

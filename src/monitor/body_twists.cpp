@@ -192,9 +192,9 @@ void BodyTwists::end(const CycleMotion& motion, const std::vector<char>& is_whol
 void BodyTwists::chooseOrigin() {
   constexpr double kNear = 1.0;  // [m]
   if (paired_.empty() || !bodies_[anchor_].is_known) return;
-  const Vector3d& place = bodies_[anchor_].center_W;
-  if ((place - origin_).squaredNorm() < kNear * kNear) return;
-  origin_ = place;
+  const Vector3d& center = bodies_[anchor_].center_W;
+  if ((center - origin_).squaredNorm() < kNear * kNear) return;
+  origin_ = center;
   for (Followed& body : bodies_) body.rests = false;
 }
 

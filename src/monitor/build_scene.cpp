@@ -160,18 +160,18 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
 }
 
 void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
-  std::vector<PlannedPair> stay;
+  std::vector<PlannedPair> kept;
   for (std::size_t p = 0; p < scene.pairs.size(); ++p) {
     const PlannedPair& pair = scene.pairs[p];
     if (reasons[p].empty()) {
-      stay.push_back(pair);
+      kept.push_back(pair);
     } else {
       scene.left_out.push_back({"pair " + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name,
                                 reasons[p], pair.body_a, pair.body_b});
     }
   }
-  if (stay.size() == scene.pairs.size()) return;
-  scene.pairs = std::move(stay);
+  if (kept.size() == scene.pairs.size()) return;
+  scene.pairs = std::move(kept);
   countPairs(scene);
   setBounds(scene);
 }

@@ -66,12 +66,12 @@ SDF_CCD_INLINE Vector vectorOf(const Get& get, TwistRow row) {
 /// each.
 template <class A, class B>
 SDF_CCD_INLINE Floats travelOf(const A& a, const B& b) {
-  const Vector turn_a = vectorOf(a, TwistRow::kOmega), turn_b = vectorOf(b, TwistRow::kOmega);
+  const Vector omega_a = vectorOf(a, TwistRow::kOmega), omega_b = vectorOf(b, TwistRow::kOmega);
   const Vector d = vectorOf(a, TwistRow::kPoint) - vectorOf(b, TwistRow::kPoint);
   const Vector w = vectorOf(a, TwistRow::kVelocity) - vectorOf(b, TwistRow::kVelocity);
-  const Floats turn = (turn_a - turn_b).norm();
-  const Floats by_a = (w - turn_b.cross(d)).norm() + turn * a(TwistRow::kReach) + a(TwistRow::kOpen);
-  const Floats by_b = (w - turn_a.cross(d)).norm() + turn * b(TwistRow::kReach) + b(TwistRow::kOpen);
+  const Floats rotation = (omega_a - omega_b).norm();
+  const Floats by_a = (w - omega_b.cross(d)).norm() + rotation * a(TwistRow::kReach) + a(TwistRow::kOpen);
+  const Floats by_b = (w - omega_a.cross(d)).norm() + rotation * b(TwistRow::kReach) + b(TwistRow::kOpen);
   const Floats noise = (a(TwistRow::kTurnNoise) + b(TwistRow::kTurnNoise)) * (a(TwistRow::kFar) + b(TwistRow::kFar)) +
                        (a(TwistRow::kShiftNoise) + b(TwistRow::kShiftNoise));
   // The last factor also covers the error of a contact's time, 1e-9 of the path.

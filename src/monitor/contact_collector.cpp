@@ -65,7 +65,7 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
     const ChordPath& path = role.partPath(part);
     const std::size_t chords = path.chords.size(), blocks = (chords + size - 1) / size;
     std::size_t asked = chords;
-    const auto ask = [&](std::size_t first) -> const ChordPath& {
+    const auto queryBlock = [&](std::size_t first) -> const ChordPath& {
       const ChordPath& block = blockOf(path, first, size);
       if (asked != first) shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
       asked = first;
@@ -73,11 +73,11 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
     };
     // Which points bear force depends on whether the surfaces cross at any time.
     for (std::size_t first = 0; part.field.openings() && !crosses_ && first < chords; first += size) {
-      ask(first);
+      queryBlock(first);
       crosses_ = passesThrough(part.field, role, path, first, std::max<std::size_t>(1, kWalks / blocks));
     }
     for (std::size_t first = 0; first < chords; first += size) {
-      const ChordPath& block = ask(first);
+      const ChordPath& block = queryBlock(first);
       if (!query_.touches()) continue;
       if (!have_poses) setFieldPoses(role);
       have_poses = true;
@@ -104,11 +104,11 @@ const ChordPath& ContactCollector::blockOf(const ChordPath& path, std::size_t fi
   return block_;
 }
 
-/// Whether a hit of the block that begins at chord `first` passes through the mesh. At most about `most` hits are
-/// tested, because contacts have many points.
+/// Whether a hit of the block that begins at chord `first` passes through the mesh. At most about `max_tested` hits
+/// are tested, because contacts have many points.
 bool ContactCollector::passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path,
-                                     std::size_t first, std::size_t most) const {
-  const std::size_t stride = query_.hits.size() / most + 1;
+                                     std::size_t first, std::size_t max_tested) const {
+  const std::size_t stride = query_.hits.size() / max_tested + 1;
   for (std::size_t h = 0; h < query_.hits.size(); h += stride) {
     ShellHit hit = query_.hits[h];
     hit.chord += static_cast<int>(first);

@@ -50,7 +50,7 @@ class ContactCollector {
   void setFieldPoses(const PairRole& role);
   const ChordPath& blockOf(const ChordPath& path, std::size_t first, std::size_t size);
   bool passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path, std::size_t first,
-                     std::size_t most) const;
+                     std::size_t max_tested) const;
   void addHits(const ContactInput& input, bool shell_is_a);
   void join();
   void joinWhereMany();

@@ -99,7 +99,7 @@ void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfa
 void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const {
   DeepestSearch& search = memory.search;
   search.restart(resolution_);
-  std::vector<std::pair<const Direction*, TwoBodyMotion>> ways;
+  std::vector<std::pair<const Direction*, TwoBodyMotion>> motions;
   for (std::size_t i = 0; i < directions_.size(); ++i) {
     const Direction& direction = directions_[i];
     RelativeMotion relative(scene_, direction.f, direction.p);
@@ -107,14 +107,14 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
     for (std::size_t step = 0; step < relative.steps(); ++step) {
       const TwoBodyMotion motion = relative.motion(step);
       search.add(direction.surface, direction.solid, motion, relative.bounds(step).travel);
-      ways.emplace_back(&direction, motion);
+      motions.emplace_back(&direction, motion);
     }
   }
   search.run(kMaxPieces);
   ContactPoint point = result.deepest;
   if (search.found()) {
     const DeepestPoint& found = search.deepest();
-    const auto& [direction, motion] = ways[found.motion];
+    const auto& [direction, motion] = motions[found.motion];
     const Isometry3d X_WF = motion.X_WF.pose(found.s);
     point.time = timeAt(motion, found.s);
     point.p_W = X_WF * found.p_F;

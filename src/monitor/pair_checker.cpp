@@ -92,13 +92,13 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
 /// overlap. With a constant twist the speed of a ball's centre is constant, so the centre is always within half of its
 /// path from its position at half time.
 double PairChecker::ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const {
-  double least = std::numeric_limits<double>::infinity();
+  double clearance = std::numeric_limits<double>::infinity();
   for (std::size_t k = span.first; k < span.last; ++k) {
     const WorldTwist &a = bodies.twist(pair_.body_a, k), &b = bodies.twist(pair_.body_b, k);
     const double away = 0.5 * (a.velocity.norm() + b.velocity.norm());
-    least = std::min(least, (a.center - b.center).norm() - away - a.radius - b.radius);
+    clearance = std::min(clearance, (a.center - b.center).norm() - away - a.radius - b.radius);
   }
-  return least;
+  return clearance;
 }
 
 void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,

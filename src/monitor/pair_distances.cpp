@@ -175,8 +175,8 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   found.error = error;
   found.p_A_W = X_WA * nearest->p_A;
   found.p_B_W = X_WA * nearest->q_A;
-  const Vector3d way = X_WA.linear() * (nearest->q_A - nearest->p_A);
-  if (nearest->distance > 0.0) found.normal_W = way / nearest->distance;
+  const Vector3d displacement = X_WA.linear() * (nearest->q_A - nearest->p_A);
+  if (nearest->distance > 0.0) found.normal_W = displacement / nearest->distance;
   const auto slab = slabBetween(a.tree, b.tree, X_AB, *nearest);
   if (slab && *slab > a.deviation + b.deviation) found.slab = ClosingGap{*slab - a.deviation - b.deviation, 0.0, 0.0};
   return true;

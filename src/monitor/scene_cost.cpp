@@ -30,8 +30,8 @@ constexpr double kHopeless = 2.0;            // excess over the limit from which
 /// Time on the threads available in the caller's TBB arena.
 double onThreads(double one_thread) {
   using tbb::global_control;
-  const auto most = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
-  return one_thread / std::max(1, std::min(most, tbb::this_task_arena::max_concurrency()));
+  const auto max_threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+  return one_thread / std::max(1, std::min(max_threads, tbb::this_task_arena::max_concurrency()));
 }
 
 /// Size of the field's cache file [bytes]; 0 if there is none.
@@ -81,13 +81,13 @@ class CostEstimate {
     FieldCost expected = expectedCost(source, field);
     cost.largest_field = std::max(cost.largest_field, expected.bytes);
     // A build that exceeds the limit ends there, and a coarser field is built instead.
-    const auto most = static_cast<double>(field.max_bytes);
+    const auto max_bytes = static_cast<double>(field.max_bytes);
     double one_thread = 0.0;
     constexpr int kMaxCoarser = 40;
-    for (int i = 0; i < kMaxCoarser && options_.divides_max_error && field.max_error && expected.bytes > most &&
-                    expected.bytes < kHopeless * most;
+    for (int i = 0; i < kMaxCoarser && options_.divides_max_error && field.max_error && expected.bytes > max_bytes &&
+                    expected.bytes < kHopeless * max_bytes;
          ++i) {
-      one_thread += expected.seconds * most / expected.bytes;
+      one_thread += expected.seconds * max_bytes / expected.bytes;
       *field.max_error *= 2.0;
       expected = expectedCost(source, field);
     }

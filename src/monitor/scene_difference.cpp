@@ -74,14 +74,14 @@ std::vector<int> findPairs(const std::vector<std::pair<std::string, std::string>
     const int b = bodies.try_emplace(names.second, static_cast<int>(bodies.size())).first->second;
     return keyOf(std::min(a, b), std::max(a, b));
   };
-  std::unordered_map<std::uint64_t, int> places;
-  places.reserve(others.size());
-  for (std::size_t i = 0; i < others.size(); ++i) places[keyOfNames(others[i])] = static_cast<int>(i);
+  std::unordered_map<std::uint64_t, int> indices;
+  indices.reserve(others.size());
+  for (std::size_t i = 0; i < others.size(); ++i) indices[keyOfNames(others[i])] = static_cast<int>(i);
   std::vector<int> found;
   found.reserve(pairs.size());
   for (const auto& names : pairs) {
-    const auto place = places.find(keyOfNames(names));
-    found.push_back(place == places.end() ? -1 : place->second);
+    const auto index = indices.find(keyOfNames(names));
+    found.push_back(index == indices.end() ? -1 : index->second);
   }
   return found;
 }

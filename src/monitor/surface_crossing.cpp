@@ -96,8 +96,8 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
   const auto test = [&](const Corners& t_A, int triangle_b) {
     ++tests;
     const Corners t_B = cornersOf(b.surface->mesh, triangle_b);
-    const std::optional<Vector3d> place = crossingPoint(t_A, t_B, error);
-    if (place) found = {*place, (t_B[1] - t_B[0]).cross(t_B[2] - t_B[0]).normalized()};
+    const std::optional<Vector3d> p_B = crossingPoint(t_A, t_B, error);
+    if (p_B) found = {*p_B, (t_B[1] - t_B[0]).cross(t_B[2] - t_B[0]).normalized()};
   };
   const auto near_b = [&](const Vector3d& center_A, double radius) {
     cancel.check();

@@ -39,9 +39,9 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
   mask.center_M = X_BM.inverse() * box_B.center();
   mask.radius = 0.5 * box_B.diagonal().norm();
   mask.distance = [solids = std::move(solids)](const Vector3d& p_M) {
-    double least = solids.front().distance(p_M);
-    for (const Solid& solid : solids) least = std::min(least, solid.distance(p_M));
-    return least;
+    double nearest = solids.front().distance(p_M);
+    for (const Solid& solid : solids) nearest = std::min(nearest, solid.distance(p_M));
+    return nearest;
   };
   return mask;
 }

@@ -29,13 +29,13 @@ std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& 
 /// The description of a built scene, with the failures and the pairs that were left out during building.
 SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan, const Scene& scene) {
   for (std::size_t b = 0; b < description.bodies.size(); ++b) description.bodies[b].failure = scene.bodies[b].failure;
-  std::set<std::pair<int, int>> stay;
-  for (const PlannedPair& pair : scene.pairs) stay.emplace(pair.body_a, pair.body_b);
+  std::set<std::pair<int, int>> kept;
+  for (const PlannedPair& pair : scene.pairs) kept.emplace(pair.body_a, pair.body_b);
   std::map<std::pair<int, int>, const std::string*> reasons;
   for (const LeftOut& left_out : scene.left_out)
     reasons.emplace(std::pair(left_out.body_a, left_out.body_b), &left_out.reason);
   for (const PlannedPair& pair : plan.pairs) {
-    if (stay.count({pair.body_a, pair.body_b}) > 0) continue;
+    if (kept.count({pair.body_a, pair.body_b}) > 0) continue;
     const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
     const auto reason = reasons.find({pair.body_a, pair.body_b});
     description.disabled.push_back({a, b, reason == reasons.end() ? "left out" : *reason->second});

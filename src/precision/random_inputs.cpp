@@ -41,7 +41,7 @@ int SurfaceSampler::triangle(Random& random) const {
   return int(at - areas_.begin());
 }
 
-Vector3d SurfaceSampler::place(Random& random, int triangle) const {
+Vector3d SurfaceSampler::pointOn(Random& random, int triangle) const {
   const Vector3i& t = mesh_.triangles[triangle];
   const double r = std::sqrt(uniform(random, 0.0, 1.0)), s = uniform(random, 0.0, 1.0);
   return (1.0 - r) * mesh_.vertices[t[0]] + r * ((1.0 - s) * mesh_.vertices[t[1]] + s * mesh_.vertices[t[2]]);

@@ -26,12 +26,12 @@ class SurfaceSampler {
   /// @param mesh  must outlive this.
   explicit SurfaceSampler(const TriangleMesh& mesh);
 
-  Vector3d operator()(Random& random) const { return place(random, triangle(random)); }
+  Vector3d operator()(Random& random) const { return pointOn(random, triangle(random)); }
 
   /// Index of a triangle, with a probability proportional to its area.
   int triangle(Random& random) const;
   /// A point in the triangle, uniform by area.
-  Vector3d place(Random& random, int triangle) const;
+  Vector3d pointOn(Random& random, int triangle) const;
 
  private:
   const TriangleMesh& mesh_;

@@ -197,14 +197,14 @@ class DeepestSearch::Look {
     for (int k = 0; k < 6; ++k) corners[k] = part.X_GB * corners_F[k];
     std::array<Corners6, 5> sides;  // per bound: its values at the corners, between which it is convex
     std::size_t count = 0;
-    double least = kInfinity;
+    double smallest = kInfinity;
     std::size_t best = 0;
     const auto take = [&](const Corners6& bounds) {
-      const double most = *std::max_element(bounds.begin(), bounds.end());
-      found.bound = std::min(found.bound, most);
+      const double largest = *std::max_element(bounds.begin(), bounds.end());
+      found.bound = std::min(found.bound, largest);
       for (int k = 0; k < 6; ++k) found.deepest[k] = std::min(found.deepest[k], bounds[k]);
-      if (most < least) best = count;
-      least = std::min(least, most);
+      if (largest < smallest) best = count;
+      smallest = std::min(smallest, largest);
       sides[count++] = bounds;
     };
     const auto takeSide = [&](const PartDepth& side, const Vector3d& point) {
@@ -238,9 +238,9 @@ class DeepestSearch::Look {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         for (const double weight : {0.25, 0.5, 0.75}) {
-          double most = -kInfinity;
-          for (int k = 0; k < 6; ++k) most = std::max(most, (1.0 - weight) * sides[i][k] + weight * sides[j][k]);
-          found.bound = std::min(found.bound, most);
+          double largest = -kInfinity;
+          for (int k = 0; k < 6; ++k) largest = std::max(largest, (1.0 - weight) * sides[i][k] + weight * sides[j][k]);
+          found.bound = std::min(found.bound, largest);
         }
       }
     }

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <stdexcept>
 #include <vector>
 
-#include <cairo.h>
-
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
+#include "picture.h"
 #include "print.h"
 
 namespace sdf_ccd::tools {
@@ -21,9 +19,7 @@ constexpr int kMinSide = 200;
 constexpr int kMargin = 20;
 constexpr int kLegendWidth = 190;
 constexpr int kFooter = 60;
-constexpr double kFont = 15.0;
 
-using Color = Vector3d;  // red, green, blue, 0 to 255
 const Color kBlack(0, 0, 0), kGrey(120, 120, 120);
 const Color kCap(255, 140, 0);  // where the surface closes an opening of the mesh
 
@@ -33,56 +29,6 @@ Color colorOf(double distance, double band) {
   const double share = std::abs(distance) <= band ? std::abs(distance) / band : 0.35;
   return kWhite + share * ((distance < 0.0 ? kBlue : kRed) - kWhite);
 }
-
-/// A white picture to draw rectangles and texts on.
-class Picture {
- public:
-  Picture(int width, int height)
-      : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), cairo_(cairo_create(surface_.get())) {
-    cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_NONE);
-    cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo_.get(), kFont);
-    fill({0, 0, width, height}, Color(255, 255, 255));
-  }
-
-  void fill(const cairo_rectangle_int_t& area, const Color& color) {
-    setColor(color);
-    cairo_rectangle(cairo_.get(), area.x, area.y, area.width, area.height);
-    cairo_fill(cairo_.get());
-  }
-
-  /// Draws a text from (x, y), the start of its baseline.
-  void write(int x, int y, const std::string& text) {
-    setColor(kBlack);
-    cairo_move_to(cairo_.get(), x, y);
-    cairo_show_text(cairo_.get(), text.c_str());
-  }
-
-  std::string png() const {
-    std::string bytes;
-    const auto append = [](void* to, const unsigned char* from, unsigned count) {
-      static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(from), count);
-      return CAIRO_STATUS_SUCCESS;
-    };
-    const cairo_status_t status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
-    if (status != CAIRO_STATUS_SUCCESS)
-      throw std::runtime_error(std::string("cairo: ") + cairo_status_to_string(status));
-    return bytes;
-  }
-
- private:
-  struct Destroy {
-    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-    void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
-  };
-
-  void setColor(const Color& color) {
-    cairo_set_source_rgb(cairo_.get(), color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
-  }
-
-  std::unique_ptr<cairo_surface_t, Destroy> surface_;
-  std::unique_ptr<cairo_t, Destroy> cairo_;
-};
 
 /// The slice of the field's box, as a raster.
 struct Raster {
@@ -165,13 +111,13 @@ void drawLegend(Picture& picture, const DistanceField& field, const Raster& rast
     const int begin = is_surface || is_edge ? 0 : kMargin;
     picture.fill({left + begin, row, kMargin + 6 - begin, is_surface ? 2 : 1}, is_edge ? kGrey : kBlack);
     const std::string label = (distance > 0.0 ? "+" : "") + shortly(distance) + " m";
-    picture.write(left + kMargin + 12, row + static_cast<int>(0.35 * kFont), label);
+    picture.write(left + kMargin + 12, row + static_cast<int>(0.35 * kFontSize), label);
   }
 }
 
 /// Draws the names of the axes: the horizontal one below the right end, the vertical one beside the upper end.
 void drawAxisNames(Picture& picture, const Raster& raster) {
-  const int letter = static_cast<int>(0.6 * kFont), height = static_cast<int>(0.7 * kFont);
+  const int letter = static_cast<int>(0.6 * kFontSize), height = static_cast<int>(0.7 * kFontSize);
   picture.write(kMargin + raster.width - letter, kMargin + raster.height + 4 + height,
                 std::string(1, "xyz"[raster.right]));
   picture.write((kMargin - letter) / 2, kMargin + height, std::string(1, "xyz"[raster.up]));
@@ -192,7 +138,7 @@ void drawLengthScale(Picture& picture, const Raster& raster, const Slice& slice)
   picture.fill({kMargin, row - 1, pixels, 3}, kBlack);
   for (const int end : {0, pixels}) picture.fill({kMargin + end, row - 4, 1, 9}, kBlack);
   const std::string plane = std::string(1, "xyz"[slice.axis]) + "=" + shortly(slice.offset) + " m";
-  picture.write(kMargin, row + 10 + static_cast<int>(kFont), shortly(length) + " m  " + plane);
+  picture.write(kMargin, row + 10 + static_cast<int>(kFontSize), shortly(length) + " m  " + plane);
 }
 
 }  // namespace

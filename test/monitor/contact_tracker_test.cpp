@@ -6,124 +6,12 @@
 #include <random>
 #include <set>
 
-#include "monitor/scene_case.h"
+#include "monitor/tracker_case.h"
 
 namespace sdf_ccd {
 namespace {
 
 using namespace test;
-using Time = std::chrono::nanoseconds;
-using Pairs = std::vector<std::pair<std::string, std::string>>;
-
-constexpr double kLength = 0.1;  // duration of a cycle [s]
-
-/// A scene that has only names; `tiles` are the bodies that are tiles of the map "map".
-Scene named(const Pairs& pairs, const std::set<std::string>& tiles) {
-  Scene scene;
-  std::map<std::string, int> bodies;
-  const auto indexOf = [&](const std::string& name) {
-    const auto [found, is_new] = bodies.try_emplace(name, static_cast<int>(scene.bodies.size()));
-    if (is_new) {
-      Body body;
-      body.name = name;
-      if (tiles.count(name) > 0) body.map = "map";
-      scene.bodies.push_back(std::move(body));
-    }
-    return found->second;
-  };
-  for (const auto& [a, b] : pairs) {
-    PlannedPair pair;
-    pair.body_a = indexOf(a);
-    pair.body_b = indexOf(b);
-    scene.pairs.push_back(pair);
-  }
-  return scene;
-}
-
-Time at(double seconds) {
-  return Time(std::llround(1e9 * seconds));
-}
-
-struct Touch {
-  double enter, exit;  // relative to the cycle's start [s]
-  double depth = 0.01, depth_error = 0.0;
-};
-
-/// The result of one pair in a cycle.
-struct PairInput {
-  Verdict verdict = Verdict::kClear;
-  std::vector<Touch> touches;
-  bool is_delayed = false;
-};
-
-class TrackerTest : public ::testing::Test {
- protected:
-  void world(const Pairs& pairs, const std::set<std::string>& tiles = {}) {
-    scene_ = named(pairs, tiles);
-    if (tracker_) {
-      tracker_->adopt(scene_);
-    } else {
-      tracker_ = std::make_unique<ContactTracker>(scene_);
-    }
-  }
-
-  /// Runs the next cycle, or one that starts at the given time. Pairs without an entry are clear.
-  void cycle(const std::vector<PairInput>& pairs, double start = -1.0) {
-    if (start >= 0.0) now_ = start;
-    CycleResult result;
-    CycleMotion motion;
-    motion.times = {0.0, kLength};
-    result.verdict = Verdict::kClear;
-    for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
-      const PairInput input = i < pairs.size() ? pairs[i] : PairInput();
-      PairResult pair;
-      pair.body_a = scene_.pairs[i].body_a;
-      pair.body_b = scene_.pairs[i].body_b;
-      pair.verdict = input.verdict;
-      if (input.is_delayed) {
-        result.verdict = Verdict::kNotChecked;
-      } else {
-        pair.span = {0, 1};
-      }
-      pair.error = {0.0, 0.0001, 0.0, 0.0};  // of the verdict, from triangles; depths have the fields' errors
-      pair.contact_error = {0.003, 0.0001, 0.0, 0.001};
-      pair.on_a_W.force = Vector3d(0.0, 0.0, 6.0);
-      for (const Touch& touch : input.touches) {
-        pair.intervals.push_back({touch.enter, touch.exit});
-        ContactPoint point;
-        point.enter = point.time = touch.enter;
-        point.exit = touch.exit;
-        point.depth = touch.depth;
-        point.depth_error = touch.depth_error;
-        point.normal_W = Vector3d::UnitZ();
-        pair.points.push_back(point);
-        if (point.depth >= pair.deepest.depth) pair.deepest = point;
-      }
-      result.verdict = std::max(result.verdict, pair.verdict);
-      result.pairs.push_back(pair);
-    }
-    tracker_->update({result, motion, samples_, at(now_)});
-    now_ += kLength;
-  }
-
-  std::vector<TrackedContact> listed() const {
-    std::vector<TrackedContact> all;
-    for (std::size_t i = 0; i < tracker_->size(); ++i) all.push_back((*tracker_)[i]);
-    return all;
-  }
-  TrackedContact only() const {
-    EXPECT_EQ(tracker_->size(), 1u);
-    return tracker_->size() == 1 ? (*tracker_)[0] : TrackedContact();
-  }
-
-  Scene scene_;
-  std::unique_ptr<ContactTracker> tracker_;
-  std::vector<double> samples_ = {0.0, kLength};
-  double now_ = 100.0;
-};
-
-const PairInput kClear;
-const PairInput kThrough{Verdict::kContact, {{0.0, kLength}}};
 
 TEST_F(TrackerTest, AContactBeginsGoesOnAndEndsUnderOneId) {
   world({{"hand", "table"}, {"foot", "table"}});
@@ -252,7 +140,7 @@ TEST_F(TrackerTest, AnEarlierTouchThatIsFoundLaterLeavesTheContactThatGoesOn) {
   ASSERT_EQ(tracker_->size(), 3u);
   EXPECT_EQ(tracker_->open(), 1u);
   std::map<std::uint64_t, TrackedContact> by_id;
-  for (const TrackedContact& contact : said()) by_id[contact.id] = contact;
+  for (const TrackedContact& contact : listed()) by_id[contact.id] = contact;
   EXPECT_FALSE(by_id[1].begins || by_id[1].ends);
   EXPECT_EQ(by_id[1].begin, at(100.08));
   EXPECT_TRUE(by_id[2].begins && by_id[2].ends && by_id[3].begins && by_id[3].ends);
@@ -282,49 +170,6 @@ TEST_F(TrackerTest, NothingGoesOnAfterAJump) {
   EXPECT_EQ(tracker_->size(), 0u);
   cycle({kThrough}, 100.0);
   EXPECT_EQ(only().id, 3u);
-}
-
-TEST_F(TrackerTest, AnotherWorldKeepsContactsByName) {
-  world({{"hand", "table"}, {"foot", "table"}, {"foot", "box"}});
-  cycle({kThrough, kThrough, kThrough});
-  // In reverse order of names and of pairs, without the box, with a new body.
-  world({{"table", "foot"}, {"new", "table"}, {"table", "hand"}});
-  for (const TrackedContact& contact : listed()) EXPECT_EQ(contact.is_lost, contact.id == 3);
-  cycle({kThrough, kThrough, kThrough});
-  std::map<std::uint64_t, TrackedContact> by_id;
-  for (const TrackedContact& contact : listed()) by_id[contact.id] = contact;
-  ASSERT_EQ(by_id.size(), 4u);
-  EXPECT_TRUE(by_id[3].ends && by_id[3].is_lost);
-  EXPECT_EQ(by_id[1].body_a, "hand");
-  EXPECT_EQ(by_id[2].body_a, "foot");
-  EXPECT_FALSE(by_id[1].begins || by_id[2].begins);
-  EXPECT_EQ(by_id[4].body_a, "new");
-  EXPECT_TRUE(by_id[4].begins);
-  tracker_->clearEvents();
-  // The other pairs are gone: their contacts are reported as lost at once.
-  world({{"hand", "table"}});
-  ASSERT_EQ(tracker_->size(), 3u);
-  for (const TrackedContact& contact : listed()) EXPECT_EQ(contact.is_lost, contact.id != 1);
-  EXPECT_EQ(tracker_->open(), 1u);
-  // They are reported again in the next cycle, whose message is the first one since, and only in that.
-  tracker_->clearEvents();
-  EXPECT_EQ(tracker_->size(), 1u);
-  cycle({kThrough});
-  ASSERT_EQ(tracker_->size(), 3u);
-  for (const TrackedContact& contact : listed()) EXPECT_EQ(contact.ends && contact.is_lost, contact.id != 1);
-  cycle({kThrough});
-  EXPECT_EQ(only().id, 1u);
-}
-
-TEST_F(TrackerTest, ANormalPointsFromTheFirstBodyAlsoWhereAnotherWorldHasThemTheOtherWayRound) {
-  world({{"hand", "table"}});
-  cycle({kThrough});
-  const Vector3d before = only().deepest.normal_W;
-  world({{"table", "hand"}});
-  cycle({{Verdict::kContact, {{0.0, kLength, 0.02}}}});  // deeper, with the normal from A to B
-  EXPECT_EQ(only().body_a, "hand");
-  EXPECT_EQ(only().deepest.depth, 0.02);
-  EXPECT_EQ(only().deepest.normal_W, -before);
 }
 
 /// Expected contacts, from all intervals at once: intervals of each pair, joined across short breaks.
@@ -394,65 +239,6 @@ TEST_F(TrackerTest, AnyRunSaysWhatAllIntervalsTogetherSay) {
       tracked.insert({a + b, contact.begin, contact.end});
     }
     EXPECT_EQ(tracked, joined(all));
-  }
-}
-
-TEST_F(TrackerTest, WhatSlidesOverTilesOfAMapIsOneContact) {
-  world({{"hand", "map/0_0_-1"}, {"hand", "map/1_0_-1"}, {"arm", "map/0_0_-1"}, {"hand", "map/x"}},
-        {"map/0_0_-1", "map/1_0_-1"});
-  cycle({{Verdict::kContact, {{0.05, 0.1, 0.004}}}});
-  const std::uint64_t id = listed().at(0).id;
-  EXPECT_EQ(listed()[0].body_a, "hand");
-  EXPECT_EQ(listed()[0].body_b, "map");
-  // It leaves the first tile while it touches the second one, whose interval starts earlier in the cycle.
-  cycle({{Verdict::kContact, {{0.02, 0.06, 0.005}}}, {Verdict::kContact, {{0.0, 0.03, 0.002}, {0.055, 0.1, 0.008}}}});
-  ASSERT_EQ(listed().size(), 1u);
-  EXPECT_EQ(listed()[0].id, id);
-  EXPECT_EQ(listed()[0].cycles, 2u);
-  EXPECT_DOUBLE_EQ(listed()[0].deepest.depth, 0.008);
-  // Both tiles are replaced, and the map gets another one.
-  world({{"arm", "map/0_0_-1"}, {"map/5_5_5", "hand"}, {"hand", "map/1_0_-1"}, {"hand", "map/x"}},
-        {"map/0_0_-1", "map/1_0_-1", "map/5_5_5"});
-  cycle({{}, {}, {Verdict::kContact, {{0.0, 0.04, 0.002}}}});
-  ASSERT_EQ(listed().size(), 1u);
-  EXPECT_EQ(listed()[0].id, id);
-  EXPECT_TRUE(listed()[0].ends);
-  EXPECT_FALSE(listed()[0].is_lost);
-  EXPECT_EQ(listed()[0].end - listed()[0].begin, at(0.19));
-  // Pairs without tiles are tracked separately.
-  cycle({{Verdict::kContact, {{0.0, 0.1}}}, {}, {Verdict::kContact, {{0.0, 0.1}}}, {Verdict::kContact, {{0.0, 0.1}}}});
-  EXPECT_EQ(listed().size(), 3u);
-}
-
-TEST_F(TrackerTest, OfTilesOnlyWhatNobodySeesIsLost) {
-  world({{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}}, {"map/0_0_0", "map/1_0_0"});
-  cycle({{Verdict::kContact, {{0.05, 0.1}}}});
-  cycle({{Verdict::kNotChecked, {}}, {Verdict::kContact, {{0.0, 0.1}}}});
-  ASSERT_EQ(listed().size(), 1u);
-  EXPECT_FALSE(listed()[0].ends);
-  cycle({{Verdict::kNotChecked, {}}});
-  ASSERT_EQ(listed().size(), 1u);
-  EXPECT_TRUE(listed()[0].ends);
-  EXPECT_TRUE(listed()[0].is_lost);
-}
-
-TEST_F(TrackerTest, WhatIsOnlyCalledLikeAMapOrItsTileIsItself) {
-  const Pairs pairs = {{"hand", "map/0_0_0"}, {"hand", "map/1_0_0"}, {"hand", "map"}};
-  const PairInput touches{Verdict::kContact, {{0.0, 0.1}}};
-  world(pairs, {"map/0_0_0"});
-  cycle({touches, touches, touches});
-  ASSERT_EQ(listed().size(), 3u);
-  const std::vector<TrackedContact> before = listed();
-  EXPECT_EQ(before[0].body_b, "map");
-  EXPECT_EQ(before[1].body_b, "map/1_0_0");
-  EXPECT_EQ(before[2].body_b, "map");
-  // In another order, each contact continues or ends as before.
-  world({pairs[2], pairs[1], pairs[0]}, {"map/0_0_0"});
-  cycle({{}, touches, touches});
-  ASSERT_EQ(listed().size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(listed()[i].id, before[i].id);
-    EXPECT_EQ(listed()[i].ends, i == 2);
   }
 }
 

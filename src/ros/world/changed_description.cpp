@@ -1,0 +1,121 @@
+// The description of a changing scene: its bodies, and the pairs that it leaves out.
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "ros/world/changing_scene_start_up.h"
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+
+const ChangingScene::Rule* ChangingScene::lastRule(const std::string& a, const std::string& b) const {
+  const auto found =
+      std::find_if(rules_.rbegin(), rules_.rend(), [&](const Rule& rule) { return matches(rule.pair, a, b); });
+  return found == rules_.rend() ? nullptr : &*found;
+}
+
+/// Why the pair of an object that has changed since start-up and another body, not both of the world, is left out;
+/// empty if it is checked.
+/// @param proved  receives whether they cannot touch, so that no rule can add the pair.
+std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const {
+  const std::string& name = object.body.name;
+  const auto known = objects_.find(other.name);
+  const std::string& other_link = known == objects_.end() ? other.name : known->second.link;
+  proved = true;
+  const auto isLink = [&](const std::string& link) { return start_up_->link_names.count(link) > 0; };
+  if (isLink(object.link) && isLink(other_link) && start_up_->robot->rigidlyJoined(object.link, other_link))
+    return "rigidly joined";
+  const bool is_static = start_up_->root_frames.count(object.body.frame) > 0 || object.body.frame == other.frame;
+  if (object.link.empty() && is_static && start_up_->root_frames.count(other.frame) > 0) return "rigidly joined";
+  proved = false;
+  const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
+    return std::any_of(patterns.begin(), patterns.end(),
+                       [&](const auto& pattern) { return matches(pattern, touched); });
+  };
+  const bool are_of_robot = isLink(object.link) && isLink(other_link);
+  const bool may_touch = mayTouch(object.touch_links, other.name) ||
+                         (known != objects_.end() && mayTouch(known->second.touch_links, name));
+  if (are_of_robot && may_touch) return "attached, and allowed by touch_links";
+  return whyAllowed(start_up_->rules, name, other.name);
+}
+
+SceneDescription ChangingScene::description(const RequestLimits& limits) const {
+  if (objects_.size() > limits.objects)
+    throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
+  SceneDescription scene;
+  scene.visual_only = start_up_->visual_only;
+  scene.bodies = start_up_->links;
+  std::vector<const Object*> ordered;
+  for (const auto& [name, object] : objects_) ordered.push_back(&object);
+  std::sort(ordered.begin(), ordered.end(), [](const Object* a, const Object* b) { return a->order < b->order; });
+  for (const Object* object : ordered) scene.bodies.push_back(object->body);
+  const std::size_t first_tile = scene.bodies.size();
+  if (tiles_) scene.bodies.insert(scene.bodies.end(), tiles_->begin(), tiles_->end());
+
+  const auto objectOf = [&](std::size_t body) -> const Object* {
+    return body < start_up_->links.size() || body >= first_tile ? nullptr : ordered[body - start_up_->links.size()];
+  };
+  // Pairs that were left out at start-up, of bodies that have not changed since.
+  std::set<std::string> unchanged;
+  for (const BodyDescription& link : start_up_->links) unchanged.insert(link.name);
+  for (const Object* object : ordered)
+    if (object->is_unchanged) unchanged.insert(object->body.name);
+  std::set<NamePair> left_out;
+  for (const DisabledPair& pair : start_up_->disabled) {
+    if (unchanged.count(pair.body_a) == 0 || unchanged.count(pair.body_b) == 0) {
+      const bool are_links = start_up_->link_names.count(pair.body_a) > 0 && start_up_->link_names.count(pair.body_b) > 0;
+      if (!are_links) continue;
+    }
+    const Rule* rule = pair.proved ? nullptr : lastRule(pair.body_a, pair.body_b);
+    if (rule && !rule->is_allowed) continue;
+    scene.disabled.push_back(pair);
+    if (!rules_.empty()) left_out.insert(namePair(pair.body_a, pair.body_b));
+  }
+  const auto moving = static_cast<std::size_t>(std::count_if(
+      scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
+  if (moving * scene.bodies.size() > limits.pairs)
+    throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
+
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    checkCancelled();
+    const Object* a = objectOf(i);
+    for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
+      const Object* b = objectOf(k);
+      const BodyDescription &body_a = scene.bodies[i], &body_b = scene.bodies[k];
+      if (body_a.is_world && body_b.is_world) continue;
+      const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
+      if (!is_new && rules_.empty() && (k < first_tile || start_up_->rules.allowed.empty())) continue;
+      const Rule* rule = lastRule(body_a.name, body_b.name);
+      bool proved = false;
+      std::string reason;
+      if (is_new) reason = b && !b->is_unchanged ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
+      if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
+      if (rule && !proved) reason = rule->is_allowed ? "update_scene: " + rule->pair.a + " - " + rule->pair.b : "";
+      if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
+      scene.disabled.push_back({body_a.name, body_b.name, reason, proved});
+    }
+  }
+  return scene;
+}
+
+std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& description) const {
+  std::map<std::string, int> indices;
+  for (std::size_t b = 0; b < description.bodies.size(); ++b) indices[description.bodies[b].name] = static_cast<int>(b);
+  std::vector<UnreachablePair> pairs;
+  for (std::size_t p = 0; p < start_up_->unreachable.size(); ++p) {
+    UnreachablePair pair = start_up_->unreachable[p];
+    const auto indexOf = [&](const std::string& name) {
+      const auto object = objects_.find(name);
+      const bool has_changed =
+          object == objects_.end() ? start_up_->link_names.count(name) == 0 : !object->second.is_unchanged;
+      const auto found = indices.find(name);
+      return has_changed || found == indices.end() ? -1 : found->second;
+    };
+    pair.body_a = indexOf(start_up_->unreachable_names[p].first);
+    pair.body_b = indexOf(start_up_->unreachable_names[p].second);
+    if (pair.body_a >= 0 && pair.body_b >= 0) pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+}  // namespace sdf_ccd
