@@ -44,7 +44,7 @@ TEST(ParameterReader, ReadsNumbersGroupsAndLists) {
 TEST(ParameterReader, ErrorsNameParameterAndValue) {
   ParameterReader reader(tree(), "/monitor");
   EXPECT_EQ(errorOf([&] { reader.positive("max_latency", 1.0); }),
-            "parameter /monitor/max_latency is -0.5, expected a number above 0");
+            "parameter /monitor/max_latency is -0.5, expected a positive number");
   EXPECT_EQ(errorOf([&] {
               reader.group("contact").choice("normal", {"field", "shell"}, 0);
             }),
@@ -52,8 +52,8 @@ TEST(ParameterReader, ErrorsNameParameterAndValue) {
   EXPECT_EQ(errorOf([&] { reader.list("world")[1].vector("xyz", Vector3d::Zero()); }),
             "parameter /monitor/world[1]/xyz is 0 0 1, expected three numbers");
   EXPECT_EQ(errorOf([&] { reader.flag("rate", true); }), "parameter /monitor/rate is 30, expected true or false");
-  EXPECT_EQ(errorOf([&] { reader.text("rate", ""); }), "parameter /monitor/rate is 30, expected a text");
-  EXPECT_EQ(errorOf([&] { reader.fail("name", "a text"); }), "parameter /monitor/name is missing, expected a text");
+  EXPECT_EQ(errorOf([&] { reader.text("rate", ""); }), "parameter /monitor/rate is 30, expected a string");
+  EXPECT_EQ(errorOf([&] { reader.fail("name", "a string"); }), "parameter /monitor/name is missing, expected a string");
 }
 
 TEST(ParameterReader, ValuesAreShownAsYamlHasThem) {
@@ -64,9 +64,9 @@ TEST(ParameterReader, ValuesAreShownAsYamlHasThem) {
   tree["list"][1]["key"] = std::string("text");
   ParameterReader reader(tree, "~");
   EXPECT_EQ(errorOf([&] { reader.integer("points", 0, 0); }),
-            "parameter ~/points is 1e+09, expected an integer not below 0");
+            "parameter ~/points is 1e+09, expected an integer of at least 0");
   EXPECT_EQ(errorOf([&] { reader.positive("flag", 1.0); }), "parameter ~/flag is true, expected a finite number");
-  EXPECT_EQ(errorOf([&] { reader.text("list", ""); }), "parameter ~/list is [1, {key: text}], expected a text");
+  EXPECT_EQ(errorOf([&] { reader.text("list", ""); }), "parameter ~/list is [1, {key: text}], expected a string");
 }
 
 TEST(ParameterReader, NamesAreShortAndMessagesToo) {

@@ -102,17 +102,17 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
     return errorOf(".scene", text);
   };
   EXPECT_NE(error("box\n0.1", "cone\n0.1").find("line 6: a shape must be box"), std::string::npos);
-  EXPECT_NE(error("0.1 0.2", "0.1 -0.2").find("line 7: a size must be above 0"), std::string::npos);
-  EXPECT_NE(error("0.1 0.2", "0.1 nan").find("line 7: a number is wanted"), std::string::npos);
+  EXPECT_NE(error("0.1 0.2", "0.1 -0.2").find("line 7: a size must be positive"), std::string::npos);
+  EXPECT_NE(error("0.1 0.2", "0.1 nan").find("line 7: expected a number"), std::string::npos);
   EXPECT_NE(error("0 1 2\n0 0 2", "0 1 3\n0 0 2").find("a triangle has vertex 3, of 3"), std::string::npos);
-  EXPECT_NE(error("3 1\n", "900000000 1\n").find("a whole number up to"), std::string::npos);
-  EXPECT_NE(error("3 1\n", "4000000 1\n").find("a number is wanted"), std::string::npos)
+  EXPECT_NE(error("3 1\n", "900000000 1\n").find("expected an integer from 0 to"), std::string::npos);
+  EXPECT_NE(error("3 1\n", "4000000 1\n").find("expected a number"), std::string::npos)
       << "nothing is set aside for it";
-  EXPECT_NE(error("0 0 0.7071068 0.7071068", "0 0 0 0").find("line 4: a unit quaternion"), std::string::npos);
+  EXPECT_NE(error("0 0 0.7071068 0.7071068", "0 0 0 0").find("line 4: expected a unit quaternion"), std::string::npos);
   EXPECT_NE(error("0.5 0 0.25", "0.5 2e8 0.25").find("line 3: a position more than 1e+08 m"), std::string::npos);
   EXPECT_NE(error("\n.\n", "\n").find("the text ends too early"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "").find("it is empty"), std::string::npos);
-  EXPECT_NE(errorOf(".scene", "name\nbox").find("line 2: * and an object's name"), std::string::npos);
+  EXPECT_NE(errorOf(".scene", "name\nbox").find("line 2: expected * and an object's name"), std::string::npos);
   EXPECT_NE(errorOf(".txt", "").find("must end in .yaml, .yml or .scene"), std::string::npos);
   for (std::size_t end = 0; end < std::string(kScene).size() - 2; ++end)
     ASSERT_NE(errorOf(".scene", std::string(kScene).substr(0, end)), "") << end;

@@ -68,11 +68,12 @@ TEST(YamlParameters, WhatExpandsWithoutEndIsRefused) {
 }
 
 TEST(YamlParameters, AValueIsNoGroup) {
-  EXPECT_NE(errorOf("rate: 30\nrate/x: 1\n").find("parameter rate/x lies in one that is a value itself"),
-            std::string::npos)
+  EXPECT_NE(
+      errorOf("rate: 30\nrate/x: 1\n").find("parameter rate/x is inside a parameter that is a value, not a group"),
+      std::string::npos)
       << errorOf("rate: 30\nrate/x: 1\n");
-  EXPECT_NE(errorOf("rate/x: 1\nrate: 30\n").find("parameter rate is there twice"), std::string::npos);
-  EXPECT_NE(errorOf("rate: 30\nrate: 20\n").find("parameter rate is there twice"), std::string::npos);
+  EXPECT_NE(errorOf("rate/x: 1\nrate: 30\n").find("parameter rate is set twice"), std::string::npos);
+  EXPECT_NE(errorOf("rate: 30\nrate: 20\n").find("parameter rate is set twice"), std::string::npos);
 }
 
 TEST(YamlParameters, DevicesAreRefused) {
@@ -112,7 +113,7 @@ TEST(YamlParameters, PairsByRule) {
   EXPECT_FALSE(parameters.leave_out_overlapping);
   for (const char* wrong : {"allowed_pairs: hand", "allowed_pairs: [hand, table]", "allowed_pairs: [[hand]]",
                             "allowed_pairs: [[hand, '']]", "allowed_pairs: [[hand, 5]]", "allowed_pairs: [[a, b, c]]"})
-    EXPECT_NE(errorOf(wrong).find("expected a list of pairs of texts"), std::string::npos) << wrong;
+    EXPECT_NE(errorOf(wrong).find("expected a list of pairs of strings"), std::string::npos) << wrong;
   std::string many = "checked_pairs:\n";
   for (int i = 0; i <= 1000; ++i) many += "- [a, b]\n";
   EXPECT_NE(errorOf(many).find("expected at most 1000 pairs"), std::string::npos);
@@ -191,7 +192,7 @@ TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {
   EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]"),
             "unknown parameter ~/world[0]/xzy, did you mean xyz?");
   EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, raduis: 0.1}]"),
-            "parameter ~/world[0]/radius is missing, expected a number above 0; is it raduis?");
+            "parameter ~/world[0]/radius is missing, expected a positive number; is it raduis?");
   EXPECT_NE(errorOf("world: [{name: ball, type: sphere, radius: 0.1, size: [1, 1, 1]}]").find("~/world[0]/size"),
             std::string::npos);
   EXPECT_EQ(errorOf("octomap: {fil: map.bt}"), "unknown parameter ~/octomap/fil, did you mean file?");

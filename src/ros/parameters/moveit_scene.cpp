@@ -64,19 +64,18 @@ class Words {
     std::istringstream stream(text);
     stream.imbue(std::locale::classic());
     double value = 0.0;
-    if (!(stream >> value) || !stream.eof() || !std::isfinite(value))
-      fail("a number is wanted, not " + shownText(text));
+    if (!(stream >> value) || !stream.eof() || !std::isfinite(value)) fail("expected a number, not " + shownText(text));
     return value;
   }
   double positive() {
     const double value = number();
-    if (!(value > 0.0)) fail("a size must be above 0");
+    if (!(value > 0.0)) fail("a size must be positive");
     return value;
   }
   int whole(int most) {
     const double value = number();
     if (value != std::floor(value) || value < 0.0 || value > most)
-      fail("a whole number up to " + std::to_string(most) + " is wanted");
+      fail("expected an integer from 0 to " + std::to_string(most));
     return static_cast<int>(value);
   }
   Vector3d vector() {
@@ -88,7 +87,7 @@ class Words {
     if (!isNearOrigin(p)) fail("a position more than " + numberText(kFarthestPose) + " m from the origin");
     const Vector3d axis = vector();
     const auto pose = poseOf(p, {number(), axis.x(), axis.y(), axis.z()});
-    if (!pose) fail("a unit quaternion is wanted");
+    if (!pose) fail("expected a unit quaternion");
     return *pose;
   }
 
@@ -143,7 +142,7 @@ WorldShape readShape(Words& words) {
 WorldObject readObject(Words& words) {
   WorldObject object;
   object.name = words.rest();
-  if (object.name.empty() || object.name != shownText(object.name)) words.fail("an object's name is wanted behind *");
+  if (object.name.empty() || object.name != shownText(object.name)) words.fail("expected an object's name after *");
   const bool has_pose = words.count() == 3;  // else the number of shapes
   if (has_pose) object.X_frame_B = words.pose();
   const int shapes = words.whole(kMaxShapes);
@@ -166,8 +165,7 @@ std::vector<WorldObject> parseMoveitScene(const std::string& text) {
   if (!words.goOn()) words.fail("it is empty");
   words.rest();  // the scene's name
   for (std::string mark; (mark = words.word()) != ".";) {
-    if (mark != "*")
-      words.fail("* and an object's name, or a last line with a point is wanted, not " + shownText(mark));
+    if (mark != "*") words.fail("expected * and an object's name, or a last line with a dot, not " + shownText(mark));
     if (objects.size() == std::size_t(kMaxObjects)) words.fail("more than " + std::to_string(kMaxObjects) + " objects");
     objects.push_back(readObject(words));
   }

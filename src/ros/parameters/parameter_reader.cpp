@@ -110,13 +110,13 @@ double ParameterReader::number(const std::string& key, double fallback) {
 
 double ParameterReader::positive(const std::string& key, double fallback) {
   const double value = number(key, fallback);
-  if (!(value > 0.0)) fail(key, "a number above 0");
+  if (!(value > 0.0)) fail(key, "a positive number");
   return value;
 }
 
 double ParameterReader::notNegative(const std::string& key, double fallback) {
   const double value = number(key, fallback);
-  if (!(value >= 0.0)) fail(key, "a number not below 0");
+  if (!(value >= 0.0)) fail(key, "a non-negative number");
   return value;
 }
 
@@ -124,7 +124,7 @@ int ParameterReader::integer(const std::string& key, int fallback, int smallest)
   XmlRpcValue* value = find(key);
   if (!value) return fallback;
   if (value->getType() != XmlRpcValue::TypeInt || static_cast<int>(*value) < smallest) {
-    fail(key, "an integer not below " + std::to_string(smallest));
+    fail(key, "an integer of at least " + std::to_string(smallest));
   }
   return *value;
 }
@@ -139,7 +139,7 @@ bool ParameterReader::flag(const std::string& key, bool fallback) {
 std::string ParameterReader::text(const std::string& key, const std::string& fallback) {
   XmlRpcValue* value = find(key);
   if (!value) return fallback;
-  if (value->getType() != XmlRpcValue::TypeString) fail(key, "a text");
+  if (value->getType() != XmlRpcValue::TypeString) fail(key, "a string");
   return *value;
 }
 
@@ -192,11 +192,11 @@ std::vector<std::string> ParameterReader::texts(const std::string& key) {
   std::vector<std::string> texts;
   XmlRpcValue* value = find(key);
   if (!value) return texts;
-  if (value->getType() != XmlRpcValue::TypeArray) fail(key, "a list of texts");
+  if (value->getType() != XmlRpcValue::TypeArray) fail(key, "a list of non-empty strings");
   for (int i = 0; i < value->size(); ++i) {
     XmlRpcValue& text = (*value)[i];
     if (text.getType() != XmlRpcValue::TypeString || static_cast<std::string>(text).empty())
-      fail(key, "a list of texts");
+      fail(key, "a list of non-empty strings");
     texts.push_back(static_cast<std::string>(text));
   }
   return texts;
@@ -206,7 +206,7 @@ std::vector<std::pair<std::string, std::string>> ParameterReader::textPairs(cons
   std::vector<std::pair<std::string, std::string>> pairs;
   XmlRpcValue* value = find(key);
   if (!value) return pairs;
-  const char* const expected = "a list of pairs of texts, as [[hand, table], [\"finger_*\", \"finger_*\"]]";
+  const char* const expected = "a list of pairs of strings, as [[hand, table], [\"finger_*\", \"finger_*\"]]";
   const auto isText = [](XmlRpcValue& text) {
     return text.getType() == XmlRpcValue::TypeString && !static_cast<std::string>(text).empty();
   };

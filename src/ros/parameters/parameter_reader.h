@@ -51,10 +51,10 @@ class ParameterReader {
   /// A list of `least` to `most` finite numbers; fails if it is not set.
   std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
 
-  /// A list of texts, none of them empty; no texts if it is not set.
+  /// A list of strings, none of them empty; no strings if it is not set.
   std::vector<std::string> texts(const std::string& key);
 
-  /// A list of pairs of texts; no pairs if it is not set.
+  /// A list of pairs of strings; no pairs if it is not set.
   std::vector<std::pair<std::string, std::string>> textPairs(const std::string& key);
 
   ParameterReader group(const std::string& key);

@@ -9,21 +9,21 @@ constexpr double kUnset = -1.0;  // rejected by positive(): sizes have no defaul
 
 std::string required(ParameterReader& reader, const std::string& key) {
   const std::string value = reader.text(key, "");
-  if (value.empty()) reader.fail(key, "a text");
+  if (value.empty()) reader.fail(key, "a string");
   return value;
 }
 
 WorldObject readObject(ParameterReader& reader) {
   WorldObject object;
   object.name = reader.name("name", "");
-  if (object.name.empty()) reader.fail("name", "a text");
+  if (object.name.empty()) reader.fail("name", "a string");
   object.frame = reader.name("frame", "");
   object.X_frame_B = readPose(reader);
   WorldShape& made = object.shapes.emplace_back();
   switch (reader.choice("type", {"box", "sphere", "cylinder", "plane", "mesh"}, -1)) {
     case 0: {
       const Vector3d size = reader.vector("size", Vector3d::Zero());
-      if (!(size.minCoeff() > 0.0)) reader.fail("size", "three numbers above 0");
+      if (!(size.minCoeff() > 0.0)) reader.fail("size", "three positive numbers");
       made.shape = Primitive(Box{0.5 * size});
       break;
     }
@@ -81,7 +81,7 @@ Primitive messagePrimitive(ParameterReader& reader) {
   if (type < kBox || type > kCylinder) reader.fail("type", "a box, sphere or cylinder");
   const std::vector<double> size = reader.numbers("dimensions", count, count);
   for (const double length : size)
-    if (!(length > 0.0)) reader.fail("dimensions", "numbers above 0");
+    if (!(length > 0.0)) reader.fail("dimensions", "positive numbers");
   if (type == kBox) return Box{0.5 * Vector3d(size[0], size[1], size[2])};
   if (type == kSphere) return Sphere{size[0]};
   return Cylinder{size[1], 0.5 * size[0]};
@@ -106,7 +106,7 @@ MeshObject messageMesh(ParameterReader& reader) {
 WorldObject collisionObject(ParameterReader& reader) {
   WorldObject object;
   object.name = reader.name("id", "");
-  if (object.name.empty()) reader.fail("id", "a text");
+  if (object.name.empty()) reader.fail("id", "a string");
   if (reader.has("header")) object.frame = reader.group("header").name("frame_id", "");
   if (reader.isText("operation")) {
     reader.choice("operation", {"ADD", "add"}, 0);

@@ -81,7 +81,7 @@ class ValueReader {
     XmlRpcValue made;
     made.begin();  // makes it a struct, also without members
     for (const auto& member : node) {
-      if (!member.first.IsScalar()) refuse(member.first.Mark(), "the name of a parameter is not a text");
+      if (!member.first.IsScalar()) refuse(member.first.Mark(), "the name of a parameter is not a string");
       if (member.second.IsNull()) refuse(member.first.Mark(), "parameter " + member.first.Scalar() + " has no value");
       setMember(made, member.first, member.first.Scalar(), member.second);
     }
@@ -91,11 +91,11 @@ class ValueReader {
   /// @param key  the rest of `name`; a slash leads into a nested struct.
   void setMember(XmlRpcValue& tree, const YAML::Node& name, const std::string& key, const YAML::Node& node) {
     if (tree.valid() && tree.getType() != XmlRpcValue::TypeStruct) {
-      refuse(name.Mark(), "parameter " + name.Scalar() + " lies in one that is a value itself");
+      refuse(name.Mark(), "parameter " + name.Scalar() + " is inside a parameter that is a value, not a group");
     }
     const std::size_t slash = key.find('/');
     if (slash == std::string::npos) {
-      if (tree.hasMember(key)) refuse(name.Mark(), "parameter " + name.Scalar() + " is there twice");
+      if (tree.hasMember(key)) refuse(name.Mark(), "parameter " + name.Scalar() + " is set twice");
       tree[key] = value(node);
       return;
     }
