@@ -153,19 +153,19 @@ void BodyTwists::begin(const CycleMotion& motion, const std::vector<char>& is_wh
     body.is_followed = true;
     const double motion_error = motion.motion_error.empty() ? 0.0 : motion.motion_error[b];
     const bool same_error = motion_error == body.motion_error;
-    if (body.rests && same_error && same(motion.X_WB[b][1], body.X_WB)) continue;
+    if (body.rests && same_error && same(motion.pose(b, 1), body.X_WB)) continue;
     body.rests = false;
     body.motion_error = motion_error;
     body.tilt = body.defect;
     body.rounding = poseRounding(body.X_WB);
     body.farthest = 0.0;
-    step(b, motion.X_WB[b][1]);
+    step(b, motion.pose(b, 1));
   }
 }
 
 void BodyTwists::step(const CycleMotion& motion, std::size_t k) {
   for (const std::size_t b : paired_)
-    if (bodies_[b].is_followed) step(b, motion.X_WB[b][k + 1]);
+    if (bodies_[b].is_followed) step(b, motion.pose(b, k + 1));
 }
 
 void BodyTwists::step(std::size_t b, const Isometry3d& X_WB) {

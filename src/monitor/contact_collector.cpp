@@ -29,7 +29,7 @@ void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, 
   span_ = pair.span;
   body_a_ = pair.body_a;
   body_b_ = pair.body_b;
-  p_WC_ = motion.X_WB[body_a_][span_.last].translation();
+  p_WC_ = motion.pose(body_a_, span_.last).translation();
   impulse_on_a_C_ = {};
   intervals_.clear();
   found_.clear();
@@ -37,18 +37,18 @@ void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, 
 }
 
 void ContactCollector::setFieldPoses(const PairRole& role) {
-  const std::vector<Isometry3d>& X_WF = motion_->X_WB[role.fieldBody()];
-  const auto inC = [this](Isometry3d X) {
+  const auto X_CF = [&](std::size_t waypoint) {
+    Isometry3d X = motion_->pose(role.fieldBody(), waypoint);
     X.translation() -= p_WC_;
     return X;
   };
-  X_CF_.assign(1, inC(X_WF[span_.first]));
+  X_CF_.assign(1, X_CF(span_.first));
   const std::vector<Chord>& chords = role.path().chords;
   for (std::size_t c = 0; c < chords.size();) {
     const int interval = chords[c].interval;
     const std::size_t waypoint = span_.first + interval;
     const double t0 = motion_->times[waypoint], t1 = motion_->times[waypoint + 1];
-    const ScrewMotion screw(inC(X_WF[waypoint]), inC(X_WF[waypoint + 1]));
+    const ScrewMotion screw(X_CF(waypoint), X_CF(waypoint + 1));
     for (; c < chords.size() && chords[c].interval == interval; ++c)
       X_CF_.push_back(screw.pose(chords[c].t_end == t1 ? 1.0 : (chords[c].t_end - t0) / (t1 - t0)));
   }
@@ -238,7 +238,7 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
 
   if (!request.wrenches) return;
   result.on_a_W = (1.0 / duration()) * impulse_on_a_C_;  // Eq. 8, 9; C's origin is A's at the end
-  const Vector3d p_AB = motion_->X_WB[body_b_][span_.last].translation() - p_WC_;
+  const Vector3d p_AB = motion_->pose(body_b_, span_.last).translation() - p_WC_;
   const Vector3d& force_on_a = result.on_a_W.force;
   result.on_b_W = {-force_on_a, p_AB.cross(force_on_a) - result.on_a_W.torque};
 }

@@ -117,7 +117,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   result.error = bound();
   result.error.chord = motion_error_;
   if (balls_contain_bodies_ && apart > margin() + motion_error_) {
-    remember(apart, motion.X_WB[pair_.body_a][result.span.last], motion.X_WB[pair_.body_b][result.span.last]);
+    remember(apart, motion.pose(pair_.body_a, result.span.last), motion.pose(pair_.body_b, result.span.last));
     setClear(apart, result);
     result.skipped = outside_ = true;
     return;
@@ -358,7 +358,7 @@ std::optional<ContactPoint> PairChecker::crossingAtATime(const CycleMotion& moti
   const std::size_t stride = (span.last - span.first) / kMaxTimes + 1;
   for (std::size_t back = 0; back <= span.last - span.first; back += stride) {
     const std::size_t waypoint = span.last - back;
-    const Isometry3d &X_WA = motion.X_WB[a][waypoint], &X_WB = motion.X_WB[b][waypoint];
+    const Isometry3d &X_WA = motion.pose(a, waypoint), &X_WB = motion.pose(b, waypoint);
     const auto found = surfacesCross(scene_.bodies[a], scene_.bodies[b], relativePose(X_WB, X_WA), motion_error_);
     if (!found) continue;
     ContactPoint contact;

@@ -106,8 +106,8 @@ bool PairDistances::isFar(std::size_t i, const PairResult& result, const Isometr
 void PairDistances::measure(std::size_t i, const CycleMotion& motion, const PairResult& result, double range,
                             const CycleRecord& record) {
   Pair& pair = pairs_[i];
-  const Isometry3d &X_WA = motion.X_WB[result.body_a][result.span.last],
-                   &X_WB = motion.X_WB[result.body_b][result.span.last];
+  const Isometry3d &X_WA = motion.pose(result.body_a, result.span.last),
+                   &X_WB = motion.pose(result.body_b, result.span.last);
   const Isometry3d X_AB = relativePose(X_WA, X_WB);
   pair.is_near = false;
   if (isFar(i, result, X_AB, range)) return;
@@ -219,9 +219,9 @@ bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is
 /// Motion over the last step. P is the body whose ball contains it: the ball of a half-space does not.
 PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const {
   const bool f_is_a = ballContainsBody(scene_->bodies[body_b]);
-  const auto &X_WF = motion.X_WB[f_is_a ? body_a : body_b], &X_WP = motion.X_WB[f_is_a ? body_b : body_a];
-  return {f_is_a, relativePose(X_WF[last - 1], X_WP[last - 1]), relativePose(X_WF[last], X_WP[last]),
-          scene_->bodies[f_is_a ? body_b : body_a].ball};
+  const int f = f_is_a ? body_a : body_b, p = f_is_a ? body_b : body_a;
+  const auto X_FP = [&](std::size_t k) { return relativePose(motion.pose(f, k), motion.pose(p, k)); };
+  return {f_is_a, X_FP(last - 1), X_FP(last), scene_->bodies[p].ball};
 }
 
 /// Upper bound of how far the bodies separate between a time and the end of the span [m].
@@ -237,11 +237,10 @@ double PairDistances::travelSince(double time, const CycleMotion& motion, const 
 /// Mean speeds over the last step.
 void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& span, const CycleRecord& record,
                               PairDistance& found) const {
-  const auto& X_WA = motion.X_WB[found.body_a];
-  const auto& X_WB = motion.X_WB[found.body_b];
   const double over = motion.times[span.last] - motion.times[span.last - 1];
-  const Isometry3d &X_WA_now = X_WA[span.last], &X_WA_then = X_WA[span.last - 1], &X_WB_now = X_WB[span.last],
-                   &X_WB_then = X_WB[span.last - 1];
+  const Isometry3d &X_WA_then = motion.pose(found.body_a, span.last - 1),
+                   &X_WB_then = motion.pose(found.body_b, span.last - 1),
+                   &X_WA_now = motion.pose(found.body_a, span.last), &X_WB_now = motion.pose(found.body_b, span.last);
   const Vector3d p_then = X_WA_then * (X_WA_now.inverse() * found.p_A_W),
                  q_then = X_WB_then * (X_WB_now.inverse() * found.p_B_W);
   found.closing_speed = ((found.p_A_W - p_then) - (found.p_B_W - q_then)).dot(found.normal_W) / over;

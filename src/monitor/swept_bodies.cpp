@@ -48,20 +48,21 @@ void SweptBodies::take(const CycleMotion& motion, const std::vector<PairResult>&
 
 void SweptBodies::sweep(const CycleMotion& motion, int body) {
   SweptBody& swept = bodies_[body];
-  const std::vector<Isometry3d>& X_WB = motion.X_WB[body];
+  const std::size_t last = motion.X_WB[body].size() == 1 ? swept.first + 1 : swept.last;
   swept.intervals.clear();
   swept.problem.clear();
   swept.defect = swept.rounding = 0.0;
   try {
-    for (std::size_t k = swept.first; k < swept.last; ++k) {
-      requireNear(scene_.bodies[body].name, X_WB[k]);
-      requireNear(scene_.bodies[body].name, X_WB[k + 1]);
-      const ScrewMotion screw(X_WB[k], X_WB[k + 1]);
+    for (std::size_t k = swept.first; k < last; ++k) {
+      const Isometry3d &X_WB_start = motion.pose(body, k), &X_WB_end = motion.pose(body, k + 1);
+      requireNear(scene_.bodies[body].name, X_WB_start);
+      requireNear(scene_.bodies[body].name, X_WB_end);
+      const ScrewMotion screw(X_WB_start, X_WB_end);
       swept.intervals.push_back({screw, worldTwist(screw, scene_.bodies[body].ball)});
     }
-    for (std::size_t k = swept.first; k <= swept.last; ++k) {
-      swept.defect = std::max(swept.defect, poseDefect(X_WB[k]));
-      swept.rounding = std::max(swept.rounding, poseRounding(X_WB[k]));
+    for (std::size_t k = swept.first; k <= last; ++k) {
+      swept.defect = std::max(swept.defect, poseDefect(motion.pose(body, k)));
+      swept.rounding = std::max(swept.rounding, poseRounding(motion.pose(body, k)));
     }
   } catch (const std::exception& error) {
     swept.problem = error.what();

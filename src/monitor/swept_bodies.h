@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ class SweptBodies {
   struct SweptBody {
     bool is_taken = false;            ///< a due pair needs it
     std::size_t first = 0, last = 0;  ///< range of the times needed
-    std::vector<Interval> intervals;  ///< from time `first` on
+    std::vector<Interval> intervals;  ///< from time `first` on; one if the body has a single pose
     std::string problem;
     double defect = 0.0;    ///< largest |RᵀR − 1| of its poses, with rounding
     double rounding = 0.0;  ///< of the poses' translations [m]
@@ -50,7 +51,8 @@ class SweptBodies {
 
   void sweep(const CycleMotion& motion, int body);
   const Interval& at(int body, std::size_t waypoint) const {
-    return bodies_[body].intervals[waypoint - bodies_[body].first];
+    const SweptBody& swept = bodies_[body];
+    return swept.intervals[std::min(waypoint - swept.first, swept.intervals.size() - 1)];
   }
 
   const Scene& scene_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/motion/two_body_motion.h"
@@ -17,12 +18,12 @@ constexpr double kRemainder = 0.0080187537388;  // √3/216: max |s (s − ½) (
 /// Adds samples to one motion.
 class MotionSampler::Run {
  public:
-  Run(MotionSampler& memory, const MotionSource& source, CycleMotion& motion)
-      : memory_(memory), source_(source), balls_(memory.balls_), motion_(motion) {}
+  Run(MotionSampler& memory, const MotionSource& source, const std::vector<std::size_t>& bodies, CycleMotion& motion)
+      : memory_(memory), source_(source), balls_(memory.balls_), bodies_(bodies), motion_(motion) {}
 
   void add(double time, const std::vector<Isometry3d>& X_WB) {
     motion_.times.push_back(time);
-    for (std::size_t body = 0; body < balls_.size(); ++body) motion_.X_WB[body].push_back(X_WB[body]);
+    for (const std::size_t body : bodies_) motion_.X_WB[body].push_back(X_WB[body]);
   }
 
   /// Adds the samples after the last one, up to and with `end`. Samples are kept in order, so the first half goes
@@ -36,19 +37,19 @@ class MotionSampler::Run {
     source_.jerk_bounds(start, end, memory_.jerk_);
     memory_.deviation_.assign(balls_.size(), 0.0);
     double worst = 0.0;
-    for (std::size_t body = 0; body < balls_.size(); ++body) {
+    for (const std::size_t body : bodies_) {
       if (!motion_.missing[body].empty()) continue;
       memory_.deviation_[body] = deviation(body, X_middle[body], X_end[body]);
       worst = std::max(worst, memory_.deviation_[body]);
     }
     const MotionSampling& sampling = memory_.sampling_;
-    const bool has_room = motion_.times.size() < sampling.max_samples;
+    const bool has_room = motion_.times.size() * bodies_.size() < sampling.max_poses;
     if (worst > sampling.tolerance && halvings_left > 0 && has_room && start < middle && middle < end) {
       addUpTo(middle, X_middle, halvings_left - 1);
       addUpTo(end, X_end, halvings_left - 1);
       return;
     }
-    for (std::size_t body = 0; body < balls_.size(); ++body) {
+    for (const std::size_t body : bodies_) {
       motion_.motion_error[body] = std::max(motion_.motion_error[body], memory_.deviation_[body]);
     }
     add(end, X_end);
@@ -70,20 +71,25 @@ class MotionSampler::Run {
   MotionSampler& memory_;
   const MotionSource& source_;
   const std::vector<BoundingBall>& balls_;
+  const std::vector<std::size_t>& bodies_;
   CycleMotion& motion_;
   const CancelPoint cancel_;
 };
 
 MotionSampler::MotionSampler(std::vector<BoundingBall> balls, const MotionSampling& sampling)
     : balls_(std::move(balls)),
+      all_(balls_.size()),
       sampling_(sampling),
-      X_middle_(static_cast<std::size_t>(std::max(0, sampling.max_halvings)) + 1) {}
+      X_middle_(static_cast<std::size_t>(std::max(0, sampling.max_halvings)) + 1) {
+  std::iota(all_.begin(), all_.end(), std::size_t{0});
+}
 
-void MotionSampler::add(const std::vector<double>& waypoints, const MotionSource& source, CycleMotion& motion) {
+void MotionSampler::add(const std::vector<double>& waypoints, const MotionSource& source,
+                        const std::vector<std::size_t>& bodies, CycleMotion& motion) {
   motion.missing.resize(balls_.size());
   motion.X_WB.resize(balls_.size());
   motion.motion_error.resize(balls_.size(), 0.0);
-  Run run(*this, source, motion);
+  Run run(*this, source, bodies, motion);
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     source.poses_at(waypoints[i], X_end_);
     if (i == 0) {

@@ -51,9 +51,10 @@ void validate(const CycleMotion& motion, const MotionShape& shape, const char* w
   for (std::size_t b = 0; b < bodies; ++b) {
     const bool may_lack = (!shape.without_poses.empty() && shape.without_poses[b]) ||
                           (!motion.missing.empty() && !motion.missing[b].empty());
-    if (!may_lack && motion.X_WB[b].size() != motion.times.size())
-      refuse(shape.bodies[b] + " has " + std::to_string(motion.X_WB[b].size()) + " poses at " +
-             std::to_string(motion.times.size()) + " times");
+    const std::size_t poses = motion.X_WB[b].size();
+    if (!may_lack && poses != 1 && poses != motion.times.size())
+      refuse(shape.bodies[b] + " has " + std::to_string(poses) + " poses at " + std::to_string(motion.times.size()) +
+             " times");
     if (!motion.motion_error.empty() && !(motion.motion_error[b] >= 0.0))
       refuse("motion error of " + shape.bodies[b] + " is " + numberText(motion.motion_error[b]));
   }

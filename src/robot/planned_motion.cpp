@@ -35,6 +35,7 @@ void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
   motion.missing.resize(shape.bodies.size());
   for (std::size_t body = 0; body < shape.bodies.size(); ++body) {
     if (motion.missing[body].empty()) {
+      motion.X_WB[body].resize(motion.times.size(), Isometry3d(motion.X_WB[body].front()));
       requireUnambiguousTurns(motion.X_WB[body], "planned motion: " + shape.bodies[body]);
     } else {
       motion.X_WB[body].resize(motion.times.size(), Isometry3d::Identity());  // not read

@@ -88,7 +88,7 @@ std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::
     if (!is_moved[a] && !is_moved[b]) continue;
     bool may_meet = !motion.missing[a].empty() || !motion.missing[b].empty();
     for (std::size_t i = 1; i < motion.times.size() && !may_meet; ++i) {
-      const ScrewMotion X_WA(motion.X_WB[a][i - 1], motion.X_WB[a][i]), X_WB(motion.X_WB[b][i - 1], motion.X_WB[b][i]);
+      const ScrewMotion X_WA(motion.pose(a, i - 1), motion.pose(a, i)), X_WB(motion.pose(b, i - 1), motion.pose(b, i));
       may_meet = !(leastDistance(X_WA, pair.ball_a.center, X_WB, pair.ball_b.center) >
                    pair.ball_a.radius + pair.ball_b.radius);
     }

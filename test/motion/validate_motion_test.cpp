@@ -32,6 +32,8 @@ std::string refusal(const CycleMotion& motion, const MotionShape& shape = shapeO
 TEST(ValidateMotion, TakesWhatFits) {
   CycleMotion motion = motionOfTwo();
   EXPECT_EQ(refusal(motion), "");
+  motion.X_WB[1].resize(1);  // at rest
+  EXPECT_EQ(refusal(motion), "");
   motion.spans = {{1, 2}};
   motion.motion_error = {0.0, std::numeric_limits<double>::infinity()};
   motion.missing = {"", "lost"};

@@ -348,5 +348,28 @@ TEST_F(TfTrackerTest, CurvedMotionGetsMoreSamplesAndAnError) {
   EXPECT_EQ(cycle_.motion.motion_error[2], 0.0);
 }
 
+TEST(TfTracker, TilesOfAMapDoNotLimitTheRateOfTransforms) {
+  constexpr int kTiles = 3000, kSamples = 1000;
+  TfHistory history("world");
+  std::vector<TrackedBody> bodies(kTiles, {"map", Isometry3d(Eigen::Translation3d(0.0, 2.0, 0.0)), {}});
+  bodies.push_back({"hand", Isometry3d::Identity(), {Vector3d::Zero(), 0.1}});
+  std::vector<PlannedPair> pairs;
+  for (int tile = 0; tile < kTiles; ++tile) pairs.push_back({tile, kTiles, true, true});
+  TfTracker tracker(history, bodies, pairs, TfTrackerOptions());
+  TrackedCycle cycle;
+  history.add(test::message({stampedTransform("world", "map", 0.0, 1.0)}), true);
+  history.add(test::message({stampedTransform("world", "hand", 10.0, 0.0)}), false);
+  EXPECT_EQ(tracker.next(ros::Time(10.0), cycle), Step::kWaiting);
+  for (int i = 1; i <= kSamples; ++i)
+    history.add(test::message({stampedTransform("world", "hand", 10.0 + 1e-3 * i, 1e-6 * i * i)}), false);
+  ASSERT_EQ(tracker.next(ros::Time(11.0), cycle), Step::kCycle);
+  for (const std::string& missing : cycle.motion.missing) ASSERT_EQ(missing, "");
+  EXPECT_EQ(cycle.motion.times.size(), kSamples + 1u);
+  EXPECT_EQ(cycle.motion.X_WB[kTiles].size(), kSamples + 1u);
+  EXPECT_NEAR(cycle.motion.pose(kTiles, 30).translation().x(), 9e-4, 1e-9);
+  ASSERT_EQ(cycle.motion.X_WB[0].size(), 1u);
+  EXPECT_EQ(cycle.motion.pose(0, 30).translation(), Vector3d(1.0, 2.0, 0.0));
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ constexpr double kFarthestPose = 1e8;
 /// world, along the shorter rotation: rotations of half a revolution and more between two times need times in between.
 struct CycleMotion {
   std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
-  std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time
+  std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time; or a single pose, of a body at rest
   std::vector<std::string> missing;  ///< per body: why its poses are not known, else empty; may be empty as a whole
   /// Per body: distance of the true motion of its ball from that of X_WB [m]; may be infinite, or empty (no error).
   std::vector<double> motion_error;
@@ -32,6 +33,11 @@ struct CycleMotion {
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
   /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs are not read.
   std::vector<WaypointSpan> spans;
+
+  /// Pose X_WB of a body at a time, by their indices.
+  const Isometry3d& pose(std::size_t body, std::size_t time) const {
+    return X_WB[body][std::min(time, X_WB[body].size() - 1)];
+  }
 };
 
 }  // namespace sdf_ccd

@@ -26,7 +26,8 @@ struct MotionSource {
 struct MotionSampling {
   double tolerance = 1e-4;  ///< deviation aimed at [m]
   int max_halvings = 5;     ///< of the time between two waypoints; what deviation is left then is reported
-  std::size_t max_samples = std::numeric_limits<std::size_t>::max();  ///< with this many, no more times are halved
+  /// Of all sampled bodies together; with this many, no more times are halved.
+  std::size_t max_poses = std::numeric_limits<std::size_t>::max();
 };
 
 /// Samples motions whose twists are not constant between waypoints (tf2 and trajectories rotate joints uniformly), so
@@ -47,12 +48,20 @@ class MotionSampler {
   /// @param waypoints  times, increasing [s]; all of them are kept.
   /// @param motion  `missing` is read: bodies it names are skipped. Errors do not decrease.
   /// @throws std::invalid_argument if a pose is not finite, or its rotation not orthonormal.
-  void add(const std::vector<double>& waypoints, const MotionSource& source, CycleMotion& motion);
+  void add(const std::vector<double>& waypoints, const MotionSource& source, CycleMotion& motion) {
+    add(waypoints, source, all_, motion);
+  }
+
+  /// The same for some bodies: of the others nothing is read or written.
+  /// @param bodies  their indices.
+  void add(const std::vector<double>& waypoints, const MotionSource& source, const std::vector<std::size_t>& bodies,
+           CycleMotion& motion);
 
  private:
   class Run;
 
   std::vector<BoundingBall> balls_;
+  std::vector<std::size_t> all_;  // indices of all bodies
   MotionSampling sampling_;
   std::vector<std::vector<Isometry3d>> X_middle_;  // per number of halvings that are left
   std::vector<Isometry3d> X_end_;

@@ -116,8 +116,8 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   for (std::size_t i = 0; i < pair.points.size(); ++i) setPointContact(pair.points[i], cycle.start, message.points[i]);
   message.wrench_on_a = toWrench(pair.on_a_W);
   message.wrench_on_b = toWrench(pair.on_b_W);
-  message.origin_a = toPoint(cycle.motion.X_WB[pair.body_a][pair.span.last].translation());
-  message.origin_b = toPoint(cycle.motion.X_WB[pair.body_b][pair.span.last].translation());
+  message.origin_a = toPoint(cycle.motion.pose(pair.body_a, pair.span.last).translation());
+  message.origin_b = toPoint(cycle.motion.pose(pair.body_b, pair.span.last).translation());
   message.error_bound = pair.error.total();
   message.error_field = pair.error.field;
   message.error_chord = pair.error.chord;

@@ -35,10 +35,10 @@ std::vector<Vector3d> pathOf(int body, const ContactPoint& point, const CycleMot
   std::size_t next = span.first + 1;
   while (next < span.last && motion.times[next] < point.time) ++next;
   const double length = motion.times[next] - motion.times[next - 1];
-  const ScrewMotion screw(motion.X_WB[body][next - 1], motion.X_WB[body][next]);
+  const ScrewMotion screw(motion.pose(body, next - 1), motion.pose(body, next));
   const Vector3d p_B = screw.pose((point.time - motion.times[next - 1]) / length).inverse() * point.p_W;
   std::vector<Vector3d> path;
-  for (std::size_t k = span.first; k <= span.last; ++k) path.push_back(motion.X_WB[body][k] * p_B);
+  for (std::size_t k = span.first; k <= span.last; ++k) path.push_back(motion.pose(body, k) * p_B);
   return path;
 }
 

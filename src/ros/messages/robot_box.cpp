@@ -18,8 +18,8 @@ void RobotBox::update(const CycleResult& result, const CycleContext& cycle) {
     if (pair.span.empty()) continue;
     for (const int body : {pair.body_a, pair.body_b}) {
       const bool is_lost = !cycle.motion.missing.empty() && !cycle.motion.missing[body].empty();
-      if (is_lost || pair.span.last >= cycle.motion.X_WB[body].size()) continue;
-      const Vector3d center_W = cycle.motion.X_WB[body][pair.span.last] * bodies[body].ball.center;
+      if (is_lost || cycle.motion.X_WB[body].empty()) continue;
+      const Vector3d center_W = cycle.motion.pose(body, pair.span.last) * bodies[body].ball.center;
       if (center_W.allFinite()) balls_[body] = {true, center_W};
     }
   }

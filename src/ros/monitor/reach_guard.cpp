@@ -103,7 +103,7 @@ void ReachGuard::findNear(const CycleMotion& motion, std::vector<UncheckedPair>&
     const double reach = pair.ball_a.radius + pair.ball_b.radius;
     const std::size_t last = std::min(known_[a].last, known_[b].last);
     for (std::size_t k = std::max(known_[a].first, known_[b].first); k <= last; ++k) {
-      const Vector3d way = motion.X_WB[a][k] * pair.ball_a.center - motion.X_WB[b][k] * pair.ball_b.center;
+      const Vector3d way = motion.pose(a, k) * pair.ball_a.center - motion.pose(b, k) * pair.ball_b.center;
       if (way.squaredNorm() > reach * reach) continue;
       unchecked.push_back(
           {pair.body_a, pair.body_b,

@@ -10,10 +10,9 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kJumpBack = 1.0;          // as in TfHistory [s]
-constexpr double kJumpAhead = 2e9;         // longer differences may not fit a ros::Duration [s]
-constexpr double kBackPerTime = 4.0;       // time that may be checked again, per time checked
-constexpr std::size_t kMaxPoses = 300000;  // of all bodies in a cycle: about 100 MB with the data computed from them
+constexpr double kJumpBack = 1.0;     // as in TfHistory [s]
+constexpr double kJumpAhead = 2e9;    // longer differences may not fit a ros::Duration [s]
+constexpr double kBackPerTime = 4.0;  // time that may be checked again, per time checked
 
 /// Adds it to the entry of the same frame, if there is one.
 void merge(const LateTransforms& late, std::vector<LateTransforms>& all) {
@@ -36,9 +35,9 @@ std::vector<BoundingBall> ballsOf(const std::vector<TrackedBody>& bodies) {
   return balls;
 }
 
-MotionSampling samplingOf(const TfTrackerOptions& options, std::size_t most_samples) {
+MotionSampling samplingOf(const TfTrackerOptions& options, std::size_t max_poses) {
   MotionSampling sampling = options.sampling;
-  sampling.max_samples = most_samples;
+  sampling.max_poses = max_poses;
   return sampling;
 }
 
@@ -69,13 +68,14 @@ TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies,
       frames_(framesOf(bodies)),
       pairs_(pairs),
       options_(options),
-      most_samples_(kMaxPoses / (bodies.size() + 1)),
-      sampler_(ballsOf(bodies), samplingOf(options, most_samples_)),
+      sampler_(ballsOf(bodies), samplingOf(options, kMaxPoses)),
       chains_(frames_),
       is_paired_(bodies.size(), 0) {
   for (const TrackedBody& body : bodies_) {
     distances_.push_back((body.X_frame_B * body.ball_B.center).norm() + body.ball_B.radius);
   }
+  moving_.reserve(bodies_.size());
+  static_.reserve(bodies_.size());
   for (const PlannedPair& pair : pairs_) is_paired_[pair.body_a] = is_paired_[pair.body_b] = 1;
   times_.assign(pairs_.size(), {});
   reset();
@@ -121,6 +121,7 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   cycle.late.swap(late_);
   late_.clear();
   advancePairs(cycle);
+  findMoving();
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     if (hasChanged(body)) changed_[body] = cycle.end;
     versions_[body] = spans_[body].version;
@@ -163,6 +164,16 @@ void TfTracker::look(const ros::Time& now, std::vector<std::string>& missing) {
 
 bool TfTracker::hasChanged(std::size_t body) const {
   return versions_[body] != 0 && versions_[body] != spans_[body].version;
+}
+
+/// Tells bodies that move, or may, from those at rest: static ones, and those whose frame is not known.
+void TfTracker::findMoving() {
+  moving_.clear();
+  static_.clear();
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const bool moves = !spans_[body].is_static && spans_[body].problem.empty();
+    (moves ? moving_ : static_).push_back(body);
+  }
 }
 
 /// Sets back the pairs that were checked with an interpolation now known to be wrong.

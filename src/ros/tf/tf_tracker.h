@@ -64,8 +64,8 @@ struct TrackedCycle {
 ///
 /// A frame that moves by more than 100 m at over 1000 m/s has jumped: its bodies are missing for the cycle.
 ///
-/// A cycle with more than about 300,000 poses of bodies is not checked at all, so that no node can make a cycle last
-/// forever or use up the memory.
+/// A cycle with more than 300,000 poses of bodies that move is not checked at all, so that no node can make a cycle
+/// last forever or use up the memory. Bodies without a moving frame in their chain have one pose per cycle.
 class TfTracker {
  public:
   /// @param pairs  of bodies, by index.
@@ -96,8 +96,12 @@ class TfTracker {
   void warmUp() { history_.spans(chains_, spans_); }
 
  private:
+  /// Of all moving bodies in a cycle: about 100 MB with the data computed from them.
+  static constexpr std::size_t kMaxPoses = 300000;
+
   void look(const ros::Time& now, std::vector<std::string>& missing);
   bool hasChanged(std::size_t body) const;
+  void findMoving();
   void goBackToLate();
   bool mayGoBack(double age);
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
@@ -114,6 +118,7 @@ class TfTracker {
   void sample(const TimePart& part, TrackedCycle& cycle);
   void findJumps(CycleMotion& motion) const;
   void setMissing(const std::string& why, TrackedCycle& cycle);
+  void placeStatic(CycleMotion& motion);
   void posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing);
   void boundJerks(double start, double end, std::vector<double>& jerk);
   void setSpans(TrackedCycle& cycle) const;
@@ -125,7 +130,6 @@ class TfTracker {
   std::vector<double> distances_;  // per body: bounds its ball's distance from its frame [m]
   std::vector<PlannedPair> pairs_;
   TfTrackerOptions options_;
-  std::size_t most_samples_;
   MotionSampler sampler_;
   TfChains chains_;
   std::vector<char> is_paired_;  // per body
@@ -149,6 +153,8 @@ class TfTracker {
   std::vector<std::string> too_late_;  // per body: why late times cannot be checked again; empty if they can
   double time_to_go_back_ = 0.0;       // time that may still be checked again [s]
   double goes_back_ = 0.0;             // time that the next cycle checks again [s]
+
+  std::vector<std::size_t> moving_, static_;  // bodies of the cycle
 
   // Of the cycle, or one part of it: the parts of each body's motion that its pairs need, and that motion.
   std::vector<TimePart> windows_, checked_;

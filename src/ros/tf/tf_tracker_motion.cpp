@@ -47,8 +47,7 @@ void TfTracker::follow(TrackedCycle& cycle) {
     findNeeded(part, cycle);
     copyMotion(cycle, motion.missing);
     for (std::size_t body = 0; body < bodies_.size(); ++body)
-      if (needed_[body].from < needed_[body].until)
-        cycle.gaps[body] = std::max(cycle.gaps[body], window_.gaps(body));
+      if (needed_[body].from < needed_[body].until) cycle.gaps[body] = std::max(cycle.gaps[body], window_.gaps(body));
     sample(part, cycle);
   }
   findJumps(motion);
@@ -145,17 +144,18 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
 
 void TfTracker::sample(const TimePart& part, TrackedCycle& cycle) {
   findSampleTimes(part, cycle);
-  if (cycle.samples.size() + sample_times_.size() > most_samples_) {
+  if ((cycle.samples.size() + sample_times_.size()) * moving_.size() > kMaxPoses) {
     throw std::runtime_error("more transforms in one cycle than can be followed: " +
                              std::to_string(sample_times_.size()));
   }
   pose_times_.assign(bodies_.size(), std::numeric_limits<double>::quiet_NaN());
   poses_.assign(bodies_.size(), Isometry3d::Identity());
+  placeStatic(cycle.motion);
   std::vector<std::string>& missing = cycle.motion.missing;
   const MotionSource source = {
       [&](double time, std::vector<Isometry3d>& X_WB) { posesDuring(time, X_WB, missing); },
       [&](double start, double end, std::vector<double>& jerk) { boundJerks(start, end, jerk); }};
-  sampler_.add(sample_times_, source, cycle.motion);
+  sampler_.add(sample_times_, source, moving_, cycle.motion);
   cycle.samples.insert(cycle.samples.end(), sample_times_.begin(), sample_times_.end());
 }
 
@@ -171,7 +171,8 @@ void TfTracker::setMissing(const std::string& why, TrackedCycle& cycle) {
   CycleMotion& motion = cycle.motion;
   motion.missing.assign(bodies_.size(), why);
   motion.times = cycle.samples;
-  motion.X_WB.assign(bodies_.size(), std::vector<Isometry3d>(motion.times.size(), Isometry3d::Identity()));
+  motion.X_WB.resize(bodies_.size());
+  for (std::vector<Isometry3d>& poses : motion.X_WB) poses.assign(1, Isometry3d::Identity());
   motion.motion_error.assign(bodies_.size(), 0.0);
 }
 
@@ -205,25 +206,38 @@ void TfTracker::addPairTimes(const TimePart& part, const ros::Time& origin) {
   for (const ros::Time& end : pair_times_) sample_times_.push_back((end - origin).toSec());
 }
 
+/// Sets the single pose of each body at rest.
+void TfTracker::placeStatic(CycleMotion& motion) {
+  for (const std::size_t body : static_) {
+    std::string& missing = motion.missing[body];
+    if (missing.empty()) {
+      poses_[body] = window_.pose(body, secondsOf(needed_[body], window_.origin()).from) * bodies_[body].X_frame_B;
+      if (isTooFar(poses_[body])) missing = tooFar(frames_[body]);
+    }
+    motion.X_WB[body].assign(1, poses_[body]);
+  }
+}
+
 /// Outside the part that its pairs need, a body is at rest and costs nothing.
 void TfTracker::posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) {
   const Needed together = secondsOf(together_, window_.origin());
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    if (!missing[body].empty()) continue;
+  X_WB.resize(bodies_.size());
+  for (const std::size_t body : moving_) {
     const auto [from, until] =
         are_together_ && is_paired_[body] ? together : secondsOf(needed_[body], window_.origin());
-    const double known = spans_[body].is_static ? from : std::min(std::max(time, from), until);
-    if (known == pose_times_[body]) continue;
-    pose_times_[body] = known;
-    poses_[body] = window_.pose(body, known) * bodies_[body].X_frame_B;
-    if (isTooFar(poses_[body])) missing[body] = tooFar(frames_[body]);
+    const double known = std::min(std::max(time, from), until);
+    if (known != pose_times_[body] && missing[body].empty()) {
+      pose_times_[body] = known;
+      poses_[body] = window_.pose(body, known) * bodies_[body].X_frame_B;
+      if (isTooFar(poses_[body])) missing[body] = tooFar(frames_[body]);
+    }
+    X_WB[body] = poses_[body];
   }
-  X_WB = poses_;
 }
 
 void TfTracker::boundJerks(double start, double end, std::vector<double>& jerk) {
   const Needed together = secondsOf(together_, window_.origin());
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+  for (const std::size_t body : moving_) {
     const auto [from, until] =
         are_together_ && is_paired_[body] ? together : secondsOf(needed_[body], window_.origin());
     const bool rests = from == until || end <= from || start >= until;
