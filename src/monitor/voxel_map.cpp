@@ -269,8 +269,10 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
     for (const Vector3i& t : tilesNear(mask.center_M, reach, size, options_.max_tiles)) {
       const auto found = occupied.find(VoxelGrid::keyOf(t));
       if (found == occupied.end()) continue;
+      const auto tile = grid.tiles_.find(found->first);
+      const Bits keeps = mask.only_unknown && tile != grid.tiles_.end() ? tile->second.occupied : Bits();
       visitNear(t, size, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
-        if (!found->second[i] || mask.distance(p_M) > pad) return;
+        if (!found->second[i] || keeps[i] || mask.distance(p_M) > pad) return;
         found->second.reset(i);
         ++change.masked;
       });

@@ -168,6 +168,24 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   EXPECT_GT(kept_near.distance({1.5, 0.4, 0.4}), 0.2);   // unknown, but far away
 }
 
+TEST(VoxelMap, AMaskOfAnotherTimeHidesNoOccupiedVoxels) {
+  VoxelMapOptions options;
+  options.unknown = UnknownSpace::kOccupiedNear;
+  options.near_distance = 0.3;
+  VoxelGrid grid(kSize, options);
+  const Vector3i voxel(kMiddle + 10, kMiddle + 8, kMiddle + 8);
+  grid.add(voxel, 1, true);
+  const Vector3d p = kSize * ((voxel.array() - kMiddle).cast<double>() + 0.5).matrix();
+  VoxelMask ball = ballMask(p, 0.15);
+  ball.only_unknown = true;
+  VoxelMap map("map", "world", options);
+  Kept kept;
+  kept.take(map.take(std::move(grid), {ball}));
+  EXPECT_LT(kept.distance(p), 0.0);
+  EXPECT_GT(kept.distance(p + Vector3d(0.1, 0.0, 0.0)), 0.0);  // unknown, and filled by the ball
+  EXPECT_LT(kept.distance(p + Vector3d(0.3, 0.0, 0.0)), 0.0);  // unknown, near the ball
+}
+
 TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {
   constexpr int kSide = 1024, kTo = kMiddle + kSide;  // a leaf from 0 to 51.2 m
   for (const UnknownSpace unknown : {UnknownSpace::kOccupiedNear, UnknownSpace::kOccupied}) {

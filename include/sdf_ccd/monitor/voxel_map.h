@@ -37,6 +37,7 @@ struct VoxelMask {
   Vector3d center_M = Vector3d::Zero();                 ///< of a ball that contains it, in the map's frame M [m]
   double radius = 0.0;                                  ///< [m]
   std::function<double(const Vector3d& p_M)> distance;  ///< lower bound of the distance to it [m]; must be thread-safe
+  bool only_unknown = false;  ///< ignores only unknown voxels: when the map was made, the solid may have been elsewhere
 };
 
 /// Collects the leaves of an octree: cubes of voxels, free or occupied.

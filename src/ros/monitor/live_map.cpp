@@ -10,8 +10,8 @@
 #include "common/seconds_since.h"
 #include "common/shown_text.h"
 #include "field/uniform/sparse_grid.h"
-#include "monitor/voxel_mask.h"
 #include "ros/monitor/low_priority.h"
+#include "ros/monitor/robot_masks.h"
 #include "ros/tf/seconds_between.h"
 #include "ros/world/world_bodies.h"
 #include "sdf_ccd/common/cancel.h"
@@ -20,16 +20,19 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
-const ros::WallDuration kPatience(0.1);  // longest wait for transforms at the map's stamp
-const ros::WallDuration kAgain(0.2);     // between tests for transforms that were missing for a map
-constexpr std::chrono::milliseconds kLook(2);
-constexpr double kShortestLook = 0.02, kLongestLook = 1.0;  // between tests of the map's age [s]
+constexpr std::chrono::milliseconds kTfPeriod(5);            // between tests for transforms that a map waits for
+const ros::WallDuration kMasksPeriod(0.2);                   // between tests for poses that were missing for a map
+constexpr double kMinAgePeriod = 0.02, kMaxAgePeriod = 1.0;  // between tests of the map's age [s]
 
 }  // namespace
 
 LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameters, SceneEditor& editor,
                  const TfHistory& history, const std::atomic<bool>& stop)
-    : parameters_(parameters.live_map), editor_(editor), history_(history), stop_(stop) {
+    : parameters_(parameters.live_map),
+      max_latency_(parameters.tf.max_latency),
+      editor_(editor),
+      history_(history),
+      stop_(stop) {
   options_.unknown = parameters_.unknown;
   options_.near_distance = parameters_.unknown_distance;
   options_.padding = parameters_.padding;
@@ -39,19 +42,22 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
   const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> hear =
       [this](const octomap_msgs::Octomap::ConstPtr& message) {
         work("A map is not taken, and the last one stays", [&] {
-          take(*message);
+          auto robot = std::make_unique<RobotInMap>(history_, frameOf(*message), message->header.stamp);
+          take(*message, *robot);
           taken_ = ros::Time::now();
-          last_ = unknown_ > 0 ? message : nullptr;
+          robot_ = std::move(robot);
+          incomplete_ = unknown_ > 0 ? message : nullptr;
         });
       };
   subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, hear);
   if (parameters_.max_age > 0.0) {
-    const ros::WallDuration look(std::clamp(0.2 * parameters_.max_age, kShortestLook, kLongestLook));
+    const ros::WallDuration period(std::clamp(0.2 * parameters_.max_age, kMinAgePeriod, kMaxAgePeriod));
     age_timer_ = own.createWallTimer(
-        look, [this](const ros::WallTimerEvent&) { work("A map that is too old stays", [this] { watchAge(); }); });
+        period, [this](const ros::WallTimerEvent&) { work("A map that is too old stays", [this] { watchAge(); }); });
   }
-  again_timer_ = own.createWallTimer(
-      kAgain, [this](const ros::WallTimerEvent&) { work("A map is not taken again", [this] { takeAgain(); }); });
+  masks_timer_ = own.createWallTimer(kMasksPeriod, [this](const ros::WallTimerEvent&) {
+    work("The robot's own voxels in the last map stay", [this] { updateMasks(); });
+  });
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
 }
@@ -85,11 +91,22 @@ void LiveMap::watchAge() {
   ROS_WARN("%s: the robot is not checked against it", why.c_str());
 }
 
-void LiveMap::takeAgain() {
-  if (!last_ || in_scene_ == InScene::kAwaited) return;
-  if (robotAt(*editor_.world(), *last_, ros::WallDuration()).unknown() >= unknown_) return;
-  take(*last_);
-  if (unknown_ == 0) last_.reset();
+/// Processes the last map again if more of the robot's poses are known now.
+void LiveMap::updateMasks() {
+  if (!incomplete_ || in_scene_ == InScene::kAwaited) return;
+  robot_->update(*editor_.world());
+  if (robot_->unknown() >= unknown_) return;
+  take(*incomplete_, *robot_);
+  if (unknown_ == 0) incomplete_.reset();
+}
+
+void LiveMap::waitForTf(const CheckedWorld& world, RobotInMap& robot) const {
+  const auto start = std::chrono::steady_clock::now();
+  for (robot.update(world); robot.isAheadOfTf(max_latency_) && secondsSince(start) < max_latency_;
+       robot.update(world)) {
+    checkCancelled();
+    std::this_thread::sleep_for(kTfPeriod);
+  }
 }
 
 std::string LiveMap::frameOf(const octomap_msgs::Octomap& message) const {
@@ -97,7 +114,7 @@ std::string LiveMap::frameOf(const octomap_msgs::Octomap& message) const {
   return frame.empty() ? history_.fixedFrame() : frame;
 }
 
-void LiveMap::take(const octomap_msgs::Octomap& message) {
+void LiveMap::take(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   const auto start = std::chrono::steady_clock::now();
   if (message.data.size() > kMaxBytes) throw std::runtime_error("it is larger than 256 MiB");
   const std::string frame = frameOf(message);
@@ -107,8 +124,12 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
   VoxelGrid grid(message.resolution, options);
   grid.addOctree(message.data.data(), message.data.size(), message.id, message.binary != 0);
   const std::shared_ptr<const CheckedWorld> world = editor_.world();
-  const RobotPoses poses = robotAt(*world, message, kPatience);
-  const std::vector<VoxelMask> masks = masksOf(*world, poses);
+  waitForTf(*world, robot);
+  if (!robot.problem().empty()) {
+    ROS_WARN_THROTTLE(10.0, "Voxels of the robot itself in a map count as obstacles where its pose is not known: %s",
+                      robot.problem().c_str());
+  }
+  const std::vector<VoxelMask> masks = robotMasks(*world, robot.bodies());
   const double read = secondsSince(start);
   const auto isBehind = [this] {
     if (in_scene_ == InScene::kTiles) in_scene_ = InScene::kOther;
@@ -142,71 +163,13 @@ void LiveMap::take(const octomap_msgs::Octomap& message) {
     version = editor_.setMap(std::move(tiles), fields);
     in_scene_ = InScene::kTiles;
   }
-  unknown_ = poses.unknown();
+  unknown_ = robot.unknown();
   ROS_INFO_THROTTLE(
       10.0,
       "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
       "%.1f ms (reading %.1f, tiles %.1f)",
       change.occupied, tiles_.size(), made, change.masked, static_cast<unsigned long>(version),
       1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
-}
-
-/// The poses in tf at the map's stamp; those that are missing there, at the present time.
-LiveMap::RobotPoses LiveMap::robotAt(const CheckedWorld& world, const octomap_msgs::Octomap& message,
-                                     const ros::WallDuration& patience) const {
-  RobotPoses poses;
-  std::vector<TrackedBody> tracked = {{frameOf(message), Isometry3d::Identity(), {}}};
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (world.scene().bodies[b].is_world) continue;
-    poses.bodies.push_back(b);
-    tracked.push_back(world.bodies[b]);
-  }
-  const auto areKnown = [&] {
-    poses.missing.clear();
-    posesAt(history_, tracked, message.header.stamp, poses.X_W, poses.missing);
-    return poses.unknown() == 0;
-  };
-  const ros::WallTime end = ros::WallTime::now() + patience;
-  while (!areKnown() && ros::WallTime::now() < end) {
-    checkCancelled();
-    std::this_thread::sleep_for(kLook);
-  }
-  std::vector<Isometry3d> X_W_now;
-  std::vector<std::string> missing_now;
-  posesAt(history_, tracked, ros::Time(), X_W_now, missing_now);
-  for (std::size_t i = 0; i < tracked.size(); ++i) {
-    if (poses.missing[i].empty()) continue;
-    poses.X_W[i] = X_W_now[i];
-    poses.missing[i] = missing_now[i];
-  }
-  return poses;
-}
-
-/// Number of unknown poses; all of them if the map's own pose is unknown.
-std::size_t LiveMap::RobotPoses::unknown() const {
-  if (!missing.front().empty()) return missing.size();
-  return std::count_if(missing.begin(), missing.end(), [](const std::string& why) { return !why.empty(); });
-}
-
-/// The voxels that the robot occupies, as far as its poses are known.
-std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, const RobotPoses& poses) {
-  if (!poses.missing.front().empty()) {
-    ROS_WARN_THROTTLE(10.0, "The robot's own voxels in a map are not known: %s", poses.missing.front().c_str());
-    return {};
-  }
-  std::vector<VoxelMask> masks;
-  for (std::size_t i = 0; i < poses.bodies.size(); ++i) {
-    const Body& body = world.scene().bodies[poses.bodies[i]];
-    const BodyDescription& description = world.description().bodies[poses.bodies[i]];
-    if (!poses.missing[i + 1].empty() || !body.failure.empty() || description.geometry.empty()) continue;
-    if (auto mask = maskOf(body, description, poses.X_W[i + 1].inverse() * poses.X_W[0])) {
-      masks.push_back(std::move(*mask));
-    } else {
-      ROS_WARN_ONCE("Voxels that %s fills count, as it has no field: no other link is checked against it",
-                    body.name.c_str());
-    }
-  }
-  return masks;
 }
 
 }  // namespace sdf_ccd

@@ -11,6 +11,7 @@
 #include <ros/spinner.h>
 
 #include "ros/messages/octomap_message.h"
+#include "ros/monitor/robot_in_map.h"
 #include "ros/monitor/scene_editor.h"
 #include "sdf_ccd/monitor/voxel_map.h"
 
@@ -21,8 +22,14 @@ namespace sdf_ccd {
 ///
 /// Before the first map, and while the last one is too old, the robot is NOT_CHECKED against the map.
 ///
-/// Voxels that the robot and the objects attached to it occupy at the map's stamp, according to tf, are ignored. If the
-/// pose of a body was not known, the map is processed again once it is: a latched map is sent only once.
+/// Voxels that the robot and the objects attached to it occupy at the map's stamp, according to tf, are ignored. If tf
+/// lags behind the stamp, the map waits for it, up to max_latency; the last map stays until then. A body whose pose at
+/// the stamp is still not known has none of its voxels ignored: they count as obstacles, which is logged. Its present
+/// pose is no substitute, as real obstacles near it would be lost; it only tells where unknown space counts. Once tf
+/// knows more, the map is processed again.
+///
+/// Of a map that is older than the transforms (a latched one, made before the monitor started) this leaves all voxels:
+/// right for a map that was made without the robot. So it is for a map without a stamp.
 ///
 /// Subscribes:
 ///   the parameter octomap/topic  octomap_msgs/Octomap  binary or full, of OcTree or ColorOcTree
@@ -38,23 +45,13 @@ class LiveMap {
  private:
   void work(const char* what, const std::function<void()>& job) const;
   void watchAge();
-  void takeAgain();
-  void take(const octomap_msgs::Octomap& message);
+  void updateMasks();
+  void take(const octomap_msgs::Octomap& message, RobotInMap& robot);
+  void waitForTf(const CheckedWorld& world, RobotInMap& robot) const;
   std::string frameOf(const octomap_msgs::Octomap& message) const;
 
-  /// Poses of the map, the robot and the objects attached to it.
-  struct RobotPoses {
-    std::vector<std::size_t> bodies;   // indices in the world
-    std::vector<Isometry3d> X_W;       // of the map, then of these bodies
-    std::vector<std::string> missing;  // why a pose is not known; empty if it is
-
-    std::size_t unknown() const;
-  };
-  RobotPoses robotAt(const CheckedWorld& world, const octomap_msgs::Octomap& message,
-                     const ros::WallDuration& patience) const;
-  static std::vector<VoxelMask> masksOf(const CheckedWorld& world, const RobotPoses& poses);
-
   LiveMapParameters parameters_;
+  double max_latency_;  // longest wait for tf [s]
   SceneEditor& editor_;
   const TfHistory& history_;
   const std::atomic<bool>& stop_;
@@ -69,12 +66,13 @@ class LiveMap {
     kOther,    // an older map, as setting the present tiles failed
   };
   InScene in_scene_ = InScene::kAwaited;
-  ros::Time taken_;                       // when the last map was received
-  octomap_msgs::Octomap::ConstPtr last_;  // the last map, if some poses were unknown
-  std::size_t unknown_ = 0;               // number of those poses
+  ros::Time taken_;                             // when the last map was received
+  octomap_msgs::Octomap::ConstPtr incomplete_;  // the last map, if some poses at its stamp were not known
+  std::unique_ptr<RobotInMap> robot_;           // in the last map
+  std::size_t unknown_ = 0;                     // RobotInMap::unknown() of the present masks
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
-  ros::WallTimer age_timer_, again_timer_;
+  ros::WallTimer age_timer_, masks_timer_;
   std::unique_ptr<ros::AsyncSpinner> spinner_;
 };
 
