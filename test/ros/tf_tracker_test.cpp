@@ -270,7 +270,7 @@ TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
   EXPECT_EQ(next(10.6), Step::kWaiting);  // the first cycle begins here
   send(stampedTransform("world", "hand", 10.7, 0.0));
   ASSERT_EQ(next(10.7), Step::kCycle);
-  EXPECT_EQ(cycle_.motion.missing[1], "no transform from foot to world: none of foot has come");
+  EXPECT_EQ(cycle_.motion.missing[1], "no transform from foot to world: no transform of foot was received");
 }
 
 TEST_F(TfTrackerTest, BeginsWhenTransformsAheadOfTheClockAreKnownAndMakesNobodyLate) {
