@@ -20,7 +20,7 @@ using CycleMessagesTest = MonitorLoopTest;
 
 TEST_F(CycleMessagesTest, TheCauseOfWhatIsNotCheckedIsNamed) {
   step(100.0);
-  EXPECT_EQ(uncheckedCause(*loop_).find("hand: no transform from hand to world: none of hand has come"), 0u)
+  EXPECT_EQ(uncheckedCause(*loop_).find("hand: no transform from hand to world: no transform of hand was received"), 0u)
       << uncheckedCause(*loop_);
   for (int i = 0; i < 30; ++i) {
     const double time = 100.0 + kPeriod * i;

@@ -26,18 +26,18 @@ TEST(CycleTrigger, AGridStaysWhereItIsHoweverLateACycleBegins) {
   }
 }
 
-TEST(CycleTrigger, NewsAtTheRateBeginACycleEachHoweverTheyJitter) {
+TEST(CycleTrigger, EventsAtTheRateBeginACycleEachHoweverTheyJitter) {
   const nanoseconds period(1000000), start(3600000000000);
   std::mt19937 random(5);
   std::uniform_int_distribution<int> late(0, 450000);
   nanoseconds due(0), last(0);
   int cycles = 0;
-  for (int news = 0; news < 60000;) {
+  for (int event = 0; event < 60000;) {
     // A cycle begins 50 us after it may, and contains all events that have come by then.
-    const nanoseconds came = start + news * period + nanoseconds(late(random));
-    const nanoseconds begun = std::max(came, due) + nanoseconds(50000);
+    const nanoseconds arrived = start + event * period + nanoseconds(late(random));
+    const nanoseconds begun = std::max(arrived, due) + nanoseconds(50000);
     if (cycles > 0) EXPECT_GE(begun - last, period / 2);
-    while (start + news * period <= begun) ++news;
+    while (start + event * period <= begun) ++event;
     last = begun;
     ++cycles;
     due = dueAfter(due, begun, period);
@@ -46,7 +46,7 @@ TEST(CycleTrigger, NewsAtTheRateBeginACycleEachHoweverTheyJitter) {
   EXPECT_LE(cycles, 60000);
 }
 
-TEST(CycleTrigger, NewsFasterThanTheRateDoNotExceedIt) {
+TEST(CycleTrigger, EventsFasterThanTheRateDoNotExceedIt) {
   const nanoseconds period(1000000), start(3600000000000);
   nanoseconds due(0), now = start;
   int cycles = 0;
@@ -111,7 +111,7 @@ int cyclesWhile(const TriggerOptions& options, int times, const Bring& bring) {
   return counted;
 }
 
-TEST(CycleTrigger, NewsBeginCyclesEachItsOwn) {
+TEST(CycleTrigger, EachEventBeginsACycleOfItsOwn) {
   constexpr double kLong = 1e3;
   const auto transforms = [](CycleTrigger& trigger, int) { trigger.onTransforms(); };
   const auto joints = [](CycleTrigger& trigger, int) { trigger.onJointStates(); };
@@ -148,7 +148,7 @@ TEST(CycleTrigger, AFrameOfTheGroupThatNeverComesIsNamed) {
   EXPECT_EQ(trigger.awaitedFrame(), "");
 }
 
-TEST(CycleTrigger, NewsAreNotFasterThanTheRateAndSilenceNotForEver) {
+TEST(CycleTrigger, EventsBeginNoMoreCyclesThanTheRateAndSilenceEndsByPatience) {
   const auto storm = [](CycleTrigger& trigger, int) {
     for (int i = 0; i < 50; ++i) trigger.onTransforms();
   };

@@ -40,10 +40,10 @@ std::vector<double> recordedTimes(const TfHistory& history, const std::string& f
   return times;
 }
 
-std::vector<TfSpan> takeNews(TfHistory& history, const std::vector<std::string>& frames) {
+std::vector<TfSpan> takeSpans(TfHistory& history, const std::vector<std::string>& frames) {
   TfChains chains(frames);
   std::vector<TfSpan> spans;
-  history.takeNews(chains, spans);
+  history.takeSpans(chains, spans);
   return spans;
 }
 
@@ -111,13 +111,13 @@ TEST(TfHistory, TellsOnceWhatCameBehindNewerTransforms) {
   }
   history.add(message({stampedTransform("base", "hand", 1.15, 7.0)}), false);
   history.add(message({stampedTransform("world", "base", 1.25, 0.0)}), false);  // it rests, so nothing was wrong
-  const std::vector<TfSpan> spans = takeNews(history, {"base", "hand"});
+  const std::vector<TfSpan> spans = takeSpans(history, {"base", "hand"});
   EXPECT_TRUE(spans[0].late.empty());
   ASSERT_EQ(spans[1].late.size(), 1u);
   EXPECT_EQ(spans[1].late[0].frame, "hand");
   EXPECT_EQ(spans[1].late[0].since, ros::Time(1.1));
   EXPECT_EQ(spans[1].late[0].until, ros::Time(1.2));
-  EXPECT_TRUE(takeNews(history, {"hand"})[0].late.empty());
+  EXPECT_TRUE(takeSpans(history, {"hand"})[0].late.empty());
   EXPECT_NEAR(xOf(history, "hand", 1.15), 7.0, 1e-12);
 }
 
@@ -134,7 +134,7 @@ TEST(TfHistory, GoesUpAndDownTheTree) {
   EXPECT_NE(problemOf(history, "nowhere", 1.0), "");
 }
 
-TEST(TfHistory, ALoopIsNoWay) {
+TEST(TfHistory, ALoopIsNoChain) {
   TfHistory history("world");
   history.add(message({stampedTransform("a", "b", 1.0, 0.0), stampedTransform("b", "c", 1.0, 0.0),
                        stampedTransform("c", "a", 1.0, 0.0)}),
@@ -318,7 +318,7 @@ TEST(TfHistory, StaticFramesThatABodyHasHungOnAreForgottenWhenThereAreTooMany) {
   EXPECT_NEAR(xOf(history, "hand", 113.0), 2.0, 1e-12) << "what the body hangs on now";
 }
 
-TEST(TfHistory, AChainWithoutEndIsNoWay) {
+TEST(TfHistory, AnEndlessChainIsNoChain) {
   TfHistory history("world");
   for (int i = 0; i < 100000; ++i) {
     history.add(message({stampedTransform("f" + std::to_string(i + 1), "f" + std::to_string(i), 1.0, 0.0)}), false);
@@ -358,7 +358,7 @@ TEST(TfHistory, WhatComesFarBehindManyOthersEndsWhatIsKnownBeforeIt) {
   history.add(message({stampedTransform("world", "hand", 100.2001, 50.0)}), false);
   EXPECT_NE(problemOf(history, "hand", 100.2), "");
   EXPECT_EQ(problemOf(history, "hand", 100.3), "");
-  EXPECT_EQ(takeNews(history, {"hand"})[0].late.size(), 1u);
+  EXPECT_EQ(takeSpans(history, {"hand"})[0].late.size(), 1u);
 }
 
 TEST(TfHistory, StampsFarAheadOfTheClockAndLongNamesAreRefused) {

@@ -39,24 +39,25 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
   options_.band = 1.1 * (parameters.scene.shell.spacing + parameters.scene.motion_margin);
   ros::NodeHandle own(node);
   own.setCallbackQueue(&queue_);
-  const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> hear =
+  const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> receive =
       [this](const octomap_msgs::Octomap::ConstPtr& message) {
-        work("A map is not taken, and the last one stays", [&] {
+        run("A map is not used, and the last one stays", [&] {
           auto robot = std::make_unique<RobotInMap>(history_, frameOf(*message), message->header.stamp);
-          take(*message, *robot);
-          taken_ = ros::Time::now();
+          process(*message, *robot);
+          received_ = ros::Time::now();
           robot_ = std::move(robot);
           incomplete_ = unknown_ > 0 ? message : nullptr;
         });
       };
-  subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, hear);
+  subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, receive);
   if (parameters_.max_age > 0.0) {
     const ros::WallDuration period(std::clamp(0.2 * parameters_.max_age, kMinAgePeriod, kMaxAgePeriod));
-    age_timer_ = own.createWallTimer(
-        period, [this](const ros::WallTimerEvent&) { work("A map that is too old stays", [this] { watchAge(); }); });
+    age_timer_ = own.createWallTimer(period, [this](const ros::WallTimerEvent&) {
+      run("A map that is too old is still used", [this] { checkAge(); });
+    });
   }
   masks_timer_ = own.createWallTimer(kMasksPeriod, [this](const ros::WallTimerEvent&) {
-    work("The robot's own voxels in the last map stay", [this] { updateMasks(); });
+    run("The last map is not processed again", [this] { updateMasks(); });
   });
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
@@ -67,7 +68,7 @@ LiveMap::~LiveMap() {
   spinner_->stop();
 }
 
-void LiveMap::work(const char* what, const std::function<void()>& job) const {
+void LiveMap::run(const char* what, const std::function<void()>& job) const {
   lowerPriority();
   const CancelScope scope(stop_);
   try {
@@ -80,10 +81,10 @@ void LiveMap::work(const char* what, const std::function<void()>& job) const {
 }
 
 /// Otherwise a map would be trusted forever after its publisher has ended.
-void LiveMap::watchAge() {
+void LiveMap::checkAge() {
   const ros::Time now = ros::Time::now();
-  if (now < taken_) taken_ = now;  // time has jumped
-  if (in_scene_ == InScene::kAwaited || secondsBetween(taken_, now) <= parameters_.max_age) return;
+  if (now < received_) received_ = now;  // time has jumped
+  if (in_scene_ == InScene::kAwaited || secondsBetween(received_, now) <= parameters_.max_age) return;
   const std::string why = "the last map on " + parameters_.topic + " is older than " + numberText(parameters_.max_age) +
                           " s (octomap/max_age)";
   editor_.setMap({awaitedTile(history_.fixedFrame(), why)}, {});
@@ -96,7 +97,7 @@ void LiveMap::updateMasks() {
   if (!incomplete_ || in_scene_ == InScene::kAwaited) return;
   robot_->update(*editor_.world());
   if (robot_->unknown() >= unknown_) return;
-  take(*incomplete_, *robot_);
+  process(*incomplete_, *robot_);
   if (unknown_ == 0) incomplete_.reset();
 }
 
@@ -114,11 +115,12 @@ std::string LiveMap::frameOf(const octomap_msgs::Octomap& message) const {
   return frame.empty() ? history_.fixedFrame() : frame;
 }
 
-void LiveMap::take(const octomap_msgs::Octomap& message, RobotInMap& robot) {
+void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   const auto start = std::chrono::steady_clock::now();
   if (message.data.size() > kMaxBytes) throw std::runtime_error("it is larger than 256 MiB");
   const std::string frame = frameOf(message);
-  if (frame.size() > RequestLimits().name || frame != shownText(frame)) throw std::runtime_error("its frame is none");
+  if (frame.size() > RequestLimits().name || frame != shownText(frame))
+    throw std::runtime_error("its frame has no valid name");
   VoxelMapOptions options = options_;
   options.band += 1.1 * kHalfSqrt3 * 0.5 * message.resolution;
   VoxelGrid grid(message.resolution, options);
@@ -131,7 +133,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   }
   const std::vector<VoxelMask> masks = robotMasks(*world, robot.bodies());
   const double read = secondsSince(start);
-  const auto isBehind = [this] {
+  const auto markOutdated = [this] {
     if (in_scene_ == InScene::kTiles) in_scene_ = InScene::kOther;
   };
   if (!map_ || frame != frame_ || message.resolution != resolution_) {
@@ -139,7 +141,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message, RobotInMap& robot) {
     frame_ = frame;
     resolution_ = message.resolution;
     tiles_.clear();
-    isBehind();
+    markOutdated();
   }
   VoxelMap::Change change;
   editor_.arena().execute([&, cancel = CancelPoint()] {
@@ -159,7 +161,7 @@ void LiveMap::take(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
   std::uint64_t version = world->version();
   if (made > 0 || !change.removed.empty() || in_scene_ != InScene::kTiles) {
-    isBehind();  // if setMap() fails, the next map tries again
+    markOutdated();  // if setMap() fails, the next map tries again
     version = editor_.setMap(std::move(tiles), fields);
     in_scene_ = InScene::kTiles;
   }

@@ -43,10 +43,10 @@ class LiveMap {
   ~LiveMap();
 
  private:
-  void work(const char* what, const std::function<void()>& job) const;
-  void watchAge();
+  void run(const char* what, const std::function<void()>& job) const;
+  void checkAge();
   void updateMasks();
-  void take(const octomap_msgs::Octomap& message, RobotInMap& robot);
+  void process(const octomap_msgs::Octomap& message, RobotInMap& robot);
   void waitForTf(const CheckedWorld& world, RobotInMap& robot) const;
   std::string frameOf(const octomap_msgs::Octomap& message) const;
 
@@ -66,7 +66,7 @@ class LiveMap {
     kOther,    // an older map, as setting the present tiles failed
   };
   InScene in_scene_ = InScene::kAwaited;
-  ros::Time taken_;                             // when the last map was received
+  ros::Time received_;                          // when the last map was received
   octomap_msgs::Octomap::ConstPtr incomplete_;  // the last map, if some poses at its stamp were not known
   std::unique_ptr<RobotInMap> robot_;           // in the last map
   std::size_t unknown_ = 0;                     // RobotInMap::unknown() of the present masks

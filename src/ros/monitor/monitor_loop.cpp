@@ -49,7 +49,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   std::set<std::string> frames;
   for (const BodyList* bodies : {&scene.bodies, &monitor_.scene().bodies})  // the cycles still need theirs
     for (const Body& body : *bodies) frames.insert(withoutLeadingSlash(body.frame));
-  history_.wantBesides({frames.begin(), frames.end()});
+  history_.setExtraFrames({frames.begin(), frames.end()});
 
   change->monitor = monitor_.prepare(next->snapshot->scene);
   change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
@@ -75,7 +75,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
 void MonitorLoop::adopt(LoopChange& change) {
   const SceneDifference& difference = change.monitor->difference();
   monitor_.adopt(*change.monitor);
-  change.tracker->take(*tracker_, difference.bodiesBefore(), change.pairs_before);
+  change.tracker->continueFrom(*tracker_, difference.bodiesBefore(), change.pairs_before);
   tracker_.swap(change.tracker);
   reach_guard_.swap(change.reach_guard);
   contacts_.adopt(change.contacts);

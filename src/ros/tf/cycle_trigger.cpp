@@ -33,10 +33,10 @@ nanoseconds CycleTrigger::period() const {
 void CycleTrigger::setOptions(const TriggerOptions& options) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (options.frames != options_.frames) has_ever_come_.assign(options.frames.size(), 0);
+    if (options.frames != options_.frames) has_ever_arrived_.assign(options.frames.size(), 0);
     options_ = options;
     if (due_.count() > 0) due_ = std::min(due_, now() + period());
-    takeNews();
+    clearEvents();
   }
   changed_.notify_all();
 }
@@ -49,21 +49,21 @@ bool CycleTrigger::wantsFrames() const {
 std::string CycleTrigger::awaitedFrame() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (options_.kind != TriggerKind::kFrames) return {};
-  const auto awaited = std::find(has_ever_come_.begin(), has_ever_come_.end(), 0);
-  return awaited == has_ever_come_.end() ? "" : options_.frames[awaited - has_ever_come_.begin()];
+  const auto awaited = std::find(has_ever_arrived_.begin(), has_ever_arrived_.end(), 0);
+  return awaited == has_ever_arrived_.end() ? "" : options_.frames[awaited - has_ever_arrived_.begin()];
 }
 
-void CycleTrigger::takeNews() {
-  news_ = false;
-  has_come_.assign(options_.frames.size(), 0);
-  to_come_ = options_.frames.size();
+void CycleTrigger::clearEvents() {
+  has_event_ = false;
+  has_arrived_.assign(options_.frames.size(), 0);
+  awaited_ = options_.frames.size();
 }
 
-void CycleTrigger::bring(TriggerKind kind) {
+void CycleTrigger::onEvent(TriggerKind kind) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (options_.kind != kind || news_) return;
-    news_ = true;
+    if (options_.kind != kind || has_event_) return;
+    has_event_ = true;
   }
   changed_.notify_all();
 }
@@ -75,12 +75,12 @@ void CycleTrigger::onFrame(const std::string& child) {
     const auto found = std::find(options_.frames.begin(), options_.frames.end(), child);
     if (found == options_.frames.end()) return;
     const auto frame = static_cast<std::size_t>(found - options_.frames.begin());
-    has_ever_come_[frame] = 1;
-    char& has_come = has_come_[frame];
-    if (news_ || has_come) return;
-    has_come = 1;
-    if (--to_come_ > 0) return;
-    news_ = true;
+    has_ever_arrived_[frame] = 1;
+    char& has_arrived = has_arrived_[frame];
+    if (has_event_ || has_arrived) return;
+    has_arrived = 1;
+    if (--awaited_ > 0) return;
+    has_event_ = true;
   }
   changed_.notify_all();
 }
@@ -100,11 +100,11 @@ bool CycleTrigger::wait(const std::function<void()>& woken) {
   if (due_.count() > 0) {
     waitUntil(due_, [&] { return stop_; });
     if (options_.kind != TriggerKind::kTimer) {
-      waitUntil(now() + toNanoseconds(options_.patience), [&] { return stop_ || news_; });
+      waitUntil(now() + toNanoseconds(options_.patience), [&] { return stop_ || has_event_; });
     }
   }
   if (woken_ && !stop_) doBetween();
-  takeNews();
+  clearEvents();
   const bool is_timer = options_.kind == TriggerKind::kTimer && due_.count() > 0;
   due_ = is_timer ? nextOnGrid(due_, now(), period()) : dueAfter(due_, now(), period());
   return !stop_;

@@ -44,8 +44,8 @@ class CycleTrigger {
 
   /// Report an event: a transform of this frame (without leading slashes), any moving transforms, joint states.
   void onFrame(const std::string& child);
-  void onTransforms() { bring(TriggerKind::kTf); }
-  void onJointStates() { bring(TriggerKind::kJointStates); }
+  void onTransforms() { onEvent(TriggerKind::kTf); }
+  void onJointStates() { onEvent(TriggerKind::kJointStates); }
 
   /// Whether onFrame() has to be called.
   bool wantsFrames() const;
@@ -71,16 +71,16 @@ class CycleTrigger {
 
   static std::chrono::nanoseconds now();
   std::chrono::nanoseconds period() const;
-  void bring(TriggerKind kind);
-  void takeNews();
+  void onEvent(TriggerKind kind);
+  void clearEvents();
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   TriggerOptions options_;
-  std::vector<char> has_come_;  // per frame of the group: a transform has arrived since the last cycle
-  std::size_t to_come_ = 0;
-  std::vector<char> has_ever_come_;  // the same, since the options were set
-  bool news_ = false;
+  std::vector<char> has_arrived_;  // per frame of the group: a transform has arrived since the last cycle
+  std::size_t awaited_ = 0;
+  std::vector<char> has_ever_arrived_;  // the same, since the options were set
+  bool has_event_ = false;
   bool stop_ = false;
   bool woken_ = false;
   std::chrono::nanoseconds due_{0};  // on the steady clock; 0 before the first cycle

@@ -43,41 +43,41 @@ void TfChains::update(const TfTree& tree, int fixed_frame) {
   if (topology_ == tree.topology(depends_on_all_)) return;
   steps_.clear();
   steps_to_.assign(tree.size(), -1);
-  ways_.resize(frames_.size());
+  chains_.resize(frames_.size());
   tree.upwards(fixed_frame, above_);
   depends_on_all_ = false;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     if (first_of_[i] == i) {
-      find(tree, fixed_frame, frames_[i], ways_[i]);
+      findChain(tree, fixed_frame, frames_[i], chains_[i]);
     } else {
-      ways_[i] = ways_[first_of_[i]];
+      chains_[i] = chains_[first_of_[i]];
     }
   }
   topology_ = tree.topology(depends_on_all_);
 }
 
-void TfChains::find(const TfTree& tree, int fixed_frame, const std::string& frame, Way& way) {
+void TfChains::findChain(const TfTree& tree, int fixed_frame, const std::string& frame, Chain& chain) {
   const std::string& fixed_name = tree.name(fixed_frame);
-  way = {};
+  chain = {};
   const int number = tree.find(frame);
   depends_on_all_ |= number == TfTree::kNone || !tree.isFollowed(number) || !tree.isFollowed(fixed_frame);
   up_.clear();
   down_ = above_;
   if (number != TfTree::kNone) tree.upwards(number, up_);
   if (up_.size() > kMaxAbove || down_.size() > kMaxAbove) {
-    way.problem = up_.size() > kMaxAbove ? endlessText(tree, frame, up_) : endlessText(tree, fixed_name, down_);
+    chain.problem = up_.size() > kMaxAbove ? endlessText(tree, frame, up_) : endlessText(tree, fixed_name, down_);
     return;
   }
   const int root = number == TfTree::kNone ? TfTree::kNone : tree.root(number, up_);
   const int fixed_root = tree.root(fixed_frame, down_);
   if (root != fixed_root) {
-    way.problem = "no transform from " + frame + " to " + fixed_name + ": ";
+    chain.problem = "no transform from " + frame + " to " + fixed_name + ": ";
     if (up_.empty()) {
-      way.problem += "none of " + frame + " has come";
+      chain.problem += "no transform of " + frame + " was received";
     } else if (down_.empty()) {
-      way.problem += "tf's tree is rooted at " + tree.name(root) + ", not " + fixed_name;
+      chain.problem += "tf's tree is rooted at " + tree.name(root) + ", not " + fixed_name;
     } else {
-      way.problem +=
+      chain.problem +=
           "its tree is rooted at " + tree.name(root) + ", that of " + fixed_name + " at " + tree.name(fixed_root);
     }
     return;
@@ -86,8 +86,8 @@ void TfChains::find(const TfTree& tree, int fixed_frame, const std::string& fram
     up_.pop_back();
     down_.pop_back();
   }
-  for (const int edge : down_) way.step = stepTo(tree.parent(edge), {edge, way.step, true});
-  for (auto edge = up_.rbegin(); edge != up_.rend(); ++edge) way.step = stepTo(*edge, {*edge, way.step, false});
+  for (const int edge : down_) chain.step = stepTo(tree.parent(edge), {edge, chain.step, true});
+  for (auto edge = up_.rbegin(); edge != up_.rend(); ++edge) chain.step = stepTo(*edge, {*edge, chain.step, false});
 }
 
 /// Chains that lead to the same frame share their steps up to it.
@@ -117,13 +117,13 @@ void TfChains::spans(const TfTree& tree, bool any_late, std::vector<TfSpan>& spa
     }
     step_spans_[i] = span;
   }
-  spans.resize(ways_.size());
-  for (std::size_t i = 0; i < ways_.size(); ++i) {
-    const Way& way = ways_[i];
-    StepSpan known = way.step < 0 ? StepSpan() : step_spans_[way.step];
-    known.is_static &= way.problem.empty();
+  spans.resize(chains_.size());
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    const Chain& chain = chains_[i];
+    StepSpan known = chain.step < 0 ? StepSpan() : step_spans_[chain.step];
+    known.is_static &= chain.problem.empty();
     TfSpan& span = spans[i];
-    span.problem = way.problem;
+    span.problem = chain.problem;
     span.is_static = known.is_static;
     span.first = known.first;
     span.last = known.last;
@@ -132,7 +132,7 @@ void TfChains::spans(const TfTree& tree, bool any_late, std::vector<TfSpan>& spa
     }
     span.version = known.version;
     span.late.clear();
-    for (int step = any_late ? way.step : -1; step >= 0; step = steps_[step].before) {
+    for (int step = any_late ? chain.step : -1; step >= 0; step = steps_[step].before) {
       const TfEdge& edge = tree.edge(steps_[step].edge);
       if (edge.late) span.late.push_back({tree.name(steps_[step].edge), edge.late->since, edge.late->until});
     }
@@ -145,23 +145,23 @@ void TfChains::copy(const TfTree& tree, const std::vector<TimePart>& parts, cons
     TimePart& known = step_parts_[step];
     known = {std::min(known.from, part.from), std::max(known.until, part.until)};
   };
-  for (std::size_t i = 0; i < ways_.size(); ++i) {
-    if (ways_[i].step >= 0) extend(ways_[i].step, parts[i]);
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    if (chains_[i].step >= 0) extend(chains_[i].step, parts[i]);
   }
   for (std::size_t i = steps_.size(); i-- > 0;) {
     if (steps_[i].before >= 0) extend(steps_[i].before, step_parts_[i]);
   }
-  window.begin(origin, steps_.size(), ways_.size());
+  window.begin(origin, steps_.size(), chains_.size());
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     window.setStep(i, {&tree.edge(steps_[i].edge), steps_[i].before, steps_[i].is_inverse}, step_parts_[i]);
   }
-  accounts_.assign(steps_.size(), {kNever});
-  for (std::size_t i = 0; i < ways_.size(); ++i) {
-    const int step = ways_[i].step;
-    const Account known = step < 0 ? Account() : account(tree, step, parts[i]);
+  summaries_.assign(steps_.size(), {kNever});
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    const int step = chains_[i].step;
+    const Summary known = step < 0 ? Summary() : summarise(tree, step, parts[i]);
     window.setFrame(i, {step, known.version, known.longest_gap, known.gaps}, parts[i]);
-    if (!ways_[i].problem.empty()) {
-      window.setProblem(i, ways_[i].problem);
+    if (!chains_[i].problem.empty()) {
+      window.setProblem(i, chains_[i].problem);
     } else if (known.problem) {
       window.setProblem(i, tree.name(known.problem_edge) + " " + known.problem);
     }
@@ -170,15 +170,15 @@ void TfChains::copy(const TfTree& tree, const std::vector<TimePart>& parts, cons
 
 /// What is known of the chain up to a step over a part of the time; of several problems, the one nearest to the fixed
 /// frame.
-const TfChains::Account& TfChains::account(const TfTree& tree, int step, const TimePart& part) {
-  Account& own = accounts_[step];
+const TfChains::Summary& TfChains::summarise(const TfTree& tree, int step, const TimePart& part) {
+  Summary& own = summaries_[step];
   if (own.part.from == part.from && own.part.until == part.until) return own;
   const int number = steps_[step].edge;
   const TfEdge& edge = tree.edge(number);
   const TfPoses& records = edge.records;
   own = {part, edge.version};
   if (part.from < edge.first() || (!edge.is_static && records.back().stamp < part.until)) {
-    own.problem = "is not known all the time";
+    own.problem = "is not known at all times";
   }
   for (std::size_t i = records.lastUpTo(part.from); i < records.size(); ++i) {
     if (records[i].problem) own.problem = records[i].problem;
@@ -190,7 +190,7 @@ const TfChains::Account& TfChains::account(const TfTree& tree, int step, const T
   own.gaps = own.moved.longest_gap = own.longest_gap;
   own.problem_edge = number;
   if (steps_[step].before < 0) return own;
-  const Account& before = account(tree, steps_[step].before, part);
+  const Summary& before = summarise(tree, steps_[step].before, part);
   own.version = std::max(own.version, before.version);
   own.longest_gap = std::max(own.longest_gap, before.longest_gap);
   const bool moves = own.moved.longest_gap > 0.0;

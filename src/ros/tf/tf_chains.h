@@ -21,7 +21,7 @@ struct TfSpan {
   ros::Time first, last;             ///< period in which the chain is known; `last` is not set if static
   long version = 0;                  ///< another one after the chain has changed otherwise than by moving
   std::string change;                ///< the last such change, if version is not 0
-  std::vector<LateTransforms> late;  ///< on the chain, since the last TfHistory::takeNews()
+  std::vector<LateTransforms> late;  ///< on the chain, since the last TfHistory::takeSpans()
 };
 
 /// The chains of transforms from the fixed frame to some frames, as one tree rooted at the fixed frame. They are kept
@@ -59,7 +59,7 @@ class TfChains {
     ros::Time first, last;
     double longest_gap = 0.0;
   };
-  struct Account {  // what is known of the chain up to a step, over a part of the time
+  struct Summary {  // what is known of the chain up to a step, over a part of the time
     TimePart part;
     long version = 0;
     double longest_gap = 0.0;
@@ -68,27 +68,27 @@ class TfChains {
     int problem_edge = TfTree::kNone;
     const char* problem = nullptr;
   };
-  struct Way {
+  struct Chain {
     int step = -1;  // the last one; -1 for the fixed frame
     std::string problem;
   };
 
-  void find(const TfTree& tree, int fixed_frame, const std::string& frame, Way& way);
+  void findChain(const TfTree& tree, int fixed_frame, const std::string& frame, Chain& chain);
   int stepTo(int frame, const Step& step);
-  const Account& account(const TfTree& tree, int step, const TimePart& part);
+  const Summary& summarise(const TfTree& tree, int step, const TimePart& part);
 
   std::vector<std::string> frames_;
   std::vector<std::size_t> first_of_;  // per frame: index of the first one of the same name
   long topology_ = -1;
   bool depends_on_all_ = false;  // the chains depend on frames that are not followed
   std::vector<Step> steps_;      // each after the one before it
-  std::vector<Way> ways_;        // per frame
+  std::vector<Chain> chains_;    // per frame
 
   std::vector<int> steps_to_;  // per frame of the tree: index of the step that leads to it; -1 if there is none
   std::vector<int> up_, down_, above_;
   std::vector<StepSpan> step_spans_;
   std::vector<TimePart> step_parts_;
-  std::vector<Account> accounts_;  // per step: result for the part that was queried last
+  std::vector<Summary> summaries_;  // per step: result for the part that was queried last
 };
 
 }  // namespace sdf_ccd

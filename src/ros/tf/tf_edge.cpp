@@ -16,14 +16,14 @@ void TfEdge::record(const TfPose& pose, const TfKeep& keep, TfCounts& counts) {
   if (pose.stamp > records.back().stamp) {
     behind_count_ = 0;
     records.pushBack(pose);
-    // A record older than dropped_until came late, under another parent. Interpolating from it to this one would cross
-    // a period in which other transforms were known.
+    // A record older than dropped_until arrived late, under another parent. Interpolating from it to this one would
+    // cross a period in which other transforms were known.
     while (records.front().stamp < dropped_until && pose.stamp > dropped_until) records.dropFront(1);
     drop(keep);
   } else if (hasGoneBack(pose)) {
-    const std::array<TfPose, kGoesOn> goes_on = behind_;
-    beginAnew(goes_on[0], "has stamps that went back", counts);
-    for (std::size_t i = 1; i < kGoesOn; ++i) records.pushBack(goes_on[i]);
+    const std::array<TfPose, kMinBehind> restarted = behind_;
+    restart(restarted[0], "has stamps that went back", counts);
+    for (std::size_t i = 1; i < kMinBehind; ++i) records.pushBack(restarted[i]);
   } else if (pose.stamp < records.front().stamp) {
     recordBefore(pose, true, keep, counts);
   } else {
@@ -35,7 +35,7 @@ void TfEdge::recordBehind(const TfPose& pose, const TfKeep& keep, TfCounts& coun
   const std::size_t last = records.lastUpTo(pose.stamp), next = last + 1;
   if (records[last].stamp == pose.stamp) return;  // tf2 ignores a repeated time too
   ++counts.out_of_order;
-  const bool rests = isSamePlace(records[last], pose) && isSamePlace(pose, records[next]);
+  const bool rests = isSamePose(records[last], pose) && isSamePose(pose, records[next]);
   if (!rests) noteLate({records[last].stamp, records[next].stamp});
   if (records.size() - next <= kMaxBehind) {
     records.insert(next, pose);
@@ -64,14 +64,14 @@ bool TfEdge::hasGoneBack(const TfPose& pose) {
   if (behind_count_ > 0 && pose.stamp == behind_[behind_count_ - 1].stamp) return false;
   if (behind_count_ > 0 && pose.stamp < behind_[behind_count_ - 1].stamp) behind_count_ = 0;
   behind_[behind_count_++] = pose;
-  return behind_count_ == kGoesOn;
+  return behind_count_ == kMinBehind;
 }
 
-void TfEdge::beginAnew(const TfPose& pose, const std::string& what_has_changed, TfCounts& counts) {
+void TfEdge::restart(const TfPose& pose, const std::string& what_changed, TfCounts& counts) {
   clear();
   records.pushBack(pose);
   version = ++counts.changes;
-  change = what_has_changed;
+  change = what_changed;
 }
 
 void TfEdge::drop(const TfKeep& keep) {

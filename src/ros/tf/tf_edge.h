@@ -32,7 +32,7 @@ struct TfEdge {
   bool is_cut = false;      ///< the dropped transforms continued to the first record, without a change between them
   long version = 0;         ///< value of TfCounts::changes after the last change
   std::string change;       ///< what that change was, to be read after the frame's name
-  ros::Time heard;          ///< time of the clock when the last transform arrived
+  ros::Time received;       ///< time of the clock when the last transform arrived
 
   /// Period in which the frame's motion differs from what was known before. The history reports it once, then resets
   /// it.
@@ -53,12 +53,12 @@ struct TfEdge {
   /// Handles a transform stamped before all records.
   void recordBefore(const TfPose& pose, bool is_same_parent, const TfKeep& keep, TfCounts& counts);
 
-  /// Whether the stamps have gone back: kGoesOn transforms in a row are far older than the newest one. Call it once per
-  /// transform.
+  /// Whether the stamps have gone back: kMinBehind transforms in a row are far older than the newest one. Call it once
+  /// per transform.
   bool hasGoneBack(const TfPose& pose);
 
   /// Drops all records and starts with this one.
-  void beginAnew(const TfPose& pose, const std::string& what_has_changed, TfCounts& counts);
+  void restart(const TfPose& pose, const std::string& what_changed, TfCounts& counts);
 
   /// Drops the records beyond the limits.
   void drop(const TfKeep& keep);
@@ -71,8 +71,8 @@ struct TfEdge {
  private:
   void recordBehind(const TfPose& pose, const TfKeep& keep, TfCounts& counts);
 
-  static constexpr std::size_t kGoesOn = 2;  // this many in a row far behind the newest: the stamps have gone back
-  std::array<TfPose, kGoesOn> behind_;       // the last transforms, while all of them are far behind the newest
+  static constexpr std::size_t kMinBehind = 2;  // this many in a row far behind the newest: the stamps have gone back
+  std::array<TfPose, kMinBehind> behind_;       // the last transforms, while all of them are far behind the newest
   std::size_t behind_count_ = 0;
 };
 

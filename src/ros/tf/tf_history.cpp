@@ -8,15 +8,15 @@
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);                 // smaller corrections of a wall clock are ignored
-const ros::Duration kSimJumpBack(0.1);              // two threads may see a simulated clock this much apart
-constexpr std::uint32_t kLastSecond = 1u << 31;     // ros::Duration cannot hold differences to later stamps
-constexpr std::size_t kLongestName = 256;           // characters in a frame's name
-constexpr std::size_t kMaxOthers[] = {1000, 5000};  // known frames that are not followed: moving, static
-constexpr std::size_t kMaxOtherRecords = 200;       // of one of them
-constexpr double kMaxRecords = 1e6;                 // of all followed frames together
-constexpr double kMinRecords = 1000.0;              // of one followed frame, however many there are
-constexpr double kRecordsPerSecond = 2000.0;        // of one followed frame, if there are few
+const ros::Duration kJumpBack(1.0);                     // smaller corrections of a wall clock are ignored
+const ros::Duration kSimJumpBack(0.1);                  // two threads may see a simulated clock this much apart
+constexpr std::uint32_t kLastSecond = 1u << 31;         // ros::Duration cannot hold differences to later stamps
+constexpr std::size_t kLongestName = 256;               // characters in a frame's name
+constexpr std::size_t kMaxUnfollowed[] = {1000, 5000};  // known frames that are not followed: moving, static
+constexpr std::size_t kMaxUnfollowedRecords = 200;      // of one of them
+constexpr double kMaxRecords = 1e6;                     // of all followed frames together
+constexpr double kMinRecords = 1000.0;                  // of one followed frame, however many there are
+constexpr double kRecordsPerSecond = 2000.0;            // of one followed frame, if there are few
 const ros::Duration kSweepPeriod(1.0);
 
 std::string_view bare(std::string_view frame) {
@@ -42,12 +42,12 @@ TfHistory::TfHistory(const std::string& fixed_frame, const TfHistoryOptions& opt
   tree_.pin(fixed_);
 }
 
-void TfHistory::wantBesides(const std::vector<std::string>& frames) {
+void TfHistory::setExtraFrames(const std::vector<std::string>& frames) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (frames == besides_) return;
-  besides_ = frames;
-  tree_.wantBesides(frames);
-  followers_.resize(std::max(followers_.size(), tree_.size()), TfTree::kNone);
+  if (frames == extra_frames_) return;
+  extra_frames_ = frames;
+  tree_.setExtraFrames(frames);
+  next_children_.resize(std::max(next_children_.size(), tree_.size()), TfTree::kNone);
   last_child_ = TfTree::kNone;
   static_missed_ |= static_dropped_;
 }
@@ -58,7 +58,7 @@ void TfHistory::watchClock(const ros::Time& now) {
   if (jumps) clear();
   jumped_ |= jumps;
   clock_ = jumps ? now : std::max(clock_, now);
-  if (clock_ < swept_ || before(clock_, kSweepPeriod) > swept_) forgetSilentOthers();
+  if (clock_ < swept_ || before(clock_, kSweepPeriod) > swept_) forgetSilentFrames();
 }
 
 void TfHistory::add(const tf2_msgs::TFMessage& message, bool is_static) {
@@ -97,16 +97,16 @@ bool TfHistory::isRefused(const geometry_msgs::TransformStamped& transform, cons
 
 /// Expects the child that followed the last one before: publishers send their transforms in the same order every time.
 int TfHistory::findChild(std::string_view name) {
-  int* const follower = last_child_ == TfTree::kNone ? nullptr : &followers_[last_child_];
-  int child = follower ? *follower : TfTree::kNone;
+  int* const next_child = last_child_ == TfTree::kNone ? nullptr : &next_children_[last_child_];
+  int child = next_child ? *next_child : TfTree::kNone;
   if (child == TfTree::kNone || tree_.name(child) != name) child = tree_.find(name);
-  if (follower) *follower = child;
+  if (next_child) *next_child = child;
   last_child_ = child;
   return child;
 }
 
 TfKeep TfHistory::keepOf(int frame) const {
-  if (!tree_.isFollowed(frame)) return {keep_, kMaxOtherRecords};
+  if (!tree_.isFollowed(frame)) return {keep_, kMaxUnfollowedRecords};
   const double share = kMaxRecords / static_cast<double>(tree_.followed() + 1);
   return {keep_, static_cast<std::size_t>(std::max(kMinRecords, std::min(share, kRecordsPerSecond * keep_.toSec())))};
 }
@@ -115,7 +115,7 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
   int child = findChild(names.child);
   const bool is_new = child == TfTree::kNone || !tree_.edge(child).isKnown();
   const bool is_added = is_new || tree_.edge(child).is_static != is_static;
-  if (is_added && tree_.others(is_static) >= kMaxOthers[is_static] &&
+  if (is_added && tree_.unfollowed(is_static) >= kMaxUnfollowed[is_static] &&
       (child == TfTree::kNone ? !tree_.followsAll() : !tree_.isFollowed(child))) {
     ++not_kept_;
     static_dropped_ |= is_static;
@@ -126,19 +126,19 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
   const TfPose pose = toTfPose(stamp, transform.transform);
   if (child == TfTree::kNone) {
     child = last_child_ = tree_.add(names.child);
-    followers_.resize(tree_.size(), TfTree::kNone);
+    next_children_.resize(tree_.size(), TfTree::kNone);
   }
   TfEdge& edge = tree_.edge(child);
-  edge.heard = clock_;
+  edge.received = clock_;
   const bool was_late = edge.late.has_value();
   const bool is_same_kind = edge.is_static == is_static;
   const bool is_same_parent = !is_new && tree_.name(tree_.parent(child)) == names.parent;
-  if (!is_new && is_same_kind && is_same_parent && (!is_static || isSamePlace(edge.records.back(), pose))) {
+  if (!is_new && is_same_kind && is_same_parent && (!is_static || isSamePose(edge.records.back(), pose))) {
     if (!is_static) edge.record(pose, keepOf(child), counts_);
   } else if (!is_new && is_same_kind && !is_static && stamp < edge.records.front().stamp && !edge.hasGoneBack(pose)) {
     edge.recordBefore(pose, is_same_parent, keepOf(child), counts_);
   } else {
-    std::string change = "has come";
+    std::string change = "is new in tf";
     if (!is_new && !is_same_kind) {
       change = is_static ? "has become static" : "is no longer static";
     } else if (!is_new) {
@@ -149,7 +149,7 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
     ros::Time last = edge.dropped_until;
     if (!is_new && !edge.is_static) last = std::max(last, edge.records.back().stamp);
     if (!clock_.isZero()) last = std::min(last, clock_);  // no cycle has gone beyond the clock
-    edge.beginAnew(pose, change, counts_);
+    edge.restart(pose, change, counts_);
     edge.dropped_until = last;
     setParent(child, tree_.add(names.parent), is_static);
     // Cycles may have gone beyond the stamp already, with the frame's former transforms.
@@ -159,10 +159,10 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
 }
 
 void TfHistory::setParent(int frame, int parent, bool is_static) {
-  followers_.resize(tree_.size(), TfTree::kNone);
+  next_children_.resize(tree_.size(), TfTree::kNone);
   const bool is_new_above = tree_.isFollowed(frame) && !tree_.isFollowed(parent);
-  for (const int turned : tree_.setEdge(frame, parent, is_static)) {
-    if (!tree_.edge(turned).is_static) tree_.edge(turned).drop(keepOf(turned));
+  for (const int changed : tree_.setEdge(frame, parent, is_static)) {
+    if (!tree_.edge(changed).is_static) tree_.edge(changed).drop(keepOf(changed));
   }
   if (!is_new_above || !static_dropped_) return;
   std::vector<int> above;
@@ -171,16 +171,16 @@ void TfHistory::setParent(int frame, int parent, bool is_static) {
 }
 
 /// Makes room for other frames; a moving frame becomes known again with its next transform.
-void TfHistory::forgetSilentOthers() {
+void TfHistory::forgetSilentFrames() {
   swept_ = clock_;
   const ros::Time silent_since = before(clock_, keep_);
   // Static frames do not fall silent, but those that a body has once hung on may be more than there is room for.
-  const bool has_room = tree_.others(true) <= kMaxOthers[true];
+  const bool has_room = tree_.unfollowed(true) <= kMaxUnfollowed[true];
   static_dropped_ |= !has_room;
   for (int frame = 0; frame < static_cast<int>(tree_.size()); ++frame) {
     const TfEdge& edge = tree_.edge(frame);
     if (!edge.isKnown() || tree_.isFollowed(frame)) continue;
-    if (edge.is_static ? !has_room : edge.heard < silent_since) tree_.forget(frame);
+    if (edge.is_static ? !has_room : edge.received < silent_since) tree_.forget(frame);
   }
 }
 
@@ -242,7 +242,7 @@ void TfHistory::spans(TfChains& chains, std::vector<TfSpan>& spans) const {
   chains.spans(tree_, !late_.empty(), spans);
 }
 
-void TfHistory::takeNews(TfChains& chains, std::vector<TfSpan>& spans) {
+void TfHistory::takeSpans(TfChains& chains, std::vector<TfSpan>& spans) {
   const std::lock_guard<std::mutex> lock(mutex_);
   chains.update(tree_, fixed_);
   chains.spans(tree_, !late_.empty(), spans);

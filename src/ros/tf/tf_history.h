@@ -22,7 +22,7 @@ struct TfHistoryOptions {
 
 /// Buffer of the transforms of the last seconds. It interpolates them as tf2 does and also knows the times at which
 /// they were recorded. Unlike tf2's buffer it
-///  - lets a frame change from static to moving and back, and to another parent: its records then start anew;
+///  - lets a frame change from static to moving and back, and to another parent: its records then start over;
 ///  - reports transforms that arrive after newer ones;
 ///  - keeps transforms that are no rigid motion, as a problem of their frame at that time.
 ///
@@ -40,10 +40,10 @@ class TfHistory {
   const std::string& fixedFrame() const { return fixed_frame_; }
 
   /// Also follows these frames, instead of those of the last call. Costs nothing if they are the same.
-  void wantBesides(const std::vector<std::string>& frames);
+  void setExtraFrames(const std::vector<std::string>& frames);
 
   /// Adds a message of /tf or /tf_static. If a frame's stamps go back by more than a second and continue from there,
-  /// its records start anew; a single old transform is a late one.
+  /// its records start over; a single old transform is a late one.
   void add(const tf2_msgs::TFMessage& message, bool is_static);
 
   /// Takes the time of the ROS clock, 0 if it does not run yet. If the clock goes back, everything but static
@@ -63,7 +63,7 @@ class TfHistory {
   void spans(TfChains& chains, std::vector<TfSpan>& spans) const;
 
   /// The same; each late transform is reported once.
-  void takeNews(TfChains& chains, std::vector<TfSpan>& spans);
+  void takeSpans(TfChains& chains, std::vector<TfSpan>& spans);
 
   /// The same for one frame.
   TfSpan span(const std::string& frame) const;
@@ -91,8 +91,8 @@ class TfHistory {
   /// Number of transforms ignored because their frames are not followed and there was no room.
   long notKept() const;
 
-  /// True once after a followed frame has come below a frame whose static transform may have been dropped: the static
-  /// transforms have to be requested again from their publishers.
+  /// True once after a followed frame has become the child of a frame whose static transform may have been dropped: the
+  /// static transforms have to be requested again from their publishers.
   bool takeMissedStatic();
 
  private:
@@ -106,16 +106,16 @@ class TfHistory {
   int findChild(std::string_view name);
   void setParent(int frame, int parent, bool is_static);
   TfKeep keepOf(int frame) const;
-  void forgetSilentOthers();
+  void forgetSilentFrames();
   void clear();
 
   const std::string fixed_frame_;
   const ros::Duration keep_;
   mutable std::mutex mutex_;
   TfTree tree_;
-  std::vector<std::string> besides_;
-  int fixed_;                   // the fixed frame's number
-  std::vector<int> followers_;  // per frame: the frame whose transform came after it last time
+  std::vector<std::string> extra_frames_;
+  int fixed_;                       // the fixed frame's number
+  std::vector<int> next_children_;  // per frame: the frame whose transform followed last time
   int last_child_ = TfTree::kNone;
   TfCounts counts_;
   std::vector<int> late_;  // frames with late transforms

@@ -39,12 +39,12 @@ TfPose toTfPose(const ros::Time& stamp, const geometry_msgs::Transform& transfor
   return pose;
 }
 
-bool isSamePlace(const TfPose& a, const TfPose& b) {
+bool isSamePose(const TfPose& a, const TfPose& b) {
   return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs() && a.problem == b.problem;
 }
 
 TfInterpolation::TfInterpolation(const TfPose& a, const TfPose& b)
-    : a_(a.rotation), b_(b.rotation), from_(a.translation), way_(b.translation - a.translation) {
+    : a_(a.rotation), b_(b.rotation), from_(a.translation), displacement_(b.translation - a.translation) {
   if (a_.coeffs() == b_.coeffs()) return;
   half_angle_ = halfAngle(a_, b_);
   if (half_angle_ > kTinyHalfAngle) inverse_sine_ = 1.0 / std::sin(half_angle_);
@@ -52,7 +52,7 @@ TfInterpolation::TfInterpolation(const TfPose& a, const TfPose& b)
 }
 
 Isometry3d TfInterpolation::at(double share) const {
-  const Vector3d translation = from_ + share * way_;
+  const Vector3d translation = from_ + share * displacement_;
   if (half_angle_ == 0.0) return Eigen::Translation3d(translation) * a_;
   double weight_a = 1.0 - share, weight_b = share;
   if (inverse_sine_ > 0.0) {

@@ -22,7 +22,7 @@ struct TfPose {
 TfPose toTfPose(const ros::Time& stamp, const geometry_msgs::Transform& transform);
 
 /// Whether the poses are equal: the frame rests between them.
-bool isSamePlace(const TfPose& a, const TfPose& b);
+bool isSamePose(const TfPose& a, const TfPose& b);
 
 /// Interpolation between two transforms as in tf2: the translation linearly, the rotation at a constant rate about one
 /// axis, along the shorter arc (slerp).
@@ -39,7 +39,7 @@ class TfInterpolation {
 
  private:
   Quaterniond a_ = Quaterniond::Identity(), b_ = Quaterniond::Identity();  // with a_ · b_ >= 0: the shorter arc
-  Vector3d from_ = Vector3d::Zero(), way_ = Vector3d::Zero();
+  Vector3d from_ = Vector3d::Zero(), displacement_ = Vector3d::Zero();
   double half_angle_ = 0.0, inverse_sine_ = 0.0;  // angle between the quaternions; 0 if they are equal to rounding
 };
 

@@ -36,14 +36,14 @@ void TfPoses::insert(std::size_t i, const TfPose& pose) {
   if (i == 0) {
     first_ = first_ == 0 ? ring_.size() - 1 : first_ - 1;
   } else {
-    for (std::size_t k = size_; k > i; --k) ring_[place(k)] = ring_[place(k - 1)];
+    for (std::size_t k = size_; k > i; --k) ring_[slot(k)] = ring_[slot(k - 1)];
   }
   ++size_;
-  ring_[place(i)] = pose;
+  ring_[slot(i)] = pose;
 }
 
 void TfPoses::dropFront(std::size_t count) {
-  first_ = count == size_ ? 0 : place(count);
+  first_ = count == size_ ? 0 : slot(count);
   size_ -= count;
 }
 

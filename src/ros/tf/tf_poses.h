@@ -13,7 +13,7 @@ class TfPoses {
  public:
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
-  const TfPose& operator[](std::size_t i) const { return ring_[place(i)]; }
+  const TfPose& operator[](std::size_t i) const { return ring_[slot(i)]; }
   const TfPose& front() const { return (*this)[0]; }
   const TfPose& back() const { return (*this)[size_ - 1]; }
 
@@ -31,7 +31,7 @@ class TfPoses {
   void dropFront(std::size_t count);
 
  private:
-  std::size_t place(std::size_t i) const { return first_ + i < ring_.size() ? first_ + i : first_ + i - ring_.size(); }
+  std::size_t slot(std::size_t i) const { return first_ + i < ring_.size() ? first_ + i : first_ + i - ring_.size(); }
   void grow();
 
   std::vector<TfPose> ring_;

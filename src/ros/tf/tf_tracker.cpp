@@ -10,9 +10,9 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kJumpBack = 1.0;     // as in TfHistory [s]
-constexpr double kJumpAhead = 2e9;    // longer differences may not fit a ros::Duration [s]
-constexpr double kBackPerTime = 4.0;  // time that may be checked again, per time checked
+constexpr double kJumpBack = 1.0;       // as in TfHistory [s]
+constexpr double kJumpAhead = 2e9;      // longer differences may not fit a ros::Duration [s]
+constexpr double kRewindPerTime = 4.0;  // time that may be checked again, per time checked
 
 /// Adds it to the entry of the same frame, if there is one.
 void merge(const LateTransforms& late, std::vector<LateTransforms>& all) {
@@ -89,8 +89,8 @@ void TfTracker::reset() {
   are_together_ = false;
   late_.clear();
   too_late_.assign(bodies_.size(), "");
-  time_to_go_back_ = kBackPerTime * options_.max_cycle;
-  goes_back_ = 0.0;
+  rewind_budget_ = kRewindPerTime * options_.max_cycle;
+  rewound_ = 0.0;
 }
 
 TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
@@ -98,10 +98,10 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   const bool is_first = last_end_.isZero();
   std::vector<std::string>& missing = cycle.motion.missing;
   missing.assign(bodies_.size(), "");
-  look(now, missing);
-  const ros::Time end = is_first ? ros::Time() : foremostEnd(missing);
+  readHistory(now, missing);
+  const ros::Time end = is_first ? ros::Time() : latestEnd(missing);
   const double ahead = is_first ? 0.0 : secondsBetween(last_end_, end);
-  // The clock has gone back, or all frames have started anew far in the past; or the clock was set far ahead.
+  // The clock has gone back, or all frames have started over far in the past; or the clock was set far ahead.
   if (history_.takeJump() || -ahead > kJumpBack || ahead > kJumpAhead) {
     reset();
     return Step::kJump;
@@ -113,9 +113,9 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   waits_since_ = now;
   if (is_first) return Step::kWaiting;
 
-  time_to_go_back_ += kBackPerTime * ahead - goes_back_;
-  time_to_go_back_ = std::min(time_to_go_back_, kBackPerTime * options_.max_cycle);
-  goes_back_ = 0.0;
+  rewind_budget_ += kRewindPerTime * ahead - rewound_;
+  rewind_budget_ = std::min(rewind_budget_, kRewindPerTime * options_.max_cycle);
+  rewound_ = 0.0;
   cycle.start = last_end_;
   cycle.end = last_end_ = end;
   cycle.late.swap(late_);
@@ -128,7 +128,7 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
     too_late_[body].clear();
   }
   try {
-    follow(cycle);
+    sampleParts(cycle);
   } catch (const std::exception& error) {
     setMissing(error.what(), cycle);  // the pairs' times are then reported as not checked, and not lost
   }
@@ -136,9 +136,9 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   return Step::kCycle;
 }
 
-void TfTracker::look(const ros::Time& now, std::vector<std::string>& missing) {
-  history_.takeNews(chains_, spans_);
-  if (!last_end_.isZero()) goBackToLate();
+void TfTracker::readHistory(const ros::Time& now, std::vector<std::string>& missing) {
+  history_.takeSpans(chains_, spans_);
+  if (!last_end_.isZero()) rewindLatePairs();
   ros::Time newest;
   for (const TfSpan& span : spans_) newest = std::max(newest, span.last);
   // Transforms may be stamped ahead of the clock, or come from a bag that is played without one.
@@ -177,13 +177,13 @@ void TfTracker::findMoving() {
 }
 
 /// Sets back the pairs that were checked with an interpolation now known to be wrong.
-void TfTracker::goBackToLate() {
+void TfTracker::rewindLatePairs() {
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     for (const LateTransforms& late : spans_[body].late) {
       if (late.until <= begin_) continue;
       const ros::Time since = std::max(late.since, begin_);
       bool contradicts = false;
-      takeApart();
+      storePairTimes();
       for (std::size_t p = 0; p < pairs_.size(); ++p) {
         const bool is_its = pairs_[p].body_a == static_cast<int>(body) || pairs_[p].body_b == static_cast<int>(body);
         if (!is_its || times_[p].until <= since) continue;
@@ -194,18 +194,19 @@ void TfTracker::goBackToLate() {
       merge({late.frame, since, std::min(late.until, last_end_)}, late_);
       const double age = secondsBetween(since, last_end_);
       if (age > options_.max_cycle) {
-        too_late_[body] = "transforms of " + late.frame + " came late, of " + seconds(age) + " before the cycle";
-      } else if (!mayGoBack(age)) {
-        too_late_[body] = "transforms of " + late.frame + " come late again and again, now by " + seconds(age);
+        too_late_[body] =
+            "transforms of " + late.frame + " arrived late, for times up to " + seconds(age) + " before the cycle";
+      } else if (!mayRewind(age)) {
+        too_late_[body] = "transforms of " + late.frame + " arrive late repeatedly, now by " + seconds(age);
       }
     }
   }
 }
 
 /// All bodies that are set back in one cycle share the time that is checked again.
-bool TfTracker::mayGoBack(double age) {
-  if (age > time_to_go_back_) return false;
-  goes_back_ = std::max(goes_back_, age);
+bool TfTracker::mayRewind(double age) {
+  if (age > rewind_budget_) return false;
+  rewound_ = std::max(rewound_, age);
   return true;
 }
 
@@ -223,26 +224,26 @@ bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missin
   return true;
 }
 
-ros::Time TfTracker::foremostEnd(const std::vector<std::string>& missing) const {
+ros::Time TfTracker::latestEnd(const std::vector<std::string>& missing) const {
   bool is_one = true;  // whether all paired bodies that move have the same end
-  ros::Time foremost;
+  ros::Time latest;
   for (std::size_t body = 0; body < bodies_.size() && is_one; ++body) {
     if (!is_paired_[body]) continue;
-    is_one = missing[body].empty() && (ends_[body] == ros::TIME_MAX || foremost.isZero() || ends_[body] == foremost);
-    if (ends_[body] != ros::TIME_MAX) foremost = ends_[body];
+    is_one = missing[body].empty() && (ends_[body] == ros::TIME_MAX || latest.isZero() || ends_[body] == latest);
+    if (ends_[body] != ros::TIME_MAX) latest = ends_[body];
   }
-  if (is_one) return foremost.isZero() ? reference_ : foremost;
-  foremost = ros::Time();
+  if (is_one) return latest.isZero() ? reference_ : latest;
+  latest = ros::Time();
   for (const PlannedPair& pair : pairs_) {
     const ros::Time end = std::min(ends_[pair.body_a], ends_[pair.body_b]);
     const bool is_known = missing[pair.body_a].empty() && missing[pair.body_b].empty();
-    if (is_known && end != ros::TIME_MAX) foremost = std::max(foremost, end);
+    if (is_known && end != ros::TIME_MAX) latest = std::max(latest, end);
   }
-  return foremost.isZero() ? reference_ : foremost;
+  return latest.isZero() ? reference_ : latest;
 }
 
 /// Usually all pairs advance together, and their times need not be stored one by one.
-bool TfTracker::goTogether(const TrackedCycle& cycle) const {
+bool TfTracker::canAdvanceTogether(const TrackedCycle& cycle) const {
   if (!are_together_) return false;
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     if (is_paired_[body] && (!cycle.motion.missing[body].empty() || ends_[body] < cycle.end)) return false;
@@ -251,7 +252,7 @@ bool TfTracker::goTogether(const TrackedCycle& cycle) const {
 }
 
 /// Stores the times of each pair, if the pairs have advanced together so far.
-void TfTracker::takeApart() {
+void TfTracker::storePairTimes() {
   if (are_together_) times_.assign(pairs_.size(), together_);
   are_together_ = false;
 }
@@ -261,11 +262,11 @@ void TfTracker::advancePairs(TrackedCycle& cycle) {
   cycle.origin = cycle.start;
   cycle.complete_until = cycle.end;
   cycle.delayed_since = ros::Time();
-  if (goTogether(cycle)) {
+  if (canAdvanceTogether(cycle)) {
     together_ = {cycle.start, cycle.end};
     return;
   }
-  takeApart();
+  storePairTimes();
   is_known_.resize(pairs_.size());
   bool are_together = true;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -287,12 +288,12 @@ void TfTracker::advancePairs(TrackedCycle& cycle) {
   together_ = {cycle.start, cycle.end};
 }
 
-void TfTracker::take(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs) {
+void TfTracker::continueFrom(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs) {
   begin_ = other.begin_;
   last_end_ = other.last_end_;
   waits_since_ = other.waits_since_;
-  time_to_go_back_ = other.time_to_go_back_;
-  goes_back_ = other.goes_back_;
+  rewind_budget_ = other.rewind_budget_;
+  rewound_ = other.rewound_;
   late_.swap(other.late_);
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     if (bodies[body] < 0) continue;

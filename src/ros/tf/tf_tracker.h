@@ -52,7 +52,7 @@ struct TrackedCycle {
 };
 
 /// Divides recorded transforms into cycles (design §5). Every pair is checked from where its last check ended to where
-/// both its frames are known; a cycle ends where the foremost pair does. So a frame that lags behind delays only its
+/// both its frames are known; a cycle ends where the latest pair does. So a frame that lags behind delays only its
 /// own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked. The lag is
 /// measured against the newest transform of all frames or, unless time is simulated, against the wall clock. Poses are
 /// sampled at every recorded transform and interpolated between them as by tf2.
@@ -90,7 +90,7 @@ class TfTracker {
   /// @param bodies  per body, its index in `other`; -1 if it is new or has changed.
   /// @param pairs   per pair, the index in `other` of the pair of bodies of the same names, whose time it continues; -1
   /// if it is new and begins at the end of the last cycle.
-  void take(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs);
+  void continueFrom(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs);
 
   /// Finds the chains of all frames, before the first step.
   void warmUp() { history_.spans(chains_, spans_); }
@@ -99,17 +99,17 @@ class TfTracker {
   /// Of all moving bodies in a cycle: about 100 MB with the data computed from them.
   static constexpr std::size_t kMaxPoses = 300000;
 
-  void look(const ros::Time& now, std::vector<std::string>& missing);
+  void readHistory(const ros::Time& now, std::vector<std::string>& missing);
   bool hasChanged(std::size_t body) const;
   void findMoving();
-  void goBackToLate();
-  bool mayGoBack(double age);
+  void rewindLatePairs();
+  bool mayRewind(double age);
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
-  ros::Time foremostEnd(const std::vector<std::string>& missing) const;
-  bool goTogether(const TrackedCycle& cycle) const;
-  void takeApart();
+  ros::Time latestEnd(const std::vector<std::string>& missing) const;
+  bool canAdvanceTogether(const TrackedCycle& cycle) const;
+  void storePairTimes();
   void advancePairs(TrackedCycle& cycle);
-  void follow(TrackedCycle& cycle);
+  void sampleParts(TrackedCycle& cycle);
   void findWindows(const TrackedCycle& cycle);
   void findNeeded(const TimePart& part, const TrackedCycle& cycle);
   void copyMotion(const TrackedCycle& cycle, std::vector<std::string>& missing);
@@ -141,7 +141,7 @@ class TfTracker {
   bool are_together_ = false;    // all pairs are known and have the times together_; times_ is then not used
   TimePart together_;
 
-  // Set by look(): per body, and the newest time of all frames that is not in the future.
+  // Set by readHistory(): per body, and the newest time of all frames that is not in the future.
   std::vector<TfSpan> spans_;
   std::vector<ros::Time> ends_;
   ros::Time reference_;
@@ -151,8 +151,8 @@ class TfTracker {
   std::vector<ros::Time> changed_;     // per body: end of the cycle that saw its chain change; it is not known before
   std::vector<LateTransforms> late_;   // late transforms that contradict cycles
   std::vector<std::string> too_late_;  // per body: why late times cannot be checked again; empty if they can
-  double time_to_go_back_ = 0.0;       // time that may still be checked again [s]
-  double goes_back_ = 0.0;             // time that the next cycle checks again [s]
+  double rewind_budget_ = 0.0;         // time that may still be checked again [s]
+  double rewound_ = 0.0;               // time that the next cycle checks again [s]
 
   std::vector<std::size_t> moving_, static_;  // bodies of the cycle
 

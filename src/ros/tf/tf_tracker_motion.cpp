@@ -33,7 +33,7 @@ Needed secondsOf(const TimePart& part, const ros::Time& origin) {
 
 /// Samples the motion where pairs need it, in parts that may lie apart: if one frame lags behind, the other bodies are
 /// not sampled again over the time since then.
-void TfTracker::follow(TrackedCycle& cycle) {
+void TfTracker::sampleParts(TrackedCycle& cycle) {
   CycleMotion& motion = cycle.motion;
   motion.times.clear();
   motion.X_WB.resize(bodies_.size());
@@ -61,8 +61,8 @@ void TfTracker::findJumps(CycleMotion& motion) const {
     const std::vector<Isometry3d>& poses = motion.X_WB[body];
     double jumped = 0.0;
     for (std::size_t k = 1; k < poses.size() && motion.missing[body].empty(); ++k) {
-      const double way = (poses[k].translation() - poses[k - 1].translation()).norm();
-      if (way > kFastest * (motion.times[k] - motion.times[k - 1])) jumped += way;
+      const double distance = (poses[k].translation() - poses[k - 1].translation()).norm();
+      if (distance > kFastest * (motion.times[k] - motion.times[k - 1])) jumped += distance;
     }
     if (jumped > kJump) motion.missing[body] = fmt::format("{} has jumped by {:.0f} m", frames_[body], jumped);
   }
@@ -126,7 +126,7 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
     if (!missing[body].empty()) continue;
     const bool is_needed = needed.from < needed.until;
     if (window_.version(body) != span.version) {
-      missing[body] = "the way to " + frame + " has just changed";
+      missing[body] = "the transforms above " + frame + " have just changed";
     } else if (is_needed && needed.from < changed_[body]) {
       missing[body] = span.change + " since then";
     } else if (is_needed && !span.is_static && length > options_.max_cycle) {
@@ -145,8 +145,8 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
 void TfTracker::sample(const TimePart& part, TrackedCycle& cycle) {
   findSampleTimes(part, cycle);
   if ((cycle.samples.size() + sample_times_.size()) * moving_.size() > kMaxPoses) {
-    throw std::runtime_error("more transforms in one cycle than can be followed: " +
-                             std::to_string(sample_times_.size()));
+    throw std::runtime_error(fmt::format("too many transforms in one cycle: {} times of {} bodies that move",
+                                         sample_times_.size(), moving_.size()));
   }
   pose_times_.assign(bodies_.size(), std::numeric_limits<double>::quiet_NaN());
   poses_.assign(bodies_.size(), Isometry3d::Identity());

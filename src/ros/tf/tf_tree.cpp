@@ -11,13 +11,13 @@ TfTree::TfTree(const std::vector<std::string>& wanted)
     wanted_.push_back(frame);
     setFollowed(frame, true);
   }
-  from_the_beginning_ = wanted_.size();
+  permanent_ = wanted_.size();
 }
 
-void TfTree::wantBesides(const std::vector<std::string>& names) {
+void TfTree::setExtraFrames(const std::vector<std::string>& names) {
   if (follows_all_) return;
-  const std::vector<int> before(wanted_.begin() + static_cast<std::ptrdiff_t>(from_the_beginning_), wanted_.end());
-  wanted_.resize(from_the_beginning_);
+  const std::vector<int> before(wanted_.begin() + static_cast<std::ptrdiff_t>(permanent_), wanted_.end());
+  wanted_.resize(permanent_);
   for (const int frame : before) frames_[frame].is_wanted = false;
   for (const std::string& name : names) {
     const int frame = add(name);
@@ -55,11 +55,11 @@ const std::vector<int>& TfTree::setEdge(int frame, int parent, bool is_static) {
   Frame& f = frames_[frame];
   const int old_parent = f.parent;
   if (!f.is_followed) {
-    if (old_parent != kNone) --others_[f.edge.is_static];
-    ++others_[is_static];
+    if (old_parent != kNone) --unfollowed_[f.edge.is_static];
+    ++unfollowed_[is_static];
   }
   f.edge.is_static = is_static;
-  turned_.clear();
+  changed_.clear();
   if (old_parent != parent) {
     f.parent = parent;
     ++frames_[parent].children;
@@ -70,13 +70,13 @@ const std::vector<int>& TfTree::setEdge(int frame, int parent, bool is_static) {
     }
   }
   change(frame);
-  return turned_;
+  return changed_;
 }
 
 void TfTree::forget(int frame) {
   Frame& f = frames_[frame];
   if (f.parent == kNone) return;
-  if (!f.is_followed) --others_[f.edge.is_static];
+  if (!f.is_followed) --unfollowed_[f.edge.is_static];
   const int parent = f.parent;
   f.edge = {};
   f.parent = kNone;
@@ -104,9 +104,9 @@ void TfTree::setFollowed(int frame, bool is_followed) {
   f.is_followed = is_followed;
   is_followed ? ++followed_ : --followed_;
   if (f.parent == kNone) return;
-  is_followed ? --others_[f.edge.is_static] : ++others_[f.edge.is_static];
+  is_followed ? --unfollowed_[f.edge.is_static] : ++unfollowed_[f.edge.is_static];
   ++followed_topology_;
-  turned_.push_back(frame);
+  changed_.push_back(frame);
 }
 
 /// Follows the frame and all frames above it.
@@ -119,7 +119,7 @@ void TfTree::follow(int frame) {
   if (followed_ > most_followed_) followWanted();
 }
 
-/// Determines the followed frames anew; amortised, a constant cost per followed frame.
+/// Determines the followed frames again; amortised, a constant cost per followed frame.
 void TfTree::followWanted() {
   std::vector<char> is_above(frames_.size(), 0);
   std::size_t count = 0;

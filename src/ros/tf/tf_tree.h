@@ -34,7 +34,7 @@ class TfTree {
   int add(std::string_view name);
 
   /// Also follows these frames, instead of those of the last call. No effect if all frames are followed.
-  void wantBesides(const std::vector<std::string>& names);
+  void setExtraFrames(const std::vector<std::string>& names);
 
   /// Keeps the frame's number, even while the frame is not used.
   void pin(int frame) { frames_[frame].is_pinned = true; }
@@ -50,7 +50,7 @@ class TfTree {
   bool followsAll() const { return follows_all_; }
 
   /// Number of known frames that are not followed: moving or static.
-  std::size_t others(bool is_static) const { return others_[is_static]; }
+  std::size_t unfollowed(bool is_static) const { return unfollowed_[is_static]; }
 
   /// Number of followed frames; 0 if all are.
   std::size_t followed() const { return followed_; }
@@ -92,13 +92,13 @@ class TfTree {
   std::deque<Frame> frames_;                           // a deque: names keep their addresses
   std::unordered_map<std::string_view, int> numbers_;  // by name
   std::vector<int> free_;
-  std::vector<int> wanted_;  // those of the constructor, then those of wantBesides()
-  std::size_t from_the_beginning_ = 0;
-  std::size_t others_[2] = {0, 0};
+  std::vector<int> wanted_;    // those of the constructor, then those of setExtraFrames()
+  std::size_t permanent_ = 0;  // number of those of the constructor
+  std::size_t unfollowed_[2] = {0, 0};
   std::size_t followed_ = 0;
-  std::size_t most_followed_ = 0;  // beyond it, the followed frames are determined anew
+  std::size_t most_followed_ = 0;  // beyond it, the followed frames are determined again
   long topology_ = 0, followed_topology_ = 0;
-  std::vector<int> turned_;  // result of setEdge()
+  std::vector<int> changed_;  // result of setEdge()
 };
 
 }  // namespace sdf_ccd

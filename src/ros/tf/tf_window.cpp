@@ -39,7 +39,7 @@ void TfWindow::setStep(std::size_t index, const StepSource& source, const TimePa
   for (std::size_t i = first; i < records.size(); ++i) {
     const bool is_last = i + 1 == records.size() || records[i].stamp >= part.until;
     const bool rests =
-        i != first && !is_last && isSamePlace(records[i - 1], records[i]) && isSamePlace(records[i], records[i + 1]);
+        i != first && !is_last && isSamePose(records[i - 1], records[i]) && isSamePose(records[i], records[i + 1]);
     const double time = edge.is_static ? 0.0 : secondsBetween(origin_, records[i].stamp);
     if (rests) {
       step.resting_times.push_back(time);
@@ -118,7 +118,7 @@ const TfWindow::Step& TfWindow::boundsOf(Step& step, double start, double end) {
   if (i + 1 < step.times.size() && end > step.times[i]) {
     const TfPose &a = step.poses[i], &b = step.poses[i + 1];
     is_bounded = start >= step.times[i] && end <= step.times[i + 1];
-    if (!isSamePlace(a, b)) {
+    if (!isSamePose(a, b)) {
       const double share = (end - start) / (step.times[i + 1] - step.times[i]);
       reach = std::max(reach, b.translation.norm());
       angle.first = share * pieceOf(step, i).angle();
