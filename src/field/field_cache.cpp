@@ -14,7 +14,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Version of the options' meaning: incremented when the same options give another field.
-constexpr double kMeaning = 5;
+constexpr double kMeaning = 6;
 
 /// Suffix of the file that holds a field's warning.
 constexpr const char* kDoubt = ".doubt";
