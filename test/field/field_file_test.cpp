@@ -346,6 +346,15 @@ TEST_F(FieldFile, CacheKeyIsTheContent) {
   EXPECT_EQ(fieldFileName(mesh_, options_), name);
 }
 
+TEST_F(FieldFile, CachedFieldsAreHeldToTheLimitOfBytes) {
+  const FileCache cache(path("cache"));
+  const std::size_t bytes = cachedField(cache, mesh_, options_).field.bytes();
+  options_.max_bytes = bytes;
+  EXPECT_TRUE(cachedField(cache, mesh_, options_).outcome.from_cache);
+  options_.max_bytes = bytes - 1;
+  EXPECT_THROW(cachedField(cache, mesh_, options_), std::length_error);
+}
+
 TEST_F(FieldFile, CacheThatCannotBeWrittenCostsOnlyTheSaving) {
   test::writeText(path("file"), "in the way");
   const CachedField field = cachedField(FileCache(path("file/below")), mesh_, options_);
