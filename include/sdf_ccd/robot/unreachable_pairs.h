@@ -22,7 +22,7 @@ struct UnreachablePair {
 /// Why pairs that assume this range are not out of reach with the joint at this position; empty if they are.
 std::string beyondReach(const RobotModel::Slide& slide, double position);
 
-/// @param scene  with all pairs disabled that will be.
+/// @param scene  with all pairs allowed that will be.
 std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene);
 
 /// The pairs whose prismatic joints leave the assumed range, or are not known. Between two waypoints positions lie

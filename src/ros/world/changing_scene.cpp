@@ -42,7 +42,7 @@ struct ChangingScene::Fixed {
   std::vector<BodyDescription> links;
   std::set<std::string> link_names;  // of the robot, bodies or not
   std::vector<std::string> visual_only;
-  std::vector<DisabledPair> disabled;
+  std::vector<AllowedPair> allowed;
   std::vector<UnreachablePair> unreachable;
   std::vector<NamePair> unreachable_names;
   std::set<std::string> root_frames;  // rigidly joined to the root link
@@ -56,7 +56,7 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
   fixed->tiles_begin = described.tiles_begin;
   fixed->rules = rules;
   fixed->visual_only = first.visual_only;
-  fixed->disabled = first.disabled;
+  fixed->allowed = first.allowed;
   fixed->unreachable = described.unreachable;
   for (const UnreachablePair& pair : described.unreachable)
     fixed->unreachable_names.emplace_back(first.bodies[pair.body_a].name, first.bodies[pair.body_b].name);
@@ -292,14 +292,14 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   for (const Object* object : ordered)
     if (object->is_as_first) as_first.insert(object->body.name);
   std::set<NamePair> left_out;
-  for (const DisabledPair& pair : fixed_->disabled) {
+  for (const AllowedPair& pair : fixed_->allowed) {
     if (as_first.count(pair.body_a) == 0 || as_first.count(pair.body_b) == 0) {
       const bool are_links = fixed_->link_names.count(pair.body_a) > 0 && fixed_->link_names.count(pair.body_b) > 0;
       if (!are_links) continue;
     }
     const Rule* rule = pair.proved ? nullptr : lastRule(pair.body_a, pair.body_b);
     if (rule && !rule->is_allowed) continue;
-    scene.disabled.push_back(pair);
+    scene.allowed.push_back(pair);
     if (!rules_.empty()) left_out.insert(namePair(pair.body_a, pair.body_b));
   }
   const auto moving = static_cast<std::size_t>(std::count_if(
@@ -323,7 +323,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(fixed_->rules, body_b.name, body_a.name);
       if (rule && !proved) reason = rule->is_allowed ? "update_scene: " + rule->pair.a + " - " + rule->pair.b : "";
       if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
-      scene.disabled.push_back({body_a.name, body_b.name, reason, proved});
+      scene.allowed.push_back({body_a.name, body_b.name, reason, proved});
     }
   }
   return scene;
