@@ -142,7 +142,7 @@ SceneDescription boxesAbout(const Robot& robot, const Poses& poses, FclScene& fc
   SceneDescription scene = robot.scene;
   for (const PlannedPair& pair : touching(fcl, planScene(robot.scene).pairs, poses)) {
     const auto name = [&](int body) { return robot.scene.bodies[std::size_t(body)].name; };
-    scene.disabled.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
+    scene.allowed.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
   }
   Placer placer(robot, poses, fcl);
   test::Random random(seed);

@@ -98,12 +98,17 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   return std::make_shared<const SparseGrid>(shape, std::move(data));
 }
 
-/// The caps that a field with this error bound [m] must store: those that reach farther from the mesh. Null if none do.
-std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double error) {
+/// The caps that a field stores: those that reach farther than `limit` [m] from the mesh. Null if none do.
+/// @param narrow  is set to the largest reach of the others [m].
+std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double limit, double& narrow) {
   TriangleMesh caps;
   std::vector<double> reach;
+  narrow = 0.0;
   for (std::size_t i = 0; i < openings.reach.size(); ++i) {
-    if (openings.reach[i] <= error) continue;
+    if (openings.reach[i] <= limit) {
+      narrow = std::max(narrow, openings.reach[i]);
+      continue;
+    }
     for (int k = 0; k < 3; ++k) caps.vertices.push_back(openings.caps.vertices[openings.caps.triangles[i][k]]);
     const int last = static_cast<int>(caps.vertices.size());
     caps.triangles.emplace_back(last - 3, last - 2, last - 1);
@@ -111,19 +116,6 @@ std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double err
   }
   if (reach.empty()) return nullptr;
   return std::make_shared<const OpeningCaps>(std::move(caps), std::move(reach));
-}
-
-/// The field of a solid, with the caps of its openings that it must store.
-DistanceField build(const Solid& solid, const Openings& openings, const FieldOptions& options,
-                    const Progress& progress) {
-  if (options.max_error) {
-    std::shared_ptr<const AdaptiveGrid> grid = buildAdaptive(solid, options, progress);
-    const double error = grid->shape().error_bound;
-    return DistanceField(std::move(grid), wideCaps(openings, error));
-  }
-  std::shared_ptr<const SparseGrid> grid = buildUniform(solid, options, progress);
-  const double error = grid->errorBound();
-  return DistanceField(std::move(grid), wideCaps(openings, error));
 }
 
 }  // namespace
@@ -140,7 +132,18 @@ DistanceField buildField(const Solid& solid, const FieldOptions& options, const 
 
 DistanceField buildField(const ClosedSolid& closed, const FieldOptions& options, const Progress& progress) {
   validate(options);
-  return build(closed.solid(), closed.openings(), options, progress);
+  double narrow = 0.0;
+  if (options.max_error) {
+    const double wanted = *options.max_error;
+    std::shared_ptr<const OpeningCaps> caps = wideCaps(closed.openings(), kNarrowCap * wanted, narrow);
+    const double moved = closed.moved() + narrow;
+    FieldOptions rest = options;
+    rest.max_error = std::max(wanted - moved, 0.5 * wanted);
+    return DistanceField(buildAdaptive(closed.solid(), rest, progress), std::move(caps), moved);
+  }
+  std::shared_ptr<const SparseGrid> grid = buildUniform(closed.solid(), options, progress);
+  std::shared_ptr<const OpeningCaps> caps = wideCaps(closed.openings(), kNarrowCap * grid->errorBound(), narrow);
+  return DistanceField(std::move(grid), std::move(caps), closed.moved() + narrow);
 }
 
 }  // namespace sdf_ccd

@@ -1,8 +1,10 @@
 #include "sdf_ccd/field/distance_field.h"
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
@@ -22,6 +24,11 @@ FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, 
   return {0.5 * (low + high), 0.5 * (high - low), (p_F - nearest).normalized()};
 }
 
+void requireDistance(double moved) {
+  if (moved >= 0.0 && std::isfinite(moved)) return;
+  throw std::invalid_argument("distance field: the surface cannot have moved by " + numberText(moved) + " m");
+}
+
 }  // namespace
 
 DistanceField::DistanceField(const Primitive& primitive)
@@ -29,16 +36,20 @@ DistanceField::DistanceField(const Primitive& primitive)
   validate(primitive);
 }
 
-DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings)
-    : openings_(std::move(openings)) {
+DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings,
+                             double moved)
+    : openings_(std::move(openings)), moved_(moved) {
   if (!grid) throw std::invalid_argument("distance field: no grid");
+  requireDistance(moved);
   surface_box_ = grid->shape().surface_box;
   representation_ = std::move(grid);
 }
 
-DistanceField::DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings)
-    : openings_(std::move(openings)) {
+DistanceField::DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings,
+                             double moved)
+    : openings_(std::move(openings)), moved_(moved) {
   if (!grid) throw std::invalid_argument("distance field: no grid");
+  requireDistance(moved);
   surface_box_ = grid->shape().surface_box;
   representation_ = std::move(grid);
 }
@@ -65,8 +76,10 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
   }
   const AlignedBox3d within = box();
   const Vector3d q = p_F.cwiseMax(within.min()).cwiseMin(within.max());
-  const FieldSample sample = adaptive() ? sampleWithin(*adaptive(), q) : sampleWithin(*grid(), q);
-  return q == p_F ? sample : outsideSample(surface_box_, p_F, q, sample);
+  const FieldSample within_box = adaptive() ? sampleWithin(*adaptive(), q) : sampleWithin(*grid(), q);
+  FieldSample sample = q == p_F ? within_box : outsideSample(surface_box_, p_F, q, within_box);
+  sample.error += moved_;
+  return sample;
 }
 
 FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
@@ -104,11 +117,11 @@ DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
     return {distance, distance};
   }
   const double to_surface_box = surface_box_.exteriorDistance(p_F);
-  if (!box().contains(p_F)) return {to_surface_box, std::numeric_limits<double>::infinity()};
+  if (!box().contains(p_F)) return {to_surface_box - moved_, std::numeric_limits<double>::infinity()};
   DistanceBounds bounds = adaptive() ? boundsWithin(*adaptive(), p_F) : boundsWithin(*grid(), p_F);
   // Inside the surface's box a point may be inside the body, so the distance to the box says nothing there.
   if (to_surface_box > 0.0) bounds.low = std::max(bounds.low, to_surface_box);
-  return bounds;
+  return {bounds.low - moved_, bounds.high + moved_};
 }
 
 double DistanceField::band() const {
@@ -118,7 +131,7 @@ double DistanceField::band() const {
 
 double DistanceField::errorBound() const {
   if (primitive()) return 0.0;
-  return adaptive() ? adaptive()->shape().error_bound : grid()->errorBound();
+  return moved_ + (adaptive() ? adaptive()->shape().error_bound : grid()->errorBound());
 }
 
 std::size_t DistanceField::bytes() const {

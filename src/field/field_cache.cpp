@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "field/opening_caps.h"
 #include "field/source_field.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "storage/content_hash.h"
@@ -14,7 +15,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Version of the options' meaning: incremented when the same options give another field.
-constexpr double kMeaning = 5;
+constexpr double kMeaning = 6;
 
 /// Suffix of the file that holds a field's warning.
 constexpr const char* kDoubt = ".doubt";
@@ -44,6 +45,11 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
   const std::string name = fieldFileName(source.mesh(), options);
   const auto load = [&](const std::string& path) {
     field = loadField(path, name);
+    const std::size_t bytes = field->bytes() - (field->openings() ? field->openings()->bytes() : 0);
+    if (bytes > options.max_bytes) {  // made with a larger limit
+      throw std::length_error("field: " + std::to_string(bytes >> 20) + " MB, more than the " +
+                              std::to_string(options.max_bytes >> 20) + " MB allowed");
+    }
     doubt = firstLine(path + kDoubt);
   };
   const auto make = [&] {

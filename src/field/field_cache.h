@@ -14,7 +14,8 @@ struct CachedField {
 };
 
 /// As buildField(), but loaded from the cache if possible; the key is the mesh's content (scale included) and the
-/// options. The outcome's warning says where depths may be those of faces inside the solid; a second file stores it.
+/// options. The limit of bytes is not in the key, as it changes no field: it applies to loaded ones, too. The outcome's
+/// warning says where depths may be those of faces inside the solid; a second file stores it.
 CachedField cachedField(const FileCache& cache, const SolidSource& source, const FieldOptions& options,
                         const Progress& progress = {});
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "field/adaptive/adaptive_cost.h"
+#include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
 #include "field/uniform/uniform_cost.h"
 
@@ -11,7 +12,8 @@ namespace {
 
 /// Memory of the caps that the field stores [bytes]; see wideCaps() in build_field.cpp.
 double capBytes(const Openings& openings, double error) {
-  const auto kept = std::count_if(openings.reach.begin(), openings.reach.end(), [&](double r) { return r > error; });
+  const auto kept =
+      std::count_if(openings.reach.begin(), openings.reach.end(), [&](double r) { return r > kNarrowCap * error; });
   return double(kept) * double(3 * sizeof(Vector3d) + sizeof(Vector3i) + sizeof(double));
 }
 

@@ -13,22 +13,23 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "field";
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 struct UniformRecord {
   GridRecord grid;
   double step;  ///< GridShape::step
 };
-static_assert(sizeof(UniformRecord) == 120, "the file's layout must not depend on the compiler");
+static_assert(sizeof(UniformRecord) == 128, "the file's layout must not depend on the compiler");
 
 }  // namespace
 
 void saveField(const DistanceField& field, const std::string& path, const std::string& key) {
-  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, field.openings(), path, key);
+  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, field, path, key);
   const SparseGrid* grid = field.grid();
   if (!grid) throw std::invalid_argument(path + ": the field of a primitive is exact and needs no file");
   const GridShape& shape = grid->shape();
-  const UniformRecord record{gridRecord(shape, shape.bricks, grid->errorBound(), GridShape::kBrick), shape.step};
+  const UniformRecord record{gridRecord(shape, shape.bricks, grid->errorBound(), GridShape::kBrick, field.moved()),
+                             shape.step};
   std::vector<FileSection> sections = {
       {&record, sizeof record}, sectionOf(grid->corners()), sectionOf(grid->words()), sectionOf(grid->samples())};
   addCaps(field.openings(), sections);
@@ -56,7 +57,7 @@ DistanceField loadField(const std::string& path, const std::string& key) {
   arrays.samples.data = file->section<std::int16_t>(3, arrays.samples.size);
   try {
     return DistanceField(std::make_shared<const SparseGrid>(shape, arrays, record->grid.error_bound, file),
-                         loadCaps(*file, 4, shape.surface_box));
+                         loadCaps(*file, 4, shape.surface_box), record->grid.moved);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }

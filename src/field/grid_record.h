@@ -11,21 +11,23 @@ struct GridRecord {
   double origin[3];
   double cell;
   double band;
-  double error_bound;
+  double error_bound;  ///< of the grid
+  double moved;        ///< DistanceField::moved()
   double surface_min[3];
   double surface_max[3];
   std::int32_t size[3];    ///< bricks, or top cells
   std::int32_t divisions;  ///< cells (units) along the side of one of these: a file of another layout is rejected
 };
-static_assert(sizeof(GridRecord) == 112, "the file's layout must not depend on the compiler");
+static_assert(sizeof(GridRecord) == 120, "the file's layout must not depend on the compiler");
 
 /// @param shape  of a grid of either kind.
 template <class Shape>
-GridRecord gridRecord(const Shape& shape, const Vector3i& size, double error_bound, int divisions) {
+GridRecord gridRecord(const Shape& shape, const Vector3i& size, double error_bound, int divisions, double moved) {
   GridRecord record{};
   record.cell = shape.cell;
   record.band = shape.band;
   record.error_bound = error_bound;
+  record.moved = moved;
   record.divisions = divisions;
   for (int k = 0; k < 3; ++k) {
     record.origin[k] = shape.origin[k];

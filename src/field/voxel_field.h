@@ -41,7 +41,8 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLatt
 
 /// The field of a map, as buildField() computes it from the mesh of the map's boundary, in a fraction of the time; only
 /// the origin of the cells differs.
-/// @param options  with a cell_size of which the voxels' side is a multiple, and a band of up to 32 cells: see
+/// @param options  with a cell_size of which the voxels' side is a multiple, up to rounding, and a band of up to 32
+/// cells: see
 ///                 canBeLattice().
 /// @throws std::length_error as buildField(); Cancelled.
 DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, const Progress& progress = {});

@@ -135,11 +135,19 @@ class CornerSquares {
   const bool to_occupied_;
 };
 
+/// The options with a cell of which the voxels' side is exactly a multiple: a small difference adds up along the map.
+FieldOptions exactCell(const VoxelSolid& solid, FieldOptions options) {
+  options.cell_size = solid.size() / cellsPerVoxel(solid, *options.cell_size);
+  return options;
+}
+
 /// Makes the grid of a map, block by block of bricks.
 class MapGrid {
  public:
   MapGrid(const VoxelSolid& solid, const FieldOptions& options)
-      : solid_(solid), grid_(solid.box(), solid.origin(), options), n_(cellsPerVoxel(solid, grid_.shape.cell)) {
+      : solid_(solid),
+        grid_(solid.box(), solid.origin(), exactCell(solid, options)),
+        n_(cellsPerVoxel(solid, grid_.shape.cell)) {
     requireBytes(shape().coarseBytes(), shape(), options);
   }
 
@@ -266,7 +274,7 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
     data.samples.insert(data.samples.end(), of_block.begin(), of_block.end());
     of_block = {};
   }
-  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
+  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)), nullptr, solid.moved());
 }
 
 FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options) {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/parallel_for.h"
-#include "geometry/triangle_tree.h"
+#include "measured_patch.h"
 #include "sdf_ccd/common/cancel.h"
 #include "self_crossing.h"
 #include "triangle_cut.h"
@@ -15,85 +15,6 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kRounding = 1e-6;  // of coordinates stored as floats, relative to the mesh's size
-
-/// Properties of one patch.
-struct Component {
-  std::unique_ptr<TriangleTree> tree;  ///< null if the patch is open, or encloses no volume
-  AlignedBox3d box;
-  bool inward = false;                   ///< from outside, mostly its back is visible
-  std::vector<std::int32_t> facing_out;  ///< triangles of the mesh with a winding number above zero behind them
-  std::vector<std::int32_t> facing_in;   ///< all others
-  Vector3d witness = Vector3d::Zero();   ///< a point on its surface
-  Vector3d behind = Vector3d::Zero();    ///< a point just behind the witness
-  double own_number = 0.0;               ///< the patch's winding number at `behind`
-  bool flat = false;                     ///< a sheet that is drawn from both sides
-  bool unmeasured = false;               ///< its volume is zero, but it is not flat
-};
-
-/// Whether all triangles lie in a plane.
-bool isFlat(const TriangleMesh& mesh, double size) {
-  Vector3d normal = Vector3d::Zero();
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3d n = areaNormal(mesh, static_cast<int>(i));
-    if (n.squaredNorm() > normal.squaredNorm()) normal = n;
-  }
-  normal.normalize();
-  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                     [&](const Vector3d& v) { return std::abs(normal.dot(v - mesh.vertices.front())) <= 1e-6 * size; });
-}
-
-Component measure(const TriangleMesh& mesh, const Patch& patch) {
-  Component result;
-  const TriangleMesh part = extract(mesh, patch);
-  result.box = boundingBox(part);
-  if (!patch.closed) return result;
-  const double volume = signedVolume(part), size = result.box.sizes().maxCoeff();
-  result.inward = volume < 0.0;
-  if (!(size > 1e-9)) return result;  // only a point
-  if (!(std::abs(volume) > 1e-7 * size * surfaceArea(part))) {
-    result.flat = isFlat(part, size);
-    result.unmeasured = !result.flat;
-    return result;
-  }
-  result.tree = std::make_unique<TriangleTree>(part);
-
-  const std::size_t count = part.triangles.size();
-  std::vector<Vector3d> behind(count);
-  std::vector<double> numbers(count, 0.0);
-  std::vector<char> known(count, 0);
-  parallelFor(std::size_t{0}, count, [&](std::size_t i) {
-    const Corners c = cornersOf(part, static_cast<int>(i));
-    const Vector3d area_normal = areaNormal(part, static_cast<int>(i));
-    const double longest = longestEdge(c);
-    if (!(area_normal.norm() > 1e-6 * longest * longest)) return;
-    behind[i] = (c[0] + c[1] + c[2]) / 3.0 - 1e-6 * area_normal / longest;
-    numbers[i] = result.tree->windingNumber(behind[i]);
-    known[i] = 1;
-  });
-
-  double area_out = 0.0, area_in = 0.0, farthest = -TriangleTree::kInfinity;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!known[i]) continue;
-    (numbers[i] > 0.5 ? result.facing_out : result.facing_in).push_back(patch.triangles[i]);
-    // Visible from where the number is zero: the front of a triangle with 1 behind it, the back of one with 0 behind
-    // it.
-    const long number = std::lround(numbers[i]);
-    const double area = areaNormal(part, static_cast<int>(i)).norm();
-    if (number == 1) area_out += area;
-    if (number == 0) area_in += area;
-    if (behind[i].x() > farthest) {
-      const Corners c = cornersOf(part, static_cast<int>(i));
-      farthest = behind[i].x();
-      result.witness = (c[0] + c[1] + c[2]) / 3.0;
-      result.behind = behind[i];
-      result.own_number = numbers[i];
-    }
-  }
-  // If both areas are similar, the sign of the volume decides.
-  if (area_in > 2.0 * area_out) result.inward = true;
-  if (area_out > 2.0 * area_in) result.inward = false;
-  return result;
-}
 
 /// Decides about all patches of a mesh together.
 class Inspection {
@@ -105,7 +26,8 @@ class Inspection {
         rounding_(kRounding * boundingBox(mesh).sizes().maxCoeff()) {
     components_.resize(patches.size());
     label_.assign(mesh.triangles.size(), -1);
-    parallelFor(std::size_t{0}, patches.size(), [&](std::size_t i) { components_[i] = measure(mesh, patches[i]); });
+    parallelFor(std::size_t{0}, patches.size(),
+                [&](std::size_t i) { components_[i] = measurePatch(mesh, patches[i]); });
     for (std::size_t i = 0; i < patches.size(); ++i) {
       if (!components_[i].tree) continue;
       closed_.push_back(static_cast<std::int32_t>(i));
@@ -136,7 +58,7 @@ class Inspection {
     // This many sheets may enclose a volume.
     constexpr std::ptrdiff_t kFaces = 4;
     const bool encloses = std::count_if(components_.begin(), components_.end(),
-                                        [](const Component& component) { return component.flat; }) >= kFaces;
+                                        [](const MeasuredPatch& component) { return component.flat; }) >= kFaces;
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       result[i].flat = components_[i].flat;
       doubt(result[i], components_[i].unmeasured || (components_[i].flat && encloses));
@@ -217,7 +139,7 @@ class Inspection {
     bool any = false;
     std::vector<std::int32_t> perhaps_held;  // by their witnesses, which may also lie in a patch that only overlaps
     for (const std::int32_t i : closed_) {
-      const Component& component = components_[i];
+      const MeasuredPatch& component = components_[i];
       if (std::abs(tree_->windingNumber(component.behind) - component.own_number) > 0.5) {
         perhaps_held.push_back(i);
         continue;
@@ -264,7 +186,7 @@ class Inspection {
 
   /// Whether the witness lies inside another patch or on it, from either side: on it if the patches are flush.
   bool isAtSolid(std::int32_t holder, std::int32_t inner) const {
-    const Component& component = components_[inner];
+    const MeasuredPatch& component = components_[inner];
     const TriangleTree& tree = *components_[holder].tree;
     const Vector3d before = 2.0 * component.witness - component.behind;
     return numberIn(holder, inner) != 0 || std::lround(tree.windingNumber(before)) != 0 ||
@@ -292,7 +214,7 @@ class Inspection {
   /// Patches whose box contains this one's, up to rounding, and that a ray from its witness along x may cross;
   /// ascending.
   std::set<std::int32_t> candidates(std::int32_t inner) const {
-    const Component& component = components_[inner];
+    const MeasuredPatch& component = components_[inner];
     std::set<std::int32_t> found;
     const Vector3d rounding = Vector3d::Constant(rounding_);
     const AlignedBox3d box(component.box.min() + rounding, component.box.max() - rounding);
@@ -328,7 +250,7 @@ class Inspection {
   }
 
   void findLobes(std::int32_t i, std::vector<ClosedComponent>& result) {
-    const Component& component = components_[i];
+    const MeasuredPatch& component = components_[i];
     const std::vector<std::int32_t>& lobe = component.inward ? component.facing_out : component.facing_in;
     result[i].negative_triangles = static_cast<int>(lobe.size());
     if (lobe.empty()) return;
@@ -349,7 +271,7 @@ class Inspection {
 
   /// Whether one of the triangles, none of which cuts the other patch, lies inside it.
   bool holds(std::int32_t patch, const std::vector<std::int32_t>& triangles) const {
-    const Component& component = components_[patch];
+    const MeasuredPatch& component = components_[patch];
     return std::any_of(triangles.begin(), triangles.end(), [&](std::int32_t triangle) {
       const Corners c = cornersOf(mesh_, triangle);
       const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
@@ -359,14 +281,14 @@ class Inspection {
 
   const TriangleMesh& mesh_;
   const std::vector<Patch>& patches_;
-  double eps_;                           ///< see cutTolerance()
-  double rounding_;                      ///< [m]
-  bool all_turned_ = false;              ///< the whole file is inside out
-  std::vector<Component> components_;    ///< per patch
-  std::vector<std::int32_t> label_;      ///< of each triangle: its closed patch, or -1
-  std::vector<std::int32_t> closed_;     ///< indices of the closed patches
-  std::unique_ptr<TriangleTree> tree_;   ///< of all closed patches
-  std::vector<std::int32_t> triangles_;  ///< of the mesh, in the order of tree_'s triangles
+  double eps_;                             ///< see cutTolerance()
+  double rounding_;                        ///< [m]
+  bool all_turned_ = false;                ///< the whole file is inside out
+  std::vector<MeasuredPatch> components_;  ///< per patch
+  std::vector<std::int32_t> label_;        ///< of each triangle: its closed patch, or -1
+  std::vector<std::int32_t> closed_;       ///< indices of the closed patches
+  std::unique_ptr<TriangleTree> tree_;     ///< of all closed patches
+  std::vector<std::int32_t> triangles_;    ///< of the mesh, in the order of tree_'s triangles
 };
 
 }  // namespace

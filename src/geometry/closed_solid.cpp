@@ -10,6 +10,7 @@ ClosedSolid::ClosedSolid(std::shared_ptr<const Solid> solid) : solid_(std::move(
   if (solid_->closed()) return;
   ConformingMesh joined = conformingMesh(welded(solid_->boundary()));
   if (isClosed(joined.mesh)) {
+    moved_ = joined.moved;
     solid_ = std::make_shared<const Solid>(std::move(joined.mesh));
     return;
   }

@@ -17,10 +17,12 @@ class ClosedSolid {
 
   const Solid& solid() const { return *solid_; }
   const Openings& openings() const { return openings_; }  ///< those that were closed by caps
+  double moved() const { return moved_; }                 ///< how far points of the surface were moved, at most [m]
 
  private:
   std::shared_ptr<const Solid> solid_;
   Openings openings_;
+  double moved_ = 0.0;
 };
 
 /// The solids made from a mesh, each when it was first requested.

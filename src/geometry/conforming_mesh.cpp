@@ -31,9 +31,10 @@ std::vector<Edge> unbalancedEdges(const TriangleMesh& mesh) {
 }
 
 /// Merges vertices of such edges that are within a distance of each other [m].
-void joinVertices(TriangleMesh& mesh, double tolerance) {
+/// @return how far vertices moved, at most [m]: more than the distance where several follow each other.
+double joinVertices(TriangleMesh& mesh, double tolerance) {
   const std::vector<Edge> edges = unbalancedEdges(mesh);
-  if (edges.empty()) return;
+  if (edges.empty()) return 0.0;
   const EdgeSearch search(mesh, edges);
   CancelTicks<256> cancel;
   std::vector<int> joined(mesh.vertices.size()), near;
@@ -49,6 +50,11 @@ void joinVertices(TriangleMesh& mesh, double tolerance) {
     }
   }
   for (Vector3i& t : mesh.triangles) t = {joined[t[0]], joined[t[1]], joined[t[2]]};
+  double moved = 0.0;
+  for (const int vertex : search.vertices()) {
+    moved = std::max(moved, (mesh.vertices[joined[vertex]] - mesh.vertices[vertex]).norm());
+  }
+  return moved;
 }
 
 /// Whether a corner lies on the opposite side: such a triangle is a seam, not a surface.
@@ -98,8 +104,8 @@ void split(const Vector3i& corners, const std::array<Points, 3>& on, std::vector
 /// The mesh with vertices merged, and triangles split at vertices on their sides, within a distance [m]; without
 /// triangles of at most that height.
 ConformingMesh joinedWithin(TriangleMesh mesh, double tolerance) {
-  joinVertices(mesh, tolerance);
   ConformingMesh result;
+  result.moved = joinVertices(mesh, tolerance) + tolerance;  // a side bends to a vertex near it
   result.mesh.vertices = mesh.vertices;
   TriangleMesh surface;
   surface.vertices = mesh.vertices;
@@ -134,7 +140,7 @@ ConformingMesh joinedWithin(TriangleMesh mesh, double tolerance) {
 ConformingMesh conformingMesh(const TriangleMesh& mesh) {
   constexpr double kDoubleDigits = 0x1p-48, kFloatDigits = 0x1p-22;  // of the largest coordinate
   constexpr double kMax = 1e-6;                                      // of the mesh's size, far from the origin
-  ConformingMesh result{mesh, std::vector<std::int32_t>(mesh.triangles.size())};
+  ConformingMesh result{mesh, std::vector<std::int32_t>(mesh.triangles.size()), 0.0};
   std::iota(result.source.begin(), result.source.end(), 0);
   if (unbalancedEdges(mesh).empty()) return result;
   const AlignedBox3d box = boundingBox(mesh);

@@ -8,6 +8,7 @@ namespace sdf_ccd {
 struct ConformingMesh {
   TriangleMesh mesh;                 ///< with the vertices of the original mesh
   std::vector<std::int32_t> source;  ///< per triangle: the original triangle of which it is a part
+  double moved = 0.0;                ///< upper bound of how far points of the surface were moved [m]
 };
 
 /// Merges vertices that coincide, and splits triangles at vertices on their sides, where a side is not used equally

@@ -21,13 +21,16 @@ class Lattice {
   const Vector3d& origin() const { return box_.min(); }
   Eigen::Array3d count() const { return (box_.sizes() / size_).array().round(); }
 
-  /// Sets the lattice point of a vertex. @return false if the vertex is not on the lattice.
-  bool place(int vertex, Vector3i& point) const {
+  /// Sets the lattice point of a vertex, and raises `moved` to the distance between them [m].
+  /// @return false if the vertex is not on the lattice.
+  bool place(int vertex, Vector3i& point, double& moved) const {
     constexpr double kOff =
         1e-4;  // of a voxel: coordinates of 65536 of them, rounded to single precision, are off by less
     const Vector3d exact = (mesh_.vertices[vertex] - origin()) / size_;
     point = exact.array().round().cast<int>();
-    return (exact - point.cast<double>()).lpNorm<Eigen::Infinity>() < kOff;
+    const Vector3d off = exact - point.cast<double>();
+    moved = std::max(moved, off.norm() * size_);
+    return off.lpNorm<Eigen::Infinity>() < kOff;
   }
 
  private:
@@ -66,7 +69,7 @@ std::shared_ptr<const VoxelSolid> VoxelSolid::of(const TriangleMesh& mesh, std::
   for (const Vector3i& triangle : mesh.triangles) {
     Vector3i corners[3];
     for (int k = 0; k < 3; ++k)
-      if (!lattice.place(triangle[k], corners[k])) return nullptr;
+      if (!lattice.place(triangle[k], corners[k], solid->moved_)) return nullptr;
     Square square;
     square.low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
     square.extent = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) - square.low;

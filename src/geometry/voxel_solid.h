@@ -20,6 +20,7 @@ class VoxelSolid {
   double size() const { return size_; }               ///< of a voxel [m]
   const Vector3d& origin() const { return origin_; }  ///< lowest corner of the voxel 0 0 0 [m]
   const Vector3i& count() const { return count_; }    ///< of voxels, in the box that holds all occupied ones
+  double moved() const { return moved_; }             ///< distance of the mesh's vertices from the lattice, at most [m]
   AlignedBox3d box() const { return {origin_, origin_ + size_ * count_.cast<double>()}; }
 
   /// Whether a voxel is occupied; those outside the box are free.
@@ -44,6 +45,7 @@ class VoxelSolid {
   double faces() const;
 
   double size_ = 0.0;
+  double moved_ = 0.0;
   Vector3d origin_ = Vector3d::Zero();
   Vector3i count_ = Vector3i::Zero();
   std::size_t words_ = 0;            // of a row along x

@@ -71,18 +71,18 @@ void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std
   warnOfUnknown("allowed_pairs", rules.allowed, scene, warnings);
   warnOfUnknown("checked_pairs", rules.checked, scene, warnings);
   if (rules.allowed.empty() && rules.checked.empty()) return;
-  auto& disabled = scene.disabled;
-  const auto wanted = [&](const DisabledPair& pair) {
+  auto& allowed = scene.allowed;
+  const auto wanted = [&](const AllowedPair& pair) {
     return !pair.proved && matchesAny(rules.checked, pair.body_a, pair.body_b);
   };
-  disabled.erase(std::remove_if(disabled.begin(), disabled.end(), wanted), disabled.end());
+  allowed.erase(std::remove_if(allowed.begin(), allowed.end(), wanted), allowed.end());
   std::set<NamePair> left_out;
-  for (const DisabledPair& pair : disabled) left_out.insert(namePair(pair.body_a, pair.body_b));
+  for (const AllowedPair& pair : allowed) left_out.insert(namePair(pair.body_a, pair.body_b));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
       const std::string &a = scene.bodies[i].name, &b = scene.bodies[k].name;
       const std::string reason = whyAllowed(rules, a, b);
-      if (!reason.empty() && left_out.count(namePair(a, b)) == 0) disabled.push_back({a, b, reason});
+      if (!reason.empty() && left_out.count(namePair(a, b)) == 0) allowed.push_back({a, b, reason});
     }
 }
 

@@ -29,8 +29,8 @@ bool matchesAny(const std::vector<PairRule>& rules, const std::string& name_a, c
 std::string whyAllowed(const PairRules& rules, const std::string& name_a, const std::string& name_b);
 
 /// Leaves out pairs of a scene that are allowed to touch, and includes pairs that are to be checked although they were
-/// left out, except for DisabledPair::proved ones.
-/// @param scene     with all of its bodies and disabled pairs.
+/// left out, except for AllowedPair::proved ones.
+/// @param scene     with all of its bodies and allowed pairs.
 /// @param warnings  gets a line for each pattern that matches no body's name.
 void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std::string>& warnings);
 

@@ -48,16 +48,16 @@ bool isBox(const BodyDescription& body) {
   return primitive && std::holds_alternative<Box>(*primitive);
 }
 
-std::map<NamePair, std::string> disabledPairs(const SceneDescription& description) {
+std::map<NamePair, std::string> allowedPairs(const SceneDescription& description) {
   std::set<std::string> names;
   for (const BodyDescription& body : description.bodies) {
     if (!names.insert(body.name).second)
       throw std::invalid_argument("scene: two bodies are named \"" + body.name + "\"");
   }
   std::map<NamePair, std::string> reasons;
-  for (const DisabledPair& pair : description.disabled) {
+  for (const AllowedPair& pair : description.allowed) {
     if (pair.body_a == pair.body_b)
-      throw std::invalid_argument("scene: a disabled pair names \"" + pair.body_a + "\" twice");
+      throw std::invalid_argument("scene: an allowed pair names \"" + pair.body_a + "\" twice");
     reasons.emplace(namePair(pair.body_a, pair.body_b), pair.reason);
   }
   return reasons;
@@ -70,9 +70,9 @@ bool isPlanned(const BodyDescription& body) {
 
 /// Why the pair is not tested; empty if it is.
 std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
-                       const std::map<NamePair, std::string>& disabled) {
-  const auto found = disabled.find(namePair(a.name, b.name));
-  if (found != disabled.end()) return found->second;
+                       const std::map<NamePair, std::string>& allowed) {
+  const auto found = allowed.find(namePair(a.name, b.name));
+  if (found != allowed.end()) return found->second;
   if (a.is_world && b.is_world) return "both of the world";
   if (a.frame == b.frame) return "in the same frame";
   if (!isPlanned(a) || !isPlanned(b)) return {};
@@ -84,7 +84,7 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
 }  // namespace
 
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options) {
-  const std::map<NamePair, std::string> disabled = disabledPairs(description);
+  const std::map<NamePair, std::string> allowed = allowedPairs(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
   plan.needs_field.assign(count, false);
@@ -113,7 +113,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
         ++world_pairs;
         continue;
       }
-      const std::string reason = whyLeftOut(a, b, disabled);
+      const std::string reason = whyLeftOut(a, b, allowed);
       if (!reason.empty()) {
         plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason, i, k});
         continue;

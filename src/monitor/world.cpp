@@ -38,7 +38,7 @@ SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan
     if (kept.count({pair.body_a, pair.body_b}) > 0) continue;
     const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
     const auto reason = reasons.find({pair.body_a, pair.body_b});
-    description.disabled.push_back({a, b, reason == reasons.end() ? "left out" : *reason->second});
+    description.allowed.push_back({a, b, reason == reasons.end() ? "left out" : *reason->second});
   }
   return description;
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <queue>
-#include <stdexcept>
 #include <vector>
 
 #include "field/uniform/sample_bracket.h"
 #include "field/uniform/sparse_grid.h"
 #include "query/cells/adaptive_walk.h"
+#include "segment_reach.h"
 
 namespace sdf_ccd {
 namespace {
@@ -161,28 +161,27 @@ LeastDistance leastInLeaves(const AdaptiveGrid& grid, const Segment& segment) {
   return least;
 }
 
-/// Widens the bounds by the rounding of coordinates and of the distance, so that they hold in doubles too.
-LeastDistance rounded(LeastDistance least, const Segment& segment) {
+/// Widens the bounds by how far the field's surface was moved, and by the rounding of coordinates and of the distance,
+/// so that they hold in doubles too.
+LeastDistance widened(LeastDistance least, double moved, const Segment& segment) {
   constexpr double kRoundings = 16.0;
   const double size = std::max(segment.start.lpNorm<Eigen::Infinity>(), segment.end.lpNorm<Eigen::Infinity>());
   const double rounding =
       kRoundings * std::numeric_limits<double>::epsilon() * (size + std::abs(least.low) + std::abs(least.high));
-  least.low -= rounding;
-  least.high += rounding;
+  least.low -= moved + rounding;
+  least.high += moved + rounding;
   return least;
 }
 
 }  // namespace
 
 LeastDistance leastDistance(const DistanceField& field, const Segment& segment) {
-  if (!isWithinReach(segment)) {
-    throw std::invalid_argument("least distance: the segment is not finite or has a coordinate above 1e12 m");
-  }
+  requireWithinReach(segment, "least distance");
   if (const AdaptiveGrid* adaptive = field.adaptive()) {
     const LeastDistance least = leastInLeaves(*adaptive, segment);
-    if (least.low <= field.band()) return rounded(least, segment);
+    if (least.low <= field.band()) return widened(least, field.moved(), segment);
   }
-  return rounded(LeastSearch(field, segment).run(), segment);
+  return widened(LeastSearch(field, segment).run(), field.moved(), segment);
 }
 
 }  // namespace sdf_ccd

@@ -137,15 +137,15 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
       const std::string reason = filter.reason(scene.bodies[i], balls[i], scene.bodies[j], balls[j]);
       if (reason.empty()) continue;
-      scene.disabled.push_back({scene.bodies[i].name, scene.bodies[j].name, reason, isProved(reason)});
+      scene.allowed.push_back({scene.bodies[i].name, scene.bodies[j].name, reason, isProved(reason)});
     }
   }
   return scene;
 }
 
 void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
-  std::set<NamePair> disabled;
-  for (const DisabledPair& pair : scene.disabled) disabled.insert(namePair(pair.body_a, pair.body_b));
+  std::set<NamePair> allowed;
+  for (const AllowedPair& pair : scene.allowed) allowed.insert(namePair(pair.body_a, pair.body_b));
   const std::set<std::string> links(robot.links().begin(), robot.links().end());
   const std::vector<Isometry3d> X_RL = robot.forwardKinematics({});
   for (const BodyDescription& object : scene.bodies) {
@@ -154,14 +154,14 @@ void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
     if (!X_RB) continue;
     for (const BodyDescription& body : scene.bodies) {
       if (body.is_world || !body.failure.empty() || body.geometry.empty() || !links.count(body.name)) continue;
-      if (disabled.count(namePair(object.name, body.name))) continue;
+      if (allowed.count(namePair(object.name, body.name))) continue;
       std::string reason;
       if (robot.rigidlyJoined(robot.root(), body.name)) {
         reason = kRigidlyJoined;
       } else if (outOfReach(robot, object, *X_RB, body.name, extentBall(body.geometry))) {
         reason = kOutOfReach;
       }
-      if (!reason.empty()) scene.disabled.push_back({body.name, object.name, reason, isProved(reason)});
+      if (!reason.empty()) scene.allowed.push_back({body.name, object.name, reason, isProved(reason)});
     }
   }
 }

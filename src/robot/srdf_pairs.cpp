@@ -4,7 +4,7 @@
 
 namespace sdf_ccd {
 SrdfPairs::SrdfPairs(const Srdf& srdf) {
-  for (const DisabledPair& pair : srdf.disabled) {
+  for (const AllowedPair& pair : srdf.disabled) {
     if (isPattern(pair.body_a) || isPattern(pair.body_b)) {
       disabled_patterns_.push_back({{pair.body_a, pair.body_b}, pair.reason});
     } else {
@@ -46,7 +46,7 @@ bool SrdfPairs::isDisabledByDefault(const std::string& link) const {
 
 std::vector<std::string> unknownLinks(const Srdf& srdf, const std::vector<std::string>& links) {
   std::set<std::string> named(srdf.disabled_by_default.begin(), srdf.disabled_by_default.end());
-  for (const DisabledPair& pair : srdf.disabled) named.insert({pair.body_a, pair.body_b});
+  for (const AllowedPair& pair : srdf.disabled) named.insert({pair.body_a, pair.body_b});
   for (const auto& [a, b] : srdf.enabled) named.insert({a, b});
   for (const std::string& link : links) named.erase(link);
   std::vector<std::string> unknown;

@@ -53,11 +53,11 @@ std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const Sce
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) index[scene.bodies[i].name] = static_cast<int>(i);
   const auto linkOf = [&](int body) { return scene.bodies[body].is_world ? robot.root() : scene.bodies[body].name; };
   std::vector<UnreachablePair> pairs;
-  for (const DisabledPair& disabled : scene.disabled) {
-    if (disabled.reason != kOutOfReach) continue;
+  for (const AllowedPair& allowed : scene.allowed) {
+    if (allowed.reason != kOutOfReach) continue;
     UnreachablePair pair;
-    pair.body_a = index.at(disabled.body_a);
-    pair.body_b = index.at(disabled.body_b);
+    pair.body_a = index.at(allowed.body_a);
+    pair.body_b = index.at(allowed.body_b);
     pair.ball_a = ballOf(scene.bodies[pair.body_a]);
     pair.ball_b = ballOf(scene.bodies[pair.body_b]);
     pair.slides = robot.slidesBetween(linkOf(pair.body_a), linkOf(pair.body_b));

@@ -28,7 +28,7 @@ constexpr std::size_t kAlways = 1000;  // random states that decide Always: each
 class PairSorter {
  public:
   PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene) : robot_(robot), srdf_(srdf) {
-    for (const DisabledPair& pair : scene.disabled) {
+    for (const AllowedPair& pair : scene.allowed) {
       if (pair.reason == kOutOfReach) out_of_reach_.insert(namePair(pair.body_a, pair.body_b));
     }
     for (const BodyDescription& body : scene.bodies) bodies_.insert(body.name);
@@ -219,11 +219,11 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
     pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is sampled");
   }
   const PairSorter sorter(robot, srdf, description);
-  description.disabled.clear();
+  description.allowed.clear();
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < description.bodies.size(); ++j) {
       const BodyDescription &a = description.bodies[i], &b = description.bodies[j];
-      if (!sorter.mustBeTested(a, b, pairs)) description.disabled.push_back({a.name, b.name, "not tested"});
+      if (!sorter.mustBeTested(a, b, pairs)) description.allowed.push_back({a.name, b.name, "not tested"});
     }
   }
   const auto build_progress = [&](const std::string&, double share) {

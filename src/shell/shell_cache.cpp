@@ -1,5 +1,8 @@
 #include "shell/shell_cache.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "sdf_ccd/shell/point_shell.h"
 #include "storage/content_hash.h"
 
@@ -16,8 +19,14 @@ CachedShell cachedShell(const FileCache& cache, const SolidSource& source, const
   const std::string name = contentHash(source.mesh(), {options.spacing, options.edge_gap, double(options.has_siblings),
                                                        options.vertex_spacing, double(options.seed), kMeaning}) +
                            ".shell";
-  cached.outcome = cache.get(name, {[&](const std::string& path) { cached.shell = loadShell(path, name); },
-                                    [&] { cached.shell = sampleSurface(source.solid(), options); },
+  const auto load = [&](const std::string& path) {
+    cached.shell = loadShell(path, name);
+    if (cached.shell.size() > options.max_points) {  // made with a larger limit
+      throw std::length_error("the shell has " + std::to_string(cached.shell.size()) + " points, more than the " +
+                              std::to_string(options.max_points) + " allowed");
+    }
+  };
+  cached.outcome = cache.get(name, {load, [&] { cached.shell = sampleSurface(source.solid(), options); },
                                     [&](const std::string& path) { saveShell(cached.shell, path, name); }});
   return cached;
 }

@@ -12,6 +12,7 @@ struct CachedShell {
 };
 
 /// As sampleSurface(), but loaded from the cache if possible; the key is the mesh's content and the options.
+/// The limit of points is not in the key, as it changes no shell: it applies to loaded ones, too.
 CachedShell cachedShell(const FileCache& cache, const SolidSource& source, const ShellOptions& options);
 
 }  // namespace sdf_ccd

@@ -130,7 +130,7 @@ void buildRobot(const Arguments& arguments) {
   std::size_t failed = 0;
   for (const BodyDescription& body : robot.scene.bodies) failed += !buildLink(body, names, builder);
   std::cout << robot.scene.bodies.size() << " links, " << robot.pairs << " pairs to check, "
-            << robot.scene.disabled.size() << " left out; ";
+            << robot.scene.allowed.size() << " left out; ";
   builder.printTotals();
   if (failed > 0) throw PartlyDone();
 }

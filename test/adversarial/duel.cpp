@@ -73,7 +73,7 @@ Duel::Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& mon
     // In front, as of equally urgent pairs the first is tested first.
     description.bodies.insert(description.bodies.begin(), {described("c", box), described("d", box)});
     for (const char* other : {"c", "d"})
-      for (const char* own : {"a", "b"}) description.disabled.push_back({own, other, "far away"});
+      for (const char* own : {"a", "b"}) description.allowed.push_back({own, other, "far away"});
   }
   auto built =
       std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(scene)), scene));

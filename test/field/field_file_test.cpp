@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 7;  // of a uniform field's file
+constexpr std::uint32_t kVersion = 8;  // of a uniform field's file
 
 class FieldFile : public testing::Test {
  protected:
@@ -60,6 +60,7 @@ void expectSame(const DistanceField& a, const DistanceField& b) {
   }
   EXPECT_EQ(a.band(), b.band());
   EXPECT_EQ(a.errorBound(), b.errorBound());
+  EXPECT_EQ(a.moved(), b.moved());
 }
 
 /// Queries the field everywhere, at points and along segments, one by one and in batches.
@@ -188,7 +189,7 @@ TEST_F(FieldFile, BadStepsAreRefused) {
 
 /// The checksum is valid, but a box beyond the grid's would be searched for a surface that the grid does not hold.
 TEST_F(FieldFile, BoxesOfTheSurfaceBeyondTheGridAreRefused) {
-  constexpr std::size_t kSurfaceMin = 6 * sizeof(double), kSurfaceMax = 9 * sizeof(double);
+  constexpr std::size_t kSurfaceMin = 7 * sizeof(double), kSurfaceMax = 10 * sizeof(double);
   for (const FieldOptions& options : {options_, adaptive()}) {
     saveField(buildField(mesh_, options), path("a.field"));
     const test::EditedFile good(path("a.field"), options.max_error ? "adaptive field" : "field", kVersion);
@@ -343,6 +344,15 @@ TEST_F(FieldFile, CacheKeyIsTheContent) {
   wider.band = 0.1;
   EXPECT_NE(fieldFileName(mesh_, wider), name);
   EXPECT_EQ(fieldFileName(mesh_, options_), name);
+}
+
+TEST_F(FieldFile, CachedFieldsAreHeldToTheLimitOfBytes) {
+  const FileCache cache(path("cache"));
+  const std::size_t bytes = cachedField(cache, mesh_, options_).field.bytes();
+  options_.max_bytes = bytes;
+  EXPECT_TRUE(cachedField(cache, mesh_, options_).outcome.from_cache);
+  options_.max_bytes = bytes - 1;
+  EXPECT_THROW(cachedField(cache, mesh_, options_), std::length_error);
 }
 
 TEST_F(FieldFile, CacheThatCannotBeWrittenCostsOnlyTheSaving) {

@@ -91,6 +91,57 @@ TEST(OpenMeshField, MeshSampleHoldsOfTheTriangles) {
   }
 }
 
+/// A box with a square hole in its top. However narrow the hole, distances beside it are not taken as those of a closed
+/// box, although those are nearly exact where the surface is flat.
+TEST(OpenMeshField, SamplesHoldBesideHolesNarrowerThanTheError) {
+  Random random(6);
+  for (const double hole : {0.002, 0.012}) {
+    TriangleMesh mesh = test::binMesh(kHalf);
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (const double half : {hole, kHalf})
+      for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+        mesh.vertices.emplace_back(half * x, half * y, kHalf);
+    for (int k = 0; k < 4; ++k) {
+      const int next = (k + 1) % 4;
+      mesh.triangles.emplace_back(first + 4 + k, first + 4 + next, first + next);
+      mesh.triangles.emplace_back(first + 4 + k, first + next, first + k);
+    }
+    for (const FieldOptions& options : bothKinds(0.02, 20)) {
+      const DistanceField field = buildField(mesh, options);
+      EXPECT_EQ(field.openings() != nullptr, hole > 0.01);
+      EXPECT_EQ(field.moved() >= hole, hole < 0.01);
+      EXPECT_LE(field.errorBound(), 0.022);
+      const Vector3d middle(0, 0, kHalf), reach(2 * hole, 2 * hole, 4 * hole);
+      for (int i = 0; i < 5000; ++i) {
+        const Vector3d p = test::uniformIn(random, {middle - reach, middle + reach});
+        const double truth = distance(mesh, p);
+        const FieldSample sample = field.meshSample(p);
+        ASSERT_LE(std::abs(std::abs(sample.value) - truth), sample.error + 1e-9) << p.transpose();
+        ASSERT_LE(field.lowerBound(p), truth + 1e-9) << p.transpose();
+      }
+    }
+  }
+}
+
+/// Faces whose vertices differ by the rounding of floats are joined; the bounds include by how much.
+TEST(OpenMeshField, BoundsIncludeHowFarVerticesWereMoved) {
+  Random random(7);
+  TriangleMesh soup;
+  const TriangleMesh ball = test::icosphere(0.3, 1);
+  for (const Vector3i& t : ball.triangles) {
+    const int first = static_cast<int>(soup.vertices.size());
+    for (int k = 0; k < 3; ++k) soup.vertices.push_back(ball.vertices[t[k]] + 1e-8 * test::direction(random));
+    soup.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  for (const FieldOptions& options : bothKinds(0.01, 32)) {
+    const DistanceField field = buildField(soup, options);
+    EXPECT_GT(field.moved(), 1e-8);
+    EXPECT_LT(field.moved(), 1e-6);
+    EXPECT_GE(field.sample({0, 0, 0.3}).error, field.moved());
+    EXPECT_EQ(buildField(ball, options).moved(), 0.0);
+  }
+}
+
 /// A mesh whose triangles nearly meet counts as closed. (Closest points on slivers are less exact: with a tolerance of
 /// 1e-12 for ties, one sample had the wrong sign, and five times as many leaves were needed.)
 TEST(OpenMeshField, CracksAreNoOpenings) {
@@ -109,7 +160,7 @@ TEST(OpenMeshField, CracksAreNoOpenings) {
     for (int i = 0; i < 2000; ++i) {
       const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.4), Vector3d::Constant(0.4)});
       const FieldSample a = field.sample(p), b = closed.sample(p);
-      ASSERT_LE(std::abs(a.value - b.value), a.error + b.error + 1e-4);
+      ASSERT_LE(std::abs(a.value - b.value), a.error + b.error + 2e-5);  // the jitter
     }
   }
 }

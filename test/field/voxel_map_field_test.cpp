@@ -230,5 +230,27 @@ TEST(VoxelMapField, CostIsExpectedWithinAFactorOfTwo) {
   EXPECT_LT(cost.seconds, 20.0);
 }
 
+/// A cell that differs from an exact part of the voxels' side by what is accepted: over a long map that adds up.
+TEST(VoxelMapField, CellsThatNearlyDivideTheVoxelsAreFittedToThem) {
+  const Vector3i count(1500, 2, 2);
+  Random random(3);
+  Voxels row(random, Voxels::kWalls, count);  // its top layer is full
+  const TriangleMesh mesh = row.boundary();
+  const std::shared_ptr<const VoxelSolid> solid = VoxelSolid::of(mesh);
+  ASSERT_TRUE(solid);
+  FieldOptions options;
+  options.max_error.reset();
+  options.cells.reset();
+  options.cell_size = 0.5 * kSize * (1.0 + 0.9e-6);
+  ASSERT_TRUE(canBeLattice(*solid, options));
+  const DistanceField field = buildField(*solid, options);
+  const double end = kOrigin.x() + kSize * count.x();
+  for (const double away : {-0.3, -0.1, 0.1, 0.3}) {
+    const Vector3d p(end + away * kSize, kOrigin.y() + kSize, kOrigin.z() + 1.5 * kSize);
+    const FieldSample sample = field.sample(p);
+    EXPECT_LE(std::abs(sample.value - away * kSize), sample.error + 1e-12) << away;
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -60,14 +60,14 @@ SceneDescription sceneOf(const std::vector<std::string>& names) {
 }
 
 std::string reasonOf(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  for (const DisabledPair& pair : scene.disabled)
+  for (const AllowedPair& pair : scene.allowed)
     if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a)) return pair.reason;
   return "";
 }
 
 TEST(PairRules, LeaveOutAndTakeBack) {
   SceneDescription scene = sceneOf({"finger_1", "finger_2", "part", "table", "base"});
-  scene.disabled = {{"base", "table", "rigidly joined", true}, {"part", "base", "SRDF: Never"}};
+  scene.allowed = {{"base", "table", "rigidly joined", true}, {"part", "base", "SRDF: Never"}};
   PairRules rules;
   rules.allowed = {{"finger_*", "part"}, {"*", "table"}, {"base", "part"}};
   rules.checked = {{"table", "finger_2"}, {"base", "*"}};
@@ -81,7 +81,7 @@ TEST(PairRules, LeaveOutAndTakeBack) {
   EXPECT_EQ(reasonOf(scene, "part", "base"), "") << "also over an SRDF";
   EXPECT_EQ(reasonOf(scene, "base", "table"), "rigidly joined") << "nothing moves there";
   EXPECT_EQ(reasonOf(scene, "finger_1", "finger_2"), "");
-  EXPECT_EQ(scene.disabled.size(), 5u);
+  EXPECT_EQ(scene.allowed.size(), 5u);
 }
 
 TEST(PairRules, NamesThatNobodyHasAreTold) {
@@ -92,7 +92,7 @@ TEST(PairRules, NamesThatNobodyHasAreTold) {
   EXPECT_NE(warnings[0].find("allowed_pairs: no body is named fingr"), std::string::npos) << warnings[0];
   EXPECT_NE(warnings[0].find("finger"), std::string::npos) << warnings[0];
   EXPECT_NE(warnings[1].find("checked_pairs: no body is named x*"), std::string::npos) << warnings[1];
-  EXPECT_TRUE(scene.disabled.empty());
+  EXPECT_TRUE(scene.allowed.empty());
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(ScenePlan, TestsBothRolesOfOrdinaryPairs) {
   EXPECT_TRUE(plan.left_out.empty());
 }
 
-TEST(ScenePlan, LeavesOutDisabledPairsInEitherOrder) {
+TEST(ScenePlan, LeavesOutAllowedPairsInEitherOrder) {
   const ScenePlan plan = planScene({{body("a", kBall), body("b", kBall), body("c", kBall)},
                                     {{"b", "a", "SRDF: Never"}, {"c", "no such link", "SRDF: Never"}}});
   EXPECT_EQ(plan.pairs.size(), 2u);

@@ -84,10 +84,10 @@ class ChangingWorld {
                                                            double(description_.bodies.size() - links_.size()))];
   }
   void dropPairs(const std::string& name) {
-    auto& disabled = description_.disabled;
-    disabled.erase(std::remove_if(disabled.begin(), disabled.end(),
-                                  [&](const DisabledPair& pair) { return pair.body_a == name || pair.body_b == name; }),
-                   disabled.end());
+    auto& allowed = description_.allowed;
+    allowed.erase(std::remove_if(allowed.begin(), allowed.end(),
+                                 [&](const AllowedPair& pair) { return pair.body_a == name || pair.body_b == name; }),
+                  allowed.end());
   }
   void changeOnce() {
     const std::size_t objects = description_.bodies.size() - links_.size();
@@ -116,7 +116,7 @@ class ChangingWorld {
       one.X_frame_B = place();
     } else {
       dropPairs(one.name);
-      if (uniform(random_, 0.0, 1.0) < 0.5) description_.disabled.push_back({"link0", one.name, "allowed"});
+      if (uniform(random_, 0.0, 1.0) < 0.5) description_.allowed.push_back({"link0", one.name, "allowed"});
     }
   }
 
@@ -248,7 +248,7 @@ TEST(World, LeavesOutWhatTheFirstSceneLeftOut) {
   const auto first = editor.begin(description, plan, scene);
   const auto second = editor.next(*first->description);
   ASSERT_EQ(second->scene->pairs.size(), 2U);
-  EXPECT_EQ(second->description->disabled.back().reason, "overlap");
+  EXPECT_EQ(second->description->allowed.back().reason, "overlap");
   EXPECT_EQ(second->prepared, 0);
 }
 

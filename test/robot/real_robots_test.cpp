@@ -13,7 +13,7 @@ struct RealRobot {
   const char* urdf;
   const char* srdf;  ///< empty: no SRDF
   std::size_t bodies;
-  std::size_t disabled;
+  std::size_t allowed;
   std::size_t pairs;
 };
 
@@ -47,8 +47,8 @@ TEST_P(RealRobots, LoadWithoutFailureOrWarning) {
     }
   }
   EXPECT_EQ(scene.bodies.size(), GetParam().bodies);
-  EXPECT_EQ(scene.disabled.size(), GetParam().disabled);
-  EXPECT_EQ(scene.bodies.size() * (scene.bodies.size() - 1) / 2 - scene.disabled.size(), GetParam().pairs);
+  EXPECT_EQ(scene.allowed.size(), GetParam().allowed);
+  EXPECT_EQ(scene.bodies.size() * (scene.bodies.size() - 1) / 2 - scene.allowed.size(), GetParam().pairs);
 }
 
 INSTANTIATE_TEST_SUITE_P(

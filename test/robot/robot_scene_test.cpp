@@ -51,7 +51,7 @@ std::string chain() {
 }
 
 std::string reasonFor(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  for (const DisabledPair& pair : scene.disabled) {
+  for (const AllowedPair& pair : scene.allowed) {
     if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a)) return pair.reason;
   }
   return "checked";

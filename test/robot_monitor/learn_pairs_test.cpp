@@ -214,7 +214,7 @@ TEST(LearnPairs, AgreesWithTheSetupAssistantOnAPanda) {
   options.states = 1000;
   const LearnedPairs pairs = learnPairs(robot, {}, loader, options);
   std::map<std::string, std::string> reasons;
-  for (const DisabledPair& pair : theirs.disabled) {
+  for (const AllowedPair& pair : theirs.disabled) {
     reasons[std::min(pair.body_a, pair.body_b) + " " + std::max(pair.body_a, pair.body_b)] = pair.reason;
   }
   for (const LearnedPair& pair : pairs.disabled) {

@@ -64,7 +64,7 @@ class ChangingSceneTest : public ::testing::Test {
   }
   /// The reason why the pair is left out; "checked" if it is not.
   std::string reason(const std::string& a, const std::string& b) const {
-    for (const DisabledPair& pair : description().disabled)
+    for (const AllowedPair& pair : description().allowed)
       if (namePair(pair.body_a, pair.body_b) == namePair(a, b)) return pair.reason;
     return "checked";
   }
@@ -102,7 +102,7 @@ class ChangingSceneTest : public ::testing::Test {
 
 TEST_F(ChangingSceneTest, BeginsAsStartUpLeftIt) {
   EXPECT_EQ(description().bodies.size(), described_.scene.bodies.size());
-  EXPECT_EQ(description().disabled.size(), described_.scene.disabled.size());
+  EXPECT_EQ(description().allowed.size(), described_.scene.allowed.size());
   EXPECT_EQ(reason("arm", "table"), "out of reach");
   EXPECT_EQ(scene_->unreachable(description()).size(), described_.unreachable.size());
 }
@@ -218,7 +218,7 @@ TEST_F(ChangingSceneTest, RulesOfLaterCallsWin) {
   EXPECT_EQ(reason("arm", "one"), "checked");
   EXPECT_EQ(reason("arm", "tool"), "rigidly joined");  // they can never come closer
   apply(change(SceneChange::FORGET_RULES, ""));
-  EXPECT_EQ(description().disabled.size(), described_.scene.disabled.size() + 2);  // the base and the two objects on it
+  EXPECT_EQ(description().allowed.size(), described_.scene.allowed.size() + 2);  // the base and the two objects on it
 }
 
 TEST_F(ChangingSceneTest, AnObjectThatWasOutOfReachIsCheckedWhereItHasMoved) {

@@ -10,6 +10,8 @@
 #include "oracle/failure.h"
 #include "oracle/files.h"
 #include "oracle/mended_file.h"
+#include "oracle/shapes.h"
+#include "shell/shell_cache.h"
 
 namespace sdf_ccd {
 namespace {
@@ -91,6 +93,17 @@ TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
   shell_.edge_radius = HUGE_VAL;  // edges were not sampled separately
   saveShell(shell_, path_.string());
   EXPECT_EQ(loadShell(path_.string()).edge_radius, HUGE_VAL);
+}
+
+TEST_F(ShellFile, CachedShellsAreHeldToTheLimitOfPoints) {
+  const FileCache cache(directory_.string());
+  const TriangleMesh box = test::boxMesh({0.2, 0.1, 0.1});
+  ShellOptions options;
+  options.spacing = 0.05;
+  const std::size_t points = cachedShell(cache, box, options).shell.size();
+  EXPECT_TRUE(cachedShell(cache, box, options).outcome.from_cache);
+  options.max_points = points - 1;
+  EXPECT_THROW(cachedShell(cache, box, options), std::length_error);
 }
 
 TEST_F(ShellFile, EveryTruncationIsRefused) {

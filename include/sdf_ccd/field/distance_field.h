@@ -45,8 +45,12 @@ class DistanceField {
   explicit DistanceField(const Primitive& primitive);
 
   /// @param openings  null where there are none.
-  explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
-  explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {});
+  /// @param moved     see moved().
+  /// @throws std::invalid_argument if there is no grid, or `moved` is not a distance.
+  explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {},
+                         double moved = 0.0);
+  explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {},
+                         double moved = 0.0);
 
   /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is local: that of the
   /// point's leaf, or of the samples around the point (see src/field/uniform/sample_bracket.h).
@@ -66,9 +70,13 @@ class DistanceField {
   /// Bound on |interpolated − true distance| within the band [m]; 0 for primitives.
   double errorBound() const;
 
-  /// The caps: parts of the surface that are not on the mesh. Null if the whole surface is on the mesh, within the
-  /// error bound; then the sign is certain. (Caps of cracks do not count if no point of theirs is farther from the mesh
-  /// than errorBound().)
+  /// Upper bound of the distance between the surface that was sampled and that of the mesh [m]: nearly equal vertices
+  /// were joined, cracks closed, or vertices moved to the lattice of their voxels. All error bounds include it.
+  double moved() const { return moved_; }
+
+  /// The caps: parts of the surface that are not on the mesh. Null if the whole surface is on the mesh, within moved();
+  /// then the sign is certain. (Caps of cracks, no point of which is farther from the mesh than a quarter of
+  /// errorBound(), are in moved() instead.)
   const OpeningCaps* openings() const { return openings_.get(); }
 
   /// Lower bound of the distance to the parts of the surface that are not on the mesh [m]; infinity if there are none.
@@ -99,6 +107,7 @@ class DistanceField {
   std::variant<Primitive, std::shared_ptr<const SparseGrid>, std::shared_ptr<const AdaptiveGrid>> representation_;
   AlignedBox3d surface_box_;
   std::shared_ptr<const OpeningCaps> openings_;
+  double moved_ = 0.0;
 };
 
 /// Writes a sampled field. The file appears under its name complete or not at all, and holds a checksum.

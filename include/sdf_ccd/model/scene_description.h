@@ -38,8 +38,8 @@ struct BodyDescription {
   std::string map;        ///< the map that the body is a tile of; empty if it is none
 };
 
-/// A pair that is left out, by the bodies' names.
-struct DisabledPair {
+/// A pair that is allowed to collide, so it is left out, by the bodies' names.
+struct AllowedPair {
   std::string body_a;
   std::string body_b;
   std::string reason;   ///< "SRDF: Adjacent", "rigidly joined", …
@@ -54,7 +54,7 @@ struct UncheckedPair {
 
 struct SceneDescription {
   std::vector<BodyDescription> bodies;  ///< names are unique
-  std::vector<DisabledPair> disabled;
+  std::vector<AllowedPair> allowed;     ///< the allowed collision matrix: these pairs may collide and are not checked
   std::vector<std::string> visual_only = {};  ///< links without body: they have a visual, but no collision shape
 };
 

@@ -61,16 +61,16 @@ struct PlanOptions {
 /// whatever shares a body with one or with a half-space. Witnesses are tested against bodies with a shell, which then
 /// need a field.
 ///
-/// Left out are: pairs that are disabled, both of the world, in the same frame, or of a body without geometry; fields
+/// Left out are: pairs that are allowed, both of the world, in the same frame, or of a body without geometry; fields
 /// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot
 /// be covered with points), and pairs of two such bodies. A body that is one large primitive (a table, a wall) only has
 /// a field against bodies too small to contain it: their shells against its exact field detect every contact of the
 /// surfaces. If it is a box and edges are sampled separately, its points on edges are kept: with them, contacts are
 /// detected to the edge gap instead of the spacing. All others are tested in both roles. A pair with a body that cannot
 /// be checked stays, requires nothing to be built, and is NOT_CHECKED; but if that body is a tile of a map
-/// (BodyDescription::map), which is still to come, the other body is prepared for it. A disabled pair may name bodies
+/// (BodyDescription::map), which is still to come, the other body is prepared for it. An allowed pair may name bodies
 /// that the scene does not have (an SRDF's links without collision geometry).
-/// @throws std::invalid_argument if two bodies share a name, or a disabled pair names the same body twice.
+/// @throws std::invalid_argument if two bodies share a name, or an allowed pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 
 struct Scene {

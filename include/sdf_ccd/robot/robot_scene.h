@@ -38,7 +38,7 @@ Resource loadLocalResource(const std::string& uri, const PackageFinder& packages
 /// The parts of an SRDF file that are used. Names are not compared with any robot here.
 struct Srdf {
   std::string robot;                                         ///< the robot's name in the file; may be empty
-  std::vector<DisabledPair> disabled;                        ///< reason: "SRDF: " and the file's
+  std::vector<AllowedPair> disabled;                         ///< reason: "SRDF: " and the file's
   std::map<std::string, JointPositions> states;              ///< "group/state"; "state" where the file names no group
   std::vector<std::string> disabled_by_default;              ///< links that are only checked against those of `enabled`
   std::map<std::string, std::string> virtual_joints;         ///< child link by name; parent frame and type are not used
@@ -83,7 +83,7 @@ struct UnreachablePair {
   std::vector<RobotModel::Slide> slides;  ///< prismatic joints between them, which must stay in their ranges
 };
 
-/// @param scene  with all pairs disabled that will be.
+/// @param scene  with all pairs allowed that will be.
 std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene);
 
 }  // namespace sdf_ccd

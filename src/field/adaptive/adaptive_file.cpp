@@ -9,22 +9,22 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 static_assert(sizeof(NodeBases) == 12 && sizeof(AdaptiveNode) == 64 && sizeof(SplitLeaves) == 64,
               "the file's layout must not depend on the compiler");
 
 }  // namespace
 
-void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path,
+void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const std::string& path,
                   const std::string& key) {
   const AdaptiveShape& shape = grid.shape();
-  const GridRecord record = gridRecord(shape, shape.size, shape.error_bound, AdaptiveShape::kUnits);
+  const GridRecord record = gridRecord(shape, shape.size, shape.error_bound, AdaptiveShape::kUnits, field.moved());
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
   std::vector<FileSection> sections = {{&record, sizeof record},     sectionOf(arrays.top),    sectionOf(arrays.nodes),
                                        sectionOf(arrays.bases),      sectionOf(arrays.leaves), sectionOf(arrays.splits),
                                        sectionOf(arrays.leaf_errors)};
-  addCaps(openings, sections);
+  addCaps(field.openings(), sections);
   writeCheckedFile(path, {kAdaptiveFileKind, kVersion, key}, sections);
 }
 
@@ -47,7 +47,7 @@ DistanceField loadAdaptive(const std::string& path, const std::string& key) {
   arrays.leaf_errors.data = file->section<std::uint8_t>(6, arrays.leaf_errors.size);
   try {
     return DistanceField(std::make_shared<const AdaptiveGrid>(shape, arrays, file),
-                         loadCaps(*file, 7, shape.surface_box));
+                         loadCaps(*file, 7, shape.surface_box), record->moved);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }

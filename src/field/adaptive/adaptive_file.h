@@ -3,7 +3,6 @@
 #include <string>
 
 #include "field/adaptive/adaptive_grid.h"
-#include "field/opening_caps.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "storage/checked_file.h"
 
@@ -12,8 +11,8 @@ namespace sdf_ccd {
 /// The kind of checked file that holds an adaptive grid.
 constexpr char kAdaptiveFileKind[] = "adaptive field";
 
-/// As saveField(). @param openings  null if there are none.
-void saveAdaptive(const AdaptiveGrid& grid, const OpeningCaps* openings, const std::string& path,
+/// As saveField(). @param grid  of the field.
+void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const std::string& path,
                   const std::string& key);
 
 /// As loadField().

@@ -1,4 +1,5 @@
 #include "field/cube_corner.h"
+#include "field/grid_cell.h"
 #include "field/grid_sample.h"
 
 namespace sdf_ccd {
@@ -13,10 +14,8 @@ struct LocatedBlock {
 LocatedBlock locate(const AdaptiveGrid& grid, const Vector3d& p_F) {
   const AdaptiveShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.unit();
-  const Vector3i last = shape.units().array() - 1;
-  const AdaptiveBlock block = grid.block(g.array().floor().max(0.0).matrix().cast<int>().cwiseMin(last));
-  const Vector3d u = (g - block.low.cast<double>()) / block.side;
-  return {block, u.array().max(0.0).min(1.0)};
+  const AdaptiveBlock block = grid.block(cellAt(g, shape.units()));
+  return {block, withinCell((g - block.low.cast<double>()) / block.side)};
 }
 
 FieldValue leafValue(const AdaptiveGrid& grid, const LocatedBlock& at) {
@@ -51,9 +50,8 @@ FieldSample centerSample(const AdaptiveGrid& grid, const Vector3i& cell) {
 FieldSample farSample(const AdaptiveGrid& grid, const LocatedBlock& at, const Vector3d& p_F) {
   const AdaptiveShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.cell - Vector3d::Constant(0.5);
-  const Vector3i low =
-      g.array().floor().max(0.0).matrix().cast<int>().cwiseMin((shape.size.array() - 2).max(0).matrix());
-  const Vector3d u = (g - low.cast<double>()).array().max(0.0).min(1.0);
+  const Vector3i low = cellAt(g, shape.size.array() - 1);  // of the cells between the centres
+  const Vector3d u = withinCell(g - low.cast<double>());
   std::array<double, 8> corners;
   double error = 0.0;
   for (int k = 0; k < 8; ++k) {

@@ -1,3 +1,4 @@
+#include "field/grid_cell.h"
 #include "field/grid_sample.h"
 
 #include <limits>
@@ -18,16 +19,15 @@ struct LocatedCell {
 LocatedCell locate(const SparseGrid& grid, const Vector3d& p_F) {
   const GridShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.cell;
-  const Vector3i last = shape.cells().array() - 1;
-  const Vector3i cell = g.array().floor().max(0.0).matrix().cast<int>().cwiseMin(last);
+  const Vector3i cell = cellAt(g, shape.cells());
   const Vector3i brick = cell / GridShape::kBrick;
   const std::int32_t slot = grid.slot(brick);
-  const auto unit = [](const Vector3d& u) { return Vector3d(u.array().max(0.0).min(1.0)); };
   if (slot != SparseGrid::kFar) {
-    return {grid.cellCorners(slot, cell - GridShape::kBrick * brick), unit(g - cell.cast<double>()), shape.cell, true};
+    return {grid.cellCorners(slot, cell - GridShape::kBrick * brick), withinCell(g - cell.cast<double>()), shape.cell,
+            true};
   }
-  return {grid.brickCorners(brick), unit(g / GridShape::kBrick - brick.cast<double>()), GridShape::kBrick * shape.cell,
-          false};
+  return {grid.brickCorners(brick), withinCell(g / GridShape::kBrick - brick.cast<double>()),
+          GridShape::kBrick * shape.cell, false};
 }
 
 FieldValue interpolateIn(const LocatedCell& cell) {

@@ -61,14 +61,14 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   for (const Object* object : ordered)
     if (object->is_unchanged) unchanged.insert(object->body.name);
   std::set<NamePair> left_out;
-  for (const DisabledPair& pair : start_up_->disabled) {
+  for (const AllowedPair& pair : start_up_->allowed) {
     if (unchanged.count(pair.body_a) == 0 || unchanged.count(pair.body_b) == 0) {
       const bool are_links = start_up_->link_names.count(pair.body_a) > 0 && start_up_->link_names.count(pair.body_b) > 0;
       if (!are_links) continue;
     }
     const Rule* rule = pair.proved ? nullptr : lastRule(pair.body_a, pair.body_b);
     if (rule && !rule->is_allowed) continue;
-    scene.disabled.push_back(pair);
+    scene.allowed.push_back(pair);
     if (!rules_.empty()) left_out.insert(namePair(pair.body_a, pair.body_b));
   }
   const auto moving = static_cast<std::size_t>(std::count_if(
@@ -92,7 +92,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
       if (rule && !proved) reason = rule->is_allowed ? "update_scene: " + rule->pair.a + " - " + rule->pair.b : "";
       if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
-      scene.disabled.push_back({body_a.name, body_b.name, reason, proved});
+      scene.allowed.push_back({body_a.name, body_b.name, reason, proved});
     }
   }
   return scene;

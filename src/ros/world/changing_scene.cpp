@@ -54,7 +54,7 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
   start_up->tiles_begin = described.tiles_begin;
   start_up->rules = rules;
   start_up->visual_only = first.visual_only;
-  start_up->disabled = first.disabled;
+  start_up->allowed = first.allowed;
   start_up->unreachable = described.unreachable;
   for (const UnreachablePair& pair : described.unreachable)
     start_up->unreachable_names.emplace_back(first.bodies[pair.body_a].name, first.bodies[pair.body_b].name);

@@ -12,7 +12,7 @@ struct ChangingScene::StartUp {
   std::vector<BodyDescription> links;
   std::set<std::string> link_names;  // of the robot, bodies or not
   std::vector<std::string> visual_only;
-  std::vector<DisabledPair> disabled;
+  std::vector<AllowedPair> allowed;
   std::vector<UnreachablePair> unreachable;
   std::vector<NamePair> unreachable_names;
   std::set<std::string> root_frames;  // rigidly joined to the root link

@@ -1,0 +1,214 @@
+#include "sdf_ccd/geometry/mesh_quality.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "closed_components.h"
+#include "conforming_mesh.h"
+#include "duplicate_triangles.h"
+#include "geometry/triangle_tree.h"
+#include "hidden_walls.h"
+#include "mesh_patches.h"
+#include "open_components.h"
+#include "sdf_ccd/common/cancel.h"
+#include "self_crossing.h"
+#include "triangle_cut.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// Counts components and kinds of edges, before any triangle is flipped.
+void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
+  TriangleSets sets(mesh.triangles.size());
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    const auto count = last - first;
+    if (count == 1) ++quality.boundary_edges;
+    if (count == 2 && first[0].forward == first[1].forward) ++quality.misoriented_edges;
+    if (count > 2) ++quality.non_manifold_edges;
+    for (const EdgeUse* use = first + 1; use < last; ++use) sets.join(first->triangle, use->triangle);
+  });
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(mesh.triangles.size()); ++i) {
+    quality.components += sets.find(i) == i;
+  }
+}
+
+/// Flips triangles of `mesh` as their parts are flipped in `turned`.
+/// @return whether all parts of each triangle agree.
+bool turnAsParts(const ConformingMesh& parts, const TriangleMesh& turned, TriangleMesh& mesh) {
+  std::vector<char> turn(mesh.triangles.size(), 0);
+  bool agree = true;
+  for (std::size_t i = 0; i < parts.source.size(); ++i) {
+    const std::int32_t source = parts.source[i];
+    const char turns = turned.triangles[i] != parts.mesh.triangles[i];
+    agree = agree && (i == 0 || parts.source[i - 1] != source || turn[source] == turns);
+    turn[source] = turns;
+  }
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    if (turn[i]) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+  }
+  return agree;
+}
+
+/// What orienting the closed patches of a mesh has shown of all of them together.
+struct ClosedPatches {
+  int closed = 0, turned = 0, cavities = 0, flat = 0, mixed = 0;
+  bool doubtful = false;
+
+  /// Whether all closed patches are whole solids in the orientation in which they are drawn, side by side or
+  /// overlapping.
+  bool isPlain() const { return turned == 0 && cavities == 0 && flat == 0 && mixed == 0; }
+};
+
+/// Whether a flipped patch meets others in an edge, so that one may have been cut out of the other.
+bool turnedMeetsOthers(const std::vector<Patch>& patches, const std::vector<ClosedComponent>& closed,
+                       const TriangleMesh& mesh) {
+  std::vector<char> turned(mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (!closed[i].turn) continue;
+    for (const std::int32_t triangle : patches[i].triangles) turned[triangle] = 1;
+  }
+  bool found = false;
+  forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    if (last - first <= 2 || found) return;
+    const auto of_turned = std::count_if(first, last, [&](const EdgeUse& use) { return turned[use.triangle] != 0; });
+    found = of_turned > 0 && of_turned < last - first;
+  });
+  return found;
+}
+
+/// Whether a flipped patch touches itself: it may be two parts, joined where faces were tessellated separately.
+bool turnedTouchesItself(const std::vector<Patch>& patches, const TriangleMesh& drawn, const TriangleMesh& turned) {
+  return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
+    const std::int32_t first = patch.triangles.front();
+    if (!patch.closed || drawn.triangles[first] == turned.triangles[first]) return false;
+    const TriangleMesh part = extract(turned, patch);
+    return touchesItself(part, TriangleTree(part));
+  });
+}
+
+ClosedPatches turnClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, MeshQuality& quality) {
+  ClosedPatches all;
+  const std::vector<ClosedComponent> closed = inspectClosed(mesh, patches);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    all.closed += patches[i].closed;
+    all.turned += closed[i].turn;
+    all.cavities += closed[i].cavity;
+    all.flat += closed[i].flat;
+    all.mixed += patches[i].closed && patches[i].mixed;
+    all.doubtful = all.doubtful || closed[i].doubtful;
+    quality.negative_triangles += closed[i].negative_triangles;
+    if (closed[i].turn) flip(mesh, patches[i]);
+  }
+  quality.inverted_components = all.turned;
+  all.doubtful = all.doubtful || (all.turned > 0 && turnedMeetsOthers(patches, closed, mesh));
+  return all;
+}
+
+/// Whether some wall has a side that cannot see the outside: such walls may be all that is left of a part that was
+/// drawn inside out, where it is flush with the parts that contain it.
+bool enclose(const std::vector<Vector3i>& walls, TriangleMesh mesh) {
+  if (walls.empty()) return false;
+  const std::size_t first = mesh.triangles.size();
+  mesh.triangles.insert(mesh.triangles.end(), walls.begin(), walls.end());
+  const TriangleTree tree(mesh);
+  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();  // more than seesOutside() widens triangles by
+  for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
+    checkCancelled();
+    const Corners c = cornersOf(mesh, static_cast<int>(i));
+    const Vector3d center = (c[0] + c[1] + c[2]) / 3.0, normal = areaNormal(mesh, static_cast<int>(i)).normalized();
+    if (!tree.seesOutside(center + step * normal) || !tree.seesOutside(center - step * normal)) return true;
+  }
+  return false;
+}
+
+/// Flips the patches of the mesh outward, and removes the walls that are hidden inside it from `distinct`.
+void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
+  std::vector<Vector3i>& walls = distinct.walls;
+  MeshQuality& quality = result.quality;
+  const ConformingMesh joined = conformingMesh(result.mesh);
+  TriangleMesh likeness = joined.mesh;
+  std::vector<Patch> patches = orientConsistently(likeness);
+  for (Patch& patch : patches) {
+    patch.mixed = patch.mixed || std::any_of(patch.triangles.begin(), patch.triangles.end(), [&](auto triangle) {
+                    return !distinct.both_ways.empty() && distinct.both_ways[joined.source[triangle]] != 0;
+                  });
+  }
+  checkCancelled();
+  likeness = normalized(std::move(likeness));
+  const TriangleMesh drawn = likeness;
+  const ClosedPatches closed = turnClosed(patches, likeness, quality);
+  // Two parts that were tessellated separately may have been joined at a common edge, and cancel each other.
+  const bool is_joined = joined.mesh.triangles.size() != result.mesh.triangles.size();
+  bool doubtful = closed.doubtful || (is_joined && quality.negative_triangles > 0);
+  doubtful = doubtful || (is_joined && closed.turned > 0 && turnedTouchesItself(patches, drawn, likeness));
+  // Of a part that is drawn twice, one may be a solid and the other not.
+  const bool some_turned = closed.turned > 0 && closed.turned < closed.closed;
+  doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_turned));
+  TriangleMesh hiding = likeness;
+  hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
+  const std::vector<char> from_behind = openPatchesToFlip(hiding, patches);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    quality.inverted_sheets += from_behind[i];
+    if (from_behind[i] != 0) flip(likeness, patches[i]);
+  }
+  const std::vector<char> hidden = hiddenWalls(likeness, patches, walls);
+  doubtful = !turnAsParts(joined, likeness, result.mesh) || doubtful;
+
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (hidden[i] == 0) {
+      walls[kept++] = walls[i];
+      continue;
+    }
+    const Vector3i& t = walls[i];
+    const Vector3d &a = result.mesh.vertices[t[0]], &b = result.mesh.vertices[t[1]], &c = result.mesh.vertices[t[2]];
+    quality.hidden_triangles += 2;
+    quality.hidden_area += (b - a).cross(c - a).norm();
+  }
+  walls.resize(kept);
+  // Walls that are kept may be what is left of a part that another one cancels.
+  quality.doubtful =
+      doubtful || (!walls.empty() && (quality.negative_triangles > 0 || !closed.isPlain())) || enclose(walls, likeness);
+  quality.sign_trusted = isClosed(likeness) && !quality.doubtful;
+}
+
+}  // namespace
+
+OrientedMesh orientOutward(const TriangleMesh& mesh) {
+  validate(mesh);
+  OrientedMesh result;
+  MeshQuality& quality = result.quality;
+  const TriangleMesh weld = welded(mesh);
+  if (weld.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
+  quality.degenerate_triangles = static_cast<int>(mesh.triangles.size() - weld.triangles.size());
+  checkCancelled();
+  DistinctTriangles distinct = distinctTriangles(weld);
+  quality.duplicate_triangles = distinct.copies;
+  quality.duplicate_area = distinct.copied_area;
+  const std::vector<Vector3i>& walls = distinct.walls;
+
+  result.mesh = distinct.mesh;
+  result.mesh.triangles.insert(result.mesh.triangles.end(), walls.begin(), walls.end());
+  for (std::size_t i = 0; i < result.mesh.triangles.size(); ++i) {
+    quality.degenerate_triangles += areaNormal(result.mesh, static_cast<int>(i)).squaredNorm() == 0;
+  }
+  checkCancelled();
+  inspectEdges(result.mesh, quality);
+  checkCancelled();
+  quality.box = boundingBox(result.mesh);
+
+  result.mesh = std::move(distinct.mesh);
+  turnOutward(distinct, result);
+  for (const Vector3i& wall : walls) {
+    result.mesh.triangles.push_back(wall);
+    result.mesh.triangles.emplace_back(wall[0], wall[2], wall[1]);
+  }
+  quality.wall_triangles = 2 * static_cast<int>(walls.size());
+  quality.triangles = static_cast<int>(result.mesh.triangles.size());
+  quality.volume = signedVolume(result.mesh);
+  quality.area = surfaceArea(result.mesh);
+  return result;
+}
+
+}  // namespace sdf_ccd
