@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/ray_directions.h"
 #include "geometry/triangle_tree.h"
 
 namespace sdf_ccd {
@@ -47,17 +48,9 @@ int TriangleTree::firstHit(const Vector3d& p, const Vector3d& direction, double 
 }
 
 bool TriangleTree::seesOutside(const Vector3d& p) const {
-  constexpr double kCracks = 4e-6;
-  const double slack = kCracks * nodes_[0].box.sizes().maxCoeff();
-  // A spiral from pole to pole in steps of the golden angle covers the sphere evenly.
-  constexpr int kRays = 128;
-  constexpr double kGoldenAngle = 2.39996322972865332;
-  for (int i = 0; i < kRays; ++i) {
-    const int k = 37 * i % kRays;  // successive rays have very different directions
-    const double z = (2 * k + 1.0) / kRays - 1.0, radius = std::sqrt(1.0 - z * z), angle = kGoldenAngle * k;
-    const Vector3d direction(radius * std::cos(angle), radius * std::sin(angle), z);
-    if (firstHit(p, direction, 0.0, slack) < 0) return true;
-  }
+  const double slack = kRayCracks * nodes_[0].box.sizes().maxCoeff();
+  for (int i = 0; i < kRayDirections; ++i)
+    if (firstHit(p, rayDirection(i), 0.0, slack) < 0) return true;
   return false;
 }
 

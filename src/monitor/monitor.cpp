@@ -216,8 +216,13 @@ const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_
   for (std::size_t k = 0; k < count; ++k)
     motion.times.push_back(k == 0 ? 0.0 : duration * static_cast<double>(k) / static_cast<double>(count - 1));
   motion.X_WB = X_WB;
-  for (std::size_t b = 0; b < X_WB.size() && b < scene().bodies.size(); ++b)
-    requireUnambiguousTurns(X_WB[b], "monitor: " + scene().bodies[b].name);
+  for (std::size_t b = 0; b < X_WB.size() && b < scene().bodies.size(); ++b) {
+    const std::string& name = scene().bodies[b].name;
+    if (X_WB[b].size() != count)
+      throw std::invalid_argument("monitor: " + name + " has " + std::to_string(X_WB[b].size()) + " poses, others have " +
+                                  std::to_string(count));
+    requireUnambiguousTurns(X_WB[b], "monitor: " + name);
+  }
   return run(motion, request);
 }
 

@@ -1,6 +1,7 @@
 #include "pair_roles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sdf_ccd {
@@ -83,12 +84,13 @@ bool PairRoles::isOutsideAtEnd(int body) const {
 
 /// Relative weight of a role's impulse among the roles of its pair (design §3.7): equal, except for shells whose
 /// spacing is more than three times the finest. The error of a wrench comes from how few points touch, so such points
-/// count by their number per area.
+/// count ever less, by the square of their number per area; without a jump, so that nearly equal bodies give nearly
+/// equal forces.
 double PairRoles::forceWeight(const PairRole& role) const {
   constexpr double kAlike = 3.0;  // within which spacings by the sizes of elements mostly are
   if (!role.bearsForce()) return 0.0;
-  const double coarser = role.shell().covering_radius / finest_spacing_;
-  return coarser <= kAlike ? 1.0 : 1.0 / (coarser * coarser);
+  const double coarser = role.shell().covering_radius / (kAlike * finest_spacing_);
+  return coarser <= 1.0 ? 1.0 : std::pow(coarser, -4.0);
 }
 
 void PairRoles::addContacts(const std::vector<ContactCollector::Siblings>& siblings, const ContactOptions& options,

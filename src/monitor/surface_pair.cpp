@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/box_tree_ray.h"
 #include "geometry/triangle_tree.h"
 #include "motion/time_at.h"
 
@@ -25,9 +26,13 @@ bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
 bool isOutsideSolid(const Body& body, const Vector3d& p) {
   if (isOutsideBox(body.triangles->closedTree(), p)) return true;
   if (body.doubtful) return body.doubtful->seesOutside(p);
-  return !body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), [&](const BodyPart& part) {
-    return part.field.lowerBound(part.X_BG.inverse() * p) > 0.0;
-  });
+  const auto boundsIn = [&](const BodyPart& part) { return part.field.bounds(part.X_BG.inverse() * p); };
+  if (std::any_of(body.parts.begin(), body.parts.end(), [&](const auto& part) { return boundsIn(part).high < 0.0; }))
+    return false;
+  const auto isOutsidePart = [&](const BodyPart& part) { return boundsIn(part).low > 0.0; };
+  if (!body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), isOutsidePart)) return true;
+  // In a narrow recess the fields' errors exceed the gap.
+  return seesOutside(body.triangles->closedTree(), p);
 }
 
 /// Whether no component of `inner` lies inside `outer`, given that their surfaces are apart.

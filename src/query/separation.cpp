@@ -139,6 +139,8 @@ class SeparationQuery {
         continue;
       }
       descend(boxes, next);
+      if (is_direction_new_) boxes.setDirection(direction_);
+      is_direction_new_ = false;
       if (memory_.near.size() - known <= kManyNear) continue;
       memory_.near.resize(known);
       return halve(times, poses, [this](const Times& half, const EndPoses& ends) { testBoxes(half, ends); });
@@ -225,6 +227,7 @@ class SeparationQuery {
     ++tests_;
     const double gap = single.gap[0] - radii(pair) - chord_error_;
     direction_ = single.axisOf(0);
+    is_direction_new_ = false;
     boxes.setDirection(direction_);
     if (!(gap > options_.margin)) return false;
     nearest_ = gap;
@@ -288,6 +291,9 @@ class SeparationQuery {
         witness_.near_a = pair.a;
         witness_.near_b = pair.b;
         cut_ = std::max(options_.margin, kCut * gap);
+        // After a jump the last query's nearest triangles, and their direction, may be anywhere.
+        direction_ = group.axisOf(i);
+        is_direction_new_ = true;
       }
       if (gap > options_.margin) {
         lowest_ = std::min(lowest_, gap);
@@ -295,27 +301,29 @@ class SeparationQuery {
       }
       if (testCrossing(pair, poses_.X_AB_end, times_.end)) return;
       if (times_.length() == 1.0 && testCrossing(pair, poses_.X_AB_start, times_.start)) return;
-      if (hardlyMoves(pair)) {
-        leaveOpen();
+      const double moves = motionOf(pair) + chord_error_;
+      if (moves <= std::max(options_.resolution, 2.0 * rounding_)) {
+        leaveOpen(moves <= options_.resolution);
       } else {
         memory_.near.push_back(pair);
       }
     }
   }
 
-  /// Whether B's triangle moves less than the resolution. A pair that is then not known to be apart is closer than the
-  /// resolution, so the time is not halved further.
-  bool hardlyMoves(const Triangles& pair) const {
+  /// How far B's triangle moves. If that is less than the resolution, or than rounding can tell, a pair that is not
+  /// known to be apart then is left open, and the time is not halved further.
+  double motionOf(const Triangles& pair) const {
     double moved = 0.0;
     for (const Vector3d& p : b_.triangle(pair.b).corners)
       moved = std::max(moved, (poses_.X_AB_end * p - poses_.X_AB_start * p).norm());
-    return moved + chord_error_ <= options_.resolution;
+    return moved;
   }
 
   /// kApart can no longer be proved; a crossing still can.
-  void leaveOpen() {
+  void leaveOpen(bool is_near) {
+    found_.is_near |= is_near;
     if (open_) return;
-    open_ = found_.is_near = true;
+    open_ = true;
     limit_ = std::min(options_.max_tests, tests_ + kMaxTestsWhenOpen);
   }
 
@@ -329,8 +337,9 @@ class SeparationQuery {
   Times times_{0.0, 1.0};  // the interval being tested
   EndPoses poses_;
   double chord_error_ = 0.0;  // upper bound of the deviation of B's points from their chords, and rounding [m]
-  Vector3d direction_ = Vector3d::UnitZ();
-  double nearest_ = kInfinity;  // gap of the nearest triangles tested exactly
+  Vector3d direction_ = Vector3d::UnitZ();  // of the nearest triangles tested exactly
+  bool is_direction_new_ = false;           // and not yet that of the boxes' tests
+  double nearest_ = kInfinity;              // gap of the nearest triangles tested exactly
   double cut_ = 0.0;
   double lowest_ = kInfinity;  // the smallest gap used in a proof
   int tests_ = 0, limit_ = 0;

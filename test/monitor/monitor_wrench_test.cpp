@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "monitor/scene_case.h"
+#include "oracle/random.h"
 
 namespace sdf_ccd {
 namespace {
@@ -237,6 +238,35 @@ TEST(MonitorWrench, HundredMetresPerSecondThroughOneMillimetre) {
   EXPECT_NEAR(pair.on_a_W.force.z() * T, impulse, 0.03 * impulse);
   EXPECT_NEAR(pair.intervals.front().enter, (0.47 - R - thickness / 2) / v, 1e-5);
   EXPECT_NEAR(pair.intervals.back().exit, (0.47 + R + thickness / 2) / v, 1e-5);
+}
+
+/// Two balls of nearly the same size, whose shells are a little more and a little less than the ratio from that on the
+/// slab's shell counts less.
+TEST(MonitorWrench, DoesNotJumpWhereShellsCeaseToCountAlike) {
+  const auto sceneWith = [](double radius) {
+    return build({body("ball", Primitive(Sphere{radius})), body("slab", meshShape(boxMesh({0.15, 0.15, 0.0375})))},
+                 optionsForContacts());
+  };
+  const auto ratio = [](const Scene& scene) {
+    return scene.bodies[1].shell->covering_radius / scene.bodies[0].shell->covering_radius;
+  };
+  double low = 0.003, high = 0.04;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    (ratio(*sceneWith(middle)) > 3.0 ? low : high) = middle;
+  }
+  Monitor larger(sceneWith(low), soft()), smaller(sceneWith(high), soft());
+  ASSERT_NEAR(ratio(larger.scene()), ratio(smaller.scene()), 1e-3);
+  Random random(5);
+  for (int i = 0; i < 40; ++i) {
+    const Vector3d place(uniform(random, -0.06, 0.06), uniform(random, -0.06, 0.06), 0.0375 + 0.95 * low);
+    const auto force = [&](Monitor& monitor) {
+      const CycleMotion motion = cycle(0.1, {still(translation(place)), still(Isometry3d::Identity())});
+      return monitor.run(motion, {}).pairs[0].on_a_W.force.z();
+    };
+    const double expected = force(larger);
+    EXPECT_NEAR(force(smaller), expected, 0.05 * expected);
+  }
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "body/body_triangles.h"
+#include "geometry/mesh_edges.h"
 #include "monitor/scene_case.h"
 #include "oracle/random.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
 
 namespace sdf_ccd {
 namespace {
@@ -260,6 +264,74 @@ TEST(SurfacePair, HalfSpacesAndVoxelsKeepTheirFields) {
   post.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.5}}), Isometry3d::Identity(), "post"});
   const auto scene = build({map, post, body("ball", Primitive(Sphere{0.05}))}, coarse());
   for (const Body& body : scene->bodies) EXPECT_FALSE(body.triangles) << body.name;
+}
+
+/// A closed channel along x, open at its top, whose floor is between z = 0 and `wall`.
+TriangleMesh channel(double half_length, double half_width, double height, double wall) {
+  const std::vector<Eigen::Vector2d> outline = {
+      {-half_width, 0.0},        {half_width, 0.0},         {half_width, height},        {half_width - wall, height},
+      {half_width - wall, wall}, {wall - half_width, wall}, {wall - half_width, height}, {-half_width, height}};
+  TriangleMesh mesh;
+  for (const double x : {-half_length, half_length})
+    for (const Eigen::Vector2d& p : outline) mesh.vertices.emplace_back(x, p.x(), p.y());
+  const auto quad = [&mesh](int a, int b, int c, int d) {
+    mesh.triangles.emplace_back(a, b, c);
+    mesh.triangles.emplace_back(a, c, d);
+  };
+  constexpr int kCorners = 8;
+  for (int i = 0; i < kCorners; ++i) {
+    const int next = (i + 1) % kCorners;
+    quad(i, i + kCorners, next + kCorners, next);
+  }
+  // The ends: floor and walls.
+  const std::vector<std::array<int, 4>> faces = {{0, 1, 4, 5}, {1, 2, 3, 4}, {0, 5, 6, 7}};
+  for (const auto& [a, b, c, d] : faces) {
+    quad(a, d, c, b);
+    quad(a + kCorners, b + kCorners, c + kCorners, d + kCorners);
+  }
+  return orientOutward(mesh).mesh;
+}
+
+/// The fields' error is centimetres, and the part nowhere farther from the link than that.
+TEST(SurfacePair, AThinPartInARecessOfALargeLinkIsClear) {
+  const TriangleMesh link = channel(1.0, 0.15, 0.3, 0.02);
+  ASSERT_TRUE(isClosed(link));
+  const auto scene =
+      build({body("link", meshShape(link)), body("plate", Primitive(Box{{0.05, 0.05, 0.002}}))}, optionsForContacts());
+  Monitor monitor(scene, {});
+  const PairResult above = at(monitor, translation({0.1, 0.0, 0.025}));
+  EXPECT_EQ(above.verdict, Verdict::kClear) << above.error.total();
+  EXPECT_GT(above.clearance, 0.0);
+  EXPECT_LE(above.clearance, 0.003);
+  EXPECT_NE(at(monitor, translation({0.1, 0.0, 0.01})).verdict, Verdict::kClear);  // inside the floor
+}
+
+/// The nearest triangles of the last query are far from those of the next.
+TEST(SurfacePair, AJumpDoesNotLeaveAClearPairUncertain) {
+  const Shape can = Primitive(Cylinder{0.05, 0.1});
+  const auto scene = build({body("a", can), body("b", can)}, optionsForContacts());
+  const Isometry3d rest = Isometry3d::Identity(), beside = pose({0.105, 0.0, 0.0}, 0.6, {1, 0, 0});  // 5 mm apart
+  Random random(3);
+  Monitor monitor(scene, {});
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d aside = 0.25 * direction(random);
+    monitor.run(
+        cycle(0.1, {still(rest), still(translation(aside) * pose({0, 0, 0}, uniform(random, 0, 3), {1, 0, 0}))}), {});
+    const PairResult result = monitor.run(cycle(0.1, {still(rest), still(beside)}), {}).pairs[0];
+    ASSERT_EQ(result.verdict, Verdict::kClear) << i << " " << aside.transpose() << " " << result.error.total();
+  }
+}
+
+/// Rounding at 10⁹ m exceeds the resolution: halving the time then never ends by it.
+TEST(SurfacePair, WhatRoundingCannotTellEnds) {
+  const auto far = [](const std::string& name) {
+    BodyDescription ball = body(name, Primitive(Sphere{0.1}));
+    ball.geometry[0].X_BG.translation().x() = 9e8;
+    return ball;
+  };
+  Monitor monitor(build({far("a"), far("b")}, optionsForContacts()), soft());
+  const Verdict verdict = at(monitor, translation({0.0, 0.0, 0.20003})).verdict;
+  EXPECT_NE(verdict, Verdict::kContact);
 }
 
 }  // namespace
