@@ -291,7 +291,7 @@ class Study {
     other.take(0);
     monitor.takeTimes();
     scans([&](int scan) { other.take(scan); });
-    const std::vector<double> beside = monitor.takeTimes();
+    std::vector<double> beside = monitor.takeTimes();
     row(name, "cycle_us_p99_beside", 1e6 * quantile(beside, 0.99), "us", static_cast<int>(beside.size()));
     std::vector<double> seconds, processor;
     scans([&](int scan) {

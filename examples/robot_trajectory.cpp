@@ -3,8 +3,8 @@
 #include <memory>
 
 #include <sdf_ccd/body/prepare_body.h>
-#include <sdf_ccd/robot_monitor/check_motion.h>
 #include <sdf_ccd/robot/robot_scene.h>
+#include <sdf_ccd/robot_monitor/check_motion.h>
 
 namespace {
 

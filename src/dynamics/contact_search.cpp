@@ -59,9 +59,9 @@ void ContactSearch::run(const StepMotion& motion, const std::function<void(const
     }
     ChordOptions chords;
     chords.tolerance = world_.chord_tolerance * std::max(shell.ball.radius, 1e-9);
-    // The relative poses at the motion's times are exact. Between them a constant relative twist is assumed, although the
-    // bodies' centres move straight and both bodies may rotate: the deviation is of second order in the displacement and
-    // rotation from one time to the next, and path_.error does not contain it.
+    // The relative poses at the motion's times are exact. Between them a constant relative twist is assumed, although
+    // the bodies' centres move straight and both bodies may rotate: the deviation is of second order in the
+    // displacement and rotation from one time to the next, and path_.error does not contain it.
     cutIntoChords(relative_, shell.ball, chords, path_);
     shellIntervals(*world_.bodies[role.field_body].shape->field, shell.shell, shell.tree, path_, {}, query_);
     if (!query_.touches()) continue;

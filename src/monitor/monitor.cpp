@@ -219,8 +219,8 @@ const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_
   for (std::size_t b = 0; b < X_WB.size() && b < scene().bodies.size(); ++b) {
     const std::string& name = scene().bodies[b].name;
     if (X_WB[b].size() != count && scene().bodies[b].failure.empty())
-      throw std::invalid_argument("monitor: " + name + " has " + std::to_string(X_WB[b].size()) + " poses, others have " +
-                                  std::to_string(count));
+      throw std::invalid_argument("monitor: " + name + " has " + std::to_string(X_WB[b].size()) +
+                                  " poses, others have " + std::to_string(count));
     requireUnambiguousTurns(X_WB[b], "monitor: " + name);
   }
   return run(motion, request);

@@ -10,7 +10,7 @@ namespace sdf_ccd {
 struct CacheOutcome {
   bool from_cache = false;
   bool is_missing = false;  ///< what was made is not in the cache, although it should be
-  std::string warning;  ///< a damaged file was made again, or the directory cannot be used; empty if all went well
+  std::string warning;      ///< a damaged file was made again, or the directory cannot be used; empty if all went well
 };
 
 /// Files that are expensive to make, kept in a directory under names made from what they depend on.

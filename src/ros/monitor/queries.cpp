@@ -159,7 +159,8 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   response.verdict = static_cast<std::uint8_t>(result.verdict);
   response.error_bound = std::max(0.0, result.error_bound - request.margin);
   const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
-  setPairContacts(result, context, [](const PairResult&) { return true; }, response.pairs);
+  setPairContacts(
+      result, context, [](const PairResult&) { return true; }, response.pairs);
   if (markers) marker_publisher_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
   response.not_checked = result.not_checked;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "ros/monitor/robot_in_map.h"
 #include "monitor/voxel_map.h"
+#include "ros/monitor/robot_in_map.h"
 
 namespace sdf_ccd {
 

@@ -63,7 +63,8 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   std::set<NamePair> left_out;
   for (const AllowedPair& pair : start_up_->allowed) {
     if (unchanged.count(pair.body_a) == 0 || unchanged.count(pair.body_b) == 0) {
-      const bool are_links = start_up_->link_names.count(pair.body_a) > 0 && start_up_->link_names.count(pair.body_b) > 0;
+      const bool are_links =
+          start_up_->link_names.count(pair.body_a) > 0 && start_up_->link_names.count(pair.body_b) > 0;
       if (!are_links) continue;
     }
     const Rule* rule = pair.proved ? nullptr : lastRule(pair.body_a, pair.body_b);
