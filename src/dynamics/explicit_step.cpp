@@ -66,7 +66,7 @@ Scheme schemeOf(const std::string& name) {
   for (const Scheme scheme : {Scheme::kContinuous, Scheme::kDiscrete, Scheme::kImplicit}) {
     if (name == toString(scheme)) return scheme;
   }
-  throw std::invalid_argument("integrator `" + name + "`: continuous, discrete or implicit is wanted");
+  throw std::invalid_argument("integrator `" + name + "`: expected continuous, discrete or implicit");
 }
 
 std::unique_ptr<Integrator> makeIntegrator(Scheme scheme, const RigidWorld& world) {

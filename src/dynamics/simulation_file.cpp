@@ -174,7 +174,7 @@ SimulationSetup parseSimulation(const std::string& text, const std::string& dire
   const Shapes shapes = readShapes(scene.node("shapes"), directory);
   const YAML::Node bodies = scene.node("bodies");
   scene.finish();
-  if (!bodies.IsSequence() || bodies.size() == 0) scene.fail(bodies, "`bodies`: a list of at least one body is wanted");
+  if (!bodies.IsSequence() || bodies.size() == 0) scene.fail(bodies, "`bodies`: expected a list of at least one body");
   std::set<std::string> names;
   for (const YAML::Node& entry : bodies) readBody(YamlMap(entry, "body"), shapes, names, setup);
   moveOriginNearBodies(setup);

@@ -75,7 +75,7 @@ class YamlMap {
   /// Three numbers.
   Vector3d vector(const std::string& key) {
     const YAML::Node list = node(key);
-    if (!list.IsSequence() || list.size() != 3) fail(list, "`" + key + "`: three numbers are wanted");
+    if (!list.IsSequence() || list.size() != 3) fail(list, "`" + key + "`: expected three numbers");
     return {convert<double>(list[0], key), convert<double>(list[1], key), convert<double>(list[2], key)};
   }
   Vector3d vector(const std::string& key, const Vector3d& otherwise) {

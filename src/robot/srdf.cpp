@@ -55,7 +55,7 @@ Srdf readSrdf(const std::string& xml) {
     fail(document.ErrorLineNum(), document.ErrorName());
   }
   const XMLElement* robot = document.RootElement();
-  if (!robot) fail(1, "it holds no element");
+  if (!robot) fail(1, "it contains no element");
   if (robot->Name() != std::string("robot")) {
     fail(robot->GetLineNum(), std::string("the root element is <") + robot->Name() + ">, not <robot>");
   }

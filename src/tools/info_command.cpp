@@ -67,9 +67,9 @@ void printQuality(const MeshQuality& quality) {
 std::optional<DistanceField> inspect(const Arguments& arguments) {
   const std::string& file = arguments.file;
   const bool wants_field = !arguments.slice.empty();
-  if (!wants_field) arguments.resolution.requireNone("without --slice none is made");
+  if (!wants_field) arguments.resolution.requireNone("a field is built only with --slice");
   if (isFieldFile(file)) {
-    arguments.resolution.requireNone(file + " holds one that is made already");
+    arguments.resolution.requireNone(file + " is a field already");
     const DistanceField field = loadField(file);
     printField(field);
     return field;

@@ -105,7 +105,7 @@ void run(const Arguments& arguments) {
         "--impact always uses the surface and the first contact; it cannot be combined with --sigma or --first");
   }
   const std::vector<Segment> segments = readSegments(arguments.segments);
-  if (!arguments.field.empty()) arguments.resolution.requireNone("--field names one that is made already");
+  if (!arguments.field.empty()) arguments.resolution.requireNone("--field names a field that exists already");
   OutputFile out(arguments.out);
   const DistanceField field = fieldOf(arguments);
   if (std::abs(arguments.query.sigma) > field.band()) {

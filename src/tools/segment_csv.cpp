@@ -76,7 +76,7 @@ std::vector<Segment> readSegments(const std::string& path) {
       throw std::runtime_error(path + ":" + std::to_string(line_number) + ": " + reason.what());
     }
   }
-  if (segments.empty()) throw std::runtime_error(path + ": holds no segment");
+  if (segments.empty()) throw std::runtime_error(path + ": contains no segment");
   return segments;
 }
 

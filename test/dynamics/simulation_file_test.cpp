@@ -81,7 +81,7 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   holds(reasonOf("type: box", "type: bax"), "type `bax` is not known");
   holds(reasonOf("type: plane", "type: mesh, file: no.stl"), "/nowhere/no.stl");
   holds(reasonOf("0.0625], spacing", "-1], spacing"), "shape `box`: a box's half size");
-  holds(reasonOf("size: [0.1, ", "size: ["), "three numbers are wanted");
+  holds(reasonOf("size: [0.1, ", "size: ["), "expected three numbers");
   holds(reasonOf("step: 0.001", "step: [}"), "line 2");
   holds(reasonOf("step: 0.001", "step: 0"), "time step must be finite and positive");
   holds(reasonOf("step: 0.001", "step: .inf"), "time step must be finite and positive");
@@ -116,7 +116,7 @@ TEST(SimulationFile, ShapesAreAMapAndBodiesAList) {
   EXPECT_EQ(reasonOf("shapes: [1, 2]\nbodies: []"), "line 3, shapes: a map is expected");
   for (const char* bodies : {"[]", "", "3", "{name: ball}"}) {
     EXPECT_EQ(reasonOf(std::string("shapes: {}\nbodies: ") + bodies),
-              "line 4, scene: `bodies`: a list of at least one body is wanted")
+              "line 4, scene: `bodies`: expected a list of at least one body")
         << bodies;
   }
 }

@@ -159,7 +159,7 @@ TEST(PlanThrough, RefusesWhatDoesNotFit) {
     spoil(motion);
     EXPECT_THROW(planThrough(motion, {true, true}, {}), std::invalid_argument);
   };
-  expectRefused(good, [](CycleMotion& motion) { motion.X_WB[1].pop_back(); });
+  expectRefused(good, [](CycleMotion& motion) { motion.X_WB[1].push_back(motion.X_WB[1][0]); });
   expectRefused(good, [](CycleMotion& motion) { motion.times = {5.0, 6.0}; });
   expectRefused(good, [](CycleMotion& motion) { motion.times = {0.0}; });
   expectRefused(good, [](CycleMotion& motion) { motion.spans = {{0, 0}}; });

@@ -33,7 +33,7 @@ TEST_F(CheckBag, BadBagsAreRefused) {
     expectRefused(check(bag, "no"), reason);
     expectRefused("plot-bag " + bag + " --out no", reason);
   }
-  expectRefused("plot-bag arm.bag --out no", "holds no sdf_ccd/ContactArray");
+  expectRefused("plot-bag arm.bag --out no", "contains no sdf_ccd/ContactArray");
   expectRefused(check("arm.bag", "no", "--start 1000"), "nothing is left after the start at 1000 s");
   for (const char* option : {"--rate -1", "--max-error 0", "--threads -1", "--start nan", "--duration 0"}) {
     expectRefused(check("arm.bag", "no", option), std::string(option).substr(0, std::string(option).find(' ')));

@@ -163,7 +163,7 @@ TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
   Row still = table("made/contacts.csv").at(0), moved = table("odom/contacts.csv").at(0);
   EXPECT_NEAR(std::stod(still["start"]), std::stod(moved["start"]), 1e-6);
   EXPECT_EQ(still["depth"], moved["depth"]);
-  expectRefused(check("arm.bag", "no", "--joint-states /nowhere"), "holds no joint states on /nowhere");
+  expectRefused(check("arm.bag", "no", "--joint-states /nowhere"), "contains no joint states on /nowhere");
 }
 
 /// Tests the last row of cycles.csv, which is about a gap, not a cycle.
@@ -358,7 +358,7 @@ TEST_F(CheckBag, PairsAreLearnedFromABag) {
   EXPECT_NE(readText(path("arm.srdf")).find("it holds for what was recorded"), std::string::npos);
   expectRefused(command + "--states 0 --bag missing.bag --out no.srdf", "missing.bag: cannot be opened");
   expectRefused(command + "--states 0 --bag arm.bag --joint-states /else --out no.srdf",
-                "arm.bag: holds no joint states of the robot's joints on /else");
+                "arm.bag: contains no joint states of the robot's joints on /else");
 }
 
 }  // namespace

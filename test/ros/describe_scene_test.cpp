@@ -64,7 +64,7 @@ TEST(DescribeScene, ObjectsHaveNoNamesThatPatternsOrFilesMistake) {
     parameters.world[0].name = name;
     const std::string failure = test::failureOf<std::invalid_argument>(
         [&] { describeScene(parameters, [](const std::string&) { return Resource(); }); });
-    EXPECT_NE(failure.find("a name may not"), std::string::npos) << name << ": " << failure;
+    EXPECT_NE(failure.find("a name must not"), std::string::npos) << name << ": " << failure;
   }
 }
 
@@ -87,7 +87,7 @@ TEST(DescribeScene, AStopDistanceWithinTheMapsPaddingIsWarnedOf) {
   parameters.live_map.topic = "/octomap";
   parameters.live_map.padding = 0.02;
   ASSERT_EQ(warnings(parameters).size(), 1u);
-  EXPECT_NE(warnings(parameters)[0].find("set a larger stop_distance"), std::string::npos);
+  EXPECT_NE(warnings(parameters)[0].find("set stop_distance to more than that"), std::string::npos);
   parameters.proximity.promise->stop_distance = 0.021;
   EXPECT_TRUE(warnings(parameters).empty());
   parameters.proximity.promise.reset();

@@ -129,8 +129,8 @@ TEST_F(QueryCommand, RefusesBadSegmentsByLine) {
       {"1,2,x,4,5,6\n", ":1: \"x\" is not a number"},
       {"1,2,3,4,5,1e999\n", ":1: \"1e999\" is not finite"},
       {"1,2,3,4,5,6\n1,2,3,4,5,1e13\n", ":2: the segment reaches farther than 1e12 m"},
-      {"ox,oy,oz,ex,ey,ez\n", "holds no segment"},
-      {"", "holds no segment"},
+      {"ox,oy,oz,ex,ey,ez\n", "contains no segment"},
+      {"", "contains no segment"},
       {std::string("\0\xff\0", 3), ":1: expected six numbers"}};
   for (const auto& [text, reason] : cases) {
     write("bad.csv", text);

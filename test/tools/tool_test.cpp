@@ -158,7 +158,7 @@ TEST_F(Tool, OptionsThatWouldDoNothingAreRefused) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));
     expectRefused(query + option, name + " sets how a field is built");
     expectRefused("info made/ball.field --slice z=0 --out s.png " + std::string(option), name);
-    expectRefused("info ball.off " + std::string(option), "without --slice none is made");
+    expectRefused("info ball.off " + std::string(option), "a field is built only with --slice");
   }
   expectRefused(query + "--sigma 1e300", "--sigma 1e+300 lies outside the field's band of 0.");
 }

@@ -52,7 +52,7 @@ RecordedMotion::RecordedMotion(const std::string& file, const DescribedScene& de
 
 void RecordedMotion::findTopics() {
   rosbag::View all(bag_);
-  if (all.size() == 0) throw std::runtime_error(file_ + ": holds no messages");
+  if (all.size() == 0) throw std::runtime_error(file_ + ": contains no messages");
   const ros::Time first = all.getBeginTime(), last = all.getEndTime();
   const double length = secondsBetween(first, last);
   if (length > kLongestDuration) {
@@ -117,9 +117,9 @@ void RecordedMotion::requireJointStates(const std::string& why) {
   if (chosen != topics.end()) {
     topics = {std::string(*chosen)};
   } else if (!options_.joint_states.empty()) {
-    throw std::runtime_error(file_ + ": holds no joint states on " + options_.joint_states);
+    throw std::runtime_error(file_ + ": contains no joint states on " + options_.joint_states);
   } else if (topics.empty()) {
-    throw std::runtime_error(file_ + ": its tf names no link of the robot, and it holds no joint states: " + why);
+    throw std::runtime_error(file_ + ": its tf names no link of the robot, and it contains no joint states: " + why);
   } else if (topics.size() > 1) {
     throw std::runtime_error(file_ + ": holds joint states on " + someOf(topics) + ": choose one of them");
   }

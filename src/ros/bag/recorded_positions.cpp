@@ -39,7 +39,7 @@ JointStates recordedPositions(const std::string& file, const RobotModel& robot, 
     }
   });
   if (states.size() == 0) {
-    throw std::runtime_error(file + ": holds no joint states of the robot's joints" +
+    throw std::runtime_error(file + ": contains no joint states of the robot's joints" +
                              (topic.empty() ? "" : " on " + topic));
   }
   return states;

@@ -25,12 +25,12 @@ std::string topicOf(const rosbag::Bag& bag, const Arguments& arguments) {
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     if (connection->datatype == "sdf_ccd/ContactArray") topics.insert(connection->topic);
   }
-  if (topics.empty()) throw std::runtime_error(arguments.bag + ": holds no sdf_ccd/ContactArray");
+  if (topics.empty()) throw std::runtime_error(arguments.bag + ": contains no sdf_ccd/ContactArray");
   if (arguments.topic.empty() && topics.size() > 1) {
     throw std::runtime_error(arguments.bag + ": holds contacts on " + *topics.begin() + " and others: use --topic");
   }
   const std::string& topic = arguments.topic.empty() ? *topics.begin() : arguments.topic;
-  if (topics.count(topic) == 0) throw std::runtime_error(arguments.bag + ": holds no contacts on " + topic);
+  if (topics.count(topic) == 0) throw std::runtime_error(arguments.bag + ": contains no contacts on " + topic);
   return topic;
 }
 
