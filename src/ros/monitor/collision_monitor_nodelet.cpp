@@ -1,7 +1,5 @@
 #include "ros/monitor/collision_monitor_nodelet.h"
 
-#include <malloc.h>
-
 #include <ros/package.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -9,6 +7,7 @@
 #include "common/number_text.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
+#include "ros/monitor/freed_memory.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -17,12 +16,6 @@ namespace {
 constexpr double kIdlePeriod = 1.0;  // [s]
 constexpr double kLogPeriod = 3.0;   // between log messages about the progress of building [s]
 constexpr double kFlushTime = 0.05;  // for sending the last messages [s]
-
-/// glibc keeps freed memory in the heap of the thread that allocated it, where it is of no use once the threads that
-/// build fields have ended.
-void returnFreedMemory() {
-  malloc_trim(0);
-}
 
 }  // namespace
 

@@ -1,13 +1,16 @@
 #include "ros/monitor/queries.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <thread>
 
 #include "common/number_text.h"
+#include "common/seconds_since.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/planned_markers.h"
+#include "ros/monitor/freed_memory.h"
 #include "ros/monitor/low_priority.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
@@ -17,6 +20,7 @@ namespace {
 
 constexpr std::size_t kPointsPerPiece = 500;
 constexpr std::size_t kMotionsPerPiece = 16;
+constexpr double kLong = 0.05;  // freed memory is returned after answers that take longer [s]
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument(what);
@@ -56,6 +60,7 @@ class Queries::Piece {
 template <class Response, class Work>
 void Queries::answerWith(const Work& work, Response& response) {
   lowerPriority();
+  const auto start = std::chrono::steady_clock::now();
   const CancelPoint caller;
   const auto fail = [&](const std::string& why) {
     response = {};
@@ -71,6 +76,7 @@ void Queries::answerWith(const Work& work, Response& response) {
   } catch (const std::exception& error) {
     fail(error.what());
   }
+  if (secondsSince(start) > kLong) returnFreedMemory();
 }
 
 Queries::Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene& described,
