@@ -26,6 +26,10 @@ constexpr double kLong = 0.05;  // freed memory is returned after answers that t
   throw std::invalid_argument(what);
 }
 
+[[noreturn]] void refuseFrames(const std::string& one, const std::string& other) {
+  refuse("the root poses of all motions must be in the same frame, but are in " + one + " and " + other);
+}
+
 void requireAtMost(std::size_t limit, std::size_t given, const std::string& what) {
   if (given <= limit) return;
   refuse(std::to_string(given) + " " + what + ": at most " + std::to_string(limit) + " are allowed in one request");
@@ -184,9 +188,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   for (const RobotMotion& motion : request.motions) {
     points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
     const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
-    if (!frame.empty() && !of_motion.empty() && of_motion != frame) {
-      refuse("the root poses of all motions must be in the same frame, but are in " + frame + " and " + of_motion);
-    }
+    if (!frame.empty() && !of_motion.empty() && of_motion != frame) refuseFrames(frame, of_motion);
     if (!of_motion.empty()) frame = of_motion;
   }
   requireAtMost(limits_.points, points, "points of motions");
