@@ -26,13 +26,14 @@ bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
 bool isOutsideSolid(const Body& body, const Vector3d& p) {
   if (isOutsideBox(body.triangles->closedTree(), p)) return true;
   if (body.doubtful) return body.doubtful->seesOutside(p);
-  const auto boundsIn = [&](const BodyPart& part) { return part.field.bounds(part.X_BG.inverse() * p); };
-  if (std::any_of(body.parts.begin(), body.parts.end(), [&](const auto& part) { return boundsIn(part).high < 0.0; }))
-    return false;
-  const auto isOutsidePart = [&](const BodyPart& part) { return boundsIn(part).low > 0.0; };
-  if (!body.parts.empty() && std::all_of(body.parts.begin(), body.parts.end(), isOutsidePart)) return true;
+  bool fields_tell = !body.parts.empty();
+  for (const BodyPart& part : body.parts) {
+    const DistanceBounds bounds = part.field.bounds(part.X_BG.inverse() * p);
+    if (bounds.high < 0.0) return false;
+    fields_tell &= bounds.low > 0.0;
+  }
   // In a narrow recess the fields' errors exceed the gap.
-  return seesOutside(body.triangles->closedTree(), p);
+  return fields_tell || seesOutside(body.triangles->closedTree(), p);
 }
 
 /// Whether no component of `inner` lies inside `outer`, given that their surfaces are apart.
