@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/resize_in_steps.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -26,7 +28,9 @@ void sortInto(std::vector<EdgeUse>& sorted, const std::vector<EdgeUse>& uses, st
 std::vector<EdgeUse> edgeUses(const TriangleMesh& mesh) {
   std::vector<EdgeUse> uses;
   uses.reserve(3 * mesh.triangles.size());
+  CancelTicks<4096> cancel;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    cancel.check();
     const Vector3i& t = mesh.triangles[i];
     for (int corner = 0; corner < 3; ++corner) {
       const int from = t[corner], to = t[(corner + 1) % 3];
@@ -34,7 +38,8 @@ std::vector<EdgeUse> edgeUses(const TriangleMesh& mesh) {
     }
   }
   const auto vertices = mesh.vertices.size();
-  std::vector<EdgeUse> other(uses.size());
+  std::vector<EdgeUse> other;
+  resizeInSteps(other, uses.size());
   sortInto(other, uses, vertices, [](const EdgeUse& use) { return use.high; });
   sortInto(uses, other, vertices, [](const EdgeUse& use) { return use.low; });
   return uses;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/resize_in_steps.h"
 #include "geometry/binned_split.h"
 #include "geometry/triangle_tree.h"
 
@@ -25,14 +26,14 @@ class TriangleTree::Builder {
 
   void build() {
     const int count = static_cast<int>(mesh_.triangles.size());
-    boxes_.resize(count);
-    centers_.resize(count);
+    resizeInSteps(boxes_, count);
+    resizeInSteps(centers_, count);
     for (int i = 0; i < count; ++i) {
       checkNowAndThen(i);
       for (int corner = 0; corner < 3; ++corner) boxes_[i].extend(mesh_.vertices[mesh_.triangles[i][corner]]);
       centers_[i] = boxes_[i].center();
     }
-    tree_.ids_.resize(count);
+    resizeInSteps(tree_.ids_, count);
     std::iota(tree_.ids_.begin(), tree_.ids_.end(), 0);
     tree_.nodes_.reserve(count);
     tree_.nodes_.emplace_back();
@@ -45,10 +46,13 @@ class TriangleTree::Builder {
       const Vector3i& t = mesh_.triangles[id];
       tree_.triangles_.emplace_back(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
     }
-    tree_.places_.resize(count);
-    for (int i = 0; i < count; ++i) tree_.places_[tree_.ids_[i]] = i;
-    tree_.expansions_.resize(tree_.nodes_.size());
-    cylinders_.resize(tree_.nodes_.size());
+    resizeInSteps(tree_.places_, count);
+    for (int i = 0; i < count; ++i) {
+      checkNowAndThen(i);
+      tree_.places_[tree_.ids_[i]] = i;
+    }
+    resizeInSteps(tree_.expansions_, tree_.nodes_.size());
+    resizeInSteps(cylinders_, tree_.nodes_.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree_.nodes_.size(), 64), [this](const auto& range) {
       for (std::size_t node = range.begin(); node < range.end(); ++node) {
         cancel_.check();

@@ -90,7 +90,13 @@ class SceneReader {
     const XMLElement* scene = root.FirstChildElement("scene");
     const XMLElement* instance = scene ? scene->FirstChildElement("instance_visual_scene") : nullptr;
     if (!instance) throw std::runtime_error("it has no <scene>");
-    addNode(*target(*instance, "url", "visual_scene"), Eigen::Affine3d::Identity());
+    const XMLElement& top = *target(*instance, "url", "visual_scene");
+    const Expansion expansion = expansionOf(top);
+    if (expansion.nodes > kMaxNodes) {
+      throw std::runtime_error("it has more than " + std::to_string(kMaxNodes) + " nodes once instances are followed");
+    }
+    if (expansion.depth > kMaxDepth) refuseDepth();
+    addNode(top, Eigen::Affine3d::Identity());
     return std::move(result_);
   }
 
@@ -102,29 +108,54 @@ class SceneReader {
     throw std::runtime_error(describe(from) + " refers to \"#" + id.substr(0, 80) + "\", which is no <" + kind + ">");
   }
 
-  /// @param X  transform of the parent node.
-  void addNode(const XMLElement& node, Eigen::Affine3d X) {
+  /// A node and all below it, once instances are followed.
+  struct Expansion {
+    int nodes = 1;  ///< at most one more than is read
+    int depth = 1;
+  };
+
+  [[noreturn]] static void refuseDepth() {
+    throw std::runtime_error("nodes are more than " + std::to_string(kMaxDepth) + " deep");
+  }
+
+  /// The child's node, if it is one or refers to one; else null.
+  const XMLElement* nodeOf(const XMLElement& child) const {
+    const std::string_view name = child.Name();
+    if (name == "node") return &child;
+    return name == "instance_node" ? target(child, "url", "node") : nullptr;
+  }
+
+  /// Looks at each node once, however often it is expanded.
+  Expansion expansionOf(const XMLElement& node) {
+    if (const auto known = expansions_.find(&node); known != expansions_.end()) return known->second;
     if (!open_.insert(&node).second) {
       throw std::runtime_error("the node \"" + attributeOf(node, "id") + "\" contains itself");
     }
-    if (++nodes_ > kMaxNodes) {
-      throw std::runtime_error("it has more than " + std::to_string(kMaxNodes) + " nodes once instances are followed");
+    if (open_.size() > kMaxDepth) refuseDepth();
+    Expansion all;
+    for (const XMLElement* child = node.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      const XMLElement* below = nodeOf(*child);
+      if (!below) continue;
+      const Expansion expansion = expansionOf(*below);
+      all.nodes = std::min(all.nodes + expansion.nodes, kMaxNodes + 1);
+      all.depth = std::max(all.depth, expansion.depth + 1);
     }
-    if (open_.size() > kMaxDepth) {
-      throw std::runtime_error("nodes are more than " + std::to_string(kMaxDepth) + " deep");
-    }
+    open_.erase(&node);
+    return expansions_[&node] = all;
+  }
+
+  /// @param X  transform of the parent node.
+  void addNode(const XMLElement& node, Eigen::Affine3d X) {
     // A node's transforms apply to all of its other children, so they are gathered first.
     for (const XMLElement* child = node.FirstChildElement(); child; child = child->NextSiblingElement()) {
       X = X * transformOf(*child);
     }
     for (const XMLElement* child = node.FirstChildElement(); child; child = child->NextSiblingElement()) {
       const std::string_view name = child->Name();
-      if (name == "node") addNode(*child, X);
-      if (name == "instance_node") addNode(*target(*child, "url", "node"), X);
+      if (const XMLElement* below = nodeOf(*child)) addNode(*below, X);
       if (name == "instance_geometry") addGeometry(*target(*child, "url", "geometry"), X);
       if (name == "instance_controller") addController(*target(*child, "url", "controller"), X);
     }
-    open_.erase(&node);
   }
 
   void addController(const XMLElement& controller, const Eigen::Affine3d& X) {
@@ -152,9 +183,9 @@ class SceneReader {
   }
 
   std::map<std::string, const XMLElement*> by_id_;
-  std::map<const XMLElement*, TriangleMesh> meshes_;  // of geometries, each read once
-  std::set<const XMLElement*> open_;                  // nodes from the root to the one being added
-  int nodes_ = 0;
+  std::map<const XMLElement*, TriangleMesh> meshes_;   // of geometries, each read once
+  std::map<const XMLElement*, Expansion> expansions_;  // of nodes
+  std::set<const XMLElement*> open_;                   // nodes from the root to the one whose expansion is sought
   TriangleMesh result_;
 };
 
