@@ -206,11 +206,14 @@ class Study {
   void report(const std::string& name, std::vector<double> seconds, RunningMonitor& monitor,
               std::vector<double> before) const {
     std::vector<double> meanwhile = monitor.takeTimes(), adoptions = monitor.takeAdoptions();
+    std::vector<double> firsts = monitor.takeFirstTimes();
     const int runs = static_cast<int>(seconds.size());
     row(name, "ms_to_adopted", 1e3 * quantile(seconds, 0.5), "ms", runs);
     row(name, "ms_to_adopted_max", 1e3 * quantile(seconds, 1.0), "ms", runs);
     row(name, "adopt_us", 1e6 * quantile(adoptions, 0.5), "us", runs);
     row(name, "adopt_us_max", 1e6 * quantile(adoptions, 1.0), "us", runs);
+    row(name, "first_cycle_us", 1e6 * quantile(firsts, 0.5), "us", runs);
+    row(name, "first_cycle_us_max", 1e6 * quantile(firsts, 1.0), "us", runs);
     row(name, "cycle_us_p99_before", 1e6 * quantile(before, 0.99), "us", static_cast<int>(before.size()));
     row(name, "cycle_us_p99_while", 1e6 * quantile(meanwhile, 0.99), "us", static_cast<int>(meanwhile.size()));
     row(name, "cycle_us_median_before", 1e6 * quantile(before, 0.5), "us", static_cast<int>(before.size()));
@@ -221,6 +224,7 @@ class Study {
     monitor.takeTimes();
     std::this_thread::sleep_for(std::chrono::milliseconds(options_.quick ? 300 : 2000));
     monitor.takeAdoptions();
+    monitor.takeFirstTimes();
     return monitor.takeTimes();
   }
 

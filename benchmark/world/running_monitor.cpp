@@ -12,7 +12,7 @@ double seconds(Clock::duration duration) {
 }  // namespace
 
 RunningMonitor::RunningMonitor(std::shared_ptr<const WorldSnapshot> world, Place place)
-    : place_(std::move(place)), world_(std::move(world)), monitor_(world_->scene, {}), motion_(emptyMotion(*world_)) {
+    : place_(std::move(place)), world_(std::move(world)), monitor_(world_->scene, {}), motion_(restingMotion(*world_)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -21,11 +21,11 @@ RunningMonitor::~RunningMonitor() {
   thread_.join();
 }
 
-CycleMotion RunningMonitor::emptyMotion(const WorldSnapshot& world) const {
+CycleMotion RunningMonitor::restingMotion(const WorldSnapshot& world) const {
   CycleMotion motion;
   motion.times = {0.0, 1e-3};
   for (const BodyDescription& body : world.description->bodies)
-    motion.X_WB.push_back(std::vector<Isometry3d>(2, place_(body, 0.0)));
+    motion.X_WB.push_back(std::vector<Isometry3d>(2, place_(body, time_)));
   return motion;
 }
 
@@ -39,8 +39,8 @@ void RunningMonitor::setMotion(double from, double until) {
 void RunningMonitor::change(const std::shared_ptr<const WorldSnapshot>& world) {
   auto offer = std::make_unique<Offer>();
   offer->world = world;
-  offer->change = monitor_.prepare(world->scene);
-  offer->motion = emptyMotion(*world);
+  offer->motion = restingMotion(*world);
+  offer->change = monitor_.prepare(world->scene, &offer->motion);
   is_checked_ = false;
   given_ = std::move(offer);
   offered_ = given_.get();
@@ -58,6 +58,11 @@ std::vector<double> RunningMonitor::takeAdoptions() {
   return std::move(adoptions_);
 }
 
+std::vector<double> RunningMonitor::takeFirstTimes() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::move(first_times_);
+}
+
 CycleVerdicts RunningMonitor::firstCycle() {
   const std::lock_guard<std::mutex> lock(mutex_);
   return first_;
@@ -66,7 +71,6 @@ CycleVerdicts RunningMonitor::firstCycle() {
 void RunningMonitor::run() {
   constexpr auto kPeriod = std::chrono::milliseconds(1);
   const CycleRequest request{false, 0, false, false};
-  double time = 0.0;
   for (Clock::time_point next = Clock::now(); !stop_; next += kPeriod) {
     std::this_thread::sleep_until(next);
     next = std::max(next, Clock::now() - 10 * kPeriod);  // missed cycles are not caught up on
@@ -78,8 +82,8 @@ void RunningMonitor::run() {
       std::swap(motion_, offer->motion);
     }
     const Clock::time_point adopted = Clock::now();
-    setMotion(time, time + 1e-3);
-    time += 1e-3;
+    setMotion(time_, time_ + 1e-3);
+    time_ = time_ + 1e-3;
     const Clock::time_point ready = Clock::now();
     const CycleResult& result = monitor_.run(motion_, request);
     const Clock::time_point end = Clock::now();
@@ -87,6 +91,7 @@ void RunningMonitor::run() {
     times_.push_back(seconds(adopted - start) + seconds(end - ready));
     if (!offer) continue;
     adoptions_.push_back(seconds(adopted - start));
+    first_times_.push_back(times_.back());
     first_ = {world_, motion_, {}};
     for (const PairResult& pair : result.pairs) first_.verdicts.push_back(pair.verdict);
     is_checked_ = true;

@@ -38,6 +38,9 @@ class RunningMonitor {
   /// Times of the adoptions since the last call [s].
   std::vector<double> takeAdoptions();
 
+  /// Times of the first cycles with another world since the last call, including its adoption [s].
+  std::vector<double> takeFirstTimes();
+
   /// Result of the first cycle with the latest world.
   CycleVerdicts firstCycle();
 
@@ -49,10 +52,11 @@ class RunningMonitor {
   };
 
   void run();
-  CycleMotion emptyMotion(const WorldSnapshot& world) const;
+  CycleMotion restingMotion(const WorldSnapshot& world) const;
   void setMotion(double from, double until);
 
   Place place_;
+  std::atomic<double> time_{0.0};  // of the next cycle's start [s]
   std::shared_ptr<const WorldSnapshot> world_;
   Monitor monitor_;
   CycleMotion motion_;
@@ -60,7 +64,7 @@ class RunningMonitor {
   std::atomic<Offer*> offered_{nullptr};
   std::atomic<bool> is_checked_{false}, stop_{false};
   std::mutex mutex_;
-  std::vector<double> times_, adoptions_;  // guarded by mutex_, like first_
+  std::vector<double> times_, adoptions_, first_times_;  // guarded by mutex_, like first_
   CycleVerdicts first_;
   std::thread thread_;
 };

@@ -55,8 +55,13 @@ class BodyTwists {
   /// Discards the bodies' poses.
   void forget();
 
-  /// Takes over the bodies' data from another scene between two cycles, without allocating.
+  /// Takes over the bodies' data from another scene between two cycles, without allocating. All other bodies keep their
+  /// poses.
   void take(const BodyTwists& other, const std::vector<BodyRun>& bodies);
+
+  /// Upper bound of the displacement of a body's points from its pose here to that in another scene [m], where it has
+  /// the index `other_body`; infinite if one of the poses is not known.
+  double displacement(int body, const BodyTwists& other, int other_body) const;
 
   /// One value per body; stride() values.
   const float* row(TwistRow row) const { return rows_.data() + static_cast<std::size_t>(row) * stride_; }

@@ -190,6 +190,10 @@ void ClearanceTable::set(int pair, double clearance) {
   budget_[slot(pair)] = roundedDown(std::min(clearance - margin(pair), kFar));
 }
 
+void ClearanceTable::spend(int pair, double displacement) {
+  budget_[slot(pair)] = roundedDown(double(budget_[slot(pair)]) - displacement);
+}
+
 void ClearanceTable::forget() {
   for (const std::int32_t slot : slots_) budget_[static_cast<std::size_t>(slot)] = kUnknown;
 }

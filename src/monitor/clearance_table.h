@@ -57,6 +57,9 @@ class ClearanceTable {
       budget_[static_cast<std::size_t>(pair.to)] = other.budget_[static_cast<std::size_t>(pair.from)];
   }
 
+  /// Subtracts an upper bound of the bodies' relative displacement between two cycles [m].
+  void spend(int pair, double displacement);
+
   /// Whether the pair has a known clearance.
   bool isKnown(int pair) const { return budget_[slot(pair)] != kUnknown; }
 

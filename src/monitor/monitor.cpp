@@ -86,21 +86,25 @@ Monitor::Monitor(std::vector<Body> bodies, const MonitorOptions& options)
 Monitor::~Monitor() = default;
 
 const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
-  const auto start = Impl::Clock::now();
-  validate(motion, impl_->shape, "cycle motion");
+  return impl_->run(motion, request);
+}
+
+const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequest& request) {
+  const auto start = Clock::now();
+  validate(motion, shape, "cycle motion");
   try {
-    impl_->schedule->take(motion, impl_->checkers);
-    impl_->takeSpans(motion);
-    impl_->takeSkipped(request);
-    impl_->checkDue(motion, request, start);
-    impl_->schedule->settle(motion, impl_->checkers);
+    schedule->take(motion, checkers);
+    takeSpans(motion);
+    takeSkipped(request);
+    checkDue(motion, request, start);
+    schedule->settle(motion, checkers);
   } catch (...) {
-    impl_->forget();
+    forget();
     throw;
   }
-  impl_->summarise();
-  impl_->result.run_time = secondsSince(start);
-  return impl_->result;
+  summarise();
+  result.run_time = secondsSince(start);
+  return result;
 }
 
 /// Results of pairs that are not due keep their spans if these are the same as in the last cycle.

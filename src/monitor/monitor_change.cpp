@@ -13,6 +13,8 @@ struct MonitorChange::Impl {
   std::shared_ptr<const Scene> before;
   SceneDifference difference;
   Schedule::Kept kept;
+
+  void testNewPairs(CycleMotion motion);
 };
 
 MonitorChange::MonitorChange(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -22,14 +24,32 @@ const SceneDifference& MonitorChange::difference() const {
   return impl_->difference;
 }
 
-std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next) const {
+void MonitorChange::Impl::testNewPairs(CycleMotion motion) {
+  if (kept.new_pairs.empty() || motion.times.empty()) return;
+  motion.spans.assign(monitor->result.pairs.size(), WaypointSpan());
+  for (const int pair : kept.new_pairs) motion.spans[static_cast<std::size_t>(pair)] = {0, motion.times.size() - 1};
+  const CycleRequest request{false, 0, false, false};
+  monitor->run(motion, request);
+  monitor->last_due = kept.new_pairs;  // not the others, which were delayed
+}
+
+std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next, const CycleMotion* likely) const {
   if (!next) throw std::invalid_argument("monitor: no scene");
   auto made = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
   Impl& monitor = *made;
   auto change = std::make_unique<MonitorChange::Impl>(
       MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, *monitor.scene}, {}});
-  change->kept.bodies = change->difference.bodyRuns();
+  Schedule::Kept& kept = change->kept;
+  kept.bodies = change->difference.bodyRuns();
+  kept.before = change->difference.bodiesBefore();
   const std::vector<int>& pairs_now = change->difference.pairsNow();
+  std::vector<char> is_new(monitor.checkers.size(), 1);
+  for (const int now : pairs_now)
+    if (now >= 0) is_new[static_cast<std::size_t>(now)] = 0;
+  for (std::size_t p = 0; p < is_new.size(); ++p)
+    if (is_new[p]) kept.new_pairs.push_back(static_cast<int>(p));
+  if (likely) change->testNewPairs(*likely);
+
   // Common pairs that are not tested in the next cycle are clear; all others are set by their tests.
   const std::size_t last = impl_->last_waypoint;
   monitor.last_waypoint = last;
@@ -40,7 +60,7 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
     if (now < 0) continue;
     const PairChecker& checker = monitor.checkers[static_cast<std::size_t>(now)];
     setSkipped(checker.bound(), checker.margin(), monitor.result.pairs[static_cast<std::size_t>(now)]);
-    change->kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));
+    kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));
   }
   return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));
 }

@@ -19,6 +19,7 @@ struct Monitor::Impl {
   Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
        std::shared_ptr<MonitorMemory> shared_memory);
 
+  const CycleResult& run(const CycleMotion& motion, const CycleRequest& request);
   void takeSpans(const CycleMotion& motion);
   void takeSkipped(const CycleRequest& request);
   void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);

@@ -27,8 +27,8 @@ PreparedNeeds PreparedNeeds::operator|(const PreparedNeeds& other) const {
   all.of_body.shell = of_body.shell || other.of_body.shell;
   all.of_body.witnesses = of_body.witnesses || other.of_body.witnesses;
   // Edges suffice only if everyone who needs a shell needs only its edges.
-  all.of_body.edges_only = all.of_body.shell && (!of_body.shell || of_body.edges_only) &&
-                           (!other.of_body.shell || other.of_body.edges_only);
+  all.of_body.edges_only =
+      all.of_body.shell && (!of_body.shell || of_body.edges_only) && (!other.of_body.shell || other.of_body.edges_only);
   all.of_body.decides = (of_body.shell && of_body.decides) || (other.of_body.shell && other.of_body.decides);
   all.triangles = triangles || other.triangles;
   all.surface = surface || other.surface;
@@ -45,8 +45,7 @@ PreparedBody& PreparedBodies::make(const std::string& key, const BodyDescription
   const auto known = bodies_.find(key);
   const PreparedNeeds all = known == bodies_.end() ? needs : known->second.needs | needs;
   BuiltBody built = buildBody(description, all.of_body, options, pool, {});
-  if (!built.body.failure.empty())
-    throw std::invalid_argument(description.name + ": " + built.body.failure);
+  if (!built.body.failure.empty()) throw std::invalid_argument(description.name + ": " + built.body.failure);
   if (all.triangles) built.body.triangles = trianglesOf(description, pool);
   if (all.surface) built.body.surface = surfaceOf(description, pool);
   return add(key, all, built.body, built.report);

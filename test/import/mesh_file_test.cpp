@@ -141,7 +141,8 @@ TEST(MeshFile, CountsAndReferencesThatLieAreRefused) {
             std::string::npos);
   EXPECT_NE(error(damaged(test::ply(kBox), "element face", "elephant face"), "a.ply").find("unknown line"),
             std::string::npos);
-  EXPECT_NE(error(damaged(test::off(kBox), "8 12", "8 4000000000"), "a.off").find("is not a valid count"), std::string::npos);
+  EXPECT_NE(error(damaged(test::off(kBox), "8 12", "8 4000000000"), "a.off").find("is not a valid count"),
+            std::string::npos);
 }
 
 TEST(MeshFile, TruncatedTextIsRefusedWhereverItEnds) {

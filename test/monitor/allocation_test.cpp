@@ -93,20 +93,22 @@ TEST(Allocation, NoneWhileAChangeIsTakenOver) {
   WorldEditor editor(fine(0.03));
   auto snapshot = editor.next(description);
   Monitor monitor(snapshot->scene, {});
-  const auto run = [&] {
+  const auto motion = [&] {
     CycleMotion motion;
     motion.times = {0.0, 0.1};
     for (const BodyDescription& one : description.bodies)
       motion.X_WB.push_back(still(one.X_frame_B * translation({0, 0, one.is_world ? 0.0 : 0.3})));
-    return monitor.run(motion, {}).checked;
+    return motion;
   };
+  const auto run = [&] { return monitor.run(motion(), {}).checked; };
   run();
   EXPECT_LT(run(), 40);
   description.bodies.erase(description.bodies.begin() + 40);
   description.bodies.push_back(body("new", Primitive(Sphere{0.05}), true));
   description.bodies.back().X_frame_B = translation({0, 5, 0});
   snapshot = editor.next(description);
-  const auto change = monitor.prepare(snapshot->scene);
+  const CycleMotion likely = motion();
+  const auto change = monitor.prepare(snapshot->scene, &likely);
   const long before = allocations, held_before = held;
   monitor.adopt(*change);
   EXPECT_EQ(allocations, before);

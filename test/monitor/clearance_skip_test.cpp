@@ -105,8 +105,9 @@ TEST(ClearanceSkip, ClearancesHoldWhetherOrNotTheyAreAskedFor) {
     const double next = x - 0.1;
     request.skipped_pairs = i % 4 < 2;
     const PairResult& pair =
-        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {translation({x, 0, 0}), translation({next, 0, 0})}}),
-                    request)
+        monitor
+            .run(cycle(0.1, {still(Isometry3d::Identity()), {translation({x, 0, 0}), translation({next, 0, 0})}}),
+                 request)
             .pairs[0];
     EXPECT_EQ(pair.verdict, Verdict::kClear);
     EXPECT_LE(pair.clearance, next - 2.0 * kHalf + 1e-12) << i;

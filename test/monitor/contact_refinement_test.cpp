@@ -119,8 +119,7 @@ TEST(ContactRefinement, ContactDoesNotBeginBeforeTheBodiesTouch) {
   BodyOptions options = optionsForContacts(0.005);
   options.exact_depths = true;
   const auto scene = build(
-      {body("ball", meshShape(icosphere(0.05, 2))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
-      options);
+      {body("ball", meshShape(icosphere(0.05, 2))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))}, options);
   Monitor monitor(scene, soft());
   int touching = 0, is_cut = 0;
   for (int i = 0; i < 40; ++i) {

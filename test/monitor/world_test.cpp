@@ -32,7 +32,7 @@ class ChangingWorld {
               body("link2", meshShape(torusMesh(0.12, 0.04, 16, 8)))};
     description_.bodies = links_;
     for (const char* link : {"link0", "link1", "link2"})
-      moving_[link] = pose({uniform(random_, -0.5, 0.5), 0, 0}, 0, {0, 0, 1});
+      before_[link] = moving_[link] = pose({uniform(random_, -0.5, 0.5), 0, 0}, 0, {0, 0, 1});
   }
 
   const SceneDescription& description() const { return description_; }
@@ -42,10 +42,23 @@ class ChangingWorld {
     for (int n = 1 + int(uniform(random_, 0.0, 4.0)); n > 0; --n) changeOnce();
   }
 
+  /// All bodies at rest: the links where they were before the last motion, or elsewhere.
+  CycleMotion rest(bool elsewhere) {
+    CycleMotion motion;
+    motion.times = {0.0, 1.0};
+    for (const BodyDescription& body : description_.bodies) {
+      Isometry3d X_WF = body.frame == "world" ? Isometry3d::Identity() : before_.at(body.frame);
+      if (elsewhere) X_WF = place();
+      motion.X_WB.push_back({X_WF * body.X_frame_B});
+    }
+    return motion;
+  }
+
   /// Poses over one cycle: links continue from their last poses, objects follow their frames.
   CycleMotion motion() {
     std::map<std::string, std::vector<Isometry3d>> frames;
     frames["world"] = still(Isometry3d::Identity());
+    before_ = moving_;
     for (auto& [link, X] : moving_) {
       const Vector3d to(uniform(random_, -0.6, 0.6), uniform(random_, -0.6, 0.6), uniform(random_, -0.3, 0.3));
       const Vector3d shift = 0.15 * (to - X.translation());
@@ -123,7 +136,7 @@ class ChangingWorld {
   Random random_;
   std::vector<BodyDescription> links_;
   SceneDescription description_;
-  std::map<std::string, Isometry3d> moving_;
+  std::map<std::string, Isometry3d> moving_, before_;
   int objects_ = 0;
 };
 
@@ -157,7 +170,9 @@ TEST(World, ChangesAreAsAMonitorBuiltAnew) {
       world.change();
       snapshot = editor.next(world.description());
       ASSERT_EQ(snapshot->version, std::uint64_t(version));
-      const auto change = monitor.prepare(snapshot->scene);
+      // Whatever pairs were tested in advance, near the poses of the next cycle or far from them.
+      const CycleMotion likely = world.rest(version % 3 == 0);
+      const auto change = monitor.prepare(snapshot->scene, version % 3 < 2 ? &likely : nullptr);
       monitor.adopt(*change);
       const auto anew =
           std::make_shared<const Scene>(buildScene(world.description(), planOf(world.description(), options), options));
@@ -176,6 +191,44 @@ TEST(World, ChangesAreAsAMonitorBuiltAnew) {
   }
   EXPECT_GT(contacts, 20);
   EXPECT_GT(skipped, 150);
+}
+
+/// Objects that appear are tested in advance: the next cycle tests those that are near, though a link has moved.
+TEST(World, TheFirstCycleTestsWhatIsNear) {
+  const BodyOptions options = coarse();
+  SceneDescription description{{body("link", Primitive(Sphere{0.1})), body("foot", Primitive(Sphere{0.1}), true)}, {}};
+  const auto motionTo = [&](double from, double to) {
+    CycleMotion motion;
+    motion.times = {0.0, 0.1};
+    for (const BodyDescription& one : description.bodies)
+      motion.X_WB.push_back(one.is_world ? still(one.X_frame_B)
+                                         : std::vector<Isometry3d>{translation({0, 0, from}), translation({0, 0, to})});
+    return motion;
+  };
+  for (const bool in_advance : {false, true}) {
+    description.bodies.resize(2);
+    description.bodies[1].X_frame_B = translation({-1.0, 0, 0});
+    WorldEditor editor(options);
+    Monitor monitor(editor.next(description)->scene, soft());
+    monitor.run(motionTo(0.0, 0.01), {});
+    const CycleMotion before_adoption = motionTo(0.01, 0.05);
+    for (int i = 0; i < 100; ++i) {
+      description.bodies.push_back(body("o" + std::to_string(i), Primitive(Sphere{0.05}), true));
+      description.bodies.back().X_frame_B = translation({0.2 + 0.05 * i, 0, 0});
+    }
+    const CycleMotion likely = motionTo(0.0, 0.01);
+    const auto change = monitor.prepare(editor.next(description)->scene, in_advance ? &likely : nullptr);
+    monitor.run(before_adoption, {});
+    monitor.adopt(*change);
+    const CycleResult first = monitor.run(motionTo(0.05, 0.06), {});
+    EXPECT_EQ(first.verdict, Verdict::kClear);
+    if (in_advance) {
+      EXPECT_LT(first.checked, 5);
+    } else {
+      EXPECT_EQ(first.checked, 100);
+    }
+    EXPECT_GT(first.pairs.back().clearance, 1.0) << "of the farthest object";
+  }
 }
 
 TEST(World, KeepsIdsAndBodiesThatDoNotChange) {

@@ -26,8 +26,7 @@ TriangleMesh bumpySphere(Random& random, double radius, int subdivisions) {
 Real trueDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB) {
   Real least = 1e300L;
   for (int i = 0; i < int(a.size()); ++i)
-    for (int j = 0; j < int(b.size()); ++j)
-      least = std::min(least, test::distance(a.triangle(i), b.triangle(j), X_AB));
+    for (int j = 0; j < int(b.size()); ++j) least = std::min(least, test::distance(a.triangle(i), b.triangle(j), X_AB));
   return std::max<Real>(least, 0);
 }
 

@@ -52,6 +52,38 @@ TEST_F(ChangingLoopTest, WhatChangesAllTheTimeIsCheckedAgainstAFrameThatLagsBehi
   EXPECT_EQ(last().verdict, ContactArray::CLEAR) << last().reason;
 }
 
+/// The next cycle need not test them, though a link moves.
+TEST_F(ChangingLoopTest, WhatAppearsIsTestedInAdvance) {
+  for (const auto& [parent, frame] :
+       {std::pair("world", "room"), std::pair("room", "rack"), std::pair("rack", "shelf")}) {
+    geometry_msgs::TransformStamped sent = stampedTransform(parent, frame, 10.0, 1.37);
+    sent.transform.rotation.w = std::cos(0.35);
+    sent.transform.rotation.z = std::sin(0.35);
+    send(sent, true);
+  }
+  const auto cycle = [&](int i) {
+    sendFoot(10.0 + i * kPeriod);
+    sendHand(10.0 + i * kPeriod, 0.001 * i);
+    step(10.0 + i * kPeriod);
+  };
+  for (int i = 0; i < 4; ++i) cycle(i);
+  for (int i = 0; i < 20; ++i) {
+    description_.bodies.push_back(body("object" + std::to_string(i), Box{Vector3d(0.05, 0.02, 0.02)}, i % 2 == 0));
+    description_.bodies.back().frame = i % 2 == 0 ? "world" : "shelf";
+    description_.bodies.back().X_frame_B = pose({0.1, 5.0 + 0.3 * i, 0.7}, 0.3 * i, {0, 0.6, 0.8});
+  }
+  change();
+  cycle(4);
+  cycle(5);
+  const std::uint32_t pairs = last().checked + last().skipped;
+  EXPECT_GT(pairs, 40u);
+  for (const std::size_t back : {1u, 2u}) {
+    const ContactArray& said = said_[said_.size() - back];
+    EXPECT_EQ(said.verdict, ContactArray::CLEAR) << said.reason;
+    EXPECT_LT(said.checked, 3u) << said.skipped << " skipped";
+  }
+}
+
 TEST_F(ChangingLoopTest, AContactWithWhatGoesIsSaidToEnd) {
   const auto touch = [&](int i) {
     sendFoot(10.0 + i * kPeriod);

@@ -85,7 +85,8 @@ TEST(WorldFile, MoveitsText) {
 
 TEST(WorldFile, MoveitsTextBeforeNoetic) {
   const std::vector<WorldObject> objects = parseMoveitScene(
-      "(noname)+\n* Ball\n1\nsphere\n0.25\n1 2 3\n0 0 0 1\n0 0 0 0\n* wall\n1\nplane\n0 0 2 -1\n0 0 0\n0 0 0 1\n1 0 0 1\n.\n");
+      "(noname)+\n* Ball\n1\nsphere\n0.25\n1 2 3\n0 0 0 1\n0 0 0 0\n* wall\n1\nplane\n0 0 2 -1\n0 0 0\n0 0 0 1\n1 0 0 "
+      "1\n.\n");
   ASSERT_EQ(objects.size(), 2u);
   EXPECT_EQ(objects[0].name, "Ball");
   EXPECT_TRUE(objects[0].X_frame_B.matrix().isIdentity());

@@ -200,7 +200,11 @@ class Monitor {
 
   /// Prepares the switch to another scene. May be called from any thread, also while a cycle runs, but not during
   /// adopt().
-  std::unique_ptr<MonitorChange> prepare(std::shared_ptr<const Scene> next) const;
+  /// @param likely  a motion of the next scene's bodies; its spans are ignored. Pairs about which nothing is known are
+  /// tested over it, so that the first cycle after adopt() need not test them, unless they are near or the bodies are
+  /// elsewhere then. Null: that cycle tests them all.
+  /// @throws std::invalid_argument if the motion does not fit the scene.
+  std::unique_ptr<MonitorChange> prepare(std::shared_ptr<const Scene> next, const CycleMotion* likely = nullptr) const;
 
   /// Switches to a prepared scene, between two cycles. What run() returned is no longer valid.
   /// @param change  from prepare() of this monitor, since the last adopt(). @throws std::logic_error otherwise.

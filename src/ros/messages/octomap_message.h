@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include <boost/shared_ptr.hpp>
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <std_msgs/Header.h>
+#include <boost/shared_ptr.hpp>
 
 namespace octomap_msgs {
 

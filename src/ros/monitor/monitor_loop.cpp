@@ -25,6 +25,16 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
   return options;
 }
 
+/// All bodies at rest where they are now, as far as that is known.
+CycleMotion presentPoses(const TfHistory& history, const std::vector<TrackedBody>& bodies) {
+  std::vector<Isometry3d> X_WB;
+  CycleMotion motion;
+  posesAt(history, bodies, ros::Time(), X_WB, motion.missing);
+  motion.times = {0.0, 1.0};
+  for (const Isometry3d& X : X_WB) motion.X_WB.push_back({X});
+  return motion;
+}
+
 }  // namespace
 
 MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedScene described,
@@ -51,7 +61,8 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
     for (const Body& body : *bodies) frames.insert(withoutLeadingSlash(body.frame));
   history_.setExtraFrames({frames.begin(), frames.end()});
 
-  change->monitor = monitor_.prepare(next->snapshot->scene);
+  const CycleMotion present = presentPoses(history_, next->bodies);
+  change->monitor = monitor_.prepare(next->snapshot->scene, &present);
   change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
   change->tracker->warmUp();
   // Also pairs of bodies that have changed continue: otherwise, if a body changes repeatedly, its pair with a body

@@ -71,6 +71,7 @@ class SceneEditor {
   class EditLock;
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
   std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene, std::string& making);
+  void inArena(const std::function<void()>& work);
   std::unique_ptr<PreparedWorld> prepare(const std::shared_ptr<const CheckedWorld>& world);
   bool handOver(std::unique_ptr<PreparedWorld> prepared);
   bool commit(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
