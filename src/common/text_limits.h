@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <string>
 
-/// Limits of texts from elsewhere, checked before parsing: some parsers recurse for each nested level, and read
-/// beyond the end of truncated text.
+/// Limits of texts from elsewhere, checked before parsing: some parsers recurse for each nested level, read beyond the
+/// end of truncated text, or need 500 bytes of memory per byte of YAML.
 namespace sdf_ccd {
 
-constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20, kMaxYamlBytes = std::size_t{16} << 20;
+constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20, kMaxYamlBytes = std::size_t{1} << 20;
 
 /// @throws std::runtime_error if it is larger than kMaxXmlBytes.
 void requireXmlSize(const std::string& xml);

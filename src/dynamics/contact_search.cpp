@@ -52,17 +52,15 @@ void ContactSearch::run(const StepMotion& motion, const std::function<void(const
   for (const Role& role : roles_) {
     if (!mayMeet(role, motion)) continue;
     const CollisionShape& shell = *world_.bodies[role.shell_body].shape;
-    relative_.times = motion.times;
-    relative_.X_FP.resize(motion.times.size());
-    for (std::size_t k = 0; k < motion.times.size(); ++k) {
-      relative_.X_FP[k] = relativePose(motion.X_OB[role.field_body][k], motion.X_OB[role.shell_body][k]);
-    }
     ChordOptions chords;
     chords.tolerance = world_.chord_tolerance * std::max(shell.ball.radius, 1e-9);
-    // The relative poses at the motion's times are exact. Between them a constant relative twist is assumed, although
-    // the bodies' centres move straight and both bodies may rotate: the deviation is of second order in the
-    // displacement and rotation from one time to the next, and path_.error does not contain it.
-    cutIntoChords(relative_, shell.ball, chords, path_);
+    path_.chords.clear();
+    path_.error = 0.0;
+    const std::vector<Isometry3d>&X_OF = motion.X_OB[role.field_body], &X_OP = motion.X_OB[role.shell_body];
+    for (std::size_t k = 0; k + 1 < motion.times.size(); ++k) {
+      addChords({motion.times[k], motion.times[k + 1], X_OF[k], X_OF[k + 1], X_OP[k], X_OP[k + 1]}, shell.ball, chords,
+                static_cast<int>(k), path_);
+    }
     shellIntervals(*world_.bodies[role.field_body].shape->field, shell.shell, shell.tree, path_, {}, query_);
     if (!query_.touches()) continue;
     listHits(query_, hits_);

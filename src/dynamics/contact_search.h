@@ -35,7 +35,6 @@ class ContactSearch {
 
   const RigidWorld& world_;
   std::vector<Role> roles_;
-  RelativePath relative_;
   ChordPath path_;
   ShellQueryResult query_;
   std::vector<ShellHit> hits_;

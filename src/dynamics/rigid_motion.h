@@ -14,7 +14,8 @@ namespace sdf_ccd {
 void rotateFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vector3d& spin_B);
 
 /// Poses of all bodies during a step: at its start, its end, and at times between so that no body rotates by more than
-/// a radian from one time to the next.
+/// a radian from one time to the next. Between two times their origins move straight, and they rotate at constant
+/// rates.
 struct StepMotion {
   std::vector<double> times;                  ///< [s], from 0 to the step
   std::vector<std::vector<Isometry3d>> X_OB;  ///< per body, per time

@@ -30,8 +30,9 @@ std::vector<Edge> unbalancedEdges(const TriangleMesh& mesh) {
   return edges;
 }
 
-/// Merges vertices of such edges that are within a distance of each other [m].
-/// @return how far vertices moved, at most [m]: more than the distance where several follow each other.
+/// Merges vertices of such edges that are within a distance of each other [m]. None moves by more than twice the
+/// distance, lest a row of vertices closes a crack of any width.
+/// @return how far vertices moved, at most [m].
 double joinVertices(TriangleMesh& mesh, double tolerance) {
   const std::vector<Edge> edges = unbalancedEdges(mesh);
   if (edges.empty()) return 0.0;
@@ -44,7 +45,9 @@ double joinVertices(TriangleMesh& mesh, double tolerance) {
     search.find(mesh.vertices[vertex], tolerance, near);
     for (const int i : near) {
       for (const int end : {edges[i].first, edges[i].second}) {
-        const bool here = (mesh.vertices[end] - mesh.vertices[vertex]).norm() <= tolerance;
+        const Vector3d& p = mesh.vertices[vertex];
+        const bool here =
+            (mesh.vertices[end] - p).norm() <= tolerance && (mesh.vertices[joined[end]] - p).norm() <= 2.0 * tolerance;
         if (here) joined[vertex] = std::min(joined[vertex], joined[end]);
       }
     }

@@ -136,17 +136,15 @@ void BodyTwists::take(const BodyTwists& other, const std::vector<BodyRun>& bodie
   }
 }
 
-/// A point p of the body moves by c' − c + (R' − R) (p − c), with the ball's centre c.
 double BodyTwists::displacement(int body, const BodyTwists& other, int other_body) const {
   const auto b = static_cast<std::size_t>(body);
   const Followed &from = bodies_[b], &to = other.bodies_[static_cast<std::size_t>(other_body)];
   if (from.is_known && to.is_known && same(from.X_WB, to.X_WB)) return 0.0;
   if (!from.is_known || !to.is_known || is_open_[b]) return std::numeric_limits<double>::infinity();
-  const double turn = (to.X_WB.linear() - from.X_WB.linear()).norm();  // Frobenius: no less than the spectral norm
   const BoundingBall& ball = scene_.bodies[b].ball;
-  const double rounding = 0x1p-48 * (normUpperBound(from.X_WB.translation()) + normUpperBound(to.X_WB.translation()) +
-                                     normUpperBound(ball.center) + ball.radius);
-  return kUp * ((to.center_W - from.center_W).norm() + turn * ball.radius) + rounding;
+  const double far = normUpperBound(from.X_WB.translation()) + normUpperBound(to.X_WB.translation()) +
+                     normUpperBound(ball.center) + ball.radius;
+  return kUp * maxDisplacement(from.X_WB, to.X_WB, ball) + (from.defect + to.defect) * ball.radius + 0x1p-48 * far;
 }
 
 void BodyTwists::lose(std::size_t b) {

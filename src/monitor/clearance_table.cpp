@@ -191,7 +191,9 @@ void ClearanceTable::set(int pair, double clearance) {
 }
 
 void ClearanceTable::spend(int pair, double displacement) {
-  budget_[slot(pair)] = roundedDown(double(budget_[slot(pair)]) - displacement);
+  float& budget = budget_[slot(pair)];
+  budget = roundedDown(double(budget) - displacement);
+  if (!(budget > 0.0F)) budget = kUnknown;
 }
 
 void ClearanceTable::forget() {

@@ -57,7 +57,8 @@ class ClearanceTable {
       budget_[static_cast<std::size_t>(pair.to)] = other.budget_[static_cast<std::size_t>(pair.from)];
   }
 
-  /// Subtracts an upper bound of the bodies' relative displacement between two cycles [m].
+  /// Subtracts an upper bound of the bodies' relative displacement between two cycles [m]. The clearance is forgotten
+  /// if it is used up: one body may be inside the other then, though their surfaces are apart.
   void spend(int pair, double displacement);
 
   /// Whether the pair has a known clearance.

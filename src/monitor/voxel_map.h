@@ -27,7 +27,8 @@ struct VoxelMapOptions {
   double band = 0.0;  ///< of the tiles' fields [m]; see BodyOptions
   UnknownSpace unknown = UnknownSpace::kFree;
   double near_distance = 0.5;  ///< [m]
-  double padding = 0.03;  ///< voxels whose centres are nearer to a VoxelMask than this plus half a voxel are free [m]
+  double padding =
+      0.03;  ///< voxels whose centres may be nearer to a VoxelMask than this plus half a voxel are free [m]
   std::size_t max_voxels = 20'000'000;  ///< occupied ones
   std::size_t max_tiles = 20'000;
 };
@@ -37,6 +38,10 @@ struct VoxelMask {
   Vector3d center_M = Vector3d::Zero();                 ///< of a ball that contains it, in the map's frame M [m]
   double radius = 0.0;                                  ///< [m]
   std::function<double(const Vector3d& p_M)> distance;  ///< lower bound of the distance to it [m]; must be thread-safe
+
+  /// The same to its surface, where that has openings: a voxel that is occupied is not ignored for lying inside. Null
+  /// if the surface is closed.
+  std::function<double(const Vector3d& p_M)> surface_distance;
   bool only_unknown = false;  ///< ignores only unknown voxels: when the map was made, the solid may have been elsewhere
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "body/body_surface.h"
 #include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd {
@@ -36,6 +37,14 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
   }
   if (solids.empty()) return std::nullopt;
   VoxelMask mask;
+  const bool has_openings = has_fields && std::any_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
+                              return part.field.openings() != nullptr;
+                            });
+  if (has_openings && body.surface) {
+    mask.surface_distance = [X_BM, &surface = *body.surface](const Vector3d& p_M) {
+      return surface.tree.closestPoint(X_BM * p_M).distance - surface.deviation;
+    };
+  }
   mask.center_M = X_BM.inverse() * box_B.center();
   mask.radius = 0.5 * box_B.diagonal().norm();
   mask.distance = [solids = std::move(solids)](const Vector3d& p_M) {

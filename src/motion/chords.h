@@ -48,4 +48,17 @@ struct TwoBodyMotion {
 /// @param interval  Chord::interval of the chords added.
 void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int interval, ChordPath& path);
 
+/// Two bodies between two recorded times. Their frames' origins move straight at constant speeds, and each body rotates
+/// about its origin at a constant rate, by less than half a revolution, as a body under no force does.
+struct DriftingBodies {
+  double t_start;  ///< [s]
+  double t_end;    ///< [s]
+  const Isometry3d &X_WF_start, &X_WF_end;
+  const Isometry3d &X_WP_start, &X_WP_end;
+};
+
+/// The same for such bodies. @param ball  of P, in its frame.
+void addChords(const DriftingBodies& motion, const BoundingBall& ball, const ChordOptions& options, int interval,
+               ChordPath& path);
+
 }  // namespace sdf_ccd

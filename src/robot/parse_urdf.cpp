@@ -13,6 +13,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "common/number_text.h"
+#include "common/shown_text.h"
 #include "common/text_limits.h"
 #include "joint_kind.h"
 
@@ -47,6 +48,28 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
+/// Without this, what a macro stands for would be missing, without a word.
+/// @throws std::runtime_error for a use of xacro that has not been expanded; its definitions do no harm.
+void refuseMacros(const tinyxml2::XMLDocument& document) {
+  const auto isHarmless = [](const std::string& name) {
+    return name == "xacro:macro" || name == "xacro:property" || name == "xacro:arg";
+  };
+  std::vector<const tinyxml2::XMLElement*> left = {document.RootElement()};
+  while (!left.empty()) {
+    const tinyxml2::XMLElement* element = left.back();
+    left.pop_back();
+    if (!element) continue;
+    const std::string name = element->Name();
+    left.push_back(element->NextSiblingElement());
+    if (isHarmless(name)) continue;
+    if (name.rfind("xacro:", 0) == 0) {
+      throw std::runtime_error("line " + std::to_string(element->GetLineNum()) + ": <" + shownText(name) +
+                               "> has not been expanded: run xacro first");
+    }
+    left.push_back(element->FirstChildElement());
+  }
+}
+
 /// The document as written by tinyxml2: urdfdom's XML reader reads beyond the end of some damaged documents.
 std::string wellFormed(const std::string& xml) {
   requireXmlSize(xml);
@@ -55,6 +78,7 @@ std::string wellFormed(const std::string& xml) {
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
   }
+  refuseMacros(document);
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);
   return printer.CStr();

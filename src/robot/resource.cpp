@@ -97,11 +97,39 @@ fs::path localPath(const std::string& uri, const PackageFinder& packages, const 
   return fs::path(base_directory) / uri;  // an absolute path replaces the base
 }
 
+/// The text with %XX replaced by the bytes that they stand for.
+std::string percentDecoded(const std::string& text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto digit = [&](std::size_t k) {
+      return k < text.size() && std::isxdigit(static_cast<unsigned char>(text[k]));
+    };
+    if (text[i] == '%' && digit(i + 1) && digit(i + 2)) {
+      decoded += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      decoded += text[i];
+    }
+  }
+  return decoded;
+}
+
+/// The file of a URI, as it is written or, if there is none, with its escaped characters as other readers of URIs take
+/// them.
+fs::path fileOf(const std::string& uri, const PackageFinder& packages, const std::string& base_directory) {
+  const fs::path path = localPath(uri, packages, base_directory);
+  const std::string decoded = percentDecoded(uri);
+  std::error_code ignored;
+  if (decoded == uri || decoded.find('\0') != std::string::npos || fs::exists(path, ignored)) return path;
+  const fs::path other = localPath(decoded, packages, base_directory);
+  return fs::exists(other, ignored) ? other : path;
+}
+
 }  // namespace
 
 Resource loadLocalResource(const std::string& uri, const PackageFinder& packages, const std::string& base_directory) {
   Resource resource;
-  const fs::path wanted = localPath(uri, packages, base_directory);
+  const fs::path wanted = fileOf(uri, packages, base_directory);
   const fs::path path = spelledAsOnDisk(fs::absolute(wanted), uri, resource.warning);
   resource.bytes = readFile(path, uri);
   resource.name = path.string();

@@ -90,7 +90,7 @@ double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double 
     }
   });
   const AlignedBox3d box = boundingBox(mesh);
-  const double rounding = 1e-14 * (box.min().cwiseAbs().maxCoeff() + box.sizes().norm());
+  const double rounding = 1e-14 * (box.min().cwiseAbs().maxCoeff() + box.sizes().norm()) + 1e-9 * scale;
   return std::sqrt(bound2.load()) * (1 + 1e-9) + rounding;
 }
 

@@ -23,6 +23,7 @@ class PieceWalk {
         cancel_(cancel),
         scale_(scale),
         scale2_(scale * scale),
+        coincident2_(kCoincident * kCoincident * scale2_),
         gather2_(kGather * kGather * scale2_) {}
 
   /// Calls visit(contested) for pieces that cover `whole`, each with at most kMaxCells candidates, whose normals do not
@@ -40,6 +41,10 @@ class PieceWalk {
 
   /// Searching once for a larger piece and distributing the points is cheaper than searching for each small one.
   static constexpr double kGather = 5;
+
+  /// Points that are nearer to each other than this share of the scale count as one. They divide no piece, however
+  /// small, if they differ by rounding only.
+  static constexpr double kCoincident = 1e-9;
 
   template <typename Settle, typename Visit>
   void walkPiece(const SurfacePiece& whole, const Vector3d& facing, Settle& settle, Visit& visit) {
@@ -62,6 +67,7 @@ class PieceWalk {
       } else {
         narrow(current);
       }
+      if (candidates_.size() - narrowed.begin > kMaxCells) mergeCoincident(narrowed.begin);
       narrowed.end = candidates_.size();
       ContestedPiece contested{current.piece, candidates_.data() + narrowed.begin, candidates_.data() + narrowed.end};
       if (settle(contested)) continue;
@@ -124,6 +130,23 @@ class PieceWalk {
     }
   }
 
+  /// Keeps one of the candidates from `begin` on that coincide, the first of the shell.
+  void mergeCoincident(std::size_t begin) {
+    const auto first = candidates_.begin() + static_cast<std::ptrdiff_t>(begin);
+    auto kept = first;
+    for (auto candidate = first; candidate != candidates_.end(); ++candidate) {
+      const auto known = std::find_if(first, kept, [&](const Candidate& other) {
+        return (other.point - candidate->point).squaredNorm() < coincident2_;
+      });
+      if (known == kept) {
+        *kept++ = *candidate;
+      } else if (candidate->index < known->index) {
+        *known = *candidate;
+      }
+    }
+    candidates_.erase(kept, candidates_.end());
+  }
+
   void halve(const Entry& entry) {
     const auto [first, second] = entry.piece.halves();
     stack_.push_back({first, entry.begin, entry.end});
@@ -133,7 +156,8 @@ class PieceWalk {
   const NearestPoint& nearest_;
   const CancelPoint cancel_;
   double scale_, scale2_;
-  double gather2_;  ///< squared edge length above which pieces are halved before points are searched [m²]
+  double coincident2_;  ///< [m²]
+  double gather2_;      ///< squared edge length above which pieces are halved before points are searched [m²]
   std::vector<Entry> stack_;
   std::vector<Candidate> candidates_;
   std::vector<Candidate> gathered_;

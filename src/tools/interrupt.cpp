@@ -1,20 +1,25 @@
 #include "interrupt.h"
 
+#include <atomic>
+
+#include "sdf_ccd/common/cancel.h"
+
 namespace sdf_ccd::tools {
 namespace {
 
 constexpr std::array<int, 2> kSignals = {SIGINT, SIGTERM};
 
-volatile std::sig_atomic_t received_signal = 0;
+std::atomic<bool> is_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only set such a flag");
 
-void remember(int signal) {
-  received_signal = signal;
+void remember(int) {
+  is_requested = true;
 }
 
 }  // namespace
 
 Interrupt::Interrupt() {
-  received_signal = 0;
+  is_requested = false;
   struct sigaction action = {};
   action.sa_handler = remember;
   action.sa_flags = SA_RESETHAND | SA_RESTART;
@@ -26,7 +31,16 @@ Interrupt::~Interrupt() {
 }
 
 bool Interrupt::requested() const {
-  return received_signal != 0;
+  return is_requested;
+}
+
+void Interrupt::during(const std::function<void()>& work) const {
+  const CancelScope scope(is_requested);
+  try {
+    work();
+  } catch (const Cancelled&) {
+    throw Interrupted();
+  }
 }
 
 }  // namespace sdf_ccd::tools

@@ -110,13 +110,12 @@ void run(const Arguments& arguments) {
   const Interrupt interrupt;
   OutputFile out(arguments.out);
   LearnedPairs pairs;
-  {
+  try {
     Bars bars;
-    options.progress = [&](const std::string& what, double share) {
-      if (interrupt.requested()) throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
-      bars.show(what, share);
-    };
-    pairs = learnPairs(robot, srdf, loader, options);
+    options.progress = [&](const std::string& what, double share) { bars.show(what, share); };
+    interrupt.during([&] { pairs = learnPairs(robot, srdf, loader, options); });
+  } catch (const Interrupted&) {
+    throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
   }
   for (const std::string& warning : pairs.warnings) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
   out.stream() << srdfWith(pairs, robot, given);

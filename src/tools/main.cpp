@@ -38,6 +38,10 @@ int main(int argc, char** argv) {
 #endif
   app.footer(footer);
   try {
+    const std::string first = argc > 1 ? argv[1] : "-";
+    const auto is_first = [&](const CLI::App* command) { return command->get_name() == first; };
+    if (first.rfind("-", 0) != 0 && app.get_subcommands(is_first).empty())
+      return refuse("there is no subcommand " + first + " (see --help)");
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& error) {

@@ -67,6 +67,8 @@ std::vector<Segment> readSegments(const std::string& path) {
   std::size_t line_number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++line_number;
+    constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets write it first
+    if (line_number == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.find_first_not_of(" \t") == std::string::npos) continue;
     if (line_number == 1 && isHeader(line)) continue;

@@ -8,6 +8,12 @@
 #include "oracle/shapes.h"
 
 namespace sdf_ccd::test {
+
+/// What a test prints of its family.
+void PrintTo(const Family& family, std::ostream* out) {
+  *out << family.name;
+}
+
 namespace {
 
 class Families : public ::testing::TestWithParam<Family> {};

@@ -1,4 +1,5 @@
 // Closed meshes whose inside cannot be determined: only surfaces decide.
+#include <algorithm>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include "oracle/drawn_meshes.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
+#include "sdf_ccd/geometry/mesh_quality.h"
 
 namespace sdf_ccd {
 namespace {
@@ -52,6 +54,45 @@ TEST(DoubtfulMesh, WhatIsInsideIsNeverClear) {
     EXPECT_EQ(verdictOf(mesh, {0.4, 0, 0}, {0.2, 0, 0}), Verdict::kContact);
     EXPECT_EQ(verdictOf(mesh, {0.3, 0, 0}, {0.3, 0, 0}), Verdict::kContact);
   }
+}
+
+/// A block of two halves with a slit between them, along whose edges tiny triangles lie like stepping stones, each
+/// within rounding of the next: the slit is open, though vertices follow one another across it.
+TriangleMesh slitBlock(double slit, const Vector3d& center) {
+  TriangleMesh mesh;
+  const auto addHalf = [&](double low, double high, int open_side) {
+    TriangleMesh half = block({low, -0.5, -0.5}, {high, 0.5, 0.5});
+    const auto is_open = [&](const Vector3i& t) {
+      const Vector3d center = (half.vertices[t[0]] + half.vertices[t[1]] + half.vertices[t[2]]) / 3.0;
+      return open_side * (center.x() - 0.5 * (low + high)) > 0.49 * (high - low);
+    };
+    half.triangles.erase(std::remove_if(half.triangles.begin(), half.triangles.end(), is_open), half.triangles.end());
+    EXPECT_EQ(half.triangles.size(), 10u);
+    mesh = mesh.triangles.empty() ? half : merged(mesh, half);
+  };
+  addHalf(-0.5, -0.5 * slit, 1);
+  for (int corner = 0; corner < 4; ++corner) {
+    const Vector3d start(-0.5 * slit, corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5);
+    TriangleMesh stones;
+    for (double x = 0.8e-6; x < slit; x += 0.8e-6) {
+      const int first = static_cast<int>(stones.vertices.size());
+      for (const Vector3d& to : {Vector3d(0, 0, 0), Vector3d(1e-7, 1e-7, 0), Vector3d(1e-7, 0, 1e-7)})
+        stones.vertices.push_back(start + Vector3d(x, 0, 0) + to);
+      stones.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    mesh = merged(mesh, stones);
+  }
+  addHalf(0.5 * slit, 0.5, -1);
+  return translated(mesh, center);
+}
+
+TEST(DoubtfulMesh, SteppingStonesCloseNoSlit) {
+  const double slit = 2e-4;
+  const TriangleMesh mesh = slitBlock(slit, {10, 0, 0});
+  EXPECT_FALSE(orientOutward(mesh).quality.sign_trusted);
+  // Wholly inside, a corner under the slit, nearer to the upper face than what fields can tell.
+  const Vector3d under(10.02, 0, 0.5 - slit - 0.02);
+  EXPECT_NE(verdictOf(mesh, under, under), Verdict::kClear);
 }
 
 TEST(DoubtfulMesh, WhatIsInACavityThatMayBeFilledIsNoContact) {

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "monitor/scene_case.h"
+#include "monitor/voxel_mask.h"
 #include "oracle/files.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
@@ -184,6 +186,33 @@ TEST(VoxelMap, AMaskOfAnotherTimeHidesNoOccupiedVoxels) {
   EXPECT_LT(kept.distance(p), 0.0);
   EXPECT_GT(kept.distance(p + Vector3d(0.1, 0.0, 0.0)), 0.0);  // unknown, and filled by the ball
   EXPECT_LT(kept.distance(p + Vector3d(0.3, 0.0, 0.0)), 0.0);  // unknown, near the ball
+}
+
+/// What lies in an open box is not the box.
+TEST(VoxelMap, WhatIsInAnOpenBodyCounts) {
+  TriangleMesh bin = boxMesh({0.4, 0.4, 0.4});
+  const auto is_lid = [&](const Vector3i& t) {
+    return std::min({bin.vertices[t[0]].z(), bin.vertices[t[1]].z(), bin.vertices[t[2]].z()}) > 0.0;
+  };
+  bin.triangles.erase(std::remove_if(bin.triangles.begin(), bin.triangles.end(), is_lid), bin.triangles.end());
+  ASSERT_EQ(bin.triangles.size(), 10u);
+  const SceneDescription description{{body("bin", meshShape(bin)), body("tool", Primitive(Sphere{0.05}))}, {}};
+  const auto scene = build(description, fine(0.02));
+  for (const UnknownSpace unknown : {UnknownSpace::kFree, UnknownSpace::kOccupied}) {
+    VoxelMapOptions options;
+    options.unknown = unknown;
+    const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
+    ASSERT_TRUE(mask);
+    VoxelMap map("map", "world", options);
+    Kept kept;
+    kept.take(map.take(gridOf({{0, 0, 0}, {0, 0, 7}, {7, 0, 0}, {0, 0, -8}, {3, 7, 2}}, options), {*mask}));
+    EXPECT_LT(kept.distance({0.025, 0.025, 0.025}), 0.0) << "in its middle";
+    EXPECT_LT(kept.distance({0.025, 0.025, 0.375}), 0.0) << "in its opening";
+    EXPECT_GT(kept.distance({0.375, 0.025, 0.025}), 0.0) << "a wall";
+    EXPECT_GT(kept.distance({0.025, 0.025, -0.375}), 0.0) << "the floor";
+    EXPECT_GT(kept.distance({0.175, 0.375, 0.125}), 0.0) << "a wall";
+    EXPECT_GT(kept.distance({0.2, 0.2, -0.2}), 0.0) << "unknown space inside";
+  }
 }
 
 TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {

@@ -231,6 +231,39 @@ TEST(World, TheFirstCycleTestsWhatIsNear) {
   }
 }
 
+/// What was known of a pair that was tested in advance must not hide that the link has been inside the object since.
+TEST(World, ALinkInsideWhatAppearsIsSeen) {
+  const BodyOptions options = coarse();
+  SceneDescription description{{body("link", Primitive(Sphere{0.05})), body("foot", Primitive(Sphere{0.1}), true)}, {}};
+  description.bodies[1].X_frame_B = translation({-9.0, 0, 0});
+  const auto motion = [&](double from, double to) {
+    CycleMotion motion;
+    motion.times = {0.0, 0.1};
+    for (const BodyDescription& one : description.bodies)
+      motion.X_WB.push_back(one.is_world ? still(one.X_frame_B)
+                                         : std::vector<Isometry3d>{translation({from, 0, 0}), translation({to, 0, 0})});
+    return motion;
+  };
+  for (const double last : {0.0, 0.2, 0.44, 0.46, 0.56, 0.69}) {  // the box ends at 0.5 m
+    description.bodies.resize(2);
+    WorldEditor editor(options);
+    Monitor monitor(editor.next(description)->scene, soft());
+    monitor.run(motion(0.69, 0.7), {});
+    const CycleMotion before_adoption = motion(0.7, last);
+    description.bodies.push_back(body("box", Primitive(Box{{0.5, 0.5, 0.5}}), true));
+    const std::shared_ptr<const Scene> scene = editor.next(description)->scene;
+    const CycleMotion likely = motion(0.7, 0.7);
+    const auto change = monitor.prepare(scene, &likely);
+    monitor.run(before_adoption, {});
+    monitor.adopt(*change);
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      const CycleMotion rest = motion(last, last);
+      EXPECT_EQ(monitor.run(rest, {}).verdict, Monitor(scene, soft()).run(rest, {}).verdict) << last;
+    }
+    EXPECT_EQ(monitor.run(motion(last, last), {}).verdict, last < 0.55 ? Verdict::kContact : Verdict::kClear) << last;
+  }
+}
+
 TEST(World, KeepsIdsAndBodiesThatDoNotChange) {
   const BodyOptions options = coarse();
   SceneDescription description{

@@ -113,6 +113,37 @@ TEST(Chords, ErrorIsABoundAndNotALooseOne) {
   EXPECT_GT(worst_share, 0.9);
 }
 
+/// Both bodies rotate about their origins, which move straight: their relative motion is no screw.
+TEST(Chords, ErrorIsABoundForDriftingBodies) {
+  Random random(5);
+  double worst_share = 0.0;
+  const auto at = [](const Isometry3d& start, const Isometry3d& end, double s) {
+    Isometry3d X = Isometry3d::Identity();
+    X.linear() = Quaterniond(start.linear()).slerp(s, Quaterniond(end.linear())).toRotationMatrix();
+    X.translation() = (1 - s) * start.translation() + s * end.translation();
+    return X;
+  };
+  for (int i = 0; i < 1000; ++i) {
+    const double turn_F = i % 4 == 0 ? 0.0 : 3.0, turn_P = i % 4 == 1 ? 0.0 : 3.0;
+    const Isometry3d F0 = test::pose(random, 3.0, 1.0), P0 = test::pose(random, 3.0, 1.0);
+    Isometry3d F1 = F0 * test::pose(random, turn_F, i % 3 ? 1.0 : 0.0), P1 = P0 * test::pose(random, turn_P, 1.0);
+    const BoundingBall ball{test::direction(random) * test::uniform(random, 0, 0.3), test::uniform(random, 0, 0.5)};
+    ChordPath path;
+    addChords({0.0, 1.0, F0, F1, P0, P1}, ball, {test::uniform(random, 1e-4, 1e-1), 1000}, 0, path);
+    ASSERT_EQ(path.chords.back().t_end, 1.0);
+    for (int k = 0; k < 100; ++k) {
+      const Vector3d p = ball.center + ball.radius * test::direction(random);
+      const Chord& chord = path.chords[random() % path.chords.size()];
+      const double s = test::uniform(random, 0, 1), t = chord.t_start + s * (chord.t_end - chord.t_start);
+      const Vector3d on_chord = (1 - s) * (chord.X_FP_start * p) + s * (chord.X_FP_end * p);
+      const double deviation = (on_chord - at(F0, F1, t).inverse() * (at(P0, P1, t) * p)).norm();
+      ASSERT_LE(deviation, path.error + 1e-12);
+      worst_share = std::max(worst_share, deviation / path.error);
+    }
+  }
+  EXPECT_GT(worst_share, 0.8);
+}
+
 TEST(Chords, RightAngleWithinOneCycleKeepsTheTolerance) {
   const RelativePath motion{{0.0, 0.1}, {Isometry3d::Identity(), turned({0, 0, 1}, 1.5707963267948966)}};
   ChordPath path;

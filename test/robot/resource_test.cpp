@@ -91,6 +91,17 @@ TEST_F(ResourceFiles, EveryKindOfUriIsRead) {
   }
 }
 
+TEST_F(ResourceFiles, EscapedCharactersAreTakenWhereTheFileIsNotSpelledSo) {
+  write("a/b/c_folder/my link.stl", "blank");
+  write("a/b/c_folder/per%20cent.stl", "percent");
+  EXPECT_EQ(loadLocalResource("package://arm_description/my%20link.stl", find_, "").bytes, "blank");
+  EXPECT_EQ(loadLocalResource("package://arm_description/my link.stl", find_, "").bytes, "blank");
+  EXPECT_EQ(loadLocalResource("package://arm_description/per%20cent.stl", find_, "").bytes, "percent");
+  for (const char* uri : {"package://arm_description/no%20link.stl", "package://arm_description/my%00link.stl",
+                          "package://arm_description/my%2"})
+    failure(uri);
+}
+
 TEST_F(ResourceFiles, OtherCaseIsTakenWithAWarning) {
   const Resource resource = loadLocalResource("package://arm_description/meshes/link.stl", find_, "");
   EXPECT_EQ(resource.bytes, "steel");

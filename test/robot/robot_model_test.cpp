@@ -315,5 +315,17 @@ TEST(RobotModel, DeepAndLargeTextsAreRefused) {
   EXPECT_NE(failure("<robot>" + std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"), std::string::npos);
 }
 
+TEST(RobotModel, MacrosThatWereNotExpandedAreRefused) {
+  const auto robot = [](const std::string& inside) {
+    return "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>\n" + inside + "\n<link name='a'/></robot>";
+  };
+  EXPECT_NE(failure(robot("<xacro:arm prefix='l_'/>")).find("line 2: <xacro:arm> has not been expanded"),
+            std::string::npos);
+  EXPECT_NE(failure(robot("<link name='b'><xacro:inertia/></link>")).find("<xacro:inertia>"), std::string::npos);
+  EXPECT_EQ(failure(robot("<xacro:property name='x' value='1'/><xacro:macro name='arm' params=''><xacro:leg/>"
+                          "</xacro:macro>")),
+            "");
+}
+
 }  // namespace
 }  // namespace sdf_ccd

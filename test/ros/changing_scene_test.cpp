@@ -160,6 +160,21 @@ TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
   EXPECT_EQ(refusal(detach), "box is not attached");
 }
 
+TEST_F(ChangingSceneTest, AttachesWithOtherShapes) {
+  apply(box());
+  SceneChange attach = box();
+  attach.type = SceneChange::ATTACH;
+  attach.link = "tip";
+  attach.primitives[0].dimensions = {0.4, 0.4, 0.4};
+  attach.pose = geometry_msgs::Pose();
+  const Isometry3d before = body("box").X_frame_B;
+  apply(attach);
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).half_size, Vector3d(0.2, 0.2, 0.2));
+  EXPECT_EQ(body("box").frame, "tip");
+  // Without a pose it stays where it was: the tip is at 2.5 m.
+  EXPECT_NEAR((body("box").X_frame_B.translation() - (before.translation() - Vector3d(2.5, 0, 0))).norm(), 0.0, 1e-9);
+}
+
 TEST_F(ChangingSceneTest, AttachesAndDetachesByTransformsOfOneTime) {
   SceneChange added = box();
   added.header.frame_id = "belt";  // 5 m beyond the arm, moving with it; the arm's transforms come later

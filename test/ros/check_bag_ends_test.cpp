@@ -245,14 +245,39 @@ TEST_F(CheckBag, JointStatesThatLackPositionsAreCounted) {
   EXPECT_NE(result.out.find(" pairs wait for transforms, for up to ", reasons), std::string::npos) << result.out;
 }
 
+/// A slider beyond its limits, up to a post that was out of its reach: the pair is added to the results while it is so.
+TEST_F(CheckBag, PairsWithinReachOnlyBeyondLimitsAreNoPairsOfThePlan) {
+  const std::string box = "<collision><geometry><box size='0.02 0.02 0.02'/></geometry></collision>";
+  write("slider.urdf", "<robot name='slider'><link name='base'>" + box + "</link><link name='slide'>" + box +
+                           "</link><joint name='slider' type='prismatic'><parent link='base'/><child link='slide'/>"
+                           "<origin xyz='0.1 0 0'/><axis xyz='1 0 0'/><limit lower='-0.02' upper='0.05' effort='1' "
+                           "velocity='1'/></joint></robot>");
+  write("post.yaml",
+        "world: [{name: post, type: box, size: [0.02, 0.02, 0.6], xyz: [0.45, 0, 0]}, "
+        "{name: near, type: box, size: [0.02, 0.02, 0.6], xyz: [0.16, 0, 0]}]\n");
+  {
+    rosbag::Bag bag(path("beyond.bag").string(), rosbag::bagmode::Write);
+    for (int i = 0; i < 90; ++i) {
+      sensor_msgs::JointState state;
+      state.header.stamp = ros::Time(kBegin + kPeriod * i);
+      state.name = {"slider"};
+      state.position = {i < 30 || i >= 60 ? 0.0 : 0.01 * (i - 30)};
+      bag.write("joint_states", state.header.stamp, state);
+    }
+  }
+  const ToolRun result = run("check-bag beyond.bag --urdf slider.urdf --config post.yaml --out made");
+  EXPECT_TRUE(result.exit_code == kDone || result.exit_code == kPartlyDone) << result.exit_code << result.error;
+  EXPECT_NE(readText(path("made/summary.txt")).find("post"), std::string::npos) << readText(path("made/summary.txt"));
+}
+
 TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
   writeHeldContact([](double) { return true; });  // the elbow's
   const ToolRun result = run(check("held.bag", "made"));
   EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("joint_states names nowhere these joints of the robot: elbow\n"), std::string::npos)
+  EXPECT_NE(result.error.find("joint_states never names these joints of the robot: elbow\n"), std::string::npos)
       << result.error;
   const ToolRun complete = run(check("arm.bag", "whole"));
-  EXPECT_EQ(complete.error.find("names nowhere"), std::string::npos) << complete.error;
+  EXPECT_EQ(complete.error.find("never names"), std::string::npos) << complete.error;
 }
 
 TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {

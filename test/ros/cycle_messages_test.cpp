@@ -101,6 +101,19 @@ TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   EXPECT_EQ(uncheckedCause(*loop_), "");
 }
 
+TEST_F(CycleMessagesTest, ValuesThatWereNotComputedAreNoNumbers) {
+  for (int i = 0; i < 3; ++i) {
+    sendFoot(10.0 + i * kPeriod);
+    sendHand(10.0 + i * kPeriod, kPlate);
+    CycleRequest nothing;
+    nothing.wrenches = nothing.contacts = nothing.skipped_pairs = false;
+    loop_->step(ros::Time(10.0 + i * kPeriod), nothing);
+  }
+  const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
+  EXPECT_EQ(state.verdict, MonitorState::CONTACT);
+  EXPECT_TRUE(std::isnan(state.max_depth) && std::isnan(state.max_force) && std::isnan(state.min_clearance));
+}
+
 TEST_F(CycleMessagesTest, AContactHasOneIdFromItsBeginToItsEnd) {
   std::vector<Contact> told;
   for (int i = 0; i < 30; ++i) {

@@ -129,13 +129,15 @@ TEST_F(PlannedMotionTest, LinkPosesAreTakenAsTheyAre) {
     request.poses[i].time_from_start = ros::Duration(i);
     request.poses[i].poses.resize(1);
     request.poses[i].poses[0].position.x = i;
-    request.poses[i].poses[0].orientation.w = 2.0;
+    request.poses[i].poses[0].orientation.w = 1.004;
   }
   const CycleMotion result = motion(request);
   EXPECT_EQ(result.missing[0], "");
   EXPECT_EQ(result.X_WB[0][1].translation(), Vector3d(1.0, 0.0, 0.0));
-  request.poses[1].poses[0].orientation.w = 0.0;
-  EXPECT_EQ(refusal(request), "orientation is not a quaternion");
+  for (const double w : {0.0, 0.9, 2.0}) {
+    request.poses[1].poses[0].orientation.w = w;
+    EXPECT_EQ(refusal(request), "orientation is not a unit quaternion");
+  }
   request.links = {"tail"};
   EXPECT_EQ(refusal(request), "the robot has no link tail");
 }
@@ -182,7 +184,7 @@ TEST_F(PlannedMotionTest, JointsThatAreNotNamedAreWhereTfHasThem) {
   ASSERT_EQ(planned_.assumed.size(), 1u);
   EXPECT_EQ(planned_.assumed[0].name, "swing");
   EXPECT_NEAR(planned_.assumed[0].position, M_PI_2, 1e-12);
-  EXPECT_EQ(planned_.notes, "1 joints that are not named stay at their current poses in tf");
+  EXPECT_EQ(planned_.notes, "not named, hence assumed to stay as in tf: 1 joint");
   now_.joints.X_PL.clear();
   now_.joints.missing["swing"] = "no transform";
   EXPECT_EQ(motion(request).missing[0],
@@ -219,7 +221,7 @@ TEST_F(PlannedMotionTest, TheRootMovesByAMultiDofTrajectory) {
     request.multi_dof_trajectory.points[1].time_from_start = ros::Duration(4.0);
     EXPECT_EQ(refusal(request), "two trajectories do not begin and end at the same times");
     request.multi_dof_trajectory.points[1].transforms[0].rotation.w = 0.0;
-    EXPECT_EQ(refusal(request), "orientation is not a quaternion");
+    EXPECT_EQ(refusal(request), "orientation is not a unit quaternion");
   }
 }
 

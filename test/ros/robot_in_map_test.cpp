@@ -30,7 +30,7 @@ class RobotInMapTest : public ::testing::Test {
 
 TEST_F(RobotInMapTest, PosesAreThoseAtTheStamp) {
   sendHand(100, 105);
-  RobotInMap robot(history_, "world", ros::Time(102.5));
+  RobotInMap robot(history_, "world", ros::Time(102.5), 1.5);
   robot.update(*world_);
   ASSERT_EQ(robot.bodies().size(), 2u);
   EXPECT_NEAR(xOf(robot.bodies()[0]), 102.5, 1e-9);
@@ -39,9 +39,37 @@ TEST_F(RobotInMapTest, PosesAreThoseAtTheStamp) {
   EXPECT_EQ(robot.unknown(), 0u);
 }
 
+TEST_F(RobotInMapTest, NoPoseIsKnownInAGapOfTransforms) {
+  sendHand(100, 102);
+  sendHand(106, 107);
+  for (const auto& [stamp, known] :
+       {std::pair(101.5, true), {103.0, false}, {104.0, false}, {106.0, true}, {106.5, true}}) {
+    RobotInMap robot(history_, "world", ros::Time(stamp), 1.5);
+    robot.update(*world_);
+    ASSERT_EQ(robot.bodies().size(), 2u);
+    EXPECT_EQ(robot.bodies()[0].is_at_stamp, known) << stamp;
+    EXPECT_EQ(robot.problem().rfind("hand has no transform for 4.000 s", 0) == 0, !known) << robot.problem();
+    EXPECT_FALSE(robot.isAheadOfTf(10.0));
+  }
+}
+
+TEST_F(RobotInMapTest, WhatWasAttachedLaterWasElsewhere) {
+  sendHand(100, 105);
+  const CheckedWorld world(world_->snapshot, {}, {{"hand", ros::Time(103.0)}});
+  for (const double stamp : {102.5, 103.5}) {
+    RobotInMap robot(history_, "world", ros::Time(stamp), 1.5);
+    robot.update(world);
+    ASSERT_EQ(robot.bodies().size(), 2u);
+    EXPECT_EQ(robot.bodies()[0].is_at_stamp, stamp > 103.0);
+    EXPECT_TRUE(robot.bodies()[1].is_at_stamp);
+    EXPECT_EQ(robot.unknown(), 0u) << "nothing will ever be known of where it was";
+    EXPECT_EQ(robot.problem(), "");
+  }
+}
+
 TEST_F(RobotInMapTest, WhereTfLagsThePresentPoseIsNotTakenForThatAtTheStamp) {
   sendHand(100, 102);
-  RobotInMap robot(history_, "world", ros::Time(102.4));
+  RobotInMap robot(history_, "world", ros::Time(102.4), 1.5);
   robot.update(*world_);
   ASSERT_EQ(robot.bodies().size(), 2u);
   EXPECT_FALSE(robot.bodies()[0].is_at_stamp);
@@ -71,7 +99,7 @@ TEST_F(RobotInMapTest, WhereTfLagsThePresentPoseIsNotTakenForThatAtTheStamp) {
 TEST_F(RobotInMapTest, OfAMapOlderThanTheTransformsOnlyRestingBodiesAreKnown) {
   sendHand(100, 105);
   for (const double stamp : {50.0, 0.0}) {
-    RobotInMap robot(history_, "world", ros::Time(stamp));
+    RobotInMap robot(history_, "world", ros::Time(stamp), 1.5);
     robot.update(*world_);
     ASSERT_EQ(robot.bodies().size(), 2u);
     EXPECT_FALSE(robot.bodies()[0].is_at_stamp);
@@ -83,7 +111,7 @@ TEST_F(RobotInMapTest, OfAMapOlderThanTheTransformsOnlyRestingBodiesAreKnown) {
 }
 
 TEST_F(RobotInMapTest, BodiesWithoutTransformsAreUnknown) {
-  RobotInMap robot(history_, "world", ros::Time(102.0));
+  RobotInMap robot(history_, "world", ros::Time(102.0), 1.5);
   robot.update(*world_);
   ASSERT_EQ(robot.bodies().size(), 1u);
   EXPECT_EQ(robot.unknown(), 2u);
@@ -96,7 +124,7 @@ TEST_F(RobotInMapTest, BodiesWithoutTransformsAreUnknown) {
 TEST_F(RobotInMapTest, BothPosesAreOfTheSameTimeIfTheMapMoves) {
   sendHand(100, 105);
   for (int t = 100; t <= 103; ++t) history_.add(test::message({stampedTransform("world", "map", t, 2 * t)}), false);
-  RobotInMap robot(history_, "map", ros::Time(104.0));
+  RobotInMap robot(history_, "map", ros::Time(104.0), 1.5);
   robot.update(*world_);
   EXPECT_FALSE(robot.bodies()[0].is_at_stamp);
   EXPECT_NEAR(xOf(robot.bodies()[0]), 105.0 - 206.0, 1e-9);

@@ -145,7 +145,7 @@ std::string RecordedMotion::source() const {
 std::vector<std::string> RecordedMotion::warnings() const {
   std::vector<std::string> lines = joint_watch_.lines(source());
   if (!joint_state_topics_.empty() && !unnamed_.empty()) {
-    lines.push_back(source() + " names nowhere these joints of the robot: " + someOf(unnamed_));
+    lines.push_back(source() + " never names these joints of the robot: " + someOf(unnamed_));
   }
   return lines;
 }

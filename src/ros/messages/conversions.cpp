@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "ros/tf/unit_rotation.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -28,12 +30,12 @@ void setPointContact(const ContactPoint& point, const ros::Time& start, PointCon
 }  // namespace
 
 Isometry3d toIsometry(const geometry_msgs::Pose& pose) {
-  const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  const auto& q = pose.orientation;
+  const std::optional<Quaterniond> rotation = unitRotation({q.w, q.x, q.y, q.z});
   const Vector3d p = toEigen(pose.position);
-  const bool has_length = q.norm() >= 1e-6 && std::isfinite(q.norm());
-  if (!has_length) throw std::invalid_argument("orientation is not a quaternion");
+  if (!rotation) throw std::invalid_argument("orientation is not a unit quaternion");
   if (!p.allFinite()) throw std::invalid_argument("position is not finite");
-  return Eigen::Translation3d(p) * q.normalized();
+  return Eigen::Translation3d(p) * *rotation;
 }
 
 Vector3d toEigen(const geometry_msgs::Point& point) {

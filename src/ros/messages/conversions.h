@@ -18,7 +18,7 @@
 
 namespace sdf_ccd {
 
-/// @throws std::invalid_argument if a number is not finite or the quaternion is zero.
+/// @throws std::invalid_argument if a number is not finite or the orientation is not a unit quaternion.
 Isometry3d toIsometry(const geometry_msgs::Pose& pose);
 
 Vector3d toEigen(const geometry_msgs::Point& point);

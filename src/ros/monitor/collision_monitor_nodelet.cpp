@@ -113,7 +113,7 @@ void CollisionMonitor::waitForParameters() {
 void CollisionMonitor::setUp() {
   reportIdle("reading the robot description");
   waitForParameters();
-  for (const std::string& name : parameters_.unknown) NODELET_WARN("Unknown parameter %s is ignored", name.c_str());
+  for (const std::string& name : parameters_.unknown) NODELET_WARN("Ignored, as it is no parameter: %s", name.c_str());
   described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
   shareMeshes(described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());

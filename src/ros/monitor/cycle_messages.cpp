@@ -71,8 +71,14 @@ void setContacts(const MonitorLoop& loop, std::vector<Contact>& messages) {
   for (std::size_t i = 0; i < messages.size(); ++i) setContact(contacts[i], messages[i]);
 }
 
-/// Sets the values for plots.
+/// Sets the values for plots. Without subscribers to the state, contacts are not looked for: these are not known then.
 void setScalars(const MonitorLoop& loop, MonitorState& message) {
+  const CycleRequest& request = loop.request();
+  if (!request.contacts || !request.wrenches || !request.skipped_pairs) {
+    message.max_depth = message.min_clearance = message.max_force = std::numeric_limits<double>::quiet_NaN();
+    message.contacts = 0;
+    return;
+  }
   message.max_depth = message.max_force = 0.0;
   message.min_clearance = std::numeric_limits<double>::infinity();
   for (const PairResult& pair : loop.result().pairs) {

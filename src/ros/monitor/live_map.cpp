@@ -30,6 +30,7 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
                  const TfHistory& history, const std::atomic<bool>& stop)
     : parameters_(parameters.live_map),
       max_latency_(parameters.tf.max_latency),
+      max_gap_(parameters.tf.max_cycle),
       editor_(editor),
       history_(history),
       stop_(stop) {
@@ -42,7 +43,8 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
   const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> receive =
       [this](const octomap_msgs::Octomap::ConstPtr& message) {
         run("A map is not used, and the last one stays", [&] {
-          auto robot = std::make_unique<RobotInMap>(history_, frameOf(*message), message->header.stamp);
+          const ros::Time stamp(message->header.stamp.sec, message->header.stamp.nsec);  // nsec may exceed one second
+          auto robot = std::make_unique<RobotInMap>(history_, frameOf(*message), stamp, max_gap_);
           process(*message, *robot);
           received_ = ros::Time::now();
           robot_ = std::move(robot);

@@ -52,6 +52,7 @@ class LiveMap {
 
   LiveMapParameters parameters_;
   double max_latency_;  // longest wait for tf [s]
+  double max_gap_;      // between transforms [s]
   SceneEditor& editor_;
   const TfHistory& history_;
   const std::atomic<bool>& stop_;

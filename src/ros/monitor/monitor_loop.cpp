@@ -110,6 +110,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
     distances_->forget();
   }
   if (step == TfTracker::Step::kCycle) {
+    request_ = request;
     run(request);
     trackContacts(request);
   }

@@ -64,6 +64,9 @@ class MonitorLoop {
   const TrackedCycle& cycle() const { return cycle_; }
   const CycleResult& result() const { return *result_; }
 
+  /// What was asked of the last cycle.
+  const CycleRequest& request() const { return request_; }
+
   /// The contacts over time, if cycles are requested with contacts (CycleRequest::contacts); else there are none. kJump
   /// and reset() end all of them.
   const ContactTracker& contacts() const { return contacts_; }
@@ -94,6 +97,7 @@ class MonitorLoop {
   Monitor monitor_;
   TrackedCycle cycle_;
   std::unique_ptr<ReachGuard> reach_guard_;
+  CycleRequest request_;
   CycleResult guarded_;  // result_ with the pairs that should not have been left out
   const CycleResult* result_ = nullptr;
   ContactTracker contacts_;

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "motion/two_body_motion.h"
 #include "ros/messages/conversions.h"
@@ -151,7 +152,7 @@ RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const Plann
 std::string notesOf(const PlannedJoints& plan) {
   std::string notes;
   if (!plan.assumed.empty()) {
-    notes = std::to_string(plan.assumed.size()) + " joints that are not named stay at their current poses in tf";
+    notes = "not named, hence assumed to stay as in tf: " + counted(plan.assumed.size(), "joint");
   }
   for (const std::string& beyond : plan.beyond_limits) notes += (notes.empty() ? "" : "; ") + ("at present, " + beyond);
   return notes;

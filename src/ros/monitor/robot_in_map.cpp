@@ -18,12 +18,16 @@ void RobotInMap::update(const CheckedWorld& world) {
     const auto add = [&](const Isometry3d& X_WF, const Isometry3d& X_WM, bool is_at_stamp) {
       bodies_.push_back({b, (X_WF * body.X_frame_B).inverse() * X_WM, is_at_stamp});
     };
-    const Isometry3d *const X_WM = poseAtStamp(frame_), *const X_WF = poseAtStamp(frame);
-    if (X_WM && X_WF) {
-      add(*X_WF, *X_WM, true);
-      continue;
+    const auto attached = world.attached_since.find(world.scene().bodies[b].name);
+    const bool was_elsewhere = attached != world.attached_since.end() && attached->second > stamp_;
+    if (!was_elsewhere) {
+      const Isometry3d *const X_WM = poseAtStamp(frame_), *const X_WF = poseAtStamp(frame);
+      if (X_WM && X_WF) {
+        add(*X_WF, *X_WM, true);
+        continue;
+      }
+      ++unknown_;
     }
-    ++unknown_;
     Isometry3d X_WM_now, X_WF_now;
     std::string problem;
     if (history_.lookup(frame_, ros::Time(), X_WM_now, problem) &&
@@ -48,7 +52,7 @@ const Isometry3d* RobotInMap::poseAtStamp(const std::string& frame) {
   std::string problem;
   if (stamp_.isZero() && span.problem.empty() && !span.is_static) {
     problem = "the map has no stamp";
-  } else if (history_.lookup(frame, stamp_, X_WF, problem)) {
+  } else if (history_.lookup(frame, stamp_, X_WF, problem, max_gap_)) {
     if (!isTooFar(X_WF)) return &X_W_at_stamp_.emplace(frame, X_WF).first->second;
     problem = tooFar(frame);
   }

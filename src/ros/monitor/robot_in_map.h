@@ -17,15 +17,16 @@ struct BodyInMap {
 
 /// Where the robot and the objects attached to it are in a map, according to tf.
 ///
-/// The poses at the map's stamp tell which of its voxels are the robot's own. tf may know them only after the map was
-/// received; of a map that is older than the transforms it never does. Poses at the stamp are kept once they are known,
-/// as tf forgets them after some seconds.
+/// The poses at the map's stamp tell which of its voxels are the robot's own; an object that was attached later had
+/// none on its link. tf may know them only after the map was received; of a map that is older than the transforms it
+/// never does. Poses at the stamp are kept once they are known, as tf forgets them after some seconds.
 class RobotInMap {
  public:
-  /// @param frame  carries the map.
-  /// @param stamp  of the map; 0: it is not known when the map was made.
-  RobotInMap(const TfHistory& history, std::string frame, const ros::Time& stamp)
-      : history_(history), frame_(std::move(frame)), stamp_(stamp) {}
+  /// @param frame    carries the map.
+  /// @param stamp    of the map; 0: it is not known when the map was made.
+  /// @param max_gap  a pose is not known between transforms that are farther apart [s].
+  RobotInMap(const TfHistory& history, std::string frame, const ros::Time& stamp, double max_gap)
+      : history_(history), frame_(std::move(frame)), stamp_(stamp), max_gap_(max_gap) {}
 
   /// Looks up the poses; does not wait for any.
   void update(const CheckedWorld& world);
@@ -48,6 +49,7 @@ class RobotInMap {
   const TfHistory& history_;
   std::string frame_;
   ros::Time stamp_;
+  double max_gap_;
   std::map<std::string, Isometry3d> X_W_at_stamp_;  // by frame
   std::vector<BodyInMap> bodies_;
   std::vector<double> lags_;  // per frame whose transforms end before the stamp: by how much [s]

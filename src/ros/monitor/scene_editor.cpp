@@ -136,7 +136,8 @@ std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene
     SceneDescription description = scene.description(limits_);
     std::vector<UnreachablePair> unreachable = scene.unreachable(description);
     world = std::make_shared<const CheckedWorld>(
-        editor_->next(std::move(description), [&](const std::string& body) { making = body; }), std::move(unreachable));
+        editor_->next(std::move(description), [&](const std::string& body) { making = body; }), std::move(unreachable),
+        scene.attachedSince());
   });
   return world;
 }
@@ -160,7 +161,7 @@ void SceneEditor::save(const std::string& file, const ChangingScene& scene, Chan
 void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Response& response) {
   const auto start = Clock::now();
   ChangingScene scene = scene_;
-  ChangeSources sources{parts_.loop.history(), files_, limits_, limits_.triangles, {}};
+  ChangeSources sources{parts_.loop.history(), files_, limits_, limits_.triangles, {}, ros::Time::now()};
   if (request.changes.size() > limits_.objects)
     throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes in one request");
   for (const SceneChange& change : request.changes) {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "ros/tf/unit_rotation.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 #include "sdf_ccd/motion/cycle_motion.h"
@@ -28,10 +29,11 @@ inline bool isNearOrigin(const Vector3d& p) {
   return (p.array().abs() <= kFarthestPose).all();
 }
 
-/// The pose, or none if the quaternion's length is not 1 within 0.01.
+/// The pose; none if q is not a unit quaternion.
 inline std::optional<Isometry3d> poseOf(const Vector3d& p, const Quaterniond& q) {
-  if (!(std::abs(q.norm() - 1.0) < 0.01)) return std::nullopt;
-  return Isometry3d(Eigen::Translation3d(p) * q.normalized());
+  const std::optional<Quaterniond> rotation = unitRotation(q);
+  if (!rotation) return std::nullopt;
+  return Isometry3d(Eigen::Translation3d(p) * *rotation);
 }
 
 /// The half-space n·x + d ≤ 0, as messages define planes; none if the normal is 0.

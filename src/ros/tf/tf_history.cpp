@@ -264,7 +264,8 @@ void TfHistory::copy(TfChains& chains, const std::vector<TimePart>& parts, const
   chains.copy(tree_, parts, origin, window);
 }
 
-bool TfHistory::lookup(const std::string& frame, const ros::Time& time, Isometry3d& X_WF, std::string& problem) const {
+bool TfHistory::lookup(const std::string& frame, const ros::Time& time, Isometry3d& X_WF, std::string& problem,
+                       double max_gap) const {
   X_WF.setIdentity();
   if (frame == fixed_frame_) return true;  // also if no transform names it
   TfChains chains({frame});
@@ -282,6 +283,8 @@ bool TfHistory::lookup(const std::string& frame, const ros::Time& time, Isometry
   TfWindow window;
   copy(chains, {{at, at}}, at, window);
   problem = window.problem(0);
+  if (problem.empty() && window.longestGap(0) > max_gap)
+    problem = fmt::format("{} has no transform for {:.3f} s, about {}", frame, window.longestGap(0), secondsText(at));
   if (problem.empty()) X_WF = window.pose(0, 0.0);
   return problem.empty();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -73,7 +74,9 @@ class TfHistory {
 
   /// Pose of the frame in the fixed frame, interpolated as by tf2; time 0 is the latest. Returns false, with the
   /// reason, if it is not known: nothing is extrapolated.
-  bool lookup(const std::string& frame, const ros::Time& time, Isometry3d& X_WF, std::string& problem) const;
+  /// @param max_gap  longest time between two transforms to interpolate between [s].
+  bool lookup(const std::string& frame, const ros::Time& time, Isometry3d& X_WF, std::string& problem,
+              double max_gap = std::numeric_limits<double>::infinity()) const;
 
   /// The frames above a frame, the nearest first.
   std::vector<std::string> framesAbove(const std::string& frame) const;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ros/tf/unit_rotation.h"
 #include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd {
 namespace {
 
-constexpr double kMaxNormError = 1e-2;   // of the squared length, as in tf2
 constexpr double kTinyHalfAngle = 1e-9;  // below it slerp's weights are linear in double precision [rad]
 
 /// Half the rotation angle, in [0, π/2], from |a - b| and |a + b|: the arc cosine that tf2 uses loses small angles.
@@ -24,16 +24,17 @@ TfPose toTfPose(const ros::Time& stamp, const geometry_msgs::Transform& transfor
   pose.stamp = stamp;
   const auto& q = transform.rotation;
   const auto& p = transform.translation;
-  const Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const Quaterniond given(q.w, q.x, q.y, q.z);
+  const std::optional<Quaterniond> rotation = unitRotation(given);
   const Vector3d translation(p.x, p.y, p.z);
-  if (!translation.allFinite() || !rotation.coeffs().allFinite()) {
+  if (!translation.allFinite() || !given.coeffs().allFinite()) {
     pose.problem = "has a transform that is not finite";
-  } else if (!(std::abs(rotation.squaredNorm() - 1.0) <= kMaxNormError)) {
+  } else if (!rotation) {
     pose.problem = "has a rotation that is no unit quaternion";
   } else if (!(translation.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
     pose.problem = "is more than 1e+08 m from its parent";
   } else {
-    pose.rotation = rotation.normalized();
+    pose.rotation = *rotation;
     pose.translation = translation;
   }
   return pose;

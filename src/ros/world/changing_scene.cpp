@@ -69,7 +69,7 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
     } else if (!body.map.empty()) {
       setTiles({body});  // the awaited map
     } else {
-      objects_[body.name] = {body, "", {}, ++added_, true};
+      objects_[body.name] = {body, "", {}, {}, ++added_, true};
     }
   }
   start_up_ = start_up;
@@ -107,7 +107,7 @@ void ChangingScene::set(BodyDescription body) {
   const auto known = objects_.find(body.name);
   const std::size_t order = known == objects_.end() ? ++added_ : known->second.order;
   const std::string name = body.name;
-  objects_[name] = {std::move(body), "", {}, order, false};
+  objects_[name] = {std::move(body), "", {}, {}, order, false};
 }
 
 ChangingScene::Object& ChangingScene::find(const std::string& name) {
@@ -182,9 +182,17 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   const std::string link_frame = start_up_->tf_prefix + change.link;
   SceneChange made = change;
   if (made.header.frame_id.empty()) made.header.frame_id = link_frame;
-  if (objects_.count(change.object) == 0) add(made, sources);
-  Object& object = find(change.object);
   const auto given = poseIn(change.pose);
+  const auto known = objects_.find(change.object);
+  const bool is_new = known == objects_.end();
+  const std::string frame_before = is_new ? "" : known->second.body.frame;
+  const Isometry3d X_before = is_new ? Isometry3d::Identity() : known->second.body.X_frame_B;
+  if (is_new || hasShapes(change)) add(made, sources);
+  Object& object = find(change.object);
+  if (!is_new && !given) {
+    object.body.frame = frame_before;
+    object.body.X_frame_B = X_before;
+  }
   const std::string frame = given ? frameOf(made, link_frame) : object.body.frame;
   const Isometry3d X_FB = given ? *given : object.body.X_frame_B;
   Isometry3d X_LB = X_FB;
@@ -192,6 +200,8 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   if (change.touch_links.size() > sources.limits.rules)
     refuse("more than " + std::to_string(sources.limits.rules) + " touch_links");
   for (const std::string& touched : change.touch_links) requireName(touched, "a touch_link", sources.limits);
+  const bool is_there = object.link == change.link && object.body.X_frame_B.matrix() == X_LB.matrix();
+  if (!is_there) object.attached_since = change.header.stamp.isZero() ? sources.now : change.header.stamp;
   object.body.frame = link_frame;
   object.body.X_frame_B = X_LB;
   object.body.is_world = false;
@@ -213,6 +223,7 @@ void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
   object.body.frame = frame;
   object.body.is_world = true;
   object.link.clear();
+  object.attached_since = {};
   object.touch_links.clear();
 }
 
@@ -246,6 +257,13 @@ std::vector<std::string> ChangingScene::objects() const {
   std::vector<std::string> names;
   for (const auto& [name, object] : objects_) names.push_back(name);
   return names;
+}
+
+std::map<std::string, ros::Time> ChangingScene::attachedSince() const {
+  std::map<std::string, ros::Time> since;
+  for (const auto& [name, object] : objects_)
+    if (!object.link.empty()) since.emplace(name, object.attached_since);
+  return since;
 }
 
 std::string ChangingScene::text(const ChangeSources& sources, std::vector<std::string>& warnings) const {

@@ -21,6 +21,7 @@ struct ChangeSources {
   RequestLimits limits;
   std::size_t triangles = RequestLimits().triangles;  ///< number that the call may still contain
   std::vector<std::string> warnings;                  ///< receives notes for the caller
+  ros::Time now = {};                                 ///< of the call
 };
 
 /// The objects of the world and the rules about pairs, as update_scene changes them (SceneChange.msg). A copy costs
@@ -50,6 +51,9 @@ class ChangingScene {
 
   std::vector<std::string> objects() const;
 
+  /// Per attached object: since when it is where it is on its link.
+  std::map<std::string, ros::Time> attachedSince() const;
+
   /// The world's objects in MoveIt's .scene format, in the fixed frame. Maps, which it cannot hold, are left out with a
   /// warning.
   /// @throws std::exception if tf does not know an object's pose, or an object's name cannot be saved.
@@ -59,6 +63,7 @@ class ChangingScene {
   struct Object {
     BodyDescription body;
     std::string link;  // link that it is attached to; empty if there is none
+    ros::Time attached_since;
     std::vector<std::string> touch_links;
     std::size_t order = 0;      // rank in the order in which objects were added
     bool is_unchanged = false;  // since start-up

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "robot/unreachable_pairs.h"
@@ -12,11 +14,16 @@ namespace sdf_ccd {
 /// A version of the world and the data about it that the core does not hold; immutable, shared by cycles and queries.
 struct CheckedWorld {
   std::shared_ptr<const WorldSnapshot> snapshot;
-  std::vector<UnreachablePair> unreachable;  ///< left out as long as the joints keep to their limits
+  std::vector<UnreachablePair> unreachable;         ///< left out as long as the joints keep to their limits
+  std::map<std::string, ros::Time> attached_since;  ///< per object that was attached to a link: where it is since then
   std::vector<TrackedBody> bodies;
 
-  CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out)
-      : snapshot(std::move(of_snapshot)), unreachable(std::move(left_out)), bodies(trackedBodies(*snapshot->scene)) {}
+  CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out,
+               std::map<std::string, ros::Time> of_attached = {})
+      : snapshot(std::move(of_snapshot)),
+        unreachable(std::move(left_out)),
+        attached_since(std::move(of_attached)),
+        bodies(trackedBodies(*snapshot->scene)) {}
 
   std::uint64_t version() const { return snapshot->version; }
   const Scene& scene() const { return *snapshot->scene; }

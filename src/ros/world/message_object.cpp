@@ -77,6 +77,11 @@ void requireName(const std::string& name, const std::string& what, const Request
   if (name != shownText(name)) refuse(what + " " + shownText(name) + " contains control characters");
 }
 
+bool hasShapes(const SceneChange& message) {
+  return !message.primitives.empty() || !message.planes.empty() || !message.meshes.empty() ||
+         !message.mesh_resources.empty() || !message.octomap_file.empty();
+}
+
 std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits& limits, std::size_t triangles) {
   std::vector<WorldShape> shapes;
   const std::size_t count =

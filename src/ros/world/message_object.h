@@ -20,12 +20,13 @@ struct RequestLimits {
 };
 
 /// The pose, or none if all numbers are zero, as in a message that was not filled in.
-/// @throws std::invalid_argument if a number is not finite or too large, or the quaternion's length is not 1 within
-/// 0.01.
+/// @throws std::invalid_argument if a number is not finite or too large, or the orientation is not a unit quaternion.
 std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose);
 
 /// @throws std::invalid_argument if the name is empty, too long or contains control characters; `what` describes it.
 void requireName(const std::string& name, const std::string& what, const RequestLimits& limits);
+
+bool hasShapes(const SceneChange& message);
 
 /// The shapes of a message, without its OctoMap. Meshes in it are copied; mesh resources are named, not loaded.
 /// @param triangles  number that the meshes in the message may contain together.

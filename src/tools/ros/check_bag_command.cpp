@@ -88,10 +88,9 @@ class Recorder : public BagObserver {
     const ContactArray contacts = toContactArray(loop_);
     bag_.addCycle(contacts, now);
     report_.add(contacts);
-    const std::vector<PairResult>& pairs = loop_.result().pairs;
-    was_checked_.resize(pairs.size(), false);
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-      if (pairs[p].verdict != Verdict::kNotChecked) was_checked_[p] = true;
+    was_checked_.resize(loop_.scene().pairs.size(), false);  // behind these come pairs that ReachGuard has added
+    for (std::size_t p = 0; p < was_checked_.size(); ++p)
+      if (loop_.result().pairs[p].verdict != Verdict::kNotChecked) was_checked_[p] = true;
   }
   void onUnchecked(const std::string& reason, const ros::Time& now) override { bag_.addUnchecked(reason, now); }
   void onGap(const TimePart& part, const std::string& reason, const ros::Time& now) override {

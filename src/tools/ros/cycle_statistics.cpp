@@ -5,6 +5,7 @@
 #include <regex>
 #include <tuple>
 
+#include "common/counted.h"
 #include "precision/error_summary.h"
 #include "print.h"
 
@@ -163,16 +164,15 @@ std::string CycleStatistics::contactLines(const ros::Time& begin) const {
                     " mm deep" + (contact.seen_at_samples ? "" : ", between samples"));
   }
   const auto pairs = std::count_if(pairs_.begin(), pairs_.end(), [](const auto& p) { return p.second.in_contact > 0; });
-  return list("contact          " + std::to_string(pairs) + " pairs, " + std::to_string(items.size()) + " times",
-              items);
+  return list("contact          " + counted(std::size_t(pairs), "pair") + ", " + counted(items.size(), "time"), items);
 }
 
 std::string CycleStatistics::uncertainLines() const {
   std::vector<std::string> items;
   for (const auto& [name, count] : pairs_) {
-    if (count.uncertain > 0) items.push_back(name + ": in " + std::to_string(count.uncertain) + " cycles");
+    if (count.uncertain > 0) items.push_back(name + ": in " + counted(std::size_t(count.uncertain), "cycle"));
   }
-  return list("uncertain        " + std::to_string(items.size()) + " pairs, in at least one cycle", items);
+  return list("uncertain        " + counted(items.size(), "pair") + ", in at least one cycle", items);
 }
 
 /// Grouped by reason, the most frequent first.

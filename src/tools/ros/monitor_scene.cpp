@@ -15,10 +15,10 @@ DescribedScene describeMonitored(const MonitorParameters& parameters, const std:
 std::shared_ptr<const Scene> buildWithBar(const DescribedScene& described, const ScenePlan& plan,
                                           const BodyOptions& options, const Interrupt& interrupt) {
   ProgressBar bar("fields and shells");
-  return buildDescribed(described, plan, options, [&](const std::string&, double share) {
-    if (interrupt.requested()) throw Interrupted();
-    bar(share);
-  });
+  std::shared_ptr<const Scene> scene;
+  interrupt.during(
+      [&] { scene = buildDescribed(described, plan, options, [&](const std::string&, double share) { bar(share); }); });
+  return scene;
 }
 
 bool areAllMade(const Scene& scene) {

@@ -9,9 +9,6 @@
 
 namespace sdf_ccd::tools {
 
-/// Thrown when the user interrupts the work. Not a std::exception, which would be taken for the failure of one body.
-struct Interrupted {};
-
 /// Describes the robot and world of the parameters. Relative paths in the URDF are resolved from the folder of `urdf`.
 DescribedScene describeMonitored(const MonitorParameters& parameters, const std::string& urdf);
 
