@@ -29,6 +29,14 @@ bool isText(const std::string& bytes) {
          (bytes.find("facet") != std::string::npos || bytes.find("FACET") != std::string::npos);
 }
 
+/// Whether it begins with text, such as a web page or the pointer to a large file that git has not fetched.
+bool isPrintable(const std::string& bytes) {
+  constexpr std::size_t kHead = 100;
+  return !bytes.empty() &&
+         std::all_of(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(kHead, bytes.size())),
+                     [](unsigned char c) { return std::isprint(c) || std::isspace(c); });
+}
+
 std::uint64_t announcedTriangles(const std::string& bytes) {
   std::uint64_t count = 0;
   for (int i = 3; i >= 0; --i) count = count << 8 | static_cast<unsigned char>(bytes[80 + i]);
@@ -91,9 +99,16 @@ TriangleMesh parseBinary(const std::string& bytes, std::uint64_t triangles) {
 }  // namespace
 
 TriangleMesh parseStl(const std::string& bytes) {
+  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
+  if (bytes.rfind(kByteOrderMark, 0) == 0) return parseText(bytes.substr(3));
   const std::uint64_t triangles = bytes.size() >= kHeader ? announcedTriangles(bytes) : 0;
   const std::uint64_t length = kHeader + kTriangle * triangles;
   if (bytes.size() != length && isText(bytes)) return parseText(bytes);
+  if (bytes.size() != length && isPrintable(bytes)) {
+    if (startsAsText(bytes)) throw std::runtime_error("an ASCII STL without a facet");
+    throw std::runtime_error("it is text, but no STL; it begins with \"" +
+                             bytes.substr(0, bytes.find_first_of("\r\n")).substr(0, 60) + "\"");
+  }
   if (bytes.size() < kHeader) {
     throw std::runtime_error("truncated: " + std::to_string(bytes.size()) + " bytes are neither ASCII nor binary STL");
   }

@@ -12,6 +12,7 @@
 #include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "common/shown_text.h"
 #include "common/text_limits.h"
@@ -48,12 +49,14 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
-/// Without this, what a macro stands for would be missing, without a word.
-/// @throws std::runtime_error for a use of xacro that has not been expanded; its definitions do no harm.
-void refuseMacros(const tinyxml2::XMLDocument& document) {
-  const auto isHarmless = [](const std::string& name) {
+/// Other readers of URDF ignore macros of xacro that were not expanded, too; but the links that they stand for are
+/// missing. Definitions do no harm.
+void warnOfMacros(const tinyxml2::XMLDocument& document, std::vector<std::string>& warnings) {
+  const auto isDefinition = [](const std::string& name) {
     return name == "xacro:macro" || name == "xacro:property" || name == "xacro:arg";
   };
+  std::string first;
+  std::size_t count = 0;
   std::vector<const tinyxml2::XMLElement*> left = {document.RootElement()};
   while (!left.empty()) {
     const tinyxml2::XMLElement* element = left.back();
@@ -61,35 +64,37 @@ void refuseMacros(const tinyxml2::XMLDocument& document) {
     if (!element) continue;
     const std::string name = element->Name();
     left.push_back(element->NextSiblingElement());
-    if (isHarmless(name)) continue;
-    if (name.rfind("xacro:", 0) == 0) {
-      throw std::runtime_error("line " + std::to_string(element->GetLineNum()) + ": <" + shownText(name) +
-                               "> has not been expanded: run xacro first");
-    }
+    if (isDefinition(name)) continue;
     left.push_back(element->FirstChildElement());
+    if (name.rfind("xacro:", 0) != 0) continue;
+    if (++count == 1)
+      first = "line " + std::to_string(element->GetLineNum()) + ": <" + shownText(name) + "> is ignored";
   }
+  if (count == 0) return;
+  const std::string others = count == 1 ? "" : " with " + counted(count - 1, "other");
+  warnings.push_back("the URDF's " + first + others + ": xacro has not expanded it, and what it stands for is missing");
 }
 
 /// The document as written by tinyxml2: urdfdom's XML reader reads beyond the end of some damaged documents.
-std::string wellFormed(const std::string& xml) {
+std::string wellFormed(const std::string& xml, std::vector<std::string>& warnings) {
   requireXmlSize(xml);
   const std::string text = soundText(xml);
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
   }
-  refuseMacros(document);
+  warnOfMacros(document, warnings);
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);
   return printer.CStr();
 }
 
-std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml) {
+std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml, std::vector<std::string>& warnings) {
   const std::lock_guard<std::mutex> lock(handler_mutex);
   MessageCollector collector;
   std::shared_ptr<urdf::ModelInterface> model;
   try {
-    model = urdf::parseURDF(wellFormed(xml));
+    model = urdf::parseURDF(wellFormed(xml, warnings));
   } catch (const std::exception& error) {
     const std::string errors = collector.errors().empty() ? "" : collector.errors() + "; ";
     throw std::runtime_error("the URDF cannot be parsed: " + errors + error.what());
@@ -154,7 +159,7 @@ void orderLimits(urdf::Joint& joint, std::vector<std::string>& warnings) {
 }  // namespace
 
 std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml, std::vector<std::string>& warnings) {
-  const auto model = parse(xml);
+  const auto model = parse(xml, warnings);
   constexpr std::size_t kMaxLinks = 10'000;
   if (model->links_.size() > kMaxLinks) {
     throw std::runtime_error("the URDF has " + std::to_string(model->links_.size()) + " links, more than " +

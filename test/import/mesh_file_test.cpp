@@ -36,6 +36,7 @@ TEST(MeshFile, EveryFormatGivesTheSameBox) {
       {test::binaryStl(kBox, "solid facet normal"), "facet.stl"},
       {test::binaryStl(kBox, "trailing") + std::string(7, 'x'), "trailing.stl"},
       {test::asciiStl(kBox), "ascii.stl"},
+      {"\xEF\xBB\xBF" + test::asciiStl(kBox), "mark.stl"},
       {test::obj(kBox), "a.obj"},
       {test::off(kBox), "a.off"},
       {test::ply(kBox), "a.ply"},
@@ -96,6 +97,9 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
   EXPECT_EQ(error(stl.substr(0, 400), "link.stl"), "link.stl: truncated: 12 triangles need 684 bytes, there are 400");
   EXPECT_NE(error(stl.substr(0, 60), "link.stl").find("truncated"), std::string::npos);
   EXPECT_EQ(error(test::binaryStl({}, "none"), "link.stl").rfind("link.stl: ", 0), 0u);
+  EXPECT_EQ(error("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "link.stl"),
+            "link.stl: it is text, but no STL; it begins with \"version https://git-lfs.github.com/spec/v1\"");
+  EXPECT_EQ(error("solid part\nendsolid part\n", "link.stl"), "link.stl: an ASCII STL without a facet");
   EXPECT_NE(error("not a mesh", "link.xyz"), "");
   EXPECT_NE(error("<COLLADA", "link.dae"), "");
   EXPECT_NE(error(dae(kBox, "<unit meter=\"-1\"/>", std::string("<node>") + kDaeInstance + "</node>"), "a.dae")

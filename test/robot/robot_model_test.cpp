@@ -315,16 +315,21 @@ TEST(RobotModel, DeepAndLargeTextsAreRefused) {
   EXPECT_NE(failure("<robot>" + std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"), std::string::npos);
 }
 
-TEST(RobotModel, MacrosThatWereNotExpandedAreRefused) {
+TEST(RobotModel, MacrosThatWereNotExpandedAreNamed) {
   const auto robot = [](const std::string& inside) {
     return "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>\n" + inside + "\n<link name='a'/></robot>";
   };
-  EXPECT_NE(failure(robot("<xacro:arm prefix='l_'/>")).find("line 2: <xacro:arm> has not been expanded"),
-            std::string::npos);
-  EXPECT_NE(failure(robot("<link name='b'><xacro:inertia/></link>")).find("<xacro:inertia>"), std::string::npos);
-  EXPECT_EQ(failure(robot("<xacro:property name='x' value='1'/><xacro:macro name='arm' params=''><xacro:leg/>"
-                          "</xacro:macro>")),
-            "");
+  const auto warnings = [&](const std::string& inside) { return RobotModel(robot(inside)).warnings(); };
+  EXPECT_EQ(
+      warnings("<xacro:arm prefix='l_'/>"),
+      std::vector<std::string>{"the URDF's line 2: <xacro:arm> is ignored: xacro has not expanded it, and what it "
+                               "stands for is missing"});
+  const std::vector<std::string> two = warnings("<gazebo><xacro:sensor/></gazebo>\n<xacro:include filename='b'/>");
+  ASSERT_EQ(two.size(), 1u);
+  EXPECT_NE(two[0].find("> is ignored with 1 other"), std::string::npos) << two[0];
+  EXPECT_TRUE(warnings("<xacro:property name='x' value='1'/><xacro:macro name='arm' params=''><xacro:leg/>"
+                       "</xacro:macro>")
+                  .empty());
 }
 
 }  // namespace

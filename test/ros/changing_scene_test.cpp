@@ -160,6 +160,13 @@ TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
   EXPECT_EQ(refusal(detach), "box is not attached");
 }
 
+TEST_F(ChangingSceneTest, APatternThatNamesNothingIsSaid) {
+  ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
+  ChangingScene next = *scene_;
+  next.apply(rule(SceneChange::ALLOW, "zzz", "a*"), sources);
+  EXPECT_EQ(sources.warnings, std::vector<std::string>{"no body is named zzz, yet"});
+}
+
 TEST_F(ChangingSceneTest, AttachesWithOtherShapes) {
   apply(box());
   SceneChange attach = box();

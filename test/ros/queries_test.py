@@ -58,7 +58,7 @@ class QueriesTest(MonitorCase):
         self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'other', 'plate'})
         self.assertEqual(answer.assumed_joints, ['other_slide'])
         self.assertAlmostEqual(answer.assumed_positions[0], PLATE, delta=1e-9)
-        self.assertIn('1 joints', answer.message)
+        self.assertIn('1 joint', answer.message)
         request = trajectory('slide', [0.0, 0.3])
         request.other_joints, request.other_positions = ['other_slide'], [0.0]
         answer = self.query_motion(request)

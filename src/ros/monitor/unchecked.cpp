@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/counted.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -39,8 +40,8 @@ std::string uncheckedCycle(const MonitorLoop& loop) {
   std::string reason;
   const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
   if (first != result.pairs.end()) {
-    reason =
-        std::to_string(result.not_checked) + " pairs could not be checked, for example " + pairReason(loop, *first);
+    reason = counted(static_cast<std::size_t>(result.not_checked), "pair") + " could not be checked, for example " +
+             pairReason(loop, *first);
   }
   if (result.delayed > 0) {
     reason += fmt::format("{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",

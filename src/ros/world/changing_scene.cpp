@@ -91,7 +91,7 @@ void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
       return detach(change, sources);
     case SceneChange::ALLOW:
     case SceneChange::CHECK:
-      return addRule(change, sources.limits);
+      return addRule(change, sources);
     case SceneChange::FORGET_RULES:
       return rules_.clear();
     case SceneChange::LOAD:
@@ -227,9 +227,20 @@ void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
   object.touch_links.clear();
 }
 
-void ChangingScene::addRule(const SceneChange& change, const RequestLimits& limits) {
-  requireName(change.body_a, "body_a", limits);
-  requireName(change.body_b, "body_b", limits);
+bool ChangingScene::isAnyNamed(const std::string& pattern) const {
+  const auto is_named = [&](const BodyDescription& body) { return matches(pattern, body.name); };
+  return std::any_of(start_up_->links.begin(), start_up_->links.end(), is_named) ||
+         (tiles_ && std::any_of(tiles_->begin(), tiles_->end(), is_named)) ||
+         std::any_of(objects_.begin(), objects_.end(),
+                     [&](const auto& object) { return is_named(object.second.body); });
+}
+
+void ChangingScene::addRule(const SceneChange& change, ChangeSources& sources) {
+  const RequestLimits& limits = sources.limits;
+  for (const auto& [pattern, what] : {std::pair(change.body_a, "body_a"), std::pair(change.body_b, "body_b")}) {
+    requireName(pattern, what, limits);
+    if (!isAnyNamed(pattern)) sources.warnings.push_back("no body is named " + shownText(pattern) + ", yet");
+  }
   const auto same = [&](const Rule& rule) {
     return namePair(rule.pair.a, rule.pair.b) == namePair(change.body_a, change.body_b);
   };

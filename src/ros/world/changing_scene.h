@@ -79,7 +79,8 @@ class ChangingScene {
   void erase(const SceneChange& change);
   void attach(const SceneChange& change, ChangeSources& sources);
   void detach(const SceneChange& change, ChangeSources& sources);
-  void addRule(const SceneChange& change, const RequestLimits& limits);
+  void addRule(const SceneChange& change, ChangeSources& sources);
+  bool isAnyNamed(const std::string& pattern) const;
   void load(const SceneChange& change, ChangeSources& sources);
 
   BodyDescription make(const SceneChange& change, ChangeSources& sources) const;

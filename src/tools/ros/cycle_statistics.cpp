@@ -199,8 +199,9 @@ std::vector<CycleStatistics::Unchecked> CycleStatistics::unchecked() const {
 }
 
 std::string CycleStatistics::notCheckedLines() const {
-  const auto counted = [](std::size_t bodies, std::size_t pairs) {
-    const std::string of_bodies = std::to_string(bodies) + " bodies", of_pairs = std::to_string(pairs) + " pairs";
+  const auto bodiesAndPairs = [](std::size_t bodies, std::size_t pairs) {
+    const std::string of_bodies = bodies == 1 ? "1 body" : std::to_string(bodies) + " bodies",
+                      of_pairs = counted(pairs, "pair");
     return bodies == 0 ? of_pairs : pairs == 0 ? of_bodies : of_bodies + " and " + of_pairs;
   };
   std::size_t bodies = 0, pairs = 0;
@@ -208,10 +209,10 @@ std::string CycleStatistics::notCheckedLines() const {
   for (const Unchecked& reason : unchecked()) {
     bodies += reason.bodies;
     pairs += reason.pairs;
-    items.push_back(counted(reason.bodies, reason.pairs) + ", in up to " + std::to_string(reason.most_cycles) +
-                    " cycles, as " + reason.example);
+    items.push_back(bodiesAndPairs(reason.bodies, reason.pairs) + ", in up to " +
+                    counted(std::size_t(reason.most_cycles), "cycle") + ", as " + reason.example);
   }
-  return list("not checked      " + counted(bodies, pairs) + ", in at least one cycle", items);
+  return list("not checked      " + bodiesAndPairs(bodies, pairs) + ", in at least one cycle", items);
 }
 
 /// Empty if no transforms arrived late, after the cycle that needed them.
