@@ -10,10 +10,12 @@ def changes(results):
             return number(results.get('world', case, 'sdf_ccd', metric))
         if results.get('world', case, 'sdf_ccd', 'ms_to_adopted') is None:
             continue
-        rows.append([case, *map(get, ('ms_to_adopted', 'ms_to_adopted_max', 'processor_ms', 'adopt_us', 'adopt_us_max')),
+        rows.append([case, *map(get, ('ms_to_adopted', 'ms_to_adopted_max', 'processor_ms', 'adopt_us', 'adopt_us_max',
+                                     'first_cycle_us')),
                      ' / '.join(map(get, ('cycle_us_median_before', 'cycle_us_p99_before'))),
                      ' / '.join(map(get, ('cycle_us_median_while', 'cycle_us_p99_while')))])
-    return ['case', 'to adopted, ms', 'largest', 'of processors, ms', 'taking over, us', 'largest', 'cycle before, us', 'while, us'], rows
+    return ['case', 'to adopted, ms', 'largest', 'of processors, ms', 'taking over, us', 'largest', 'first cycle, us',
+            'cycle before, us', 'while, us'], rows
 
 
 def soak(results):

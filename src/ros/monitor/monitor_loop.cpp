@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "monitor/scene_difference.h"
 #include "monitor/summarise.h"
 
@@ -160,8 +162,10 @@ std::string MonitorLoop::movingFixedFrame() const {
     }
     const double turned = Quaterniond(X_then.linear()).angularDistance(Quaterniond(X_now.linear()));
     if (turned < kTurned && (X_now.inverse().translation() - X_then.inverse().translation()).norm() < kMoved) continue;
-    return "the fixed frame " + fixed + " moves in " + above + ", and objects of the world move with it, such as " +
-           object->name + ": set the parameter fixed_frame to " + above + " or another frame that does not move";
+    return fmt::format(
+        "the fixed frame {0} moves in {1}, and objects of the world move with it, such as {2}: set the parameter "
+        "fixed_frame to {1} or another frame that does not move",
+        fixed, above, object->name);
   }
   return {};
 }
