@@ -1,6 +1,7 @@
 #include "ros/tf/tf_tracker.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -310,13 +311,22 @@ void TfTracker::continueFrom(TfTracker& other, const std::vector<int>& bodies, c
 
 void posesAt(const TfHistory& history, const std::vector<TrackedBody>& bodies, const ros::Time& time,
              std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing) {
+  struct Known {
+    Isometry3d X_WF;
+    std::string problem;
+  };
+  std::map<std::string, Known> known;  // by frame: thousands of tiles of a map have the same
   X_WB.assign(bodies.size(), Isometry3d::Identity());
   missing.resize(bodies.size());
   for (std::size_t body = 0; body < bodies.size(); ++body) {
-    Isometry3d X_WF;
+    if (!missing[body].empty()) continue;
     const std::string frame = withoutLeadingSlash(bodies[body].frame);
-    if (!missing[body].empty() || !history.lookup(frame, time, X_WF, missing[body])) continue;
-    X_WB[body] = X_WF * bodies[body].X_frame_B;
+    const auto [found, is_new] = known.try_emplace(frame);
+    Known& of_frame = found->second;
+    if (is_new) history.lookup(frame, time, of_frame.X_WF, of_frame.problem);
+    missing[body] = of_frame.problem;
+    if (!missing[body].empty()) continue;
+    X_WB[body] = of_frame.X_WF * bodies[body].X_frame_B;
     if (isTooFar(X_WB[body])) missing[body] = tooFar(frame);
   }
 }
