@@ -27,8 +27,7 @@ struct VoxelMapOptions {
   double band = 0.0;  ///< of the tiles' fields [m]; see BodyOptions
   UnknownSpace unknown = UnknownSpace::kFree;
   double near_distance = 0.5;  ///< [m]
-  double padding =
-      0.03;  ///< voxels whose centres may be nearer to a VoxelMask than this plus half a voxel are free [m]
+  double padding = 0.03;  ///< voxels are free if their centres may be within this plus half a voxel of a VoxelMask [m]
   std::size_t max_voxels = 20'000'000;  ///< occupied ones
   std::size_t max_tiles = 20'000;
 };

@@ -193,34 +193,36 @@ TEST(World, ChangesAreAsAMonitorBuiltAnew) {
   EXPECT_GT(skipped, 150);
 }
 
+/// The link, which does not rotate, moves from one place to another; all objects of the world rest.
+CycleMotion linkMotion(const SceneDescription& description, const Vector3d& from, const Vector3d& to) {
+  CycleMotion motion;
+  motion.times = {0.0, 0.1};
+  for (const BodyDescription& one : description.bodies)
+    motion.X_WB.push_back(one.is_world ? still(one.X_frame_B)
+                                       : std::vector<Isometry3d>{translation(from), translation(to)});
+  return motion;
+}
+
 /// Objects that appear are tested in advance: the next cycle tests those that are near, though a link has moved.
 TEST(World, TheFirstCycleTestsWhatIsNear) {
   const BodyOptions options = coarse();
   SceneDescription description{{body("link", Primitive(Sphere{0.1})), body("foot", Primitive(Sphere{0.1}), true)}, {}};
-  const auto motionTo = [&](double from, double to) {
-    CycleMotion motion;
-    motion.times = {0.0, 0.1};
-    for (const BodyDescription& one : description.bodies)
-      motion.X_WB.push_back(one.is_world ? still(one.X_frame_B)
-                                         : std::vector<Isometry3d>{translation({0, 0, from}), translation({0, 0, to})});
-    return motion;
-  };
   for (const bool in_advance : {false, true}) {
     description.bodies.resize(2);
     description.bodies[1].X_frame_B = translation({-1.0, 0, 0});
     WorldEditor editor(options);
     Monitor monitor(editor.next(description)->scene, soft());
-    monitor.run(motionTo(0.0, 0.01), {});
-    const CycleMotion before_adoption = motionTo(0.01, 0.05);
+    monitor.run(linkMotion(description, {0, 0, 0.0}, {0, 0, 0.01}), {});
+    const CycleMotion before_adoption = linkMotion(description, {0, 0, 0.01}, {0, 0, 0.05});
     for (int i = 0; i < 100; ++i) {
       description.bodies.push_back(body("o" + std::to_string(i), Primitive(Sphere{0.05}), true));
       description.bodies.back().X_frame_B = translation({0.2 + 0.05 * i, 0, 0});
     }
-    const CycleMotion likely = motionTo(0.0, 0.01);
+    const CycleMotion likely = linkMotion(description, {0, 0, 0.0}, {0, 0, 0.01});
     const auto change = monitor.prepare(editor.next(description)->scene, in_advance ? &likely : nullptr);
     monitor.run(before_adoption, {});
     monitor.adopt(*change);
-    const CycleResult first = monitor.run(motionTo(0.05, 0.06), {});
+    const CycleResult first = monitor.run(linkMotion(description, {0, 0, 0.05}, {0, 0, 0.06}), {});
     EXPECT_EQ(first.verdict, Verdict::kClear);
     if (in_advance) {
       EXPECT_LT(first.checked, 5);
@@ -236,31 +238,25 @@ TEST(World, ALinkInsideWhatAppearsIsSeen) {
   const BodyOptions options = coarse();
   SceneDescription description{{body("link", Primitive(Sphere{0.05})), body("foot", Primitive(Sphere{0.1}), true)}, {}};
   description.bodies[1].X_frame_B = translation({-9.0, 0, 0});
-  const auto motion = [&](double from, double to) {
-    CycleMotion motion;
-    motion.times = {0.0, 0.1};
-    for (const BodyDescription& one : description.bodies)
-      motion.X_WB.push_back(one.is_world ? still(one.X_frame_B)
-                                         : std::vector<Isometry3d>{translation({from, 0, 0}), translation({to, 0, 0})});
-    return motion;
-  };
   for (const double last : {0.0, 0.2, 0.44, 0.46, 0.56, 0.69}) {  // the box ends at 0.5 m
     description.bodies.resize(2);
     WorldEditor editor(options);
     Monitor monitor(editor.next(description)->scene, soft());
-    monitor.run(motion(0.69, 0.7), {});
-    const CycleMotion before_adoption = motion(0.7, last);
+    monitor.run(linkMotion(description, {0.69, 0, 0}, {0.7, 0, 0}), {});
+    const CycleMotion before_adoption = linkMotion(description, {0.7, 0, 0}, {last, 0, 0});
     description.bodies.push_back(body("box", Primitive(Box{{0.5, 0.5, 0.5}}), true));
     const std::shared_ptr<const Scene> scene = editor.next(description)->scene;
-    const CycleMotion likely = motion(0.7, 0.7);
+    const CycleMotion likely = linkMotion(description, {0.7, 0, 0}, {0.7, 0, 0});
     const auto change = monitor.prepare(scene, &likely);
     monitor.run(before_adoption, {});
     monitor.adopt(*change);
     for (int cycle = 0; cycle < 3; ++cycle) {
-      const CycleMotion rest = motion(last, last);
+      const CycleMotion rest = linkMotion(description, {last, 0, 0}, {last, 0, 0});
       EXPECT_EQ(monitor.run(rest, {}).verdict, Monitor(scene, soft()).run(rest, {}).verdict) << last;
     }
-    EXPECT_EQ(monitor.run(motion(last, last), {}).verdict, last < 0.55 ? Verdict::kContact : Verdict::kClear) << last;
+    EXPECT_EQ(monitor.run(linkMotion(description, {last, 0, 0}, {last, 0, 0}), {}).verdict,
+              last < 0.55 ? Verdict::kContact : Verdict::kClear)
+        << last;
   }
 }
 

@@ -28,9 +28,8 @@ namespace sdf_ccd {
 /// Subscriptions are those of TransformListener and LiveMap, services those of MonitorServices and Reconfiguration.
 ///
 /// Publishes, below the node's name, besides the topics of Outputs, PlanPublisher and Diagnostics:
-///   state    sdf_ccd/MonitorState            every cycle; as NOT_CHECKED once a second while none runs, while one
-///   takes
-///                                            longer than max_latency, and on unloading; latched
+///   state    sdf_ccd/MonitorState            every cycle; as NOT_CHECKED once a second while none runs,
+///                                            while one takes longer than max_latency, and on unloading; latched
 ///   planned  visualization_msgs/MarkerArray  the motion that query_motion has checked last
 ///
 /// Separate threads build and run cycles, publish and draw their results, receive transforms, and answer services.

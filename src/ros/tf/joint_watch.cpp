@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "common/counted.h"
+
 namespace sdf_ccd {
 
 JointWatch::JointWatch(const RobotModel& robot) {
@@ -30,11 +34,12 @@ std::vector<std::string> JointWatch::lines(const std::string& topic) const {
   std::vector<std::string> lines;
   for (const auto& [name, count] : counts_) {
     if (count == 0) continue;
-    lines.push_back(std::to_string(count) + (count == 1 ? " position" : " positions") + " of joint " + name + " in " +
-                    topic + (count == 1 ? " is not finite" : " are not finite"));
+    lines.push_back(fmt::format("{} of joint {} in {} {} not finite",
+                                counted(static_cast<std::size_t>(count), "position"), name, topic,
+                                count == 1 ? "is" : "are"));
   }
   if (incomplete_ > 0) {
-    lines.push_back(std::to_string(incomplete_) + (incomplete_ == 1 ? " message" : " messages") + " of " + topic +
+    lines.push_back(counted(static_cast<std::size_t>(incomplete_), "message") + " of " + topic +
                     (incomplete_ == 1 ? " does" : " do") + " not give a position per name");
   }
   return lines;

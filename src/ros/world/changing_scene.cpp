@@ -184,17 +184,11 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   if (made.header.frame_id.empty()) made.header.frame_id = link_frame;
   const auto given = poseIn(change.pose);
   const auto known = objects_.find(change.object);
-  const bool is_new = known == objects_.end();
-  const std::string frame_before = is_new ? "" : known->second.body.frame;
-  const Isometry3d X_before = is_new ? Isometry3d::Identity() : known->second.body.X_frame_B;
+  const bool is_new = known == objects_.end(), stays = !is_new && !given;
+  const std::string frame = stays ? known->second.body.frame : frameOf(made, link_frame);
+  const Isometry3d X_FB = stays ? known->second.body.X_frame_B : given.value_or(Isometry3d::Identity());
   if (is_new || hasShapes(change)) add(made, sources);
   Object& object = find(change.object);
-  if (!is_new && !given) {
-    object.body.frame = frame_before;
-    object.body.X_frame_B = X_before;
-  }
-  const std::string frame = given ? frameOf(made, link_frame) : object.body.frame;
-  const Isometry3d X_FB = given ? *given : object.body.X_frame_B;
   Isometry3d X_LB = X_FB;
   if (frame != link_frame) X_LB = poseOf(sources.history, frame, link_frame, change.header.stamp) * X_FB;
   if (change.touch_links.size() > sources.limits.rules)
