@@ -69,6 +69,11 @@ SDF_CCD_INLINE Doubles squareRoot(const Doubles& v) {
   return Doubles{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
 
+SDF_CCD_INLINE Floats squareRoot(const Floats& v) {
+  return Floats{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3]),
+                std::sqrt(v[4]), std::sqrt(v[5]), std::sqrt(v[6]), std::sqrt(v[7])};
+}
+
 SDF_CCD_INLINE double leastOf(const Doubles& v) {
   return std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/triangle.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -95,6 +97,38 @@ double reachAlong(const Vector3d& n, const Corners& t) {
   return std::max({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
 }
 
+/// Replaces gaps between a node's boxes and the box of a triangle by those of the triangle itself where these are
+/// larger: a triangle fills no more than half of its box. Boxes larger than the triangle are left as they are.
+/// @param triangle  from the origin of the node's tree.
+void sharpen(const RoundedTriangle& triangle, float triangle_reach, const BoxTree::Node& node, const BoxMotion& motion,
+             float cut, NearBoxes& found) {
+  const auto& [a, b, c] = triangle.corners;
+  for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
+    const int i = __builtin_ctz(near);
+    if (node.reach[i] > triangle_reach) continue;
+    const Floats center = {node.center[0][i], node.center[1][i], node.center[2][i]};
+    const Vector3d p(center[0], center[1], center[2]), away = p - closestOnTriangle(a, b, c, p);
+    const double distance = away.norm();
+    if (!(distance > 0.0)) continue;
+    const Vector3d n = away / distance;
+    const Floats moved = sum(times(motion.turn, center), motion.shift);
+    const double gap = n.dot(p) - std::max({n.dot(a), n.dot(b), n.dot(c)}) - triangle.radius - node.reach[i] -
+                       std::abs(n.dot(Vector3d(moved[0], moved[1], moved[2]))) - motion.any -
+                       motion.any_per_reach * node.reach[i];
+    if (!(gap > found.gaps[i])) continue;
+    found.gaps[i] = static_cast<float>(gap);
+    if (!(found.gaps[i] > cut)) continue;
+    found.near &= ~(std::uint32_t{1} << i);
+    found.least_other = std::min(found.least_other, found.gaps[i]);
+  }
+}
+
+/// The triangle of a box; nullptr if it has several.
+const RoundedTriangle* onlyTriangle(const BoxTree& tree, BoxTree::Slot slot) {
+  const std::int32_t below = tree.node(slot.node).below[slot.lane];
+  return BoxTree::isTriangle(below) ? &tree.triangle(BoxTree::triangleOf(below)) : nullptr;
+}
+
 }  // namespace
 
 MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& poses, double error)
@@ -107,6 +141,8 @@ MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& pos
   const double rounding = kBoxRounding * (a.ball().radius + b.ball().radius + p_AB.norm());
   const double bend = (0.5 * (R0 + R1) - R).norm() * b.ball().radius;
 
+  R_middle_ = R;
+  p_middle_ = p_AB;
   R_AB_ = singleRows(R);
   b_from_a_ = single(p_AB);
   a_from_b_ = single(-(R.transpose() * p_AB));
@@ -132,6 +168,20 @@ PlacedBox MovingBoxes::boxInB(BoxTree::Slot box_a) const {
   return box;
 }
 
+/// A triangle of B from A's origin.
+Corners MovingBoxes::placedInA(const Corners& corners_B) const {
+  Corners placed;
+  for (int k = 0; k < 3; ++k) placed[k] = R_middle_ * (corners_B[k] - b_.origin()) + p_middle_;
+  return placed;
+}
+
+/// A triangle of A from B's origin.
+Corners MovingBoxes::placedInB(const Corners& corners_A) const {
+  Corners placed;
+  for (int k = 0; k < 3; ++k) placed[k] = R_middle_.transpose() * (corners_A[k] - a_.origin() - p_middle_);
+  return placed;
+}
+
 void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) const {
   const BoxTree::Node& of_b = b_.node(box_b.node);
   const Floats center = {of_b.center[0][box_b.lane], of_b.center[1][box_b.lane], of_b.center[2][box_b.lane]};
@@ -139,10 +189,18 @@ void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float 
   motion.shift = sum(times(difference_A_, center), shift_A_);
   motion.any = moving_.any + moving_.any_per_reach * of_b.reach[box_b.lane];
   boxGaps(node, boxInA(box_b), direction_A_, motion, cut, found);
+  const RoundedTriangle* triangle = onlyTriangle(b_, box_b);
+  if (triangle && measures_triangles_ && found.near != 0)
+    sharpen({placedInA(triangle->corners), triangle->radius}, of_b.reach[box_b.lane], node, motion, cut, found);
 }
 
 void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const {
   boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
+  const RoundedTriangle* triangle = onlyTriangle(a_, box_a);
+  if (triangle && measures_triangles_ && found.near != 0) {
+    const float reach = a_.node(box_a.node).reach[box_a.lane];
+    sharpen({placedInB(triangle->corners), triangle->radius}, reach, node, moving_, cut, found);
+  }
 }
 
 void MovingBoxes::setDirection(const Vector3d& n_A) {

@@ -19,6 +19,10 @@ class MovingBoxes {
   /// Sets a unit axis that boxGaps() tests on all boxes.
   void setDirection(const Vector3d& n_A);
 
+  /// From now on, where one box holds a single triangle that is larger than the node's boxes, the gaps are those
+  /// between these boxes and the triangle. That takes longer, but finds more boxes of a dense surface far from it.
+  void measureTriangles() { measures_triangles_ = true; }
+
   /// Upper bounds of A's extent along the direction, and of B's against it, from A's origin [m]; infinite above
   /// the limit, or if they take too many steps to find.
   double supportA(double limit) const;
@@ -27,6 +31,8 @@ class MovingBoxes {
  private:
   PlacedBox boxInA(BoxTree::Slot box_b) const;
   PlacedBox boxInB(BoxTree::Slot box_a) const;
+  Corners placedInA(const Corners& corners_B) const;
+  Corners placedInB(const Corners& corners_A) const;
 
   const BoxTree &a_, &b_;
   std::array<std::array<float, 3>, 3> R_AB_;          ///< rotation halfway, by rows
@@ -35,9 +41,12 @@ class MovingBoxes {
   std::array<std::array<float, 3>, 3> difference_A_;  ///< as moving_'s, but displacements in A's axes, by rows
   std::array<float, 3> shift_A_;
   EndPoses poses_;
+  Matrix3d R_middle_;  ///< rotation halfway, from B to A
+  Vector3d p_middle_;  ///< B's origin from A's halfway, A's axes
   double error_;
   Vector3d n_A_ = Vector3d::UnitZ();  ///< the direction
   std::array<float, 3> direction_A_{0, 0, 1}, direction_B_{0, 0, 1};
+  bool measures_triangles_ = false;
 };
 
 }  // namespace sdf_ccd

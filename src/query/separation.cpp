@@ -14,6 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCut = 0.6;            // of the smallest known gap: pairs with a larger gap are not refined
 constexpr std::size_t kManyNear = 192;  // with more near pairs the interval is halved and all boxes are tested again
+constexpr int kLongSearch = 64;         // after so many tests of triangles, boxes are tested more closely
 constexpr int kMaxTestsWhenOpen = 512;  // upper bound of the tests for a crossing once kApart cannot be proved
 
 /// Part of the motion.
@@ -141,6 +142,7 @@ class SeparationQuery {
       descend(boxes, next);
       if (is_direction_new_) boxes.setDirection(direction_);
       is_direction_new_ = false;
+      if (tests_ > kLongSearch) boxes.measureTriangles();
       if (memory_.near.size() - known <= kManyNear) continue;
       memory_.near.resize(known);
       return halve(times, poses, [this](const Times& half, const EndPoses& ends) { testBoxes(half, ends); });

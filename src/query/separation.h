@@ -67,6 +67,8 @@ struct SeparationMemory {
 ///    n·Δ(p) matters along n. Within a box of reach ρ about c, |Δ(p) − Δ(c)| ≤ sin(θ/2) ρ, with θ the angle
 ///    between R_0 and R_1: the singular values of the difference of two rotations are 2 sin(θ/2), twice, and 0, so
 ///    sin(θ/2) is its Frobenius norm over √8.
+///  - A box and a single triangle: at that same pose, with n the direction from the triangle's closest point to the
+///    box's center, less the box's reach ρ.
 ///  - Every pair of triangles is covered by a pair of boxes, or a pair of triangles, whose gap was found to exceed the
 ///    margin; otherwise the interval is halved, for the remaining pairs only, until it does. `distance` is the smallest
 ///    of all these gaps.

@@ -118,6 +118,28 @@ TEST(BoxTree, GapsAreNoMoreThanDistances) {
   EXPECT_LT(tightest, 1e-3) << "some gap is nearly the distance";
 }
 
+/// The root sum of squares of the gaps along three orthogonal axes, where the boxes face each other with corners.
+TEST(BoxTree, GapsOfBoxesAtACornerAreTheirDistance) {
+  BoxTree::Node node{};
+  node.radius.fill(-1e30F);
+  node.radius[0] = 0.0F;
+  node.count = 1;
+  PlacedBox box{};
+  for (int k = 0; k < 3; ++k) node.axis[k][k].fill(box.axis[k][k] = 1.0F);
+  const Vector3d d(0.3, 0.4, 1.2);
+  for (int k = 0; k < 3; ++k) {
+    node.half[k][0] = 0.2F;
+    box.half[k] = 0.1F;
+    box.center[k] = float(0.3 + d[k]);
+  }
+  NearBoxes found;
+  boxGaps(node, box, {1, 0, 0}, BoxMotion{}, 0.0F, found);
+  EXPECT_NEAR(found.gaps[0], d.norm(), 1e-6);
+  // A shift along x brings the boxes nearer along x alone; other motions in all directions.
+  boxGaps(node, box, {1, 0, 0}, BoxMotion{{0.3F, 0, 0}, {}, 0.01F, 0.0F}, 0.0F, found);
+  EXPECT_NEAR(found.gaps[0], std::hypot(d.y(), d.z()) - 0.01, 1e-6);
+}
+
 /// For points that move by no more than the motion's bounds.
 TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
   Random random(3);

@@ -338,6 +338,31 @@ TEST(Separation, SurfacesThatLieOnEachOtherStayOpen) {
   EXPECT_EQ(c.query().state, SeparationState::kOpen);
 }
 
+/// A dense shell around a box's corner is far from the box, but not along any axis of the box; and no plane separates
+/// the two. Bounds along single axes needed a test for each of its triangles, and ran out of tests.
+TEST(Separation, ADenseShellAroundACornerTakesFewTests) {
+  constexpr double kRadius = 0.15;
+  TriangleMesh shell = test::icosphere(kRadius, 6);
+  const auto reaches = [&](const Vector3i& t) {
+    return (shell.vertices[t[0]].array() <= -0.02).any() || (shell.vertices[t[1]].array() <= -0.02).any() ||
+           (shell.vertices[t[2]].array() <= -0.02).any();
+  };
+  shell.triangles.erase(std::remove_if(shell.triangles.begin(), shell.triangles.end(), reaches), shell.triangles.end());
+  const BoxTree dense = treeOf(shell);
+  ASSERT_GT(dense.size(), 10000U);
+  const Isometry3d at_rest = Isometry3d::Identity();
+  for (const double half : {0.1, 0.4}) {  // a box whose corner is the shell's centre
+    const BoxTree box = treeOf(test::translated(test::boxMesh({half, half, half}), Vector3d::Constant(-half)));
+    for (const auto& [a, b] : {std::pair{&box, &dense}, {&dense, &box}}) {
+      const Separation found = Case{a, b, at_rest, at_rest, at_rest, at_rest}.query();
+      ASSERT_EQ(found.state, SeparationState::kApart) << half;
+      EXPECT_LE(found.distance, kRadius);
+      EXPECT_GT(found.distance, 0.5 * kRadius);
+      EXPECT_LT(found.tests, 1000);
+    }
+  }
+}
+
 TEST(Separation, NoMoreTestsThanAreAllowed) {
   // Two balls of many triangles, one in the other, closer than the resolution: many pairs of triangles stay open.
   const BoxTree inner = treeOf(test::icosphere(0.09999, 4)), outer = treeOf(test::icosphere(0.1, 4));
