@@ -272,8 +272,10 @@ VoxelMap::Change VoxelMap::take(VoxelGrid grid, const std::vector<VoxelMask>& ma
       const auto tile = grid.tiles_.find(found->first);
       const Bits seen = tile != grid.tiles_.end() ? tile->second.occupied : Bits();
       visitNear(t, size, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
-        if (!found->second[i] || (seen[i] && mask.only_unknown) || mask.distance(p_M) > pad) return;
-        if (seen[i] && mask.surface_distance && mask.surface_distance(p_M) > pad) return;
+        if (!found->second[i] || (seen[i] && mask.only_unknown)) return;
+        const double distance = mask.distance(p_M);
+        const bool by_surface = mask.surface_distance && (distance > 0.0 || (seen[i] && mask.is_open));
+        if (distance > pad || (by_surface && mask.surface_distance(p_M) > pad)) return;
         found->second.reset(i);
         ++change.masked;
       });

@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "body/body_surface.h"
+#include "monitor/surface_crossing.h"
 #include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd {
 namespace {
 
-struct Solid {
+struct MaskPart {
   Isometry3d X_GM;  // pose of the map's frame in the part's
   const Primitive* primitive;
   const DistanceField* field;  // if it is not a primitive
@@ -24,7 +25,7 @@ struct Solid {
 
 std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& description, const Isometry3d& X_BM) {
   const bool has_fields = body.parts.size() == description.geometry.size();
-  std::vector<Solid> solids;
+  std::vector<MaskPart> parts;
   AlignedBox3d box_B;
   for (std::size_t i = 0; i < description.geometry.size(); ++i) {
     const GeometryDescription& geometry = description.geometry[i];
@@ -33,26 +34,39 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
     const AlignedBox3d box = primitive ? boundingBox(*primitive) : body.parts[i].field.surfaceBox();
     if (!box.sizes().allFinite()) continue;
     for (int k = 0; k < 8; ++k) box_B.extend(geometry.X_BG * box.corner(AlignedBox3d::CornerType(k)));
-    solids.push_back({geometry.X_BG.inverse() * X_BM, primitive, primitive ? nullptr : &body.parts[i].field});
+    parts.push_back({geometry.X_BG.inverse() * X_BM, primitive, primitive ? nullptr : &body.parts[i].field});
   }
-  if (solids.empty()) return std::nullopt;
+  if (parts.empty()) return std::nullopt;
   VoxelMask mask;
-  const bool has_openings = has_fields && std::any_of(body.parts.begin(), body.parts.end(), [](const BodyPart& part) {
-                              return part.field.openings() != nullptr;
-                            });
-  if (has_openings && body.surface) {
+  if (body.surface) {
     mask.surface_distance = [X_BM, &surface = *body.surface](const Vector3d& p_M) {
       return surface.tree.closestPoint(X_BM * p_M).distance - surface.deviation;
     };
+    mask.is_open = isInsideUncertain(body);
   }
   mask.center_M = X_BM.inverse() * box_B.center();
   mask.radius = 0.5 * box_B.diagonal().norm();
-  mask.distance = [solids = std::move(solids)](const Vector3d& p_M) {
-    double nearest = solids.front().distance(p_M);
-    for (const Solid& solid : solids) nearest = std::min(nearest, solid.distance(p_M));
+  mask.distance = [parts = std::move(parts)](const Vector3d& p_M) {
+    double nearest = parts.front().distance(p_M);
+    for (const MaskPart& part : parts) nearest = std::min(nearest, part.distance(p_M));
     return nearest;
   };
   return mask;
+}
+
+bool hidesVoxels(const SceneDescription& description, std::size_t body) {
+  const std::vector<BodyDescription>& bodies = description.bodies;
+  if (bodies[body].is_world || bodies[body].geometry.empty()) return false;
+  return std::any_of(bodies.begin(), bodies.end(), [](const BodyDescription& other) { return !other.map.empty(); });
+}
+
+double maskError(const Scene& scene) {
+  double error = 0.0;
+  for (const Body& body : scene.bodies) {
+    if (body.is_world) continue;
+    for (const BodyPart& part : body.parts) error = std::max(error, 2.0 * part.field.errorBound());
+  }
+  return error;
 }
 
 }  // namespace sdf_ccd

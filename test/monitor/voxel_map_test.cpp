@@ -215,6 +215,48 @@ TEST(VoxelMap, WhatIsInAnOpenBodyCounts) {
   }
 }
 
+/// Far from a surface a field knows only loose bounds of the distance: they hid voxels up to 15 cm from a link.
+TEST(VoxelMap, OnlyWhatIsWithinThePaddingIsHidden) {
+  constexpr double kRing = 0.4, kTube = 0.08;
+  BodyDescription awaited = body("map/awaited", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
+  awaited.map = "map";
+  awaited.failure = "no map yet";
+  awaited.geometry.front().watertight_voxels = true;
+  const SceneDescription description{{body("ring", meshShape(torusMesh(kRing, kTube, 64, 32))), awaited}, {}};
+  for (const double max_error : {0.01, 0.002}) {
+    BodyOptions resolution = fine();
+    resolution.field = FieldOptions();
+    resolution.field.max_error = max_error;
+    const auto scene = build(description, resolution);
+    const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
+    ASSERT_TRUE(mask);
+    const VoxelMapOptions options;
+    const double pad = options.padding + 0.5 * kSize;
+    ASSERT_LT(maskError(*scene), pad);
+    Random random(3);
+    int hidden = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Eigen::Array3i v = (10.0 * uniform(random, 0.0, 1.3) * direction(random).array()).cast<int>();
+      const Vector3d center = kSize * (v.cast<double>() + 0.5).matrix();
+      const double distance = std::hypot(std::hypot(center.x(), center.y()) - kRing, center.z()) - kTube;
+      VoxelMap map("map", "world", options);
+      const VoxelMap::Change change = map.take(gridOf({{v.x(), v.y(), v.z()}}, options), {*mask});
+      constexpr double kChords = 0.001;  // between the ring and its triangles [m]
+      if (std::abs(distance - pad) <= kChords) continue;
+      EXPECT_EQ(change.masked, distance < pad ? 1U : 0U) << center.transpose() << ", " << distance;
+      hidden += int(change.masked);
+    }
+    EXPECT_GT(hidden, 30);
+    VoxelMapOptions unknown;
+    unknown.unknown = UnknownSpace::kOccupied;
+    VoxelMap map("map", "world", unknown);
+    Kept kept;
+    kept.take(map.take(gridOf({{-12, -12, -12}, {12, 12, 12}}, unknown), {*mask}));
+    EXPECT_LT(kept.distance(Vector3d::Constant(0.025)), 0.0) << "unknown space within the ring";
+    EXPECT_GT(kept.distance({kRing, 0.0, 0.0}), 0.0) << "unknown space in the ring's tube";
+  }
+}
+
 TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {
   constexpr int kSide = 1024, kTo = kMiddle + kSide;  // a leaf from 0 to 51.2 m
   for (const UnknownSpace unknown : {UnknownSpace::kOccupiedNear, UnknownSpace::kOccupied}) {

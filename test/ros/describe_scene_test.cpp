@@ -76,25 +76,6 @@ TEST(DescribeScene, AResourceRootThatIsNotThereIsWarnedOf) {
   EXPECT_NE(warnings[0].find("/tmp/no such folder"), std::string::npos) << warnings[0];
 }
 
-TEST(DescribeScene, AStopDistanceWithinTheMapsPaddingIsWarnedOf) {
-  const auto warnings = [](const MonitorParameters& parameters) {
-    return describeScene(parameters, [](const std::string&) { return Resource(); }).warnings;
-  };
-  MonitorParameters parameters = cart();
-  parameters.proximity.promise = StoppingPromise();
-  parameters.proximity.promise->stop_distance = 0.02;
-  EXPECT_TRUE(warnings(parameters).empty());
-  parameters.live_map.topic = "/octomap";
-  parameters.live_map.padding = 0.02;
-  ASSERT_EQ(warnings(parameters).size(), 1u);
-  EXPECT_NE(warnings(parameters)[0].find("set stop_distance to more than that"), std::string::npos);
-  parameters.proximity.promise->stop_distance = 0.021;
-  EXPECT_TRUE(warnings(parameters).empty());
-  parameters.proximity.promise.reset();
-  parameters.live_map.padding = 0.1;
-  EXPECT_TRUE(warnings(parameters).empty());
-}
-
 using Pairs = std::set<std::string>;
 
 TEST(DescribeScene, LinksThatOverlapAlwaysAreLeftOutByDefault) {

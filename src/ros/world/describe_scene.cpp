@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "common/number_text.h"
 #include "common/shown_text.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "ros/parameters/world_file.h"
@@ -77,12 +76,6 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   if (!parameters.live_map.topic.empty()) {
     const std::string why = "no map has been received on " + parameters.live_map.topic + " yet";
     described.scene.bodies.push_back(awaitedTile(frameOf(""), why));
-    const std::optional<StoppingPromise>& promise = parameters.proximity.promise;
-    if (promise && promise->stop_distance <= parameters.live_map.padding) {
-      described.warnings.push_back(
-          "velocity_scale: the robot may touch the live map, because voxels closer to it than octomap/padding (" +
-          numberText(parameters.live_map.padding) + " m) are ignored: set stop_distance to more than that");
-    }
   }
   applyRules(parameters.pairs, described.scene, described.warnings);
   described.kept = parameters.pairs.checked;
