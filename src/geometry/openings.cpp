@@ -89,10 +89,12 @@ Openings findOpenings(const TriangleMesh& mesh) {
 std::string summary(const Openings& openings) {
   std::ostringstream text;
   text.precision(3);
-  if (openings.caps.triangles.empty()) return "no openings";
-  text << openings.count << (openings.count == 1 ? " opening" : " openings");
-  if (openings.count > 0)
-    text << ", the longest " << openings.longest << " m around, " << openings.area << " m^2 of caps";
+  if (openings.count == 0) {
+    text << (openings.caps.triangles.empty() ? "no openings" : "no openings beyond cracks");
+  } else {
+    text << openings.count << (openings.count == 1 ? " opening" : " openings") << ", the longest " << openings.longest
+         << " m around, " << openings.area << " m^2 of caps";
+  }
   if (openings.doubt > 0.0) text << ", doubtful in " << 100.0 * openings.doubt << " % of the interior";
   if (openings.voxels > 0) text << ", " << openings.voxels << " voxels treated as inside";
   return text.str();

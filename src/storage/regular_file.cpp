@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 #include "sdf_ccd/common/cancel.h"
@@ -21,6 +23,15 @@ void requireRegular(const struct stat& status) {
   if (!S_ISREG(status.st_mode)) throw std::runtime_error("is not a regular file");
 }
 
+/// @param why  an errno.
+[[noreturn]] void failToOpen(const std::string& path, int why) {
+  std::string reason = std::string("cannot be opened: ") + std::strerror(why);
+  std::error_code unknown;
+  const std::filesystem::path folder = std::filesystem::current_path(unknown);
+  if (why == ENOENT && !unknown && std::filesystem::path(path).is_relative()) reason += " in " + folder.string();
+  throw std::runtime_error(reason);
+}
+
 [[noreturn]] void failTooLarge(std::size_t max_bytes) {
   throw std::runtime_error("larger than " + std::to_string(max_bytes >> 20) + " MiB");
 }
@@ -30,10 +41,10 @@ void requireRegular(const struct stat& status) {
 std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
   // Checked before opening, as opening some devices has effects; and after, as it may be another file by then.
   struct stat status;
-  if (::stat(path.c_str(), &status) != 0) throw std::runtime_error("cannot be opened");
+  if (::stat(path.c_str(), &status) != 0) failToOpen(path, errno);
   requireRegular(status);
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (!file.isOpen() || ::fstat(file.number(), &status) != 0) throw std::runtime_error("cannot be opened");
+  if (!file.isOpen() || ::fstat(file.number(), &status) != 0) failToOpen(path, errno);
   requireRegular(status);
   if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > max_bytes) failTooLarge(max_bytes);
 

@@ -106,7 +106,7 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
                 .find("unit meter=\"-1\""),
             std::string::npos);
   EXPECT_NE(error(dae(kBox, "", "<node/>"), "a.dae"), "");
-  EXPECT_EQ(failureOf([] { loadMesh("/nonexistent/link.stl"); }), "/nonexistent/link.stl: cannot be opened");
+  EXPECT_EQ(failureOf([] { loadMesh("/nonexistent/link.stl"); }), "/nonexistent/link.stl: cannot be opened: No such file or directory");
   EXPECT_NE(failureOf([] { loadMesh("/"); }), "");
 
   TriangleMesh bad = kBox;

@@ -45,8 +45,8 @@ TEST_F(RegularFile, NothingElseIsOpened) {
   }
   ::close(server);
   EXPECT_EQ(failureOf([&] { readRegularFile(directory_.string()); }), "is a directory");
-  EXPECT_EQ(failureOf([&] { readRegularFile("/no/such/file"); }), "cannot be opened");
-  EXPECT_EQ(failureOf([&] { readRegularFile(std::string(100000, 'x')); }), "cannot be opened");
+  EXPECT_EQ(failureOf([&] { readRegularFile("/no/such/file"); }), "cannot be opened: No such file or directory");
+  EXPECT_EQ(failureOf([&] { readRegularFile(std::string(100000, 'x')); }), "cannot be opened: File name too long");
 }
 
 TEST_F(RegularFile, SizeIsBounded) {
