@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     VoxelGrid grid(0.1, options);
     grid.addOctree(reinterpret_cast<const std::int8_t*>(data) + skipped, size - skipped,
                    has_colour ? "ColorOcTree" : "OcTree", is_binary);
-    fuzz::require(grid.occupied() <= options.max_voxels, "no more voxels than allowed");
+    fuzz::require(grid.occupiedCount() <= options.max_voxels, "no more voxels than allowed");
     VoxelMap map("map", "world", options);
     const VoxelMap::Change change = map.take(std::move(grid), {});
     fuzz::require(change.made.size() == change.fields.size(), "each tile has its field");

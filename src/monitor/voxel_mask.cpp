@@ -4,7 +4,7 @@
 
 #include "body/body_surface.h"
 #include "monitor/surface_crossing.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {
 namespace {

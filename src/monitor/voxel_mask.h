@@ -1,12 +1,29 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 
-#include "sdf_ccd/body/body.h"
-#include "sdf_ccd/monitor/scene.h"
-#include "voxel_map.h"
+#include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
+
+struct Body;
+struct BodyDescription;
+struct Scene;
+struct SceneDescription;
+
+/// A solid whose voxels are ignored: one of the robot's own links.
+struct VoxelMask {
+  Vector3d center_M = Vector3d::Zero();                 ///< of a ball that contains it, in the map's frame M [m]
+  double radius = 0.0;                                  ///< [m]
+  std::function<double(const Vector3d& p_M)> distance;  ///< lower bound of the distance to it [m]; must be thread-safe
+  /// The same to its surface alone, and exact: far from a surface `distance` may be far too low. Null if `distance` is
+  /// exact itself.
+  std::function<double(const Vector3d& p_M)> surface_distance;
+  bool is_open = false;  ///< what is occupied inside is not ignored: the surface has openings, or may have cavities
+  bool only_unknown = false;  ///< ignores only unknown voxels: when the map was made, the solid may have been elsewhere
+};
 
 /// The part of a map that a body fills, as a mask. Empty if the body has no bounded geometry whose distance is known.
 /// @param body  if hidesVoxels(), with its surface, without which the mask may be far too large.

@@ -306,7 +306,7 @@ TEST(VoxelMap, ARealMapIsAWorld) {
   options.band = 0.08;
   VoxelGrid grid(0.08, options);
   grid.addOctree(reinterpret_cast<const std::int8_t*>(bytes.data()) + at, bytes.size() - at, "OcTree", true);
-  EXPECT_GE(grid.occupied(), 143729U);  // the number of leaves, some of which are larger than a voxel
+  EXPECT_GE(grid.occupiedCount(), 143729U);  // the number of leaves, some of which are larger than a voxel
   VoxelMap map("map", "world", options);
   const VoxelMap::Change change = map.take(std::move(grid), {});
   EXPECT_GE(change.occupied, 143729U);
