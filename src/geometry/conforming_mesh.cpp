@@ -60,11 +60,86 @@ double joinVertices(TriangleMesh& mesh, double tolerance) {
   return moved;
 }
 
-/// Whether a corner lies on the opposite side: such a triangle is a seam, not a surface.
-bool isSeam(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
+/// Whether a corner lies on the opposite side, up to the tolerance.
+bool isFlat(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
   const double longest = longestEdge(cornersOf(mesh, static_cast<int>(triangle)));
   return areaNormal(mesh, static_cast<int>(triangle)).norm() <= tolerance * longest;
 }
+
+Edge edgeOf(const Vector3i& t, int k) {
+  return std::minmax(t[k], t[(k + 1) % 3]);
+}
+
+/// Seams: flat triangles that lie on other ones, between whose sides they fill the gap.
+///
+/// A flat triangle is within the tolerance of its longest side, and of the other two together. So it is near the
+/// surface if that side is, or both others are: sides of other triangles, or of seams known already. A needle that
+/// sticks out shares no more than one short side with the surface.
+struct Seams {
+  std::vector<bool> is_seam;  // per triangle
+  double farthest = 0.0;      // distance from the other triangles, at most [m]
+};
+
+class SeamSearch {
+ public:
+  SeamSearch(const TriangleMesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance) {
+    seams_.is_seam.assign(mesh.triangles.size(), false);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const bool is_flat = isFlat(mesh, i, tolerance);
+      for (int k = 0; k < 3; ++k) {
+        const Edge edge = edgeOf(mesh.triangles[i], k);
+        is_flat ? flat_at_[edge].push_back(i) : offer(edge, 0.0);
+      }
+    }
+  }
+
+  Seams run() {
+    CancelTicks<256> cancel;
+    for (std::size_t i = 0; i < pending_.size(); ++i) {  // nearest first
+      cancel.check();
+      const auto at = flat_at_.find(pending_[i]);
+      if (at == flat_at_.end()) continue;
+      for (const std::size_t triangle : at->second) test(triangle);
+    }
+    return std::move(seams_);
+  }
+
+ private:
+  /// Records that an edge is near the surface.
+  void offer(const Edge& edge, double distance) {
+    if (near_.emplace(edge, distance).second) pending_.push_back(edge);
+  }
+
+  void test(std::size_t triangle) {
+    if (seams_.is_seam[triangle]) return;
+    const Vector3i& t = mesh_.triangles[triangle];
+    int longest = 0;
+    for (int k = 1; k < 3; ++k)
+      if (length(edgeOf(t, k)) > length(edgeOf(t, longest))) longest = k;
+    const std::array<Edge, 3> edges = {edgeOf(t, longest), edgeOf(t, (longest + 1) % 3), edgeOf(t, (longest + 2) % 3)};
+    const auto at = [&](int k) { return near_.find(edges[k]); };
+    double distance = 0.0;
+    if (at(0) != near_.end()) {
+      distance = at(0)->second + tolerance_;
+    } else if (at(1) != near_.end() && at(2) != near_.end()) {
+      distance = std::max(at(1)->second, at(2)->second) + tolerance_;
+    } else {
+      return;
+    }
+    seams_.is_seam[triangle] = true;
+    seams_.farthest = std::max(seams_.farthest, distance);
+    for (const Edge& edge : edges) offer(edge, distance);
+  }
+
+  double length(const Edge& edge) const { return (mesh_.vertices[edge.first] - mesh_.vertices[edge.second]).norm(); }
+
+  const TriangleMesh& mesh_;
+  double tolerance_;
+  std::map<Edge, std::vector<std::size_t>> flat_at_;
+  std::map<Edge, double> near_;  // edges near the surface, with their distance, at most [m]
+  std::vector<Edge> pending_;    // of these: those whose flat triangles are yet to be tested
+  Seams seams_;
+};
 
 /// Per edge, the vertices on it from its lower end to the higher one.
 std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double tolerance) {
@@ -104,18 +179,22 @@ void split(const Vector3i& corners, const std::array<Points, 3>& on, std::vector
   parts.push_back(corners);
 }
 
-/// The mesh with vertices merged, and triangles split at vertices on their sides, within a distance [m]; without
-/// triangles of at most that height.
-ConformingMesh joinedWithin(TriangleMesh mesh, double tolerance) {
+/// The mesh with vertices merged, and triangles split at vertices on their sides, within a distance [m]; without seams.
+/// Other flat triangles stay as they are.
+ConformingMesh joinedWithin(const TriangleMesh& original, double tolerance) {
   ConformingMesh result;
+  TriangleMesh mesh = original;
   result.moved = joinVertices(mesh, tolerance) + tolerance;  // a side bends to a vertex near it
   result.mesh.vertices = mesh.vertices;
+  const Seams seams = SeamSearch(mesh, tolerance).run();
+  result.moved += seams.farthest;
   TriangleMesh surface;
   surface.vertices = mesh.vertices;
   std::vector<std::int32_t> source;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (isSeam(mesh, i, tolerance)) continue;
-    surface.triangles.push_back(mesh.triangles[i]);
+    if (seams.is_seam[i]) continue;
+    const bool is_needle = isFlat(mesh, i, tolerance);
+    surface.triangles.push_back(is_needle ? original.triangles[i] : mesh.triangles[i]);
     source.push_back(static_cast<std::int32_t>(i));
   }
   const std::map<Edge, Points> on_edges = verticesOnEdges(surface, tolerance);

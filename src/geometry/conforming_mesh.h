@@ -14,9 +14,9 @@ struct ConformingMesh {
 /// Merges vertices that coincide, and splits triangles at vertices on their sides, where a side is not used equally
 /// often in both directions: so faces are joined that were tessellated separately, of one part or of two. The tolerance
 /// is the rounding of doubles or, if that does not suffice, of floats.
-/// Triangles without height, which fill such seams in some files, are dropped. The mesh is returned unchanged if sides
-/// with an odd number of triangles would remain: in open meshes, a partial join says little. For questions of
-/// connectivity; the parts of a triangle are flat only to that tolerance.
+/// Triangles without height that fill such seams, as in some files, are dropped; others stay. The mesh is returned
+/// unchanged if sides with an odd number of triangles would remain: in open meshes, a partial join says little. For
+/// questions of connectivity; the parts of a triangle are flat only to that tolerance.
 /// @param mesh  welded.
 ConformingMesh conformingMesh(const TriangleMesh& mesh);
 
