@@ -1,7 +1,7 @@
 """Tables of the study `monitor`."""
 from results import number
 
-SYSTEMS = ['sdf_ccd', 'sdf_ccd_wrench', 'sdf_ccd_deepest', 'fcl', 'fcl_distance', 'bullet_cast']
+SYSTEMS = ['sdf_ccd', 'sdf_ccd_wrench', 'sdf_ccd_deepest', 'fcl', 'fcl_distance', 'bullet', 'bullet_cast']
 
 
 def cycles(results):

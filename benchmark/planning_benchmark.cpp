@@ -182,17 +182,19 @@ class Study {
   void measurePeer(MonitorSystem& system) const {
     for (int parts = 1; parts <= kFinest; parts *= 2) {
       double seconds = 0.0;
-      long misses = 0;
+      long misses = 0, false_contacts = 0;
       for (std::size_t i = 0; i < edges_.size(); ++i) {
         const Poses poses = posesAlong(robot_, world_.scene, edges_[i], parts);  // not timed
         const auto start = Clock::now();
         const bool found = touches(system, poses);
         seconds += secondsSince(start);
         misses += truth_[i] && !found;
+        false_contacts += found && !truth_[i];
       }
       const std::string name = system.name() + "_" + std::to_string(parts);
       row(name, "us_edge", 1e6 * seconds / double(edges_.size()), "us");
       row(name, "misses", double(misses), "edges");
+      row(name, "false_contacts", double(false_contacts), "edges");
       if (double(misses) < kMaxMissShare * double(edges_.size()) || seconds > kSecondsPerRun) return;
     }
   }

@@ -1,6 +1,8 @@
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #include <LinearMath/btConvexHullComputer.h>
 
@@ -22,24 +24,33 @@ btTransform toBullet(const Isometry3d& X) {
 
 constexpr double kTessellation = 5e-4;  // error of tessellated spheres and cylinders [m]
 
-/// Bullet's continuous convex cast of the convex hulls of the collision elements: conservative advancement in single
-/// precision. The hull of a non-convex mesh is larger than the mesh, so it reports false contacts.
-class BulletCast : public MonitorSystem {
+/// The convex hulls of the collision elements. The hull of a non-convex mesh is larger than the mesh, so it reports
+/// false contacts.
+class BulletHulls : public MonitorSystem {
  public:
-  BulletCast(const SceneDescription& scene, const std::vector<PlannedPair>& pairs) : pairs_(pairs) {
+  BulletHulls(const SceneDescription& scene, const std::vector<PlannedPair>& pairs) : pairs_(pairs) {
     for (const BodyDescription& description : scene.bodies) {
       Hulls& body = bodies_.emplace_back();
       for (const GeometryDescription& geometry : description.geometry) body.elements.push_back(hullOf(geometry));
     }
   }
 
-  std::string name() const override { return "bullet_cast"; }
+ protected:
+  struct Element {
+    std::shared_ptr<const btConvexHullShape> shape;  // in the body's frame
+    btVector3 low, high;                             // in the world, over the time that is tested
+  };
+  struct Hulls {
+    std::vector<Element> elements;
+    btTransform start, end;
+  };
 
-  int check(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) override {
+  /// @param start  the poses at which the test begins; equal to `end` for a single time.
+  void place(const std::vector<Isometry3d>& start, const std::vector<Isometry3d>& end) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       Hulls& body = bodies_[b];
-      body.start = toBullet(X_WB_start[b]);
-      body.end = toBullet(X_WB_end[b]);
+      body.start = toBullet(start[b]);
+      body.end = toBullet(end[b]);
       for (Element& element : body.elements) {
         btVector3 low, high;
         element.shape->getAabb(body.start, element.low, element.high);
@@ -48,21 +59,20 @@ class BulletCast : public MonitorSystem {
         element.high.setMax(high);
       }
     }
+  }
+
+  /// Number of pairs of which two elements touch. @param touch  tests two elements whose boxes meet.
+  template <class Touch>
+  int countTouching(const Touch& touch) const {
     int touching = 0;
-    for (const PlannedPair& pair : pairs_) touching += touches(bodies_[pair.body_a], bodies_[pair.body_b]);
+    for (const PlannedPair& pair : pairs_) touching += anyTouch(bodies_[pair.body_a], bodies_[pair.body_b], touch);
     return touching;
   }
 
- private:
-  struct Element {
-    std::shared_ptr<const btConvexHullShape> shape;  // in the body's frame
-    btVector3 low, high;                             // in the world, over the cycle
-  };
-  struct Hulls {
-    std::vector<Element> elements;
-    btTransform start, end;
-  };
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver depths_;
 
+ private:
   static Element hullOf(const GeometryDescription& geometry) {
     const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
     const TriangleMesh& given = mesh ? **mesh : tessellate(std::get<Primitive>(geometry.shape), kTessellation);
@@ -75,16 +85,14 @@ class BulletCast : public MonitorSystem {
     return {shape, {}, {}};
   }
 
-  bool touches(const Hulls& a, const Hulls& b) {
+  template <class Touch>
+  static bool anyTouch(const Hulls& a, const Hulls& b, const Touch& touch) {
     for (const Element& one : a.elements) {
       for (const Element& other : b.elements) {
         const bool apart = one.low.x() > other.high.x() || other.low.x() > one.high.x() ||
                            one.low.y() > other.high.y() || other.low.y() > one.high.y() ||
                            one.low.z() > other.high.z() || other.low.z() > one.high.z();
-        if (apart) continue;
-        btContinuousConvexCollision cast(one.shape.get(), other.shape.get(), &simplex_, &depths_);
-        btConvexCast::CastResult result;
-        if (cast.calcTimeOfImpact(a.start, a.end, b.start, b.end, result)) return true;
+        if (!apart && touch(a, one, b, other)) return true;
       }
     }
     return false;
@@ -92,12 +100,47 @@ class BulletCast : public MonitorSystem {
 
   std::vector<PlannedPair> pairs_;
   std::vector<Hulls> bodies_;
-  btVoronoiSimplexSolver simplex_;
-  btGjkEpaPenetrationDepthSolver depths_;
+};
+
+/// Bullet's continuous convex cast: conservative advancement in single precision.
+class BulletCast : public BulletHulls {
+ public:
+  using BulletHulls::BulletHulls;
+  std::string name() const override { return "bullet_cast"; }
+
+  int check(const std::vector<Isometry3d>& X_WB_start, const std::vector<Isometry3d>& X_WB_end) override {
+    place(X_WB_start, X_WB_end);
+    return countTouching([&](const Hulls& a, const Element& one, const Hulls& b, const Element& other) {
+      btContinuousConvexCollision cast(one.shape.get(), other.shape.get(), &simplex_, &depths_);
+      btConvexCast::CastResult result;
+      return cast.calcTimeOfImpact(a.start, a.end, b.start, b.end, result);
+    });
+  }
+};
+
+/// Bullet's discrete test at the cycle's end: GJK, and EPA for hulls that overlap.
+class BulletDiscrete : public BulletHulls {
+ public:
+  using BulletHulls::BulletHulls;
+  std::string name() const override { return "bullet"; }
+
+  int check(const std::vector<Isometry3d>&, const std::vector<Isometry3d>& X_WB_end) override {
+    place(X_WB_end, X_WB_end);
+    return countTouching([&](const Hulls& a, const Element& one, const Hulls& b, const Element& other) {
+      btGjkPairDetector detector(one.shape.get(), other.shape.get(), &simplex_, &depths_);
+      btPointCollector nearest;
+      btGjkPairDetector::ClosestPointInput input;
+      input.m_transformA = a.end;
+      input.m_transformB = b.end;
+      detector.getClosestPoints(input, nearest, nullptr);
+      return nearest.m_hasResult && nearest.m_distance <= 0.0f;
+    });
+  }
 };
 
 const RegisteredMonitorPeer kBullet{
     [](const SceneDescription& scene, const std::vector<PlannedPair>& pairs, MonitorSystems& systems) {
+      systems.push_back(std::make_unique<BulletDiscrete>(scene, pairs));
       systems.push_back(std::make_unique<BulletCast>(scene, pairs));
     }};
 

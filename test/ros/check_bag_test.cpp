@@ -95,6 +95,10 @@ TEST_F(CheckBag, TfAndRatesAndPlotsTellTheSameContacts) {
 
   const ToolRun plot = run("plot-bag made/checked.bag --out plot");
   EXPECT_LE(plot.exit_code, kPartlyDone) << plot.error;  // partly without gnuplot
+  const std::string from_time = plot.out.substr(plot.out.find("time   ")),
+                    time_line = from_time.substr(0, from_time.find('\n'));
+  EXPECT_NE(readText(path("made/summary.txt")).find(time_line), std::string::npos)
+      << "both count from the bag's beginning: " << plot.out;
   EXPECT_EQ(readText(path("plot/contacts.csv")), contacts);
   EXPECT_EQ(readText(path("plot/cycles.csv")), readText(path("made/cycles.csv")));
   EXPECT_EQ(std::filesystem::exists(path("plot/error_time.svg")), plot.exit_code == kDone);

@@ -34,20 +34,17 @@ std::string topicOf(const rosbag::Bag& bag, const Arguments& arguments) {
   return topic;
 }
 
-/// Adds all messages of the topic to the report. @return the start of the first cycle.
-ros::Time addAll(const rosbag::Bag& bag, const std::string& topic, CycleReport& report) {
+/// Adds all messages of the topic to the report.
+void addAll(const rosbag::Bag& bag, const std::string& topic, CycleReport& report) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   ProgressBar bar("contacts");
-  ros::Time begin;
   std::size_t count = 0;
   for (const rosbag::MessageInstance& message : view) {
     bar(double(++count) / double(view.size()));
     const auto contacts = message.instantiate<ContactArray>();
     if (!contacts) throw std::runtime_error(topic + " is of another version of sdf_ccd/ContactArray");
-    if (report.statistics().cycles().empty()) begin = contacts->cycle_start;
     report.add(*contacts);
   }
-  return begin;
 }
 
 void run(const Arguments& arguments) {
@@ -56,8 +53,10 @@ void run(const Arguments& arguments) {
     const std::string topic = topicOf(bag, arguments);
     OutputDirectory out(arguments.out);
     CycleReport report(out);
-    const ros::Time begin = addAll(bag, topic, report);
-    std::cout << report.statistics().summary(begin) << std::flush;
+    addAll(bag, topic, report);
+    const ros::Time begin = rosbag::View(bag).getBeginTime();  // as for check-bag, and other tools for bags
+    std::cout << "bag              " << arguments.bag << ": from " << timeText(begin) << "\n"
+              << report.statistics().summary(begin) << std::flush;
     if (report.commit("Error and run time of " + topic + " in " +
                       std::filesystem::path(arguments.bag).filename().string())) {
       return;
