@@ -23,8 +23,10 @@ TriangleMesh parse(const std::string& bytes, const std::string& format) {
 }  // namespace
 
 TriangleMesh parseMeshUnconfined(const std::string& bytes, const std::string& format) {
+  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before a text
   if (bytes.empty()) throw std::runtime_error("empty");
-  TriangleMesh mesh = welded(parse(bytes, format));
+  const bool has_mark = bytes.rfind(kByteOrderMark, 0) == 0;
+  TriangleMesh mesh = welded(has_mark ? parse(bytes.substr(3), format) : parse(bytes, format));
   validate(mesh);
   return mesh;
 }

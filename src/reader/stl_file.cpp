@@ -99,8 +99,6 @@ TriangleMesh parseBinary(const std::string& bytes, std::uint64_t triangles) {
 }  // namespace
 
 TriangleMesh parseStl(const std::string& bytes) {
-  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
-  if (bytes.rfind(kByteOrderMark, 0) == 0) return parseText(bytes.substr(3));
   const std::uint64_t triangles = bytes.size() >= kHeader ? announcedTriangles(bytes) : 0;
   const std::uint64_t length = kHeader + kTriangle * triangles;
   if (bytes.size() != length && isText(bytes)) return parseText(bytes);
