@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "body/body_builder.h"
 #include "body/body_surface.h"
 #include "monitor/surface_crossing.h"
 #include "sdf_ccd/monitor/scene.h"
@@ -14,12 +15,27 @@ struct MaskPart {
   const Primitive* primitive;
   const DistanceField* field;  // if it is not a primitive
 
+  /// Where a field has no samples, only its bounds tell on which side of the surface a point is: sample() widens them.
   double distance(const Vector3d& p_M) const {
-    if (primitive) return signedDistance(*primitive, X_GM * p_M);
-    const FieldSample known = field->sample(X_GM * p_M);
-    return known.value - known.error;
+    const Vector3d p_G = X_GM * p_M;
+    if (primitive) return signedDistance(*primitive, p_G);
+    const FieldSample known = field->sample(p_G);
+    return std::max(known.value - known.error, field->lowerBound(p_G));
   }
 };
+
+bool hasMesh(const BodyDescription& description) {
+  return std::any_of(description.geometry.begin(), description.geometry.end(), [](const GeometryDescription& geometry) {
+    return !std::holds_alternative<Primitive>(geometry.shape);
+  });
+}
+
+/// The body's surface; made anew if it was prepared without.
+std::shared_ptr<const BodySurface> surfaceOf(const Body& body, const BodyDescription& description) {
+  if (body.surface) return body.surface;
+  MeshPool pool{BodyOptions()};
+  return surfaceOf(description, pool);
+}
 
 }  // namespace
 
@@ -38,9 +54,9 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
   }
   if (parts.empty()) return std::nullopt;
   VoxelMask mask;
-  if (body.surface) {
-    mask.surface_distance = [X_BM, &surface = *body.surface](const Vector3d& p_M) {
-      return surface.tree.closestPoint(X_BM * p_M).distance - surface.deviation;
+  if (has_fields && hasMesh(description)) {
+    mask.surface_distance = [X_BM, surface = surfaceOf(body, description)](const Vector3d& p_M) {
+      return surface->tree.closestPoint(X_BM * p_M).distance - surface->deviation;
     };
     mask.is_open = isInsideUncertain(body);
   }
@@ -56,7 +72,7 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
 
 bool hidesVoxels(const SceneDescription& description, std::size_t body) {
   const std::vector<BodyDescription>& bodies = description.bodies;
-  if (bodies[body].is_world || bodies[body].geometry.empty()) return false;
+  if (bodies[body].is_world || !hasMesh(bodies[body])) return false;
   return std::any_of(bodies.begin(), bodies.end(), [](const BodyDescription& other) { return !other.map.empty(); });
 }
 

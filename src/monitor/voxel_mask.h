@@ -21,16 +21,17 @@ struct VoxelMask {
   /// The same to its surface alone, and exact: far from a surface `distance` may be far too low. Null if `distance` is
   /// exact itself.
   std::function<double(const Vector3d& p_M)> surface_distance;
-  bool is_open = false;  ///< what is occupied inside is not ignored: the surface has openings, or may have cavities
+  bool is_open = false;       ///< what is occupied inside is not ignored: a surface has openings, or may have cavities
   bool only_unknown = false;  ///< ignores only unknown voxels: when the map was made, the solid may have been elsewhere
 };
 
 /// The part of a map that a body fills, as a mask. Empty if the body has no bounded geometry whose distance is known.
-/// @param body  if hidesVoxels(), with its surface, without which the mask may be far too large.
+/// @param body  a mesh's surface is made here if the body has none: see hidesVoxels().
 /// @param X_BM  pose of the map's frame in the body's. The mask refers to `body` and `description`.
 std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& description, const Isometry3d& X_BM);
 
-/// Whether voxels of a map are ignored where this body is: a link, or an attached object, beside a map.
+/// Whether voxels of a map are ignored where the meshes of this body are, whose surface should then be prepared: a
+/// link, or an attached object, beside a map.
 bool hidesVoxels(const SceneDescription& description, std::size_t body);
 
 /// Masks of the scene's links hide voxels up to this distance, if the padding is smaller [m]: twice the fields' error,

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <map>
-#include <set>
 
 #include "monitor/scene_case.h"
-#include "monitor/voxel_mask.h"
+#include "monitor/voxel_case.h"
 #include "oracle/files.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
@@ -20,17 +18,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kSize = 0.05;  // size of a voxel [m]
-constexpr int kMiddle = 32768;
-
-using Voxels = std::set<std::array<int, 3>>;  // counted from the origin
-
-VoxelGrid gridOf(const Voxels& voxels, const VoxelMapOptions& options) {
-  VoxelGrid grid(kSize, options);
-  for (const auto& v : voxels) grid.add(Vector3i(kMiddle + v[0], kMiddle + v[1], kMiddle + v[2]), 1, true);
-  return grid;
-}
-
 VoxelMask ballMask(const Vector3d& center, double radius) {
   VoxelMask mask;
   mask.center_M = center;
@@ -38,24 +25,6 @@ VoxelMask ballMask(const Vector3d& center, double radius) {
   mask.distance = [=](const Vector3d& p) { return (p - center).norm() - radius; };
   return mask;
 }
-
-/// A map maintained from its changes.
-class Kept {
- public:
-  void take(const VoxelMap::Change& change) {
-    for (const std::string& name : change.removed) ASSERT_EQ(tiles_.erase(name), 1U) << name;
-    for (std::size_t i = 0; i < change.made.size(); ++i) tiles_.insert_or_assign(change.made[i].name, change.fields[i]);
-  }
-  double distance(const Vector3d& p) const {
-    double least = 1e9;
-    for (const auto& [name, field] : tiles_) least = std::min(least, field.sample(p).value);
-    return least;
-  }
-  std::size_t size() const { return tiles_.size(); }
-
- private:
-  std::map<std::string, DistanceField> tiles_;
-};
 
 double distanceTo(const Voxels& voxels, const Vector3d& p) {
   double least = 1e9;
@@ -186,75 +155,6 @@ TEST(VoxelMap, AMaskOfAnotherTimeHidesNoOccupiedVoxels) {
   EXPECT_LT(kept.distance(p), 0.0);
   EXPECT_GT(kept.distance(p + Vector3d(0.1, 0.0, 0.0)), 0.0);  // unknown, and filled by the ball
   EXPECT_LT(kept.distance(p + Vector3d(0.3, 0.0, 0.0)), 0.0);  // unknown, near the ball
-}
-
-/// What lies in an open box is not the box.
-TEST(VoxelMap, WhatIsInAnOpenBodyCounts) {
-  TriangleMesh bin = boxMesh({0.4, 0.4, 0.4});
-  const auto is_lid = [&](const Vector3i& t) {
-    return std::min({bin.vertices[t[0]].z(), bin.vertices[t[1]].z(), bin.vertices[t[2]].z()}) > 0.0;
-  };
-  bin.triangles.erase(std::remove_if(bin.triangles.begin(), bin.triangles.end(), is_lid), bin.triangles.end());
-  ASSERT_EQ(bin.triangles.size(), 10u);
-  const SceneDescription description{{body("bin", meshShape(bin)), body("tool", Primitive(Sphere{0.05}))}, {}};
-  const auto scene = build(description, fine(0.02));
-  for (const UnknownSpace unknown : {UnknownSpace::kFree, UnknownSpace::kOccupied}) {
-    VoxelMapOptions options;
-    options.unknown = unknown;
-    const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
-    ASSERT_TRUE(mask);
-    VoxelMap map("map", "world", options);
-    Kept kept;
-    kept.take(map.take(gridOf({{0, 0, 0}, {0, 0, 7}, {7, 0, 0}, {0, 0, -8}, {3, 7, 2}}, options), {*mask}));
-    EXPECT_LT(kept.distance({0.025, 0.025, 0.025}), 0.0) << "in its middle";
-    EXPECT_LT(kept.distance({0.025, 0.025, 0.375}), 0.0) << "in its opening";
-    EXPECT_GT(kept.distance({0.375, 0.025, 0.025}), 0.0) << "a wall";
-    EXPECT_GT(kept.distance({0.025, 0.025, -0.375}), 0.0) << "the floor";
-    EXPECT_GT(kept.distance({0.175, 0.375, 0.125}), 0.0) << "a wall";
-    EXPECT_GT(kept.distance({0.2, 0.2, -0.2}), 0.0) << "unknown space inside";
-  }
-}
-
-/// Far from a surface a field knows only loose bounds of the distance: they hid voxels up to 15 cm from a link.
-TEST(VoxelMap, OnlyWhatIsWithinThePaddingIsHidden) {
-  constexpr double kRing = 0.4, kTube = 0.08;
-  BodyDescription awaited = body("map/awaited", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
-  awaited.map = "map";
-  awaited.failure = "no map yet";
-  awaited.geometry.front().watertight_voxels = true;
-  const SceneDescription description{{body("ring", meshShape(torusMesh(kRing, kTube, 64, 32))), awaited}, {}};
-  for (const double max_error : {0.01, 0.002}) {
-    BodyOptions resolution = fine();
-    resolution.field = FieldOptions();
-    resolution.field.max_error = max_error;
-    const auto scene = build(description, resolution);
-    const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
-    ASSERT_TRUE(mask);
-    const VoxelMapOptions options;
-    const double pad = options.padding + 0.5 * kSize;
-    ASSERT_LT(maskError(*scene), pad);
-    Random random(3);
-    int hidden = 0;
-    for (int i = 0; i < 400; ++i) {
-      const Eigen::Array3i v = (10.0 * uniform(random, 0.0, 1.3) * direction(random).array()).cast<int>();
-      const Vector3d center = kSize * (v.cast<double>() + 0.5).matrix();
-      const double distance = std::hypot(std::hypot(center.x(), center.y()) - kRing, center.z()) - kTube;
-      VoxelMap map("map", "world", options);
-      const VoxelMap::Change change = map.take(gridOf({{v.x(), v.y(), v.z()}}, options), {*mask});
-      constexpr double kChords = 0.001;  // between the ring and its triangles [m]
-      if (std::abs(distance - pad) <= kChords) continue;
-      EXPECT_EQ(change.masked, distance < pad ? 1U : 0U) << center.transpose() << ", " << distance;
-      hidden += int(change.masked);
-    }
-    EXPECT_GT(hidden, 30);
-    VoxelMapOptions unknown;
-    unknown.unknown = UnknownSpace::kOccupied;
-    VoxelMap map("map", "world", unknown);
-    Kept kept;
-    kept.take(map.take(gridOf({{-12, -12, -12}, {12, 12, 12}}, unknown), {*mask}));
-    EXPECT_LT(kept.distance(Vector3d::Constant(0.025)), 0.0) << "unknown space within the ring";
-    EXPECT_GT(kept.distance({kRing, 0.0, 0.0}), 0.0) << "unknown space in the ring's tube";
-  }
 }
 
 TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "monitor/voxel_map.h"
+
+/// Maps of voxels from lists of indices.
+namespace sdf_ccd::test {
+
+constexpr double kSize = 0.05;  // size of a voxel [m]
+constexpr int kMiddle = 32768;
+
+using Voxels = std::set<std::array<int, 3>>;  // counted from the origin
+
+inline VoxelGrid gridOf(const Voxels& voxels, const VoxelMapOptions& options) {
+  VoxelGrid grid(kSize, options);
+  for (const auto& v : voxels) grid.add(Vector3i(kMiddle + v[0], kMiddle + v[1], kMiddle + v[2]), 1, true);
+  return grid;
+}
+
+/// A map maintained from its changes.
+class Kept {
+ public:
+  void take(const VoxelMap::Change& change) {
+    for (const std::string& name : change.removed) ASSERT_EQ(tiles_.erase(name), 1U) << name;
+    for (std::size_t i = 0; i < change.made.size(); ++i) tiles_.insert_or_assign(change.made[i].name, change.fields[i]);
+  }
+  double distance(const Vector3d& p) const {
+    double least = 1e9;
+    for (const auto& [name, field] : tiles_) least = std::min(least, field.sample(p).value);
+    return least;
+  }
+  std::size_t size() const { return tiles_.size(); }
+
+ private:
+  std::map<std::string, DistanceField> tiles_;
+};
+
+}  // namespace sdf_ccd::test
