@@ -4,8 +4,10 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "edge_search.h"
+#include "triangle.h"
 #include "triangle_cut.h"
 
 namespace sdf_ccd {
@@ -73,8 +75,8 @@ Edge edgeOf(const Vector3i& t, int k) {
 /// Seams: flat triangles that lie on other ones, between whose sides they fill the gap.
 ///
 /// A flat triangle is within the tolerance of its longest side, and of the other two together. So it is near the
-/// surface if that side is, or both others are: sides of other triangles, or of seams known already. A needle that
-/// sticks out shares no more than one short side with the surface.
+/// surface if that side is, or both others are: along edges of other triangles, or sides of seams known already. A
+/// needle that sticks out shares no more than one short side with the surface.
 struct Seams {
   std::vector<bool> is_seam;  // per triangle
   double farthest = 0.0;      // distance from the other triangles, at most [m]
@@ -84,30 +86,53 @@ class SeamSearch {
  public:
   SeamSearch(const TriangleMesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance) {
     seams_.is_seam.assign(mesh.triangles.size(), false);
+    is_flat_.resize(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const bool is_flat = isFlat(mesh, i, tolerance);
-      for (int k = 0; k < 3; ++k) {
-        const Edge edge = edgeOf(mesh.triangles[i], k);
-        is_flat ? flat_at_[edge].push_back(i) : offer(edge, 0.0);
-      }
+      is_flat_[i] = isFlat(mesh, i, tolerance);
+      if (!is_flat_[i]) continue;
+      for (int k = 0; k < 3; ++k) flat_at_[edgeOf(mesh.triangles[i], k)].push_back(i);
     }
   }
 
   Seams run() {
-    CancelTicks<256> cancel;
-    for (std::size_t i = 0; i < pending_.size(); ++i) {  // nearest first
-      cancel.check();
-      const auto at = flat_at_.find(pending_[i]);
-      if (at == flat_at_.end()) continue;
-      for (const std::size_t triangle : at->second) test(triangle);
+    if (flat_at_.empty()) return std::move(seams_);
+    const std::vector<Edge> edges = otherEdges();
+    for (const Edge& edge : edges)
+      if (flat_at_.count(edge) > 0) offer(edge, 0.0);
+    spread();
+    std::optional<EdgeSearch> search;  // the other edges may be divided elsewhere
+    for (const auto& [edge, triangles] : flat_at_) {
+      const auto is_open = [&](std::size_t triangle) { return !seams_.is_seam[triangle]; };
+      if (near_.count(edge) > 0 || std::none_of(triangles.begin(), triangles.end(), is_open)) continue;
+      if (!search) search.emplace(mesh_, edges);
+      if (liesAlong(edges, *search, edge)) offer(edge, tolerance_);
     }
+    spread();
     return std::move(seams_);
   }
 
  private:
+  /// Of triangles that are not flat.
+  std::vector<Edge> otherEdges() const {
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+      for (int k = 0; k < 3 && !is_flat_[i]; ++k) edges.push_back(edgeOf(mesh_.triangles[i], k));
+    return edges;
+  }
+
   /// Records that an edge is near the surface.
   void offer(const Edge& edge, double distance) {
     if (near_.emplace(edge, distance).second) pending_.push_back(edge);
+  }
+
+  void spread() {
+    CancelTicks<256> cancel;
+    for (std::size_t i = 0; i < pending_.size(); ++i) {  // nearest first
+      cancel.check();
+      const Edge edge = pending_[i];
+      for (const std::size_t triangle : flat_at_[edge]) test(triangle);
+    }
+    pending_.clear();
   }
 
   void test(std::size_t triangle) {
@@ -131,13 +156,36 @@ class SeamSearch {
     for (const Edge& edge : edges) offer(edge, distance);
   }
 
+  /// Whether all of an edge is within the tolerance of these edges: from one to the next, up to the end.
+  bool liesAlong(const std::vector<Edge>& edges, const EdgeSearch& search, const Edge& edge) const {
+    const Vector3d &a = mesh_.vertices[edge.first], &b = mesh_.vertices[edge.second];
+    const auto within = [&](const Vector3d& p, const Vector3d& q) { return (p - q).norm() <= tolerance_; };
+    std::vector<int> near;
+    Vector3d reached = a;
+    while (true) {
+      search.find(reached, tolerance_, near);
+      Vector3d farthest = reached;
+      for (const int i : near) {
+        const Vector3d &u = mesh_.vertices[edges[i].first], &v = mesh_.vertices[edges[i].second];
+        if (within(b, closestOnSegment(u, v, b))) return true;
+        for (const Vector3d& end : {u, v}) {
+          const Vector3d on = closestOnSegment(a, b, end);
+          if (within(end, on) && (on - a).norm() > (farthest - a).norm()) farthest = on;
+        }
+      }
+      if (farthest == reached) return false;
+      reached = farthest;
+    }
+  }
+
   double length(const Edge& edge) const { return (mesh_.vertices[edge.first] - mesh_.vertices[edge.second]).norm(); }
 
   const TriangleMesh& mesh_;
   double tolerance_;
-  std::map<Edge, std::vector<std::size_t>> flat_at_;
-  std::map<Edge, double> near_;  // edges near the surface, with their distance, at most [m]
-  std::vector<Edge> pending_;    // of these: those whose flat triangles are yet to be tested
+  std::vector<bool> is_flat_;
+  std::map<Edge, std::vector<std::size_t>> flat_at_;  // flat triangles
+  std::map<Edge, double> near_;                       // of these edges, those near the surface: within a distance [m]
+  std::vector<Edge> pending_;                         // of these, those whose triangles are yet to be tested
   Seams seams_;
 };
 
