@@ -196,7 +196,7 @@ std::size_t VoxelGrid::hide(const VoxelMask& mask, TileMap& occupied) const {
       if (!found->second[i] || (seen[i] && mask.only_unknown)) return;
       const double distance = mask.distance(p_M);
       const bool by_surface = mask.surface_distance && (distance > 0.0 || (seen[i] && mask.is_open));
-      if (distance > pad || (by_surface && mask.surface_distance(p_M) > pad)) return;
+      if (distance > pad || (by_surface && mask.surface_distance(p_M, pad) > pad)) return;
       found->second.reset(i);
       ++hidden;
     });

@@ -55,8 +55,9 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
   if (parts.empty()) return std::nullopt;
   VoxelMask mask;
   if (has_fields && hasMesh(description)) {
-    mask.surface_distance = [X_BM, surface = surfaceOf(body, description)](const Vector3d& p_M) {
-      return surface->tree.closestPoint(X_BM * p_M).distance - surface->deviation;
+    mask.surface_distance = [X_BM, surface = surfaceOf(body, description)](const Vector3d& p_M, double limit) {
+      const double farthest = 2.0 * limit + surface->deviation;  // the distance if no triangle is nearer
+      return surface->tree.closestPoint(X_BM * p_M, farthest).distance - surface->deviation;
     };
     mask.is_open = isInsideUncertain(body);
   }

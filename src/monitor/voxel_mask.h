@@ -18,9 +18,9 @@ struct VoxelMask {
   Vector3d center_M = Vector3d::Zero();                 ///< of a ball that contains it, in the map's frame M [m]
   double radius = 0.0;                                  ///< [m]
   std::function<double(const Vector3d& p_M)> distance;  ///< lower bound of the distance to it [m]; must be thread-safe
-  /// The same to its surface alone, and exact: far from a surface `distance` may be far too low. Null if `distance` is
-  /// exact itself.
-  std::function<double(const Vector3d& p_M)> surface_distance;
+  /// The same to its surface alone, and exact up to `limit`, beyond which any larger distance may be returned: far from
+  /// a surface `distance` may be far too low. Null if `distance` is exact itself.
+  std::function<double(const Vector3d& p_M, double limit)> surface_distance;
   bool is_open = false;       ///< what is occupied inside is not ignored: a surface has openings, or may have cavities
   bool only_unknown = false;  ///< ignores only unknown voxels: when the map was made, the solid may have been elsewhere
 };
