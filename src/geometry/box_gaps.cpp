@@ -51,7 +51,7 @@ SDF_CCD_LANES void boxGaps(const BoxTree::Node& node, const PlacedBox& box, cons
   // Along three orthogonal axes, gaps are those of two boxes with faces across these axes, and the distance of such
   // boxes is their root sum of squares.
   Floats along_box[3];  // half extents of the node's boxes along the other box's axes
-  Floats best, squares, squares_of_box = {};
+  Floats best, squares = {}, squares_of_box = {};
   for (int i = 0; i < 3; ++i) {
     Floats reach = half[i];
     for (int j = 0; j < 3; ++j) {
@@ -61,7 +61,7 @@ SDF_CCD_LANES void boxGaps(const BoxTree::Node& node, const PlacedBox& box, cons
     }
     const Floats gap = absolute(axes[i].dot(way)) - absolute(axes[i].dot(moved)) - reach;
     best = i == 0 ? gap : larger(best, gap);
-    squares = i == 0 ? squareIfPositive(gap) : squares + squareIfPositive(gap);
+    squares += squareIfPositive(gap);
   }
   for (int j = 0; j < 3; ++j) {
     const Floats gap = absolute(way.dot(box.axis[j])) - absolute(moved.dot(box.axis[j])) - along_box[j] - box.half[j];
@@ -69,7 +69,7 @@ SDF_CCD_LANES void boxGaps(const BoxTree::Node& node, const PlacedBox& box, cons
     squares_of_box += squareIfPositive(gap);
   }
   const Floats root = squareRoot(larger(squares, squares_of_box));
-  best = root > best ? (root > Floats{} ? root : best) : best;
+  best = root > Floats{} ? root : best;
   Floats reach = absolute(axes[0].dot(direction)) * half[0] + absolute(axes[1].dot(direction)) * half[1] +
                  absolute(axes[2].dot(direction)) * half[2];
   for (int j = 0; j < 3; ++j) {

@@ -78,7 +78,8 @@ Edge edgeOf(const Vector3i& t, int k) {
 /// surface if that side is, or both others are: along edges of other triangles, or sides of seams known already. A
 /// needle that sticks out shares no more than one short side with the surface.
 struct Seams {
-  std::vector<bool> is_seam;  // per triangle
+  std::vector<bool> is_flat;  // per triangle
+  std::vector<bool> is_seam;  // per triangle; these are flat
   double farthest = 0.0;      // distance from the other triangles, at most [m]
 };
 
@@ -86,10 +87,10 @@ class SeamSearch {
  public:
   SeamSearch(const TriangleMesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance) {
     seams_.is_seam.assign(mesh.triangles.size(), false);
-    is_flat_.resize(mesh.triangles.size());
+    seams_.is_flat.resize(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      is_flat_[i] = isFlat(mesh, i, tolerance);
-      if (!is_flat_[i]) continue;
+      seams_.is_flat[i] = isFlat(mesh, i, tolerance);
+      if (!seams_.is_flat[i]) continue;
       for (int k = 0; k < 3; ++k) flat_at_[edgeOf(mesh.triangles[i], k)].push_back(i);
     }
   }
@@ -116,7 +117,7 @@ class SeamSearch {
   std::vector<Edge> otherEdges() const {
     std::vector<Edge> edges;
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-      for (int k = 0; k < 3 && !is_flat_[i]; ++k) edges.push_back(edgeOf(mesh_.triangles[i], k));
+      for (int k = 0; k < 3 && !seams_.is_flat[i]; ++k) edges.push_back(edgeOf(mesh_.triangles[i], k));
     return edges;
   }
 
@@ -129,8 +130,7 @@ class SeamSearch {
     CancelTicks<256> cancel;
     for (std::size_t i = 0; i < pending_.size(); ++i) {  // nearest first
       cancel.check();
-      const Edge edge = pending_[i];
-      for (const std::size_t triangle : flat_at_[edge]) test(triangle);
+      for (const std::size_t triangle : flat_at_.at(pending_[i])) test(triangle);
     }
     pending_.clear();
   }
@@ -182,7 +182,6 @@ class SeamSearch {
 
   const TriangleMesh& mesh_;
   double tolerance_;
-  std::vector<bool> is_flat_;
   std::map<Edge, std::vector<std::size_t>> flat_at_;  // flat triangles
   std::map<Edge, double> near_;                       // of these edges, those near the surface: within a distance [m]
   std::vector<Edge> pending_;                         // of these, those whose triangles are yet to be tested
@@ -241,8 +240,7 @@ ConformingMesh joinedWithin(const TriangleMesh& original, double tolerance) {
   std::vector<std::int32_t> source;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (seams.is_seam[i]) continue;
-    const bool is_needle = isFlat(mesh, i, tolerance);
-    surface.triangles.push_back(is_needle ? original.triangles[i] : mesh.triangles[i]);
+    surface.triangles.push_back(seams.is_flat[i] ? original.triangles[i] : mesh.triangles[i]);
     source.push_back(static_cast<std::int32_t>(i));
   }
   const std::map<Edge, Points> on_edges = verticesOnEdges(surface, tolerance);

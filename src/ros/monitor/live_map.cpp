@@ -148,7 +148,7 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   VoxelMap::Change change;
   editor_.arena().execute([&, cancel = CancelPoint()] {
     const CancelScope scope(cancel);
-    change = map_->take(std::move(grid), masks);
+    change = map_->take(grid, masks);
   });
   for (const std::string& name : change.removed) tiles_.erase(name);
   const std::size_t made = change.made.size();
