@@ -4,11 +4,9 @@
 #include <array>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include "edge_search.h"
-#include "triangle.h"
-#include "triangle_cut.h"
+#include "seams.h"
 
 namespace sdf_ccd {
 namespace {
@@ -62,132 +60,6 @@ double joinVertices(TriangleMesh& mesh, double tolerance) {
   return moved;
 }
 
-/// Whether a corner lies on the opposite side, up to the tolerance.
-bool isFlat(const TriangleMesh& mesh, std::size_t triangle, double tolerance) {
-  const double longest = longestEdge(cornersOf(mesh, static_cast<int>(triangle)));
-  return areaNormal(mesh, static_cast<int>(triangle)).norm() <= tolerance * longest;
-}
-
-Edge edgeOf(const Vector3i& t, int k) {
-  return std::minmax(t[k], t[(k + 1) % 3]);
-}
-
-/// Seams: flat triangles that lie on other ones, between whose sides they fill the gap.
-///
-/// A flat triangle is within the tolerance of its longest side, and of the other two together. So it is near the
-/// surface if that side is, or both others are: along edges of other triangles, or sides of seams known already. A
-/// needle that sticks out shares no more than one short side with the surface.
-struct Seams {
-  std::vector<bool> is_flat;  // per triangle
-  std::vector<bool> is_seam;  // per triangle; these are flat
-  double farthest = 0.0;      // distance from the other triangles, at most [m]
-};
-
-class SeamSearch {
- public:
-  SeamSearch(const TriangleMesh& mesh, double tolerance) : mesh_(mesh), tolerance_(tolerance) {
-    seams_.is_seam.assign(mesh.triangles.size(), false);
-    seams_.is_flat.resize(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      seams_.is_flat[i] = isFlat(mesh, i, tolerance);
-      if (!seams_.is_flat[i]) continue;
-      for (int k = 0; k < 3; ++k) flat_at_[edgeOf(mesh.triangles[i], k)].push_back(i);
-    }
-  }
-
-  Seams run() {
-    if (flat_at_.empty()) return std::move(seams_);
-    const std::vector<Edge> edges = otherEdges();
-    for (const Edge& edge : edges)
-      if (flat_at_.count(edge) > 0) offer(edge, 0.0);
-    spread();
-    std::optional<EdgeSearch> search;  // the other edges may be divided elsewhere
-    for (const auto& [edge, triangles] : flat_at_) {
-      const auto is_open = [&](std::size_t triangle) { return !seams_.is_seam[triangle]; };
-      if (near_.count(edge) > 0 || std::none_of(triangles.begin(), triangles.end(), is_open)) continue;
-      if (!search) search.emplace(mesh_, edges);
-      if (liesAlong(edges, *search, edge)) offer(edge, tolerance_);
-    }
-    spread();
-    return std::move(seams_);
-  }
-
- private:
-  /// Of triangles that are not flat.
-  std::vector<Edge> otherEdges() const {
-    std::vector<Edge> edges;
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-      for (int k = 0; k < 3 && !seams_.is_flat[i]; ++k) edges.push_back(edgeOf(mesh_.triangles[i], k));
-    return edges;
-  }
-
-  /// Records that an edge is near the surface.
-  void offer(const Edge& edge, double distance) {
-    if (near_.emplace(edge, distance).second) pending_.push_back(edge);
-  }
-
-  void spread() {
-    CancelTicks<256> cancel;
-    for (std::size_t i = 0; i < pending_.size(); ++i) {  // nearest first
-      cancel.check();
-      for (const std::size_t triangle : flat_at_.at(pending_[i])) test(triangle);
-    }
-    pending_.clear();
-  }
-
-  void test(std::size_t triangle) {
-    if (seams_.is_seam[triangle]) return;
-    const Vector3i& t = mesh_.triangles[triangle];
-    int longest = 0;
-    for (int k = 1; k < 3; ++k)
-      if (length(edgeOf(t, k)) > length(edgeOf(t, longest))) longest = k;
-    const std::array<Edge, 3> edges = {edgeOf(t, longest), edgeOf(t, (longest + 1) % 3), edgeOf(t, (longest + 2) % 3)};
-    const auto at = [&](int k) { return near_.find(edges[k]); };
-    double distance = 0.0;
-    if (at(0) != near_.end()) {
-      distance = at(0)->second + tolerance_;
-    } else if (at(1) != near_.end() && at(2) != near_.end()) {
-      distance = std::max(at(1)->second, at(2)->second) + tolerance_;
-    } else {
-      return;
-    }
-    seams_.is_seam[triangle] = true;
-    seams_.farthest = std::max(seams_.farthest, distance);
-    for (const Edge& edge : edges) offer(edge, distance);
-  }
-
-  /// Whether all of an edge is within the tolerance of these edges: from one to the next, up to the end.
-  bool liesAlong(const std::vector<Edge>& edges, const EdgeSearch& search, const Edge& edge) const {
-    const Vector3d &a = mesh_.vertices[edge.first], &b = mesh_.vertices[edge.second];
-    const auto within = [&](const Vector3d& p, const Vector3d& q) { return (p - q).norm() <= tolerance_; };
-    std::vector<int> near;
-    Vector3d reached = a;
-    while (true) {
-      search.find(reached, tolerance_, near);
-      Vector3d farthest = reached;
-      for (const int i : near) {
-        const Vector3d &u = mesh_.vertices[edges[i].first], &v = mesh_.vertices[edges[i].second];
-        if (within(b, closestOnSegment(u, v, b))) return true;
-        for (const Vector3d& end : {u, v}) {
-          const Vector3d on = closestOnSegment(a, b, end);
-          if (within(end, on) && (on - a).norm() > (farthest - a).norm()) farthest = on;
-        }
-      }
-      if (farthest == reached) return false;
-      reached = farthest;
-    }
-  }
-
-  double length(const Edge& edge) const { return (mesh_.vertices[edge.first] - mesh_.vertices[edge.second]).norm(); }
-
-  const TriangleMesh& mesh_;
-  double tolerance_;
-  std::map<Edge, std::vector<std::size_t>> flat_at_;  // flat triangles
-  std::map<Edge, double> near_;                       // of these edges, those near the surface: within a distance [m]
-  std::vector<Edge> pending_;                         // of these, those whose triangles are yet to be tested
-  Seams seams_;
-};
-
 /// Per edge, the vertices on it from its lower end to the higher one.
 std::map<Edge, Points> verticesOnEdges(const TriangleMesh& mesh, double tolerance) {
   constexpr std::size_t kMaxPerEdge = 16;  // on average; more are not a tessellation but noise
@@ -233,7 +105,7 @@ ConformingMesh joinedWithin(const TriangleMesh& original, double tolerance) {
   TriangleMesh mesh = original;
   result.moved = joinVertices(mesh, tolerance) + tolerance;  // a side bends to a vertex near it
   result.mesh.vertices = mesh.vertices;
-  const Seams seams = SeamSearch(mesh, tolerance).run();
+  const Seams seams = findSeams(mesh, tolerance);
   result.moved += seams.farthest;
   TriangleMesh surface;
   surface.vertices = mesh.vertices;
