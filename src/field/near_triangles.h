@@ -1,55 +1,16 @@
 #pragma once
 
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <memory>
-#include <vector>
 
-#include "../geometry/triangle_lanes.h"
 #include "field/uniform/sparse_grid.h"
-#include "geometry/triangle.h"
-#include "signed_surface.h"
+#include "surface_index.h"
 
 namespace sdf_ccd {
 
-/// The boundary of a mesh's solid, prepared for many queries in small regions of space.
-class SurfaceIndex {
- public:
-  explicit SurfaceIndex(const TriangleMesh& mesh) : SurfaceIndex(Solid(mesh)) {}
-  explicit SurfaceIndex(Solid solid);
-
-  /// A triangle's contribution to the sign of the distance.
-  struct Face {
-    Vector3d normal;  ///< of length one
-    bool separates;   ///< see Solid::separates()
-    bool sliver;
-  };
-
-  const SignedSurface& exact() const { return exact_; }
-  /// The largest squared distance that ties with this one, as those of triangles with a common closest edge do.
-  double tie2(double closest2) const {
-    const double closest = std::sqrt(closest2) + exact_.solid().seam();
-    return closest * closest * (1.0 + kTie);
-  }
-  const MeasuredTriangle& triangle(int i) const { return triangles_[static_cast<std::size_t>(i)]; }
-  const Face& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
-
-  /// As the functions of triangle_lanes.h, but for slivers too.
-  void offer(int i, const Vector3d& axis, const PointLanes& points, ClosestLanes& closest) const;
-  void ways(int i, const PointLanes& points, DisplacementLanes& ways) const;
-
- private:
-  /// Relative rounding of squared distances, which is largest for slivers. A false tie costs little: if the triangles
-  /// then disagree about the sign, the centre's sign decides.
-  static constexpr double kTie = 1e-9;
-
-  SignedSurface exact_;
-  std::vector<MeasuredTriangle> triangles_;
-  std::vector<Face> faces_;
-  std::vector<FlatTriangle> flat_;
-};
+/// Upper bound of the rounding of a distance from triangles near a cube, relative to it and the cube's size.
+constexpr double kDistanceRounding = 1e-9;
 
 /// A cube of space.
 struct SpaceCube {
@@ -150,59 +111,6 @@ class DistanceWriter {
   PointLanes points_;
   std::array<int, PointLanes::kCount> indices_;
   int count_ = 0;
-};
-
-/// The triangles near a cube, from a search over all triangles.
-class NearCube {
- public:
-  /// @param nearest  the triangle nearest to the cube's centre, and its distance.
-  NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const SignedSurface::Nearest& nearest);
-
-  const NearTriangles& near() const { return near_; }
-
- private:
-  std::vector<std::int32_t> ids_;
-  NearTriangles near_;
-};
-
-/// The triangles near each octant of a cube; octants are ordered like corners. A list is made when it is first needed.
-class NearOctants {
- public:
-  explicit NearOctants(const NearTriangles& around);
-  NearOctants(const NearOctants&) = delete;
-  NearOctants& operator=(const NearOctants&) = delete;
-
-  /// Signed distance at the octant's centre [m].
-  double centerDistance(int k) const { return distances_[k]; }
-  SignedSurface::Nearest nearest(int k) const { return {distances_[k], nearest_[k]}; }
-
-  const NearTriangles& operator[](int k);
-
- private:
-  int sign(int k, std::size_t nearest) const;
-
-  /// Memory for `per_triangle` elements for each triangle; inline if there are few triangles, which is usual.
-  template <class T, std::size_t per_triangle>
-  class Room {
-   public:
-    explicit Room(std::size_t triangles) : many_(triangles > kFew ? new T[triangles * per_triangle] : nullptr) {}
-
-    T* get() { return many_ ? many_.get() : few_.data(); }
-    const T* get() const { return many_ ? many_.get() : few_.data(); }
-
-   private:
-    static constexpr std::size_t kFew = 12;
-
-    std::array<T, kFew * per_triangle> few_;
-    std::unique_ptr<T[]> many_;
-  };
-
-  const NearTriangles& around_;
-  Room<DisplacementLanes, 1> ways_;      ///< per triangle: displacements from it to the octants' centres
-  Room<std::int32_t, 8> ids_;            ///< per octant: a list with room for all triangles
-  std::array<std::int32_t, 8> nearest_;  ///< the triangle nearest to each octant's centre
-  std::array<double, 8> distances_;
-  std::array<NearTriangles, 8> near_;
 };
 
 }  // namespace sdf_ccd

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "field/near_octants.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 

@@ -9,7 +9,7 @@
 #include "cell_fit.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/cube_corner.h"
-#include "field/near_triangles.h"
+#include "field/near_octants.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -7,7 +7,7 @@
 #include "field/adaptive/adaptive_grid.h"
 #include "field/cube_corner.h"
 #include "field/gradient_bound.h"
-#include "field/near_triangles.h"
+#include "field/near_octants.h"
 
 namespace sdf_ccd {
 

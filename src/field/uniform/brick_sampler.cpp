@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "field/cube_corner.h"
+#include "field/near_octants.h"
 
 namespace sdf_ccd {
 
