@@ -216,6 +216,12 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
 
 }  // namespace
 
+bool hasMesh(const BodyDescription& body) {
+  return std::any_of(body.geometry.begin(), body.geometry.end(), [](const GeometryDescription& geometry) {
+    return !std::holds_alternative<Primitive>(geometry.shape);
+  });
+}
+
 std::string whyNoShell(const BodyDescription& body) {
   for (const GeometryDescription& geometry : body.geometry) {
     if (geometry.watertight_voxels) return "a voxel map is only a field";

@@ -9,6 +9,9 @@
 
 namespace sdf_ccd {
 
+/// Whether its geometry is not primitives alone.
+bool hasMesh(const BodyDescription& body);
+
 /// Parts of a body to build.
 struct BodyNeeds {
   bool field = true;

@@ -13,7 +13,7 @@
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "surface_crossing.h"
-#include "voxel_mask.h"
+#include "surface_needs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -125,16 +125,12 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     bodies.push_back(std::move(built.body));
     scene.reports.push_back(std::move(built.report));
   }
-  const auto addSurface = [&](std::size_t i) {
+  const std::vector<bool> surfaces =
+      needSurface(description, scene.pairs, [&](int b) { return isInsideUncertain(bodies[b]); });
+  for (std::size_t i = 0; i < count; ++i) {
     Body& body = bodies[i];
-    if (body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
-  };
-  for (const PlannedPair& pair : scene.pairs) {
-    if (!isInsideUncertain(bodies[pair.body_a]) && !isInsideUncertain(bodies[pair.body_b])) continue;
-    for (const int i : {pair.body_a, pair.body_b}) addSurface(static_cast<std::size_t>(i));
+    if (surfaces[i] && body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
   }
-  for (std::size_t i = 0; i < count; ++i)
-    if (hidesVoxels(description, i)) addSurface(i);
   makeTriangles(description, scene.pairs, *pool, bodies);
   shareWarnings(scene);
   scene.bodies = BodyList(std::move(bodies));

@@ -24,12 +24,6 @@ struct MaskPart {
   }
 };
 
-bool hasMesh(const BodyDescription& description) {
-  return std::any_of(description.geometry.begin(), description.geometry.end(), [](const GeometryDescription& geometry) {
-    return !std::holds_alternative<Primitive>(geometry.shape);
-  });
-}
-
 /// The body's surface; made anew if it was prepared without.
 std::shared_ptr<const BodySurface> surfaceOf(const Body& body, const BodyDescription& description) {
   if (body.surface) return body.surface;
@@ -69,12 +63,6 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
     return nearest;
   };
   return mask;
-}
-
-bool hidesVoxels(const SceneDescription& description, std::size_t body) {
-  const std::vector<BodyDescription>& bodies = description.bodies;
-  if (bodies[body].is_world || !hasMesh(bodies[body])) return false;
-  return std::any_of(bodies.begin(), bodies.end(), [](const BodyDescription& other) { return !other.map.empty(); });
 }
 
 double maskError(const Scene& scene) {

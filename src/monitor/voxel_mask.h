@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <optional>
 
@@ -11,7 +10,6 @@ namespace sdf_ccd {
 struct Body;
 struct BodyDescription;
 struct Scene;
-struct SceneDescription;
 
 /// A solid whose voxels are ignored: one of the robot's own links.
 struct VoxelMask {
@@ -26,13 +24,9 @@ struct VoxelMask {
 };
 
 /// The part of a map that a body fills, as a mask. Empty if the body has no bounded geometry whose distance is known.
-/// @param body  a mesh's surface is made here if the body has none: see hidesVoxels().
+/// @param body  a mesh's surface is made here if the body has none: see needSurface().
 /// @param X_BM  pose of the map's frame in the body's. The mask refers to `body` and `description`.
 std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& description, const Isometry3d& X_BM);
-
-/// Whether voxels of a map are ignored where the meshes of this body are, whose surface should then be prepared: a
-/// link, or an attached object, beside a map.
-bool hidesVoxels(const SceneDescription& description, std::size_t body);
 
 /// Masks of the scene's links hide voxels up to this distance, if the padding is smaller [m]: twice the fields' error,
 /// within which they cannot tell the inside from the outside.

@@ -14,7 +14,7 @@
 #include "scene_totals.h"
 #include "sdf_ccd/common/cancel.h"
 #include "surface_crossing.h"
-#include "voxel_mask.h"
+#include "surface_needs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -220,17 +220,12 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   for (std::size_t b = 0; b < count; ++b) prepare(b);
   for (std::size_t b = 0; b < count; ++b) prepare(b);  // a body of equal geometry may have replaced one since
   const auto isOpen = [&](int b) { return prepared[b] && isInsideUncertain(*prepared[b]->body); };
-  const auto addSurface = [&](std::size_t b) {
-    if (!prepared[b] || needs[b].surface) return;
+  const std::vector<bool> surfaces = needSurface(description, plan.pairs, isOpen);
+  for (std::size_t b = 0; b < count; ++b) {
+    if (!surfaces[b] || !prepared[b] || needs[b].surface) continue;
     needs[b].surface = true;
     prepare(b);
-  };
-  for (const PlannedPair& pair : plan.pairs) {
-    if (!isOpen(pair.body_a) && !isOpen(pair.body_b)) continue;
-    for (const int b : {pair.body_a, pair.body_b}) addSurface(static_cast<std::size_t>(b));
   }
-  for (std::size_t b = 0; b < count; ++b)
-    if (hidesVoxels(description, b)) addSurface(b);
 
   Scene scene;
   scene.max_error = impl_->options.max_error;
