@@ -1,41 +1,39 @@
 #include "body_twists.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "motion/two_body_motion.h"
 #include "pose_rounding.h"
+#include "twist_lanes.h"
 
 namespace sdf_ccd {
 
 namespace {
 
-/// 1 + 2 cos(1/8), rounded up: the trace of a rotation by 1/8 rad.
-constexpr double kTrace = 2.9845;
-
 /// Factor that makes a double's rounding to float an upper bound of it; leaves room for a few more roundings.
 constexpr double kUp = 1.0 + 0x1p-22;
 
 /// Relative error of a scan in single precision, for a body's rotation (times a distance) and for its velocity:
-/// scanPairs() needs 15 u and 7 u with u = 2^-24, and the series of Twist::small() 6 u more.
+/// scanPairs() needs 15 u and 7 u with u = 2^-24, and the series of computeTwists() 6 u more.
 constexpr double kNoise = 0x1p-19;  // 32 u
 
 /// Lengths below this have squares that underflow in single precision.
 constexpr double kMin = 1e-18;  // [m]
 
+using Bits __attribute__((vector_size(32))) = std::int64_t;
+using BitsInMemory __attribute__((vector_size(32), aligned(8), may_alias)) = std::int64_t;
+
 /// Bitwise equality.
-bool same(const Isometry3d& a, const Isometry3d& b) {
-  const auto bits = [](const Isometry3d& X, int i) {
-    std::uint64_t value;
-    std::memcpy(&value, X.data() + i, sizeof value);
-    return value;
-  };
-  std::uint64_t differ = 0;
-  for (int i = 0; i < 16; ++i) differ |= bits(a, i) ^ bits(b, i);
-  return differ == 0;
+SDF_CCD_INLINE bool same(const Isometry3d& a, const Isometry3d& b) {
+  Bits differ{};
+  for (int i = 0; i < 16; i += 4)
+    differ |=
+        *reinterpret_cast<const BitsInMemory*>(a.data() + i) ^ *reinterpret_cast<const BitsInMemory*>(b.data() + i);
+  return (differ[0] | differ[1] | differ[2] | differ[3]) == 0;
 }
 
 /// Upper bound of the norm, without a square root.
@@ -43,21 +41,9 @@ double normUpperBound(const Vector3d& v) {
   return v.lpNorm<1>();
 }
 
-/// Upper bound of poseDefect(), without a square root.
-double defectUpperBound(const Isometry3d& X_WB) {
-  const auto column = [&](int k) { return X_WB.matrix().col(k).head<3>(); };
-  const auto product = [&](int i, int k) { return std::abs(column(i).dot(column(k)) - (i == k ? 1.0 : 0.0)); };
-  return product(0, 0) + product(1, 1) + product(2, 2) + 2.0 * (product(0, 1) + product(1, 2) + product(2, 0)) +
-         kPoseRoundings * kPoseEpsilon;
-}
-
 }  // namespace
 
 /// Motion over a step, in double precision.
-///
-/// Let θ = |ω| and Δ the displacement of the ball's centre, with parts Δ_∥ along the axis and Δ_⊥ across it.
-/// The centre moves on an arc of radius ρ and angle θ with the chord |Δ_⊥| = 2 ρ sin(θ/2). The chord's middle m
-/// is ρ cos(θ/2) from the axis, so its velocity is Δ_∥ + (θ/2) cot(θ/2) Δ_⊥.
 struct BodyTwists::Twist {
   Vector3d omega = Vector3d::Zero(), velocity = Vector3d::Zero(), point_W = Vector3d::Zero();
   double reach = 0.0;        // as TwistRow::kReach
@@ -65,22 +51,14 @@ struct BodyTwists::Twist {
   double turn_noise = 0.0;   // error of the rotation, from the poses
   double shift_noise = 0.0;  // error of the displacement, from the rounding of coordinates
 
-  /// By series, for θ < 1/8, so that sin²θ < 0.0156.
-  ///
-  /// θ / sin θ = asin(s)/s = 1 + s²/6 + 3 s⁴/40 + 5 s⁶/112 + …; the relative error of truncation is below
-  /// 2e-9.
-  ///  (θ/2) cot(θ/2) = 1 − θ²/12 − θ⁴/720 − …; the truncated terms are below 4e-7 of Δ_⊥, and θ²
-  /// Δ_⊥ = −ω × (ω × Δ).
-  ///  The arc's middle is ρ (1 − cos(θ/2)) = ½ |Δ_⊥| tan(θ/4) < 0.016 |Δ| from m, and the centre's mean
+  /// For θ < 1/8. The arc's middle is ρ (1 − cos(θ/2)) = ½ |Δ_⊥| tan(θ/4) < 0.016 |Δ| from m, and the centre's mean
   /// distance from the arc's middle is at most a quarter of its path, which is at most 1.0007 |Δ| long.
-  static Twist small(const Vector3d& half_cross, const Vector3d& start, const Vector3d& end, double radius) {
-    const double s2 = half_cross.squaredNorm();
-    const Vector3d shift = end - start;
+  static Twist small(const TwistLanes& twists, std::size_t lane, double radius) {
     Twist twist;
-    twist.omega = (1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0 + s2 * (5.0 / 112.0)))) * half_cross;
-    twist.velocity = shift + (1.0 / 12.0) * twist.omega.cross(twist.omega.cross(shift));
-    twist.point_W = 0.5 * (start + end);
-    twist.shift = shift.norm();
+    twist.omega = TwistLanes::at(twists.omega, lane);
+    twist.velocity = TwistLanes::at(twists.velocity, lane);
+    twist.point_W = TwistLanes::at(twists.point_W, lane);
+    twist.shift = twists.shift[lane];
     twist.reach = radius + 0.27 * twist.shift;
     return twist;
   }
@@ -100,8 +78,7 @@ struct BodyTwists::Twist {
 
 BodyTwists::BodyTwists(const Scene& scene)
     : scene_(scene),
-      stride_((scene.bodies.size() + kTwistLanes - 1) / kTwistLanes * kTwistLanes),
-      rows_(stride_ * static_cast<std::size_t>(TwistRow::kCount), 0.0F),
+      rows_((scene.bodies.size() + kTwistLanes - 1) / kTwistLanes * kTwistBlock, 0.0F),
       bodies_(scene.bodies.size()),
       is_open_(scene.bodies.size(), 0) {
   std::vector<int> pairs(scene.bodies.size(), 0);
@@ -114,6 +91,7 @@ BodyTwists::BodyTwists(const Scene& scene)
     if (paired_.empty() || pairs[b] > pairs[anchor_]) anchor_ = b;
     paired_.push_back(b);
   }
+  moving_.reserve(paired_.size());
 }
 
 void BodyTwists::forget() {
@@ -129,9 +107,17 @@ void BodyTwists::take(const BodyTwists& other, const std::vector<BodyRun>& bodie
   for (const BodyRun& run : bodies) {
     std::copy_n(other.bodies_.begin() + static_cast<std::ptrdiff_t>(run.from), run.count,
                 bodies_.begin() + static_cast<std::ptrdiff_t>(run.to));
-    for (int row = 0; row < static_cast<int>(TwistRow::kCount); ++row) {
-      const float* from = other.row(static_cast<TwistRow>(row));
-      std::copy_n(from + run.from, run.count, &at(static_cast<TwistRow>(row), run.to));
+    for (std::size_t i = 0; i < run.count;) {
+      const float* from = other.rows_.data() + twistOffset(run.from + i);
+      float* to = rows_.data() + twistOffset(run.to + i);
+      const bool is_block = (run.from + i) % kTwistLanes == 0 && (run.to + i) % kTwistLanes == 0;
+      if (is_block && run.count - i >= kTwistLanes) {
+        std::copy_n(from, kTwistBlock, to);
+        i += kTwistLanes;
+      } else {
+        for (std::size_t row = 0; row < kTwistBlock; row += kTwistLanes) to[row] = from[row];
+        ++i;
+      }
     }
   }
 }
@@ -153,7 +139,7 @@ void BodyTwists::lose(std::size_t b) {
   bodies_[b].is_followed = bodies_[b].rests = false;
 }
 
-void BodyTwists::begin(const CycleMotion& motion, const std::vector<char>& is_whole) {
+SDF_CCD_LANES void BodyTwists::begin(const CycleMotion& motion, const std::vector<char>& is_whole) {
   for (const std::size_t b : paired_) {
     Followed& body = bodies_[b];
     const bool is_there = is_whole[b] && (motion.missing.empty() || motion.missing[b].empty());
@@ -164,28 +150,32 @@ void BodyTwists::begin(const CycleMotion& motion, const std::vector<char>& is_wh
     }
     body.is_followed = true;
     const double motion_error = motion.motion_error.empty() ? 0.0 : motion.motion_error[b];
-    const bool same_error = motion_error == body.motion_error;
-    if (body.rests && same_error && same(motion.pose(b, 1), body.X_WB)) continue;
+    const bool stays = same(motion.pose(b, 1), body.X_WB);
+    if (stays && body.rests && motion_error == body.motion_error) continue;
     body.rests = false;
     body.motion_error = motion_error;
     body.tilt = body.defect;
     body.rounding = poseRounding(body.X_WB);
     body.farthest = 0.0;
-    step(b, motion.pose(b, 1));
+    if (stays) {
+      rest(b);
+    } else {
+      moving_.push_back(b);
+    }
   }
+  move(motion, 0);
 }
 
-void BodyTwists::step(const CycleMotion& motion, std::size_t k) {
-  for (const std::size_t b : paired_)
-    if (bodies_[b].is_followed) step(b, motion.pose(b, k + 1));
-}
-
-void BodyTwists::step(std::size_t b, const Isometry3d& X_WB) {
-  if (same(X_WB, bodies_[b].X_WB)) {
-    rest(b);
-  } else {
-    move(b, X_WB);
+SDF_CCD_LANES void BodyTwists::step(const CycleMotion& motion, std::size_t k) {
+  for (const std::size_t b : paired_) {
+    if (!bodies_[b].is_followed) continue;
+    if (same(motion.pose(b, k + 1), bodies_[b].X_WB)) {
+      rest(b);
+    } else {
+      moving_.push_back(b);
+    }
   }
+  move(motion, k);
 }
 
 void BodyTwists::end(const CycleMotion& motion, const std::vector<char>& is_whole) {
@@ -211,16 +201,23 @@ void BodyTwists::chooseOrigin() {
 }
 
 /// Sets the pose of a body. @return whether it can be followed.
-bool BodyTwists::enter(std::size_t b, const Isometry3d& X_WB) {
+bool BodyTwists::enter(std::size_t b, const Isometry3d& X_WB, const TwistLanes& twists, std::size_t lane) {
   Followed& body = bodies_[b];
   constexpr double kDefect = 0.9e-6;  // ScrewMotion takes a little more
   body.X_WB = X_WB;
-  body.center_W = X_WB * scene_.bodies[b].ball.center;
-  body.defect = defectUpperBound(X_WB);
+  body.center_W = TwistLanes::at(twists.center_W, lane);
+  body.defect = twists.defect[lane] + kPoseRoundings * kPoseEpsilon;
   // False for NaN too, which makes the centre NaN. end() excludes reflections, where a body is not yet followed.
   body.is_known = body.defect < kDefect && X_WB.translation().cwiseAbs().maxCoeff() <= kFarthestPose &&
                   normUpperBound(body.center_W) < std::numeric_limits<double>::infinity();
   return body.is_known;
+}
+
+bool BodyTwists::enter(std::size_t b, const Isometry3d& X_WB) {
+  const BodyStep stays{&X_WB, &X_WB, &scene_.bodies[b].ball};
+  TwistLanes twists;
+  computeTwists({stays, stays, stays, stays}, twists);
+  return enter(b, X_WB, twists, 0);
 }
 
 void BodyTwists::rest(std::size_t b) {
@@ -234,21 +231,33 @@ void BodyTwists::rest(std::size_t b) {
   body.rests = true;  // farthest, tilt and rounding of an earlier step remain, which are not smaller
 }
 
-void BodyTwists::move(std::size_t b, const Isometry3d& X_WB) {
+/// Moves the bodies in `moving_` over the step from time k to time k + 1.
+void BodyTwists::move(const CycleMotion& motion, std::size_t k) {
+  TwistLanes twists;
+  std::array<BodyStep, TwistLanes::kCount> steps;
+  for (std::size_t first = 0; first < moving_.size(); first += steps.size()) {
+    const std::size_t count = std::min(steps.size(), moving_.size() - first);
+    for (std::size_t lane = 0; lane < steps.size(); ++lane) {
+      const std::size_t b = moving_[first + std::min(lane, count - 1)];
+      steps[lane] = {&bodies_[b].X_WB, &motion.pose(b, k + 1), &scene_.bodies[b].ball};
+    }
+    computeTwists(steps, twists);
+    for (std::size_t lane = 0; lane < count; ++lane) move(moving_[first + lane], *steps[lane].end, twists, lane);
+  }
+  moving_.clear();
+}
+
+void BodyTwists::move(std::size_t b, const Isometry3d& X_WB, const TwistLanes& twists, std::size_t lane) {
   Followed& body = bodies_[b];
   const BoundingBall& ball = scene_.bodies[b].ball;
-  const Isometry3d X_start = body.X_WB;
-  const Vector3d start = body.center_W;
   body.rests = false;
-  if (!enter(b, X_WB)) return lose(b);
-
-  const auto R = X_start.linear(), Q = X_WB.linear();
-  Vector3d cross = Vector3d::Zero();  // 2 sin θ along the axis
-  for (int k = 0; k < 3; ++k) cross += R.col(k).cross(Q.col(k));
   Twist twist;
-  if (R.cwiseProduct(Q).sum() > kTrace) {
-    twist = Twist::small(0.5 * cross, start, body.center_W, ball.radius);
+  if (twists.trace[lane] > TwistLanes::kTrace) {
+    twist = Twist::small(twists, lane, ball.radius);
+    if (!enter(b, X_WB, twists, lane)) return lose(b);
   } else {
+    const Isometry3d X_start = body.X_WB;
+    if (!enter(b, X_WB, twists, lane)) return lose(b);
     try {
       twist = Twist::large(X_start, X_WB, ball);
     } catch (const std::exception&) {
@@ -258,8 +267,7 @@ void BodyTwists::move(std::size_t b, const Isometry3d& X_WB) {
   body.tilt = std::max(body.tilt, body.defect);
   body.rounding = std::max(body.rounding, poseRounding(X_WB));
   twist.turn_noise = 16.0 * body.tilt;  // bound for cross products of rotations that are not exactly orthonormal
-  twist.shift_noise = 0x1p-48 * (normUpperBound(X_start.translation()) + normUpperBound(X_WB.translation()) +
-                                 normUpperBound(ball.center));
+  twist.shift_noise = 0x1p-48 * twists.coordinates[lane];
   write(b, twist);
 }
 
@@ -292,9 +300,11 @@ const Isometry3d& BodyTwists::last(const CycleMotion& motion, int body) const {
 }
 
 double BodyTwists::poseError(int body_a, int body_b) const {
-  const auto sum = [&](TwistRow which) {
-    const float* values = row(which);
-    return double(values[body_a]) + double(values[body_b]);
+  const float* a = rows() + twistOffset(static_cast<std::size_t>(body_a));
+  const float* b = rows() + twistOffset(static_cast<std::size_t>(body_b));
+  const auto sum = [&](TwistRow row) {
+    const std::size_t at = static_cast<std::size_t>(row) * kTwistLanes;
+    return double(a[at]) + double(b[at]);
   };
   return sum(TwistRow::kTilt) * sum(TwistRow::kFarthest) + sum(TwistRow::kError);
 }

@@ -26,8 +26,16 @@ enum class TwistRow {
   kCount
 };
 
-/// The number of bodies in a row is padded to a multiple of this.
+/// So many bodies with consecutive indices are stored together: the values of a row, then those of the next row.
 constexpr std::size_t kTwistLanes = lanes::kFloatWidth;
+constexpr std::size_t kTwistBlock = kTwistLanes * static_cast<std::size_t>(TwistRow::kCount);
+
+/// Where a body's first row is in BodyTwists::rows(); the others follow at distances of kTwistLanes.
+constexpr std::size_t twistOffset(std::size_t body) {
+  return body / kTwistLanes * kTwistBlock + body % kTwistLanes;
+}
+
+struct TwistLanes;
 
 /// Bodies with consecutive indices in two scenes.
 struct BodyRun {
@@ -63,9 +71,8 @@ class BodyTwists {
   /// the index `other_body`; infinite if one of the poses is not known.
   double displacement(int body, const BodyTwists& other, int other_body) const;
 
-  /// One value per body; stride() values.
-  const float* row(TwistRow row) const { return rows_.data() + static_cast<std::size_t>(row) * stride_; }
-  std::size_t stride() const { return stride_; }
+  /// The values of all bodies: see twistOffset().
+  const float* rows() const { return rows_.data(); }
 
   /// The pose of a body at the end of the last cycle, if that was whole. Valid between begin() and end().
   const Isometry3d& last(const CycleMotion& motion, int body) const;
@@ -90,21 +97,22 @@ class BodyTwists {
   struct Twist;
 
   bool enter(std::size_t body, const Isometry3d& X_WB);
-  void step(std::size_t body, const Isometry3d& X_WB);
+  bool enter(std::size_t body, const Isometry3d& X_WB, const TwistLanes& twists, std::size_t lane);
   void rest(std::size_t body);
-  void move(std::size_t body, const Isometry3d& X_WB);
+  void move(const CycleMotion& motion, std::size_t k);
+  void move(std::size_t body, const Isometry3d& X_WB, const TwistLanes& twists, std::size_t lane);
   void write(std::size_t body, const Twist& twist);
   void lose(std::size_t body);
   void chooseOrigin();
   float& at(TwistRow row, std::size_t body, int offset = 0) {
-    return rows_[(static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * stride_ + body];
+    return rows_[twistOffset(body) + (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * kTwistLanes];
   }
 
   const Scene& scene_;
-  std::size_t stride_;
   std::vector<float> rows_;
   std::vector<Followed> bodies_;
   std::vector<std::size_t> paired_;     // bodies with pairs that can be checked
+  std::vector<std::size_t> moving_;     // of these, those that move in the step
   std::vector<char> is_open_;           // per body: its ball does not contain it
   std::size_t anchor_ = 0;              // the body with most pairs
   Vector3d origin_ = Vector3d::Zero();  // [m]

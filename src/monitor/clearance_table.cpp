@@ -32,15 +32,17 @@ struct Vector {
 
 /// The rows of one body, broadcast to all lanes, or of consecutive bodies.
 struct Rows {
-  const float* base;
-  std::size_t stride;
+  const float* first;
 
   SDF_CCD_INLINE const float* at(TwistRow row, int offset) const {
-    return base + (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * stride;
+    return first + (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * kTwistLanes;
   }
 };
 struct OneBody : Rows {
-  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return Floats{} + *at(row, offset); }
+  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const {
+    const float value = *at(row, offset);
+    return Floats{value, value, value, value, value, value, value, value};  // 0 + value takes an addition: −0
+  }
 };
 struct BodiesInRow : Rows {
   SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return load(at(row, offset)); }
@@ -86,12 +88,12 @@ SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
 }
 
 using Ints = decltype(Floats{} < Floats{});
+using Pairs __attribute__((vector_size(sizeof(Ints)))) = std::int64_t;  // of lanes
 
 /// Arrays of a scan, in the order of the blocks.
 struct ScanArrays {
   const float* rows;
-  std::size_t stride;
-  const std::int32_t* blocks;  // two numbers each: Block::body_a, Block::first_b
+  const std::int32_t* blocks;  // two numbers each: Block::rows_a, Block::rows_b
   std::size_t count;
   float* budget;
   float* spent;
@@ -102,8 +104,8 @@ struct ScanArrays {
 SDF_CCD_LANES
 void addTravel(const ScanArrays& s) {
   for (std::size_t i = 0; i < s.count; ++i) {
-    const OneBody a{{s.rows + s.blocks[2 * i], s.stride}};
-    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1], s.stride}};
+    const OneBody a{{s.rows + s.blocks[2 * i]}};
+    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1]}};
     const std::size_t at = i * kTwistLanes;
     store((load(s.spent + at) + travelOf(a, b)) * kUp, s.spent + at);
   }
@@ -118,8 +120,8 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
   const Floats zero = {};
   std::size_t found = 0;
   for (std::size_t i = 0; i < s.count; ++i) {
-    const OneBody a{{s.rows + s.blocks[2 * i], s.stride}};
-    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1], s.stride}};
+    const OneBody a{{s.rows + s.blocks[2 * i]}};
+    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1]}};
     const std::size_t at = i * kTwistLanes;
     const Floats budget = load(s.budget + at);
     Floats travel = travelOf(a, b);
@@ -135,10 +137,9 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     const Ints is_more = bound > best;
     best = is_more ? bound : best;
     best_block = is_more ? Ints{} + static_cast<std::int32_t>(i) : best_block;
-    std::int32_t quiet_lanes = 0;
-    for (int lane = 0; lane < kFloatWidth; ++lane) quiet_lanes += is_quiet[lane];
+    const Pairs quiet = Pairs(is_quiet);  // a lane is −1 if true
     due_blocks[found] = i;
-    found += quiet_lanes != -kFloatWidth;
+    found += (quiet[0] & quiet[1] & quiet[2] & quiet[3]) != -1;
   }
   *due_count = found;
   SkippedPairs quiet;
@@ -164,7 +165,10 @@ ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(
     const int a = pairs[i].body_a, b = pairs[i].body_b, first_b = b / kLanes * kLanes;
     const auto [block, is_new] = known.emplace(std::pair(a, first_b), blocks_.size());
     if (is_new) {
-      blocks_.push_back({a, first_b});
+      const auto rowsOf = [](int body) {
+        return static_cast<std::int32_t>(twistOffset(static_cast<std::size_t>(body)));
+      };
+      blocks_.push_back({rowsOf(a), rowsOf(first_b)});
       pairs_.resize(kTwistLanes * blocks_.size(), -1);
     }
     const std::size_t slot = kTwistLanes * block->second + static_cast<std::size_t>(b - first_b);
@@ -201,16 +205,16 @@ void ClearanceTable::forget() {
 }
 
 void ClearanceTable::advance(const BodyTwists& bodies) {
-  addTravel({bodies.row(TwistRow::kOmega), bodies.stride(), &blocks_.data()->body_a, blocks_.size(), budget_.data(),
-             spent_.data(), slack_.data(), error_.data()});
+  addTravel({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(), slack_.data(),
+             error_.data()});
   has_spent_ = true;
 }
 
 SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePair>& due) {
   due.clear();
   std::size_t count = 0;
-  SkippedPairs quiet = scanPairs({bodies.row(TwistRow::kOmega), bodies.stride(), &blocks_.data()->body_a,
-                                  blocks_.size(), budget_.data(), spent_.data(), slack_.data(), error_.data()},
+  SkippedPairs quiet = scanPairs({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(),
+                                  slack_.data(), error_.data()},
                                  has_spent_, due_blocks_.data(), &count);
   if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
   has_spent_ = false;

@@ -78,8 +78,8 @@ class ClearanceTable {
 
  private:
   struct Block {
-    std::int32_t body_a;
-    std::int32_t first_b;  // a multiple of kTwistLanes
+    std::int32_t rows_a;  // twistOffset() of one body
+    std::int32_t rows_b;  // of the first of kTwistLanes bodies
   };
 
   std::size_t slot(int pair) const { return static_cast<std::size_t>(slots_[static_cast<std::size_t>(pair)]); }
