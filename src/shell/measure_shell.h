@@ -7,13 +7,16 @@
 
 namespace sdf_ccd {
 
-/// The smallest radius with which spheres about the shell's points cover the mesh [m], rounded up by a relative 1e-9.
-/// @param scale  approximate distance between points [m]: larger triangles are halved before the search for points.
-double coveringRadius(const TriangleMesh& mesh, const PointShell& shell, double scale);
+/// The parts of a mesh that are nearest to each point of its shell. For each triangle only points compete whose normal
+/// does not oppose the triangle's, so that the points on the two sides of a thin plate get the area of their own side;
+/// all points, if all oppose it.
+struct ShellMeasures {
+  std::vector<double> areas;     ///< per point, of its parts [m²]; exact, the sum is the mesh's area
+  double covering_radius = 0.0;  ///< largest distance of a part from its point [m], rounded up by a relative 1e-9
+};
 
-/// Per point, the area of the mesh whose nearest point it is [m²]. Only points whose normal does not oppose a
-/// triangle's compete for it, so that the points on the two sides of a thin plate get the area of their own side.
-/// Exact; the sum is the mesh's area.
-std::vector<double> nearestAreas(const TriangleMesh& mesh, const PointShell& shell, double scale);
+/// @param shell  one or more points.
+/// @param scale  approximate distance between points [m]: larger triangles are halved before the search for points.
+ShellMeasures measureShell(const TriangleMesh& mesh, const PointShell& shell, double scale);
 
 }  // namespace sdf_ccd

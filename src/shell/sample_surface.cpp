@@ -137,10 +137,10 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested
   filler.throwDarts();
   filler.fillGaps();
   PointShell shell = filler.take();
-  const std::vector<double> areas = nearestAreas(surface, shell, options.spacing);
-  shell.areas.assign(areas.begin(), areas.end());
+  const ShellMeasures measures = measureShell(surface, shell, options.spacing);
+  shell.areas.assign(measures.areas.begin(), measures.areas.end());
   // Both are upper bounds: the filler guarantees the spacing, and the radius is measured.
-  shell.covering_radius = std::min(options.spacing, coveringRadius(surface, shell, options.spacing));
+  shell.covering_radius = std::min(options.spacing, measures.covering_radius);
   if (!edges.empty()) {
     shell.edge_radius = sampling.radius;
     shell.flatness = sampling.flatness;

@@ -51,21 +51,19 @@ Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
     const Vector3d facing = areaNormal(mesh, static_cast<int>(t));
     std::vector<char> takes(shell.size());
     for (std::size_t i = 0; i < shell.size(); ++i) takes[i] = shell.normals[i].cast<double>().dot(facing) >= 0;
-    const bool any = std::count(takes.begin(), takes.end(), 1) == 0;
+    if (std::count(takes.begin(), takes.end(), 1) == 0) takes.assign(shell.size(), 1);
     for (std::size_t i = 0; i < shell.size(); ++i) {
-      Polygon cell = whole, own = any || takes[i] ? whole : Polygon();
+      Polygon own = takes[i] ? whole : Polygon();
       for (std::size_t j = 0; j < shell.size(); ++j) {
-        if (j == i) continue;
+        if (j == i || !takes[j]) continue;
         const Point p = shell.points[i].cast<Real>(), q = shell.points[j].cast<Real>();
-        if (p == q) {  // the first of several points at one location gets all of the area
-          if (j < i) cell.clear();
-          if (j < i && (any || takes[j])) own.clear();
-          continue;
+        if (p != q) {
+          own = nearer(own, p, q);
+        } else if (j < i) {
+          own.clear();  // the first of several points at one location gets all of the area
         }
-        cell = nearer(cell, p, q);
-        if (any || takes[j]) own = nearer(own, p, q);
       }
-      for (const Point& corner : cell)
+      for (const Point& corner : own)
         measured.radius =
             std::max(measured.radius, static_cast<double>((corner - shell.points[i].cast<Real>()).norm()));
       measured.areas[i] += static_cast<double>(areaOf(own));
@@ -116,10 +114,9 @@ TEST(MeasureShell, IsAsEachPointAgainstEachSays) {
       const PointShell shell = drawnShell(mesh, count, random);
       const Measured expected = measureEachByEach(mesh, shell);
       for (const double scale : {0.5, 0.1, 0.02}) {
-        const double radius = coveringRadius(mesh, shell, scale);
+        const auto [areas, radius] = measureShell(mesh, shell, scale);
         EXPECT_GE(radius, expected.radius) << m << " " << count << " " << scale;
         EXPECT_LE(radius, expected.radius * (1 + 2e-9) + 1e-9 * scale + 1e-11) << m << " " << count << " " << scale;
-        const std::vector<double> areas = nearestAreas(mesh, shell, scale);
         ASSERT_EQ(areas.size(), shell.size());
         double off = std::abs(std::accumulate(areas.begin(), areas.end(), -area));
         for (std::size_t i = 0; i < areas.size(); ++i) off = std::max(off, std::abs(areas[i] - expected.areas[i]));
@@ -144,10 +141,9 @@ TEST(MeasureShell, PointsThatCoincideToRoundingTakeNoTime) {
     add({1e-17 * std::cos(angle), 1e-17 * std::sin(angle), 0.1});
   }
   for (const Vector3d& corner : mesh.vertices) add(corner);
-  const double radius = coveringRadius(mesh, shell, 0.05);
+  const auto [areas, radius] = measureShell(mesh, shell, 0.05);
   EXPECT_GT(radius, 0.1);
   EXPECT_LT(radius, 0.15);
-  const std::vector<double> areas = nearestAreas(mesh, shell, 0.05);
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 6 * 0.04, 1e-9);
 }
 
