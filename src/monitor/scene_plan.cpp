@@ -8,6 +8,7 @@
 
 #include "body/body_builder.h"
 #include "model/name_pair.h"
+#include "monitor/surface_needs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -95,6 +96,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
   std::vector<Extent> extents(count);
   for (int i = 0; i < count; ++i) {
     if (!isPlanned(description.bodies[i])) continue;
+    plan.needs_field[i] = hidesVoxels(description, description.bodies[i]);
     is_large[i] = isLarge(description.bodies[i], options);
     extents[i] = extentOf(description.bodies[i]);
   }

@@ -101,6 +101,17 @@ TEST(ScenePlan, BodiesArePreparedForATileThatIsToCome) {
   EXPECT_TRUE(plan.needs_shell[0]);
 }
 
+TEST(ScenePlan, ALiveMapNeedsFieldsOfLinks) {
+  const Shape mesh = meshShape(boxMesh({0.1, 0.1, 0.1}));
+  SceneDescription scene{{body("a", mesh), body("b", mesh), body("ball", kBall), body("table", mesh, true)}, {}};
+  for (const char* other : {"b", "ball", "table"}) scene.allowed.push_back({"a", other, "SRDF"});
+  for (const char* other : {"ball", "table"}) scene.allowed.push_back({"b", other, "SRDF"});
+  scene.allowed.push_back({"ball", "table", "SRDF"});
+  EXPECT_EQ(planScene(scene).needs_field, std::vector<bool>({false, false, false, false}));
+  scene.has_live_map = true;
+  EXPECT_EQ(planScene(scene).needs_field, std::vector<bool>({true, true, false, false}));
+}
+
 TEST(ScenePlan, BodiesWithoutGeometryHaveNoPairs) {
   std::vector<BodyDescription> bodies = {body("a", kBall), body("frame", kBall)};
   bodies[1].geometry.clear();

@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "monitor/scene_case.h"
+#include "monitor/voxel_mask.h"
 #include "oracle/random.h"
+#include "oracle/shapes.h"
 
 namespace sdf_ccd {
 namespace {
@@ -332,6 +334,25 @@ TEST(World, LeavesOutWhatTheFirstSceneLeftOut) {
   ASSERT_EQ(second->scene->pairs.size(), 2U);
   EXPECT_EQ(second->description->allowed.back().reason, "overlap");
   EXPECT_EQ(second->prepared, 0);
+}
+
+/// A map whose voxels are all the robot's leaves no tile, and an SRDF may leave a link no pair. The next map's voxels
+/// there are still the link's.
+TEST(World, LinksAreKnownToALiveMapBesideNothingElse) {
+  const Shape torus = meshShape(torusMesh(0.3, 0.1, 24, 12));
+  SceneDescription description{{body("arm", torus), body("hand", torus)}, {{"arm", "hand", "SRDF: Adjacent"}}};
+  const auto without = WorldEditor(coarse()).next(description)->scene;
+  description.has_live_map = true;
+  WorldEditor editor(coarse());
+  for (int map = 0; map < 2; ++map) {
+    const auto scene = editor.next(description)->scene;
+    for (const std::size_t b : {0u, 1u}) {
+      EXPECT_EQ(without->bodies[b].parts.size(), 0U);
+      EXPECT_EQ(scene->bodies[b].parts.size(), 1U);
+      EXPECT_TRUE(scene->bodies[b].surface);
+      EXPECT_TRUE(maskOf(scene->bodies[b], description.bodies[b], Isometry3d::Identity()));
+    }
+  }
 }
 
 TEST(World, AMonitorRefusesAChangeOfAnotherScene) {

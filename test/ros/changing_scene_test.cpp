@@ -350,6 +350,8 @@ TEST_F(ChangingSceneTest, NamesOfALiveMapsTilesAreItsOwn) {
   load.file = world;
   EXPECT_EQ(refusal(load), why);
   apply(box("octomap"));
+  scene_->setTiles({});
+  EXPECT_TRUE(description().has_live_map) << "the next map may have tiles";
 }
 
 TEST_F(ChangingSceneTest, ReadsNoFilesButThoseBelowTheRoots) {

@@ -56,6 +56,9 @@ struct SceneDescription {
   std::vector<BodyDescription> bodies;  ///< names are unique
   std::vector<AllowedPair> allowed;     ///< the allowed collision matrix: these pairs may collide and are not checked
   std::vector<std::string> visual_only = {};  ///< links without body: they have a visual, but no collision shape
+  /// Tiles of a live map are part of the scene, or may be of one that follows. What links and attached objects fill of
+  /// the map is known by their fields and surfaces, which are kept even if no pair needs them.
+  bool has_live_map = false;
 };
 
 }  // namespace sdf_ccd

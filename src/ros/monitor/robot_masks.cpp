@@ -16,8 +16,7 @@ std::vector<VoxelMask> robotMasks(const CheckedWorld& world, const std::vector<B
       mask->only_unknown = !in_map.is_at_stamp;
       masks.push_back(std::move(*mask));
     } else {
-      ROS_WARN_ONCE("Voxels that %s fills count, as it has no field: no other link is checked against it",
-                    body.name.c_str());
+      ROS_WARN_ONCE("Voxels that %s fills count, as it has no field", body.name.c_str());
     }
   }
   return masks;

@@ -76,6 +76,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   if (!parameters.live_map.topic.empty()) {
     const std::string why = "no map has been received on " + parameters.live_map.topic + " yet";
     described.scene.bodies.push_back(awaitedTile(frameOf(""), why));
+    described.scene.has_live_map = true;
   }
   applyRules(parameters.pairs, described.scene, described.warnings);
   described.kept = parameters.pairs.checked;
