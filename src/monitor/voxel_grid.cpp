@@ -38,28 +38,33 @@ void visitNear(const Vector3i& tile, double size, const Vector3d& center, double
       }
 }
 
-/// The tiles that a ball meets.
-std::vector<Vector3i> tilesNear(const Vector3d& center, double reach, double size, std::size_t most) {
-  const auto tile = [&](double x) {
-    const double voxel = std::floor(x / size) + kOriginVoxel;
-    return static_cast<int>(std::clamp(voxel, 0.0, double(kVoxelsAcross - 1))) / kTileSide;
-  };
+/// The tiles that the bounding box of a ball meets.
+struct TilesNear {
   Vector3i first, last;
-  for (int k = 0; k < 3; ++k) {
-    first[k] = tile(center[k] - reach);
-    last[k] = tile(center[k] + reach);
+
+  TilesNear(const Vector3d& center, double reach, double size) {
+    const auto tile = [&](double x) {
+      const double voxel = std::floor(x / size) + kOriginVoxel;
+      return static_cast<int>(std::clamp(voxel, 0.0, double(kVoxelsAcross - 1))) / kTileSide;
+    };
+    for (int k = 0; k < 3; ++k) {
+      first[k] = tile(center[k] - reach);
+      last[k] = tile(center[k] + reach);
+    }
   }
-  std::vector<Vector3i> tiles;
-  for (Vector3i t = first; t.z() <= last.z(); ++t.z())
-    for (t.y() = first.y(); t.y() <= last.y(); ++t.y())
-      for (t.x() = first.x(); t.x() <= last.x(); ++t.x()) {
-        if (tiles.size() >= most)
-          throw std::runtime_error("map: the voxels are too small for near_distance (more than " +
-                                   std::to_string(most) + " tiles)");
-        tiles.push_back(t);
-      }
-  return tiles;
-}
+
+  double count() const { return (last - first + Vector3i::Ones()).cast<double>().prod(); }
+  bool contains(const Vector3i& tile) const {
+    return (tile.array() >= first.array()).all() && (tile.array() <= last.array()).all();
+  }
+
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    for (Vector3i t = first; t.z() <= last.z(); ++t.z())
+      for (t.y() = first.y(); t.y() <= last.y(); ++t.y())
+        for (t.x() = first.x(); t.x() <= last.x(); ++t.x()) visit(t);
+  }
+};
 
 }  // namespace
 
@@ -173,34 +178,51 @@ void VoxelGrid::addUnknown(TileMap& occupied) const {
 }
 
 void VoxelGrid::addUnknownNear(const VoxelMask& mask, TileMap& occupied) const {
-  const double reach = mask.radius + options_.near_distance;
-  for (const Vector3i& t : tilesNear(mask.center_M, reach, size_, options_.max_tiles)) {
+  constexpr double kMaxTested = 50.0;  // of the tiles that may be occupied
+  const double near = options_.near_distance, reach = mask.radius + near;
+  const Vector3d half = Vector3d::Constant(0.5 * kTileSide * size_);  // of a tile
+  const auto refuse = [&] {
+    throw std::runtime_error("map: the voxels are too small for near_distance (more than " +
+                             std::to_string(options_.max_tiles) + " tiles)");
+  };
+  const TilesNear tiles(mask.center_M, reach, size_);
+  if (tiles.count() > kMaxTested * double(options_.max_tiles)) refuse();
+  std::size_t marked = 0;
+  tiles.forEach([&](const Vector3i& t) {
+    if (mask.distance(cornerOf(kTileSide * t, size_) + half) > near + half.norm()) return;
+    if (++marked > options_.max_tiles) refuse();
     const TileBits known_in_tile = known(t);
     TileBits& bits = occupied[keyOf(t)];
     visitNear(t, size_, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
-      if (!known_in_tile[i] && mask.distance(p_M) <= options_.near_distance) bits.set(i);
+      if (!known_in_tile[i] && mask.isWithin(near, p_M)) bits.set(i);
     });
-  }
+  });
 }
 
 /// @return the number of hidden voxels.
 std::size_t VoxelGrid::hide(const VoxelMask& mask, TileMap& occupied) const {
   const double pad = options_.padding + 0.5 * size_, reach = mask.radius + pad;
   std::size_t hidden = 0;
-  for (const Vector3i& t : tilesNear(mask.center_M, reach, size_, options_.max_tiles)) {
-    const auto found = occupied.find(keyOf(t));
-    if (found == occupied.end()) continue;
-    const auto tile = tiles_.find(found->first);
+  const auto hideIn = [&](TileKey key, TileBits& bits) {
+    const auto tile = tiles_.find(key);
     const TileBits seen = tile != tiles_.end() ? tile->second.occupied : TileBits();
-    visitNear(t, size_, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
-      if (!found->second[i] || (seen[i] && mask.only_unknown)) return;
-      const double distance = mask.distance(p_M);
-      const bool by_surface = mask.surface_distance && (distance > 0.0 || (seen[i] && mask.is_open));
-      if (distance > pad || (by_surface && mask.surface_distance(p_M, pad) > pad)) return;
-      found->second.reset(i);
+    visitNear(tileOf(key), size_, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
+      if (!bits[i] || (seen[i] && mask.only_unknown)) return;
+      if (!(seen[i] && mask.is_open ? mask.isNearSurface(pad, p_M) : mask.isWithin(pad, p_M))) return;
+      bits.reset(i);
       ++hidden;
     });
+  };
+  const TilesNear tiles(mask.center_M, reach, size_);
+  if (tiles.count() > double(occupied.size())) {  // a large mask and small voxels
+    for (auto& [key, bits] : occupied)
+      if (tiles.contains(tileOf(key))) hideIn(key, bits);
+    return hidden;
   }
+  tiles.forEach([&](const Vector3i& t) {
+    const auto found = occupied.find(keyOf(t));
+    if (found != occupied.end()) hideIn(found->first, found->second);
+  });
   return hidden;
 }
 

@@ -21,6 +21,15 @@ struct VoxelMask {
   std::function<double(const Vector3d& p_M, double limit)> surface_distance;
   bool is_open = false;       ///< what is occupied inside is not ignored: a surface has openings, or may have cavities
   bool only_unknown = false;  ///< ignores only unknown voxels: when the map was made, the solid may have been elsewhere
+
+  /// Whether the solid, or its surface alone, is within a limit of a point [m].
+  bool isWithin(double limit, const Vector3d& p_M) const {
+    const double bound = distance(p_M);
+    return bound <= limit && (!(bound > 0.0) || !surface_distance || surface_distance(p_M, limit) <= limit);
+  }
+  bool isNearSurface(double limit, const Vector3d& p_M) const {
+    return distance(p_M) <= limit && (!surface_distance || surface_distance(p_M, limit) <= limit);
+  }
 };
 
 /// The part of a map that a body fills, as a mask. Empty if the body has no bounded geometry whose distance is known.

@@ -113,6 +113,16 @@ TEST(VoxelMap, WhatTheRobotFillsDoesNotCount) {
   EXPECT_LT(kept.distance(ball.center_M), 0.0);
 }
 
+/// However long a link is beside the voxels.
+TEST(VoxelMap, AMaskTakesNoMoreThanTheTilesThereAre) {
+  VoxelMapOptions options;
+  options.max_tiles = 2;
+  VoxelMap map("map", "world", options);
+  const VoxelMask ball = ballMask({0.1, 0.0, 0.0}, 20.0), far = ballMask({0.0, 0.0, 1000.0}, 500.0);
+  EXPECT_EQ(map.take(gridOf({{0, 0, 0}, {5, 0, 0}}, options), {far}).masked, 0U);
+  EXPECT_EQ(map.take(gridOf({{0, 0, 0}, {5, 0, 0}}, options), {ball, far}).masked, 2U);
+}
+
 TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   VoxelMapOptions options;
   options.unknown = UnknownSpace::kOccupied;
@@ -137,6 +147,14 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   EXPECT_GT(kept_near.distance({0.4, 0.4, 0.4}), 0.1);
   EXPECT_LT(kept_near.distance({1.05, 0.4, 0.4}), 0.0);  // unknown, 0.2 m from the ball
   EXPECT_GT(kept_near.distance({1.5, 0.4, 0.4}), 0.2);   // unknown, but far away
+
+  options.max_tiles = 150;  // fewer than the bounding box of what is near has
+  VoxelMask rod = ballMask(Vector3d::Zero(), 5.0);
+  rod.distance = [](const Vector3d& p) { return std::hypot(std::max(std::abs(p.x()) - 5.0, 0.0), p.y(), p.z()); };
+  VoxelMap along("map", "world", options);
+  EXPECT_NO_THROW(along.take(VoxelGrid(kSize, options), {rod}));
+  rod.distance = [](const Vector3d& p) { return p.norm() - 5.0; };
+  EXPECT_THROW(along.take(VoxelGrid(kSize, options), {rod}), std::runtime_error);
 }
 
 TEST(VoxelMap, AMaskOfAnotherTimeHidesNoOccupiedVoxels) {

@@ -62,6 +62,13 @@ BodyDescription awaitedTile() {
   return awaited;
 }
 
+SceneDescription besideAMap(std::vector<BodyDescription> bodies) {
+  bodies.push_back(awaitedTile());
+  SceneDescription description{std::move(bodies), {}};
+  description.has_live_map = true;
+  return description;
+}
+
 /// Whether the mask hides exactly what is within the padding of the ring; of 400 voxels around it.
 /// @param error  of the fields: as far from the surface, either answer is right [m].
 void expectHidden(const VoxelMask& mask, double error) {
@@ -87,7 +94,7 @@ void expectHidden(const VoxelMask& mask, double error) {
 
 /// In cells without samples, and beside large leaves, the error of a sample is larger than its value.
 TEST(VoxelMask, NoFieldHidesVoxelsBeyondThePadding) {
-  const SceneDescription description{{ring(), awaitedTile()}, {}};
+  const SceneDescription description = besideAMap({ring()});
   FieldOptions coarse, fine_cells, loose, close;
   coarse.cells = 32;
   fine_cells.cells = 100;
@@ -112,7 +119,7 @@ TEST(VoxelMask, WhatIsInAJawCounts) {
   TriangleMesh jaw = boxMesh({0.01, 0.12, 0.2});
   for (Vector3d& p : jaw.vertices) p.x() -= 0.2;
   for (const double y : {-0.11, 0.11}) jaw = merged(std::move(jaw), translated(boxMesh({0.2, 0.01, 0.2}), {0, y, 0}));
-  const SceneDescription description{{body("gripper", meshShape(jaw)), awaitedTile()}, {}};
+  const SceneDescription description = besideAMap({body("gripper", meshShape(jaw))});
   const auto scene = build(description, optionsForContacts());
   const VoxelMapOptions options;
   for (const Vector3d& p : {Vector3d(0.0732, 0, 0.1779), Vector3d(0.06, 0, 0.16), Vector3d(0.1, 0, 0.1)}) {
@@ -136,7 +143,7 @@ TEST(VoxelMask, ABodyWithoutItsSurfaceHidesNoMore) {
 }
 
 TEST(VoxelMask, HidesUnknownSpaceAsOccupiedSpace) {
-  const SceneDescription description{{ring(), awaitedTile()}, {}};
+  const SceneDescription description = besideAMap({ring()});
   const auto scene = build(description, optionsForContacts());
   const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
   ASSERT_TRUE(mask);
@@ -147,6 +154,26 @@ TEST(VoxelMask, HidesUnknownSpaceAsOccupiedSpace) {
   kept.take(map.take(gridOf({{-12, -12, -12}, {12, 12, 12}}, unknown), {*mask}));
   EXPECT_LT(kept.distance(Vector3d::Constant(0.025)), 0.0) << "unknown space within the ring";
   EXPECT_GT(kept.distance({kRing, 0.0, 0.0}), 0.0) << "unknown space in the ring's tube";
+}
+
+/// A field's lower bound is loose far from the surface.
+TEST(VoxelMask, UnknownSpaceFarFromABodyIsNotNearIt) {
+  const SceneDescription description = besideAMap({ring()});
+  const auto scene = build(description, optionsForContacts());
+  const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
+  ASSERT_TRUE(mask);
+  VoxelMapOptions options;
+  options.unknown = UnknownSpace::kOccupiedNear;
+  options.near_distance = 0.2;
+  for (const auto& [key, bits] : gridOf({}, options).occupied({*mask}).tiles) {
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+      if (!bits[i]) continue;
+      const auto k = static_cast<int>(i);
+      const Vector3i voxel =
+          kTileSide * tileOf(key) + Vector3i(k % kTileSide, k / kTileSide % kTileSide, k / kTileSide / kTileSide);
+      EXPECT_LT(distanceToRing(cornerOf(voxel, kSize) + Vector3d::Constant(0.5 * kSize)), 0.203) << voxel.transpose();
+    }
+  }
 }
 
 }  // namespace

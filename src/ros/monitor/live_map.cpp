@@ -144,6 +144,10 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
     resolution_ = message.resolution;
     tiles_.clear();
     markOutdated();
+    constexpr double kCorner = 0.37;  // √3/2 − 1/2, rounded up: how much farther a voxel's corner is than its sides
+    if (options.padding < kCorner * resolution_)
+      ROS_WARN("Map: voxels of %s m that the robot touches may count as obstacles: octomap/padding should be %s m",
+               numberText(resolution_).c_str(), numberText(kCorner * resolution_).c_str());
   }
   VoxelMap::Change change;
   editor_.arena().execute([&, cancel = CancelPoint()] {
